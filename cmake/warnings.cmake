@@ -1,0 +1,7 @@
+# Warnings are errors for our own code, never for those who embed it.
+add_library(punctura_warnings INTERFACE)
+if(MSVC)
+  target_compile_options(punctura_warnings INTERFACE /W4 /permissive-)
+else()
+  target_compile_options(punctura_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+endif()

@@ -1,0 +1,49 @@
+// A friction band that is at most quadratic in depth between a few break points: what both solvers work on.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "punctura/model/band.hpp"
+
+namespace punctura {
+
+/// c0 + c1 x + c2 x^2, N, with x the depth beyond the start of its piece, m.
+template <typename Scalar>
+struct Quadratic {
+  Scalar c0{}, c1{}, c2{};
+
+  constexpr Scalar value(Scalar x) const noexcept { return c0 + x * (c1 + x * c2); }
+  constexpr Scalar slope(Scalar x) const noexcept { return c1 + 2 * c2 * x; }
+};
+
+/// N pieces, N-1 breaks in ascending order. The first break (the surface) belongs to the piece behind it, the
+/// others to the piece before them, as the closed interval [0, X] of K06 (13) asks.
+template <typename Scalar_, std::size_t N>
+struct PiecewiseBand {
+  using Scalar = Scalar_;
+  static constexpr std::size_t size = N;
+
+  struct Piece {
+    Scalar origin{};                   ///< depth where x = 0, m
+    Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
+  };
+
+  std::array<Scalar, N - 1> breaks{};
+  std::array<Piece, N> pieces{};
+
+  /// Index of the piece that holds depth q. Counts comparisons, so that no branch depends on the depth.
+  constexpr std::size_t index(Scalar q) const noexcept {
+    std::size_t i = q >= breaks[0] ? 1 : 0;
+    for (std::size_t k = 1; k < N - 1; ++k) i += q > breaks[k] ? 1 : 0;
+    return i;
+  }
+
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    const Piece& piece = pieces[index(q)];
+    const Scalar x = q - piece.origin;
+    return {piece.lower.value(x), piece.upper.value(x)};
+  }
+};
+
+}  // namespace punctura

@@ -1,0 +1,111 @@
+// core/punctura/model: needle, membrane and the friction laws of K06 section 2.
+#include "bindings.hpp"
+#include "punctura/model/thick_law.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+/// Fills lower and upper edge over an array of depths of any shape.
+template <typename L>
+nb::tuple bounds(const L& law, nb::ndarray<const double, nb::c_contig, nb::device::cpu> depth) {
+  const std::size_t n = depth.size();
+  std::vector<double> lower(n), upper(n);
+  {
+    nb::gil_scoped_release release;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto band = law.band(depth.data()[i]);
+      lower[i] = band.lower;
+      upper[i] = band.upper;
+    }
+  }
+  std::vector<std::size_t> shape(depth.ndim());
+  for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = depth.shape(i);
+  const auto as_array = [&](std::vector<double>&& v) {
+    auto owned = std::make_unique<std::vector<double>>(std::move(v));
+    double* data = owned->data();
+    nb::capsule owner(owned.release(), [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.data(), owner));
+  };
+  return nb::make_tuple(as_array(std::move(lower)), as_array(std::move(upper)));
+}
+
+std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane) {
+  std::vector<Problem> problems;
+  const bool needle_good = check(needle, "needle", problems);
+  const bool membrane_good = check(membrane, "membrane", problems);
+  if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
+  return problems;
+}
+
+template <typename L>
+nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
+  return nb::class_<L>(m, name, doc)
+      .def_prop_ro("X", [](const L& l) { return l.constants().X; }, "Length of the tip, m. K06 (15)")
+      .def_prop_ro("A_I", [](const L& l) { return l.constants().A_I; }, "Growth of the insertion force, N/m. K06 (15)")
+      .def_prop_ro("A_O", [](const L& l) { return l.constants().A_O; },
+                   "Growth of the withdrawal force, N/m; negative where the membrane expels the tip. K06 (15)")
+      .def_prop_ro("Q", [](const L& l) { return l.constants().Q; }, "Precompression as a depth, m. K06 (15)")
+      .def_prop_ro("F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)")
+      .def("bounds", &bounds<L>, nb::arg("depth"),
+           nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
+                   "numpy.typing.NDArray[numpy.float64]]"),
+           "Band of static friction at each depth.\n\n"
+           "depth: array of any shape, m, along the needle. Returns (lower, upper) of that shape, N.")
+      .def("bounds", [](const L& l, double q) { const auto b = l.band(q); return nb::make_tuple(b.lower, b.upper); },
+           nb::arg("depth"), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
+           "The band at one depth (m), N.");
+}
+
+}  // namespace
+
+void raise_if(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  nb::object errors = nb::module_::import_("punctura.errors");
+  nb::list list;
+  for (const auto& p : problems) list.append(errors.attr("Problem")(p.path, p.value, p.reason));
+  nb::object error = errors.attr("ConfigurationError")(list);
+  PyErr_SetObject(error.type().ptr(), error.ptr());
+  throw nb::python_error();
+}
+
+void bind_model(nb::module_& m) {
+  nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
+      .def(nb::init<double, double>(), nb::arg("diameter"), nb::arg("tip_angle"))
+      .def_rw("diameter", &Needle::diameter, "w, m")
+      .def_rw("tip_angle", &Needle::tip_angle, "theta, rad")
+      .def("__repr__", [](const Needle& n) {
+        return nb::str("Needle(diameter={!r}, tip_angle={!r})").format(n.diameter, n.tip_angle);
+      });
+
+  nb::class_<Membrane>(m, "Membrane",
+                       "A membrane: stiffness kappa (N/m), precompression c (N), friction mu, thickness H (m). K06 section 2")
+      .def(nb::init<double, double, double, double>(), nb::arg("stiffness"), nb::arg("precompression"),
+           nb::arg("friction"), nb::arg("thickness"))
+      .def_rw("stiffness", &Membrane::stiffness, "kappa, N/m")
+      .def_rw("precompression", &Membrane::precompression, "c, N")
+      .def_rw("friction", &Membrane::friction, "mu, -")
+      .def_rw("thickness", &Membrane::thickness, "H, m; 0 is the thin law")
+      .def("__repr__", [](const Membrane& x) {
+        return nb::str("Membrane(stiffness={!r}, precompression={!r}, friction={!r}, thickness={!r})")
+            .format(x.stiffness, x.precompression, x.friction, x.thickness);
+      });
+
+  bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)")
+      .def("__init__", [](ThinLaw* self, const Needle& needle, const Membrane& membrane) {
+        raise_if(problems_of(needle, membrane));
+        new (self) ThinLaw(needle, membrane);
+      }, nb::arg("needle"), nb::arg("membrane"), "Raises ConfigurationError with every bound that is broken.");
+
+  bind_law<ThickLaw>(m, "ThickLaw", "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)")
+      .def("__init__", [](ThickLaw* self, const Needle& needle, const Membrane& membrane, double obliquity) {
+        auto problems = problems_of(needle, membrane);
+        check_field(obliquity_field, obliquity, "", problems);
+        raise_if(problems);
+        new (self) ThickLaw(needle, membrane, obliquity);
+      }, nb::arg("needle"), nb::arg("membrane"), nb::arg("obliquity") = 0.0,
+         "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.")
+      .def_prop_ro("H", &ThickLaw::thickness, "Thickness, m")
+      .def_prop_ro("U", &ThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");
+}
+
+}  // namespace punctura::bindings

@@ -1,0 +1,9 @@
+// Table of contents: one file per room of core/punctura.
+#include "bindings.hpp"
+
+NB_MODULE(_core, m) {
+  using namespace punctura::bindings;
+  m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
+  bind_model(m);
+  bind_proxy(m);
+}

@@ -1,0 +1,28 @@
+"""What Punctura raises. A configuration error names everything that is wrong, at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+
+class Problem(NamedTuple):
+    """One thing that is wrong: the field, what was given, and the bound it breaks with the reason for that bound."""
+
+    path: str
+    value: object
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.path} = {self.value!r}: {self.reason}"
+
+
+class ConfigurationError(ValueError):
+    """A needle, membrane or scene that cannot be. `problems` holds every one of its faults."""
+
+    def __init__(self, problems: Sequence[Problem], source: str = "") -> None:
+        self.problems = tuple(problems)
+        self.source = source
+        head = f"{source}: " if source else ""
+        count = len(self.problems)
+        super().__init__(f"{head}{count} problem{'s' if count != 1 else ''}\n" + "\n".join(f"  {p}" for p in self.problems))
