@@ -3,15 +3,17 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
 #include "punctura/model/validity.hpp"
+#include "punctura/model/vector3.hpp"
+#include "punctura/proxy/solver.hpp"
 
 namespace nb = nanobind;
 
@@ -19,21 +21,53 @@ namespace punctura::bindings {
 
 void bind_model(nb::module_&);
 void bind_proxy(nb::module_&);
+void bind_scene(nb::module_&);
+void bind_insertion(nb::module_&);
+void bind_plant(nb::module_&);
+void bind_experiment(nb::module_&);
 
-/// A read-only view of somebody's float64 array; nanobind converts and copies only where type or layout differ.
-using Input1d = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Input2d = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+/// A read-only view of numbers in memory: somebody's own array, without a copy, where it is float64 and contiguous.
+using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+/// The view of anything NumPy takes for an array: a list, another type, a slice. Throws what NumPy throws.
+Input input(const nb::object& array_like);
+/// The same, (n,) or (n, 3) only. Throws ValueError that names the argument.
+Input input_1d(const nb::object& array_like, const char* name);
+Input points(const nb::object& array_like, const char* name);
+using Triple = std::array<double, 3>;
 
-/// Hands a buffer to NumPy without a copy.
-template <typename T, std::size_t dimensions>
-nb::ndarray<nb::numpy, T, nb::ndim<dimensions>> to_numpy(std::vector<T>&& buffer, std::array<std::size_t, dimensions> shape) {
+/// Hands a buffer to NumPy without a copy, in the shape given.
+template <typename T>
+nb::object to_numpy(std::vector<T>&& buffer, const std::vector<std::size_t>& shape) {
   auto owned = std::make_unique<std::vector<T>>(std::move(buffer));
   T* data = owned->data();
   nb::capsule owner(owned.release(), [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-  return {data, dimensions, shape.data(), owner};
+  return nb::cast(nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner));
 }
+
+/// Row i of an (n, 3) array, or of a (3,) array that stands for all rows.
+class Rows {
+ public:
+  /// Throws ValueError where the shape is neither (n, 3) nor (3,).
+  Rows(Input array, std::size_t n, const char* name);
+  Vector3d operator[](std::size_t i) const noexcept {
+    const double* row = data_ + stride_ * i;
+    return {row[0], row[1], row[2]};
+  }
+
+ private:
+  Input array_;
+  const double* data_;
+  std::size_t stride_;
+};
 
 /// Throws punctura.ConfigurationError that carries every problem, if there is one.
 void raise_if(const std::vector<Problem>& problems);
+
+/// "exact" or "paper" to Solver and back. Throws ConfigurationError for another word.
+Solver solver_from(const std::string& name, const std::string& path = "solver");
+std::string name_of(Solver solver);
+
+/// A direction of any length but 0 as a unit vector. Throws ConfigurationError.
+Vector3d unit(const Triple& direction, const std::string& path);
 
 }  // namespace punctura::bindings

@@ -5,9 +5,10 @@
 namespace punctura::bindings {
 namespace {
 
-/// Fills lower and upper edge over an array of depths of any shape.
+/// Lower and upper edge over an array of depths of any shape.
 template <typename L>
-nb::tuple bounds(const L& law, nb::ndarray<const double, nb::c_contig, nb::device::cpu> depth) {
+nb::tuple bounds(const L& law, const nb::object& depths) {
+  const Input depth = input(depths);
   const std::size_t n = depth.size();
   std::vector<double> lower(n), upper(n);
   {
@@ -18,15 +19,8 @@ nb::tuple bounds(const L& law, nb::ndarray<const double, nb::c_contig, nb::devic
       upper[i] = band.upper;
     }
   }
-  std::vector<std::size_t> shape(depth.ndim());
-  for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = depth.shape(i);
-  const auto as_array = [&](std::vector<double>&& v) {
-    auto owned = std::make_unique<std::vector<double>>(std::move(v));
-    double* data = owned->data();
-    nb::capsule owner(owned.release(), [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.data(), owner));
-  };
-  return nb::make_tuple(as_array(std::move(lower)), as_array(std::move(upper)));
+  const std::vector<std::size_t> shape(depth.shape_ptr(), depth.shape_ptr() + depth.ndim());
+  return nb::make_tuple(to_numpy(std::move(lower), shape), to_numpy(std::move(upper), shape));
 }
 
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane) {
@@ -46,27 +40,16 @@ nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
                    "Growth of the withdrawal force, N/m; negative where the membrane expels the tip. K06 (15)")
       .def_prop_ro("Q", [](const L& l) { return l.constants().Q; }, "Precompression as a depth, m. K06 (15)")
       .def_prop_ro("F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)")
+      .def("bounds", [](const L& l, double q) { const auto b = l.band(q); return nb::make_tuple(b.lower, b.upper); },
+           nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
+           "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
       .def("bounds", &bounds<L>, nb::arg("depth"),
            nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
                    "numpy.typing.NDArray[numpy.float64]]"),
-           "Band of static friction at each depth.\n\n"
-           "depth: array of any shape, m, along the needle. Returns (lower, upper) of that shape, N.")
-      .def("bounds", [](const L& l, double q) { const auto b = l.band(q); return nb::make_tuple(b.lower, b.upper); },
-           nb::arg("depth"), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
-           "The band at one depth (m), N.");
+           "The same for an array of depths of any shape. Returns (lower, upper) of that shape, N.");
 }
 
 }  // namespace
-
-void raise_if(const std::vector<Problem>& problems) {
-  if (problems.empty()) return;
-  nb::object errors = nb::module_::import_("punctura.errors");
-  nb::list list;
-  for (const auto& p : problems) list.append(errors.attr("Problem")(p.path, p.value, p.reason));
-  nb::object error = errors.attr("ConfigurationError")(list);
-  PyErr_SetObject(error.type().ptr(), error.ptr());
-  throw nb::python_error();
-}
 
 void bind_model(nb::module_& m) {
   nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")

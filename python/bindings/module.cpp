@@ -6,4 +6,8 @@ NB_MODULE(_core, m) {
   m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
   bind_model(m);
   bind_proxy(m);
+  bind_scene(m);
+  bind_insertion(m);
+  bind_plant(m);
+  bind_experiment(m);
 }

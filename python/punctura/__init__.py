@@ -1,6 +1,50 @@
 """Punctura: the force of a needle that goes through tissue membranes and comes out again."""
 
-from punctura._core import Membrane, Needle, ThickLaw, ThinLaw
+from punctura._core import (
+    Coupling,
+    Experiment,
+    ExperimentTrace,
+    Hand,
+    Insertion,
+    InsertionTrace,
+    Membrane,
+    Needle,
+    Phase,
+    PlacedMembrane,
+    Plant,
+    Proxy1d,
+    Proxy3d,
+    RecordedMotion,
+    Scene,
+    ServoSettings,
+    Strokes,
+    Target,
+    ThickLaw,
+    ThinLaw,
+)
 from punctura.errors import ConfigurationError, Problem
 
-__all__ = ["ConfigurationError", "Membrane", "Needle", "Problem", "ThickLaw", "ThinLaw"]
+__all__ = [
+    "ConfigurationError",
+    "Coupling",
+    "Experiment",
+    "ExperimentTrace",
+    "Hand",
+    "Insertion",
+    "InsertionTrace",
+    "Membrane",
+    "Needle",
+    "Phase",
+    "PlacedMembrane",
+    "Plant",
+    "Problem",
+    "Proxy1d",
+    "Proxy3d",
+    "RecordedMotion",
+    "Scene",
+    "ServoSettings",
+    "Strokes",
+    "Target",
+    "ThickLaw",
+    "ThinLaw",
+]

@@ -1,0 +1,114 @@
+// What the hand wants to do: strokes to and fro, a recorded motion, a target that somebody moves.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "punctura/plant/hand.hpp"
+
+namespace punctura {
+
+/// Repeated strokes from `start` to `end` and back, each a minimum-jerk movement (Flash and Hogan 1985) with a rest at both
+/// ends. Depth and duration vary from stroke to stroke, as a person's do.
+struct Strokes {
+  Vector3d start, end;        ///< m
+  std::size_t count = 3;      ///< strokes to and fro
+  double duration = 1.5;      ///< s, one way
+  double rest = 0.6;          ///< s at each end, and before the first stroke
+  double variation = 0.1;     ///< standard deviation of depth and duration, relative; both are kept within 3 of them
+};
+
+/// The motion of Strokes, laid out for one seed.
+class StrokesMotion {
+ public:
+  StrokesMotion(const Strokes& strokes, std::uint64_t seed) : rest_(strokes.rest) {
+    Noise noise(seed);
+    const auto vary = [&] { return 1 + strokes.variation * std::clamp(noise.normal(), -3.0, 3.0); };
+    Vector3d from = strokes.start;
+    double time = rest_;
+    for (std::size_t i = 0; i < strokes.count; ++i) {
+      const Vector3d depth = strokes.start + vary() * (strokes.end - strokes.start);
+      for (const Vector3d& to : {depth, strokes.start}) {
+        segments_.push_back({time, std::max(1e-3, strokes.duration * vary()), from, to});
+        time += segments_.back().duration + rest_;
+        from = to;
+      }
+    }
+    duration_ = time;
+    home_ = strokes.start;
+  }
+
+  double duration() const noexcept { return duration_; }
+
+  Desired at(double time) noexcept {
+    while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
+    if (next_ == 0) return {home_, Vector3d::Zero()};
+    const Segment& s = segments_[next_ - 1];
+    const double u = std::min(1.0, (time - s.begin) / s.duration);
+    const double path = u * u * u * (10 + u * (-15 + 6 * u));
+    const double rate = 30 * u * u * (1 - u) * (1 - u) / s.duration;
+    return {s.from + path * (s.to - s.from), rate * (s.to - s.from)};
+  }
+
+ private:
+  struct Segment {
+    double begin, duration;
+    Vector3d from, to;
+  };
+  double rest_, duration_ = 0;
+  std::size_t next_ = 0;
+  Vector3d home_ = Vector3d::Zero();
+  std::vector<Segment> segments_;
+};
+
+/// A motion given by samples, linear between them, at rest before the first and after the last.
+class RecordedMotion {
+ public:
+  /// time: s, ascending, at least one. position: m, as many.
+  RecordedMotion(std::vector<double> time, std::vector<Vector3d> position)
+      : time_(std::move(time)), position_(std::move(position)) {}
+
+  double duration() const noexcept { return time_.back() - time_.front(); }
+
+  /// time counts from the first sample.
+  Desired at(double time) noexcept {
+    const double t = time_.front() + time;
+    while (next_ < time_.size() && t >= time_[next_]) ++next_;
+    if (next_ == 0 || next_ == time_.size()) return {position_[next_ == 0 ? 0 : next_ - 1], Vector3d::Zero()};
+    const double span = time_[next_] - time_[next_ - 1];
+    const Vector3d step = position_[next_] - position_[next_ - 1];
+    return {position_[next_ - 1] + (t - time_[next_ - 1]) / span * step, step / span};
+  }
+
+ private:
+  std::vector<double> time_;
+  std::vector<Vector3d> position_;
+  std::size_t next_ = 0;
+};
+
+/// A target that somebody moves, a mouse say, in steps of any size. The hand follows it as smoothly as an arm would: through
+/// two lags of `lag` each.
+class Target {
+ public:
+  explicit Target(const Vector3d& position, double lag = 0.02) noexcept
+      : lag_(lag), target_(position), first_(position), second_(position) {}
+
+  void move_to(const Vector3d& position) noexcept { target_ = position; }
+
+  /// Ever later times only: a target has no past to go back to.
+  Desired at(double time) noexcept {
+    const double gain = 1 - std::exp(-std::max(0.0, time - time_) / lag_);
+    time_ = time;
+    first_ += gain * (target_ - first_);
+    second_ += gain * (first_ - second_);
+    return {second_, (first_ - second_) / lag_};
+  }
+
+ private:
+  double lag_, time_ = 0;
+  Vector3d target_, first_, second_;
+};
+
+}  // namespace punctura

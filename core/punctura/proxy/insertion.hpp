@@ -1,0 +1,86 @@
+// K06 Fig. 8: a needle through several membranes, one proxy and one coupling each.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "punctura/model/thick_law.hpp"
+#include "punctura/proxy/entry_direction.hpp"
+#include "punctura/proxy/proxy_3d.hpp"
+#include "punctura/signal/low_pass.hpp"
+
+namespace punctura {
+
+/// Where a membrane takes the needle's direction b from, at entry.
+enum class Direction : std::uint8_t {
+  stylus,  ///< the measured orientation of the device
+  motion,  ///< the way the tip has come (EntryDirection): for devices without orientation
+};
+
+/// A membrane in its place: law, a point of its surface (m), inward normal (of length 1).
+template <typename Scalar>
+struct MembraneSite {
+  BasicThickLaw<Scalar> law;
+  Vector3<Scalar> point, inward_normal;
+};
+
+/// The model from measured position to force: low-pass, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
+///
+/// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction.
+template <typename Scalar_>
+class BasicInsertion {
+ public:
+  using Scalar = Scalar_;
+  using Vector = Vector3<Scalar>;
+  using Proxy = Proxy3d<BasicThickLaw<Scalar>>;
+
+  BasicInsertion(const std::vector<MembraneSite<Scalar>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
+                 Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus)
+      : low_pass_(low_pass_hz, period) {
+    if (direction == Direction::motion) from_motion_.emplace(period);
+    proxies_.reserve(sites.size());
+    for (const auto& site : sites)
+      proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, period, solver);
+    reset();
+  }
+
+  void reset() noexcept {
+    low_pass_.reset();
+    if (from_motion_) from_motion_->reset();
+    for (Proxy& proxy : proxies_) proxy.reset();
+    tip_.setZero();
+    force_.setZero();
+  }
+
+  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).
+  const Vector& step(const Vector& position, const Vector& axis) noexcept {
+    tip_ = low_pass_.step(position);
+    const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
+    force_.setZero();
+    for (Proxy& proxy : proxies_) force_ += proxy.step(tip_, direction);
+    return force_;
+  }
+
+  const Vector& tip() const noexcept { return tip_; }      ///< the filtered position, m
+  const Vector& force() const noexcept { return force_; }  ///< the sum of all membranes, N
+  bool uses_axis() const noexcept { return !from_motion_; }
+  const std::vector<Proxy>& proxies() const noexcept { return proxies_; }
+
+  /// Whether the tip is in front of every membrane: the only state in which forces may be switched on.
+  bool outside() const noexcept {
+    for (const Proxy& proxy : proxies_)
+      if (proxy.phase() != Phase::outside) return false;
+    return true;
+  }
+
+ private:
+  LowPass<Scalar, Vector> low_pass_;
+  std::optional<EntryDirection<Scalar>> from_motion_;
+  std::vector<Proxy> proxies_;
+  Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
+};
+
+using Insertion = BasicInsertion<double>;
+using InsertionF = BasicInsertion<float>;
+
+}  // namespace punctura

@@ -1,0 +1,57 @@
+// What a sample must fulfil before the model sees it.
+#pragma once
+
+#include <cmath>
+
+#include "punctura/device/sample.hpp"
+#include "punctura/model/vector3.hpp"
+#include "punctura/safety/fault.hpp"
+
+namespace punctura {
+
+struct GateLimits {
+  double position_jump = 5e-3;   ///< m from one reading to the next; 8 m/s at 1600 Hz
+  double stale = 0.015;          ///< s without a new reading
+  double deadline = 0.020;       ///< s from one tick to the next
+  double axis_tolerance = 1e-3;  ///< of the axis' length from 1
+};
+
+/// Judges one sample after the other. Each comparison is written so that NaN fails it.
+class InputGate {
+ public:
+  InputGate(const GateLimits& limits, bool axis_is_used) noexcept : limits_(limits), axis_is_used_(axis_is_used) {}
+
+  void reset() noexcept { started_ = false; }
+
+  Fault step(const DeviceSample& s) noexcept {
+    if (!s.healthy) return Fault::device;
+    const Vector3d position = vector(s.position), axis = vector(s.axis);
+    if (!position.allFinite() || !std::isfinite(s.time)) return Fault::non_finite_input;
+    if (axis_is_used_) {
+      if (!axis.allFinite()) return Fault::non_finite_input;
+      if (!(std::abs(axis.norm() - 1) <= limits_.axis_tolerance)) return Fault::bad_axis;
+    }
+    if (started_) {
+      if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
+      if (!((position - position_).norm() <= limits_.position_jump)) return Fault::position_jump;
+    }
+    if (!started_ || s.sequence != sequence_) fresh_time_ = s.time;
+    if (!(s.time - fresh_time_ <= limits_.stale)) return Fault::stale_sample;
+
+    started_ = true;
+    time_ = s.time;
+    position_ = position;
+    sequence_ = s.sequence;
+    return Fault::none;
+  }
+
+ private:
+  GateLimits limits_;
+  bool axis_is_used_;
+  bool started_ = false;
+  double time_ = 0, fresh_time_ = 0;
+  std::uint64_t sequence_ = 0;
+  Vector3d position_ = Vector3d::Zero();
+};
+
+}  // namespace punctura

@@ -1,0 +1,64 @@
+// Everything that can be wrong with a scene, found at once.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "punctura/model/validity.hpp"
+#include "punctura/scene/scene.hpp"
+#include "punctura/servo/snapshot.hpp"
+
+namespace punctura {
+
+inline constexpr Field coupling_fields[] = {
+    {"stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
+    {"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}},
+};
+
+inline constexpr Field servo_fields[] = {
+    {"rate", "1/T", "Hz", {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
+    {"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}},
+};
+
+namespace detail {
+inline bool finite(const std::array<double, 3>& v) noexcept {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+/// The first entry that is not finite, or else the first of all: what to show of a vector that is wrong.
+inline double offender(const std::array<double, 3>& v) noexcept {
+  for (double x : v)
+    if (!std::isfinite(x)) return x;
+  return v[0];
+}
+}  // namespace detail
+
+/// All problems of a scene, each with its path (`membrane[1].friction`), SI value and reason. Empty: it may be built.
+inline std::vector<Problem> check(const Scene& scene) {
+  std::vector<Problem> problems;
+  const bool needle_good = check(scene.needle, "needle", problems);
+  check_field(coupling_fields[0], scene.coupling.stiffness, "coupling", problems);
+  check_field(coupling_fields[1], scene.coupling.damping, "coupling", problems);
+  check_field(servo_fields[0], scene.servo.rate, "servo", problems);
+  check_field(servo_fields[1], scene.servo.low_pass, "servo", problems);
+  if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
+  if (scene.membranes.size() > max_membranes)
+    problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be 64 membranes at most"});
+
+  for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
+    const PlacedMembrane& placed = scene.membranes[i];
+    const std::string path = "membrane[" + std::to_string(i) + "]";
+    const bool membrane_good = check(placed.membrane, path, problems);
+    if (needle_good && membrane_good) check_insertion(scene.needle, placed.membrane, path, problems);
+    if (!detail::finite(placed.point))
+      problems.push_back({path + ".point", detail::offender(placed.point), "must be three finite numbers"});
+    const auto& n = placed.inward_normal;
+    if (!detail::finite(n))
+      problems.push_back({path + ".inward_normal", detail::offender(n), "must be three finite numbers"});
+    else if (!(std::hypot(n[0], n[1], n[2]) > 0))
+      problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
+  }
+  return problems;
+}
+
+}  // namespace punctura

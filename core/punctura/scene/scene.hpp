@@ -1,0 +1,38 @@
+// Everything a run needs, as plain structs in SI units.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "punctura/model/membrane.hpp"
+#include "punctura/model/needle.hpp"
+#include "punctura/proxy/coupling.hpp"
+#include "punctura/proxy/insertion.hpp"
+#include "punctura/proxy/solver.hpp"
+
+namespace punctura {
+
+struct PlacedMembrane {
+  std::string name;
+  Membrane membrane;
+  std::array<double, 3> point;          ///< any point of the surface, m
+  std::array<double, 3> inward_normal;  ///< a direction of any length but 0
+};
+
+struct ServoSettings {
+  double rate = 1600;              ///< 1/T, Hz. K06 section 4
+  double low_pass = 300;           ///< cutoff of the position filter, Hz; 0 is off. K06 section 4
+  Solver solver = Solver::exact;
+};
+
+struct Scene {
+  std::string name;
+  Needle needle;
+  Coupling coupling;
+  std::vector<PlacedMembrane> membranes;
+  ServoSettings servo{};
+  Direction direction = Direction::stylus;
+};
+
+}  // namespace punctura

@@ -1,0 +1,102 @@
+// ONE TICK: sample in, force out. Read this first.
+//
+//   device -> input gate -> low-pass -> proxy 1..n -> sum -> force limits -> device
+//                |          '------- Insertion -------'           |
+//                +------- fault (latched) -> zero force <---------+
+//
+// Everything here is noexcept and takes no memory: a tick throws nothing, allocates nothing, locks nothing, logs nothing.
+#pragma once
+
+#include "punctura/proxy/insertion.hpp"
+#include "punctura/safety/force_limits.hpp"
+#include "punctura/safety/input_gate.hpp"
+#include "punctura/servo/snapshot.hpp"
+
+namespace punctura {
+
+class ServoStep {
+ public:
+  /// period: T, s. Made by build() (scene/build.hpp), which checks the scene first.
+  ServoStep(Insertion insertion, double period, const GateLimits& gate = {}, const ForceLimits& limits = {})
+      : insertion_(std::move(insertion)), gate_(gate, insertion_.uses_axis()), limiter_(limits, period) {
+    snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
+  }
+
+  /// Asks for force. It comes as soon as the tip is in front of every membrane, over ForceLimits::ramp_time. A latched fault
+  /// is not left by this: it takes reset().
+  void arm() noexcept {
+    if (state_ == ServoState::disarmed) state_ = ServoState::waiting;
+  }
+
+  /// Ends force at once.
+  void disarm() noexcept {
+    if (state_ != ServoState::faulted) state_ = ServoState::disarmed;
+  }
+
+  /// Leaves a fault, forgets all motion, and is disarmed.
+  void reset() noexcept {
+    insertion_.reset();
+    gate_.reset();
+    fault_ = Fault::none;
+    state_ = ServoState::disarmed;
+  }
+
+  /// One tick. Gives the record of it; its `force` is for the device. Valid until the next step.
+  const Snapshot& step(const DeviceSample& sample) noexcept {
+    if (fault_ == Fault::none) fault_ = gate_.step(sample);
+
+    Vector3d model_force = Vector3d::Zero(), force = Vector3d::Zero();
+    if (fault_ == Fault::none) {
+      model_force = insertion_.step(vector(sample.position), vector(sample.axis).stableNormalized());
+      if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
+    }
+    if (fault_ != Fault::none) {
+      state_ = ServoState::faulted;
+      model_force.setZero();
+    }
+    if (state_ == ServoState::waiting && insertion_.outside()) {
+      state_ = ServoState::active;
+      limiter_.reset();
+    }
+    if (state_ == ServoState::active) {
+      force = limiter_.step(model_force);
+    } else {
+      limiter_.rest();
+    }
+    record(sample, model_force, force);
+    return snapshot_;
+  }
+
+  const Snapshot& snapshot() const noexcept { return snapshot_; }
+  const Insertion& insertion() const noexcept { return insertion_; }
+  ServoState state() const noexcept { return state_; }
+  Fault fault() const noexcept { return fault_; }
+
+ private:
+  void record(const DeviceSample& sample, const Vector3d& model_force, const Vector3d& force) noexcept {
+    snapshot_.tick = tick_++;
+    snapshot_.sample = sample;
+    snapshot_.tip = plain(insertion_.tip());
+    snapshot_.model_force = plain(model_force);
+    snapshot_.force = plain(force);
+    snapshot_.ceiling = limiter_.ceiling();
+    snapshot_.limits = limiter_.counters();
+    snapshot_.state = state_;
+    snapshot_.fault = fault_;
+    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
+      const auto& proxy = insertion_.proxies()[i];
+      snapshot_.membranes[i] = {proxy.depth(),           proxy.axial_force(),      proxy.band().lower, proxy.band().upper,
+                                plain(proxy.position()), plain(proxy.direction()), proxy.phase()};
+    }
+  }
+
+  Insertion insertion_;
+  InputGate gate_;
+  ForceLimiter limiter_;
+  ServoState state_ = ServoState::disarmed;
+  Fault fault_ = Fault::none;
+  std::uint64_t tick_ = 0;
+  Snapshot snapshot_{};
+};
+
+}  // namespace punctura

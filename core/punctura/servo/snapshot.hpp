@@ -1,0 +1,50 @@
+// The plain record of a tick: all that recorder, studio and tests ever see of one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "punctura/device/sample.hpp"
+#include "punctura/proxy/solver.hpp"
+#include "punctura/safety/fault.hpp"
+#include "punctura/safety/force_limits.hpp"
+
+namespace punctura {
+
+/// A scene may hold this many membranes, so that a snapshot has a fixed size.
+inline constexpr std::size_t max_membranes = 64;
+
+enum class ServoState : std::uint8_t {
+  disarmed,  ///< the model runs, the device gets no force
+  waiting,   ///< armed, but the tip is not in front of every membrane yet
+  active,    ///< forces go out, ramped in at first
+  faulted,   ///< a fault is latched, the force is zero
+};
+
+struct MembraneRecord {
+  double depth;                     ///< m, see Proxy3d::depth
+  double axial_force;               ///< N, along b
+  double lower, upper;              ///< N, the band
+  std::array<double, 3> proxy;      ///< q(k), m
+  std::array<double, 3> direction;  ///< b, while inside
+  Phase phase;
+};
+
+struct Snapshot {
+  std::uint64_t tick;
+  DeviceSample sample;
+  std::array<double, 3> tip;          ///< the filtered position, m
+  std::array<double, 3> model_force;  ///< the sum of all membranes, N
+  std::array<double, 3> force;        ///< what goes to the device, N
+  double ceiling;                     ///< the largest force permitted in this tick, N
+  LimitCounters limits;
+  ServoState state;
+  Fault fault;
+  std::uint32_t membrane_count;
+  std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are filled
+};
+
+static_assert(std::is_trivially_copyable_v<Snapshot>);
+
+}  // namespace punctura

@@ -1,0 +1,71 @@
+// Conversions and errors that all binding files use.
+#include "bindings.hpp"
+
+#include <cmath>
+
+namespace punctura::bindings {
+
+Input input(const nb::object& array_like) {
+  const nb::object numpy = nb::module_::import_("numpy");
+  return nb::cast<Input>(numpy.attr("ascontiguousarray")(array_like, numpy.attr("float64")));
+}
+
+Input input_1d(const nb::object& array_like, const char* name) {
+  Input array = input(array_like);
+  if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must have shape (n,)").c_str());
+  return array;
+}
+
+Input points(const nb::object& array_like, const char* name) {
+  Input array = input(array_like);
+  if (array.ndim() != 2 || array.shape(1) != 3) throw nb::value_error((std::string(name) + " must have shape (n, 3)").c_str());
+  return array;
+}
+
+Rows::Rows(Input array, std::size_t n, const char* name) : array_(std::move(array)), data_(array_.data()), stride_(3) {
+  const bool one = array_.ndim() == 1 && array_.shape(0) == 3;
+  const bool many = array_.ndim() == 2 && array_.shape(0) == n && array_.shape(1) == 3;
+  if (!one && !many) {
+    const std::string text = std::string(name) + " must have shape (3,) or (" + std::to_string(n) + ", 3)";
+    throw nb::value_error(text.c_str());
+  }
+  if (one) stride_ = 0;
+}
+
+void raise_if(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  nb::object errors = nb::module_::import_("punctura.errors");
+  nb::list list;
+  for (const auto& p : problems) list.append(errors.attr("Problem")(p.path, p.value, p.reason));
+  nb::object error = errors.attr("ConfigurationError")(list);
+  PyErr_SetObject(error.type().ptr(), error.ptr());
+  throw nb::python_error();
+}
+
+namespace {
+[[noreturn]] void raise_word(const std::string& path, const std::string& given, const char* reason) {
+  nb::object errors = nb::module_::import_("punctura.errors");
+  nb::list list;
+  list.append(errors.attr("Problem")(path, given, reason));
+  nb::object error = errors.attr("ConfigurationError")(list);
+  PyErr_SetObject(error.type().ptr(), error.ptr());
+  throw nb::python_error();
+}
+}  // namespace
+
+Solver solver_from(const std::string& name, const std::string& path) {
+  if (name == "exact") return Solver::exact;
+  if (name == "paper") return Solver::paper;
+  raise_word(path, name, "must be \"exact\" or \"paper\"");
+}
+
+std::string name_of(Solver solver) { return solver == Solver::exact ? "exact" : "paper"; }
+
+Vector3d unit(const Triple& direction, const std::string& path) {
+  const Vector3d v = vector(direction);
+  if (!v.allFinite() || !(v.stableNorm() > 0))
+    raise_if({{path, direction[0], "must be a direction: three finite numbers, at least one of them not 0"}});
+  return v.stableNormalized();
+}
+
+}  // namespace punctura::bindings
