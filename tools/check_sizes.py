@@ -1,0 +1,27 @@
+"""No source file over 350 lines, and at most one in four over 200: one idea per file."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from sources import SOURCE_SUFFIXES, Finding, report, sources
+
+LONGEST = 350
+USUAL = 200
+MOST_OVER_USUAL = 0.25
+
+
+def findings(root: Path) -> list[Finding]:
+    files = sources(root, SOURCE_SUFFIXES)
+    lengths = {path: len((root / path).read_text(encoding="utf-8").splitlines()) for path in files}
+    found = [Finding(path, n, f"{n} lines; none may have over {LONGEST}") for path, n in lengths.items() if n > LONGEST]
+    over = sorted((path for path, n in lengths.items() if n > USUAL), key=lambda path: -lengths[path])
+    if len(over) > MOST_OVER_USUAL * len(lengths):
+        reason = f"one of {len(over)} files over {USUAL} lines, of {len(lengths)}: most must be shorter"
+        found.append(Finding(over[0], lengths[over[0]], reason))
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(report("sizes", findings, sys.argv))

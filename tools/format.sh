@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Formats all sources the way ./test wants them.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+source "$root/tools/setup.sh"
+source "$root/tools/steps.sh"
+
+set_up test test
+cd "$root"
+ruff check --fix-only --exit-zero . && ruff format .
+ours '*.hpp' '*.cpp' | xargs -0 clang-format -i

@@ -1,0 +1,68 @@
+# What pip cannot bring: a compiler, Python's headers, and for the tests a second compiler and two packages of Debian's.
+# Asked for by what it can do, not by name, so that other systems and hand-made set-ups count too.
+
+has_compiler() {
+  printf '#include <concepts>\nint main() { return std::same_as<int, int> ? 0 : 1; }\n' |
+    $1 -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1
+}
+has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
+has_siconos() { /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null; }
+
+# find_missing KIND: fills missing with Debian's names, and needs with words for people on other systems.
+find_missing() {
+  missing="" needs=""
+  local lacking="$python_lacks" compiler="${CXX:-c++}" prefix="python$python_minor"
+  if [ "$python" = "$(readlink -f /usr/bin/python3 2>/dev/null)" ]; then prefix=python3; fi
+  lack() { missing="$missing $1" needs="$needs
+  - $2"; }
+  if [ "$1" = test ]; then compiler=g++; fi  # the tests compile with GCC and with Clang, whatever CXX says
+  has_compiler "$compiler" || lack g++ "a C++20 compiler (g++ 10 or newer, clang 14 or newer; Fedora: gcc-c++; macOS: xcode-select --install)"
+  case $lacking in *headers*) lack "$prefix-dev" "the headers of $python (Python.h; Fedora: python3-devel)" ;; esac
+  case $lacking in *venv*) lack "$prefix-venv" "the modules venv and ensurepip of $python" ;; esac
+  [ "$1" = test ] || return 0
+  has_compiler clang++ || lack clang "clang++, for the second opinion on warnings"
+  has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
+  has_siconos || lack python3-siconos "Siconos for /usr/bin/python3, the independent solver that the clamp is compared with"
+}
+
+apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 "$@"; }
+
+# The lists are fetched only when they are needed: when a package is not known, or its file is gone from the archive.
+apt_install() {
+  local name
+  for name in "$@"; do
+    apt-cache show "$name" >/dev/null 2>&1 || { apt update || return; break; }
+  done
+  apt install --no-install-recommends "$@" || { apt update && apt install --no-install-recommends "$@"; }
+}
+
+provide_packages() {
+  local as_root="" line answer
+  find_missing "$1"
+  [ -n "$missing" ] || return 0
+  if ! command -v apt-get >/dev/null; then fail "Punctura needs, and this system lacks:$needs
+Install these in your system's way, then start again."; fi
+
+  line="apt-get update && apt-get install -y --no-install-recommends$missing"
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then fail "Some Debian packages are missing. As root (su -), type
+  $line
+then start again."; fi
+    line="sudo apt-get update && sudo apt-get install -y --no-install-recommends$missing"
+    if [ ! -t 0 ] || [ -n "${CI:-}" ]; then fail "Some Debian packages are missing. Type
+  $line
+then start again."; fi
+    printf 'Some Debian packages are missing:%s\nInstall them now with sudo? [Y/n] ' "$missing"
+    read -r answer || answer=n
+    case $answer in "" | [Yy]*) ;; *) fail "Then type it yourself when you like, and start again:
+  $line" ;; esac
+    sudo -v || fail "sudo did not let you. Someone who may should type
+  $line"
+    as_root=sudo
+  fi
+  step "Debian packages:$missing" packages apt_install $missing
+  find_python
+  find_missing "$1"
+  if [ -n "$missing" ]; then fail "Installed, and still lacking:$needs
+See build/log/packages.log."; fi
+}

@@ -1,0 +1,101 @@
+# What ./run, ./test and ./bench share: Debian packages, a virtual environment, the project installed into it.
+# Sourced by bash with $root set. Each stage leaves a stamp keyed on what it depends on; a stage whose stamp is right costs nothing.
+set -euo pipefail
+
+source "$root/tools/say.sh"
+source "$root/tools/python.sh"
+source "$root/tools/packages.sh"
+
+venv=$root/.venv
+site() { "$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))'; }
+
+# digest: one hash of standard input.
+digest() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 256; fi | cut -c1-32; }
+
+# digest_files PATH...: one hash of all files below the paths, names and contents; caches do not count.
+digest_files() {
+  (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' -print0 2>/dev/null | LC_ALL=C sort -z |
+    xargs -0 $(command -v sha256sum || echo shasum -a 256)) | digest
+}
+
+stamped() { [ -f "$venv/.punctura/$1" ] && [ "$(cat "$venv/.punctura/$1")" = "$2" ]; }
+stamp() { mkdir -p "$venv/.punctura" && echo "$2" >"$venv/.punctura/$1.new" && mv "$venv/.punctura/$1.new" "$venv/.punctura/$1"; }
+unstamp() { rm -f "$venv/.punctura/$1"; }
+
+# One set-up at a time in one clone; the second waits. (Without flock, as on macOS, nothing is locked.)
+lock() {
+  mkdir -p "$root/build/log"
+  command -v flock >/dev/null || return 0
+  exec 9>"$root/build/log/.lock"
+  flock -n 9 || { note "another set-up is at work in this folder; waiting for it"; flock 9; }
+}
+unlock() { { exec 9>&-; } 2>/dev/null || true; }
+
+# A virtual environment is believed only with a stamp that names this folder and this Python; the stamp is written last.
+# One made by hand is taken over if it works; a half-made one is made anew.
+make_venv() {
+  local key="$root $python $python_minor" made_by_hand=""
+  stamped venv "$key" && [ -x "$venv/bin/python" ] && return 0
+  if [ -d "$venv" ] && [ ! -d "$venv/.punctura" ]; then
+    made_by_hand=$("$venv/bin/python" -c 'import sys, pip; print("%d.%d" % sys.version_info[:2], sys.prefix)' 2>/dev/null || true)
+  fi
+  if [ "$made_by_hand" != "$python_minor $venv" ]; then
+    rm -rf "$venv" "$root/build/python" && mkdir -p "$venv/.punctura"  # the folder .punctura says that this venv is ours, even when interrupted here
+    step "Virtual environment .venv with Python $python_version" venv "$python" -m venv "$venv"
+  fi
+  stamp venv "$key"
+}
+
+# The back-end's own requirements stand in pyproject.toml alone; CMake and Ninja come with them, so that no system has to bring them.
+build_requirements() {
+  "$venv/bin/python" - "$root/pyproject.toml" <<'PY'
+import sys
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.10
+    from pip._vendor import tomli as tomllib
+print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"]))
+PY
+}
+pip() { "$venv/bin/python" -m pip --disable-pip-version-check --no-input "$@"; }
+pip_build_tools() {
+  local requirements
+  requirements=$(build_requirements) && pip install $requirements "cmake>=3.26" "ninja>=1.11"
+}
+
+# The project is built in place of pip's throw-away folder, so that a changed file costs its own compilation only.
+pip_project() { pip install --no-build-isolation "$@"; }
+
+# set_up KIND [EXTRA]: KIND is run, test or bench; EXTRA names the optional dependencies of pyproject.toml that it needs.
+set_up() {
+  local kind=$1 extra=${2:-} deps sources
+  export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1
+  unset PYTHONPATH PYTHONHOME
+  lock
+  find_python
+  packages_key() { echo "$(digest_files tools/packages.sh) $python $python_minor ${CXX:-}"; }
+  if ! stamped "packages-$kind" "$(packages_key)"; then
+    provide_packages "$kind"
+    find_python  # what was installed may have completed another one
+    make_venv
+    stamp "packages-$kind" "$(packages_key)"
+  fi
+  make_venv
+  export PATH="$venv/bin:$PATH"
+  deps="$(digest_files pyproject.toml)"
+  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core python) ${CXX:-}"
+  if ! stamped build-tools "$deps"; then
+    step "Build tools from PyPI" build-tools pip_build_tools
+    stamp build-tools "$deps"
+  fi
+  if ! stamped "needs-$kind" "$deps"; then
+    unstamp sources
+    step "Punctura, built and installed with what it needs (a minute or two)" install pip_project "$root${extra:+[$extra]}"
+    stamp "needs-$kind" "$deps"
+    stamp sources "$sources"
+  elif ! stamped sources "$sources"; then
+    step "Punctura, built anew" install pip_project --no-deps --force-reinstall "$root"
+    stamp sources "$sources"
+  fi
+  unlock
+}

@@ -1,0 +1,42 @@
+"""What the tree checks share: the files that are the project's own, and how a finding is said."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
+SOURCE_SUFFIXES = (*CPP_SUFFIXES, ".py", ".pyi", ".ts", ".sh", ".cmake")
+
+
+class Finding(NamedTuple):
+    """One place that breaks a rule."""
+
+    path: str
+    line: int
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}: {self.reason}"
+
+
+def sources(root: Path, suffixes: tuple[str, ...]) -> list[str]:
+    """The paths git tracks or would track, with forward slashes, sorted; outside a git tree every file."""
+    command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    try:
+        listed = subprocess.run(command, capture_output=True, check=True, text=True).stdout.split("\0")
+    except (OSError, subprocess.CalledProcessError):
+        listed = [path.relative_to(root).as_posix() for path in root.rglob("*")]
+    return sorted({path for path in listed if path.endswith(suffixes) and (root / path).is_file()})
+
+
+def report(name: str, findings: Callable[[Path], list[Finding]], argv: list[str]) -> int:
+    """Prints every finding for the tree named on the command line, or for this one; 1 if there is any."""
+    root = Path(argv[1]) if len(argv) > 1 else Path(__file__).resolve().parent.parent
+    found = findings(root)
+    for finding in found:
+        print(finding)
+    print(f"{name}: {len(found)} findings" if found else f"{name}: in order")
+    return 1 if found else 0

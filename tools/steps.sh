@@ -1,0 +1,98 @@
+# The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
+
+all_steps="tree format types cpp clang asan tsan consumer python"
+fast_steps="tree format types cpp python"
+
+choose_steps() {
+  local name
+  steps=$all_steps
+  case ${1:-} in
+    "") return 0 ;;
+    --fast) steps=$fast_steps ;;
+    --list) echo "$all_steps tidy"; exit 0 ;;
+    -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$root/test"; exit 0 ;;
+    *)
+      steps=$*
+      for name in "$@"; do
+        case " $all_steps tidy " in *" $name "*) ;; *) fail "No step is called '$name'. The steps: $all_steps tidy" ;; esac
+      done
+      ;;
+  esac
+}
+
+run_steps() {
+  local name passed=0 failed="" count=0 start began=$SECONDS log code
+  cd "$root"
+  for name in $steps; do
+    log=build/log/test-$name.log start=$SECONDS
+    printf '  %-9s ' "$name"
+    code=0
+    ("step_$name") >"$log" 2>&1 </dev/null || code=$?
+    if [ $code -eq 0 ]; then
+      passed=$((passed + 1))
+      printf 'passed %4d s   %s\n' $((SECONDS - start)) "$(closing_line "$log")"
+    else
+      failed="$failed $name" count=$((count + 1))
+      printf 'FAILED %4d s   the end of %s:\n' $((SECONDS - start)) "$log"
+      tail -n "${PUNCTURA_LOG_LINES:-60}" "$log" | sed 's/^/    /'
+    fi
+  done
+  [ -z "$failed" ] || printf '\nFailed:%s. Again, these alone: ./test%s\n' "$failed" "$failed"
+  printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) $passed $count
+  [ -z "$failed" ]
+}
+
+# What the step's own runner said last of how many tests passed.
+closing_line() { grep -aE '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):|^Success: no issues|^tree: ' "$1" | tail -n 1 | tr -s ' =' || true; }
+
+# Rooms, sizes and equations: what the tree promises of itself.
+step_tree() { python tools/check_rooms.py && python tools/check_sizes.py && python tools/check_equations.py; }
+
+ours() { git ls-files -z --cached --others --exclude-standard "$@" | while IFS= read -r -d '' f; do [ ! -f "$f" ] || printf '%s\0' "$f"; done; }
+step_format() {
+  ruff check . && ruff format --check . && ours '*.hpp' '*.cpp' | xargs -0 clang-format --dry-run -Werror
+}
+step_types() { mypy; }
+
+# compile PRESET [TARGET...]: configures when needed, then builds on all cores. A folder made elsewhere, or by another Eigen, is laid anew.
+compile() {
+  local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
+  shift
+  eigen=$(site)/cmeel.prefix/include/eigen3
+  if [ -f "$cache" ] && ! { grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" && grep -qF "=$eigen" "$cache"; }; then
+    fresh=--fresh
+  fi
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF -DPUNCTURA_EIGEN_DIR="$eigen" && cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+# The C++ tests as GCC compiles them, each header alone among them.
+step_cpp() { compile dev && build/dev/tests/core/core_tests; }
+
+# The same with Clang, for its warnings.
+step_clang() { compile clang; }
+
+# The sanitizers are slow: fewer random cases, which reach the same code.
+step_asan() { compile asan core_tests && UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}" build/asan/tests/core/core_tests; }
+step_tsan() {
+  local run=build/tsan/tests/core/core_tests said
+  compile tsan core_tests || return
+  export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
+  # Where the kernel places memory at more random addresses than this sanitizer knows, it refuses to start; setarch asks for fewer.
+  said=$($run --list-test-cases 2>&1) || case $said in *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;; esac
+  $run
+}
+
+# Installed, then found by a project that knows nothing of this tree.
+step_consumer() {
+  local prefix=$root/build/consumer-prefix eigen=$(site)/cmeel.prefix
+  rm -rf "$prefix" build/consumer build/install
+  cmake -S . -B build/install -G Ninja -DPUNCTURA_EIGEN_DIR="$eigen/include/eigen3" -DCMAKE_INSTALL_PREFIX="$prefix" &&
+    cmake --install build/install &&
+    cmake -S tests/consumer -B build/consumer -G Ninja -DCMAKE_PREFIX_PATH="$prefix;$eigen" &&
+    cmake --build build/consumer && build/consumer/consumer
+}
+
+step_python() { python -m pytest -n 2; }
+
+# By name only: slow, and a matter of taste.
+step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy; }
