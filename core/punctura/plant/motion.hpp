@@ -46,7 +46,8 @@ class StrokesMotion {
     while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
     if (next_ == 0) return {home_, Vector3d::Zero()};
     const Segment& s = segments_[next_ - 1];
-    const double u = std::min(1.0, (time - s.begin) / s.duration);
+    const double u = (time - s.begin) / s.duration;
+    if (u >= 1) return {s.to, Vector3d::Zero()};
     const double path = u * u * u * (10 + u * (-15 + 6 * u));
     const double rate = 30 * u * u * (1 - u) * (1 - u) / s.duration;
     return {s.from + path * (s.to - s.from), rate * (s.to - s.from)};

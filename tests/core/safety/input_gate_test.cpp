@@ -1,0 +1,108 @@
+#include "punctura/safety/input_gate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+
+using namespace punctura;
+
+namespace {
+constexpr double T = 1 / 1600.0;
+DeviceSample sample(std::uint64_t k) { return {k, static_cast<double>(k) * T, {0, 1e-3, 0}, {0, -1, 0}, 0, true}; }
+
+/// A gate that has seen one good sample, and its verdict on the next.
+Fault second(DeviceSample s, bool axis_is_used = true) {
+  InputGate gate({}, axis_is_used);
+  CHECK(gate.step(sample(0)) == Fault::none);
+  return gate.step(s);
+}
+}  // namespace
+
+TEST_CASE("ordinary samples pass") {
+  InputGate gate({}, true);
+  for (std::uint64_t k = 0; k < 1000; ++k) REQUIRE(gate.step(sample(k)) == Fault::none);
+}
+
+TEST_CASE("what is not a number is refused, wherever it stands") {
+  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      auto s = sample(1);
+      s.position[i] = bad;
+      CHECK(second(s) == Fault::non_finite_input);
+      s = sample(1);
+      s.axis[i] = bad;
+      CHECK(second(s) == Fault::non_finite_input);
+      CHECK(second(s, false) == Fault::none);  // an axis that is not used may hold anything
+    }
+    auto s = sample(1);
+    s.time = bad;
+    CHECK(second(s) == Fault::non_finite_input);
+  }
+}
+
+TEST_CASE("an axis must have length 1") {
+  auto s = sample(1);
+  s.axis = {0, -1.01, 0};
+  CHECK(second(s) == Fault::bad_axis);
+  s.axis = {0, 0, 0};
+  CHECK(second(s) == Fault::bad_axis);
+  CHECK(second(s, false) == Fault::none);
+  s.axis = {0, -1.0005, 0};
+  CHECK(second(s) == Fault::none);
+}
+
+TEST_CASE("a jump of more than 5 mm in one tick is refused, the first sample apart") {
+  auto s = sample(1);
+  s.position[1] += 5.1e-3;
+  CHECK(second(s) == Fault::position_jump);
+  s.position[1] = 1e-3 + 4.9e-3;
+  CHECK(second(s) == Fault::none);
+  InputGate gate({}, true);
+  s.position[1] = 0.3;
+  CHECK(gate.step(s) == Fault::none);
+}
+
+TEST_CASE("the same reading for longer than 15 ms is stale") {
+  InputGate gate({}, true);
+  auto s = sample(0);
+  int k = 0;
+  Fault fault = Fault::none;
+  for (; k < 1000 && fault == Fault::none; ++k) {
+    s.time = k * T;
+    fault = gate.step(s);
+  }
+  CHECK(fault == Fault::stale_sample);
+  CHECK((k - 1) * T == doctest::Approx(0.015).epsilon(0.05));
+}
+
+TEST_CASE("a tick more than 20 ms after the last is a missed deadline") {
+  auto s = sample(1);
+  s.time = 0.0201;
+  CHECK(second(s) == Fault::missed_deadline);
+  s.time = 0.0199;
+  CHECK(second(s) == Fault::none);
+}
+
+TEST_CASE("a back-end that reports a fault is believed") {
+  auto s = sample(1);
+  s.healthy = false;
+  CHECK(second(s) == Fault::device);
+}
+
+TEST_CASE("after a reset the first sample is judged by itself") {
+  InputGate gate({}, true);
+  gate.step(sample(0));
+  gate.reset();
+  auto s = sample(100000);
+  s.position[0] = 0.2;
+  CHECK(gate.step(s) == Fault::none);
+}
+
+TEST_CASE("every fault has words of its own, and says what to do") {
+  for (int i = 1; i <= static_cast<int>(Fault::device); ++i) {
+    CHECK(std::string(describe(static_cast<Fault>(i))).size() > 20);
+    for (int j = 0; j < i; ++j)
+      CHECK(std::string(describe(static_cast<Fault>(i))) != describe(static_cast<Fault>(j)));
+  }
+}

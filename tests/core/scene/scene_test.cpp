@@ -1,0 +1,66 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "../support/paper_scene.hpp"
+#include "punctura/scene/build.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+TEST_CASE("a sound scene has no problem and is built") {
+  CHECK(check(paper_scene()).empty());
+  CHECK_NOTHROW(build(paper_scene()));
+  CHECK_NOTHROW(build_insertion<float>(paper_scene()));
+}
+
+TEST_CASE("a scene that cannot be is refused with all of its problems at once") {
+  auto scene = paper_scene();
+  scene.needle.diameter = 0;
+  scene.coupling = {0, -1};
+  scene.servo.rate = 10;
+  scene.servo.low_pass = -1;
+  scene.membranes[0].membrane.stiffness = -5;
+  scene.membranes[0].inward_normal = {0, 0, 0};
+  scene.membranes[0].point[2] = std::nan("");
+  const auto problems = check(scene);
+  CHECK(problems.size() == 8);
+  try {
+    build(scene);
+    FAIL("nothing was thrown");
+  } catch (const SceneError& error) {
+    CHECK(error.problems().size() == problems.size());
+    for (const auto& p : problems) CHECK(std::string(error.what()).find(p.path) != std::string::npos);
+  }
+}
+
+TEST_CASE("each membrane is paired with the needle for K06 (7), and named by its number") {
+  auto scene = paper_scene();
+  scene.membranes.push_back(scene.membranes[0]);
+  scene.membranes[1].membrane.friction = 3.6;
+  const auto problems = check(scene);
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].path == "membrane[1].friction");
+}
+
+TEST_CASE("a scene needs a membrane, and has room for 64") {
+  auto scene = paper_scene();
+  const auto one = scene.membranes[0];
+  scene.membranes.clear();
+  CHECK(check(scene).size() == 1);
+  scene.membranes.assign(64, one);
+  CHECK(check(scene).empty());
+  scene.membranes.assign(65, one);
+  REQUIRE(check(scene).size() == 1);
+  CHECK(check(scene)[0].path == "membrane");
+}
+
+TEST_CASE("an inward normal may have any length") {
+  auto scene = paper_scene();
+  scene.membranes[0].inward_normal = {0, -17, 0};
+  auto a = build_insertion(scene), b = build_insertion(paper_scene());
+  for (int k = 0; k < 1600; ++k) {
+    const Vector3d p(0, 1e-3 - 5e-3 * k / 1600.0, 0);
+    REQUIRE(a.step(p, {0, -1, 0}) == b.step(p, {0, -1, 0}));
+  }
+}

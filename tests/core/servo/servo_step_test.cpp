@@ -1,0 +1,186 @@
+#include "punctura/servo/servo_step.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "../support/allocations.hpp"
+#include "../support/cases.hpp"
+#include "../support/paper_scene.hpp"
+#include "punctura/proxy/proxy_1d.hpp"
+#include "punctura/scene/build.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+static_assert(noexcept(std::declval<ServoStep&>().step(std::declval<const DeviceSample&>())));
+static_assert(noexcept(std::declval<ServoStep&>().arm()) && noexcept(std::declval<ServoStep&>().disarm()) &&
+              noexcept(std::declval<ServoStep&>().reset()));
+static_assert(noexcept(std::declval<Insertion&>().step(std::declval<const Vector3d&>(), std::declval<const Vector3d&>())));
+static_assert(noexcept(std::declval<InsertionF&>().step(std::declval<const Vector3<float>&>(), std::declval<const Vector3<float>&>())));
+static_assert(noexcept(std::declval<Proxy1d<ThickLaw>&>().step(0.0)) && noexcept(std::declval<Proxy1d<ThinLawF>&>().step(0.0f)));
+static_assert(noexcept(std::declval<ForceLimiter&>().step(std::declval<const Vector3d&>())));
+static_assert(noexcept(std::declval<InputGate&>().step(std::declval<const DeviceSample&>())));
+
+namespace {
+const std::array<double, 3> zero{0, 0, 0};
+
+/// Drives a step along heights, one reading a tick.
+class Driver {
+ public:
+  explicit Driver(ServoStep& step) : step_(step) {}
+  const Snapshot& to(double y, int ticks, double from) {
+    for (int i = 1; i <= ticks; ++i) step_.step(reading(k_++, from + (y - from) * i / ticks));
+    return step_.snapshot();
+  }
+  const Snapshot& stay(double y, int ticks) { return to(y, ticks, y); }
+  std::uint64_t next() const { return k_; }
+
+ private:
+  ServoStep& step_;
+  std::uint64_t k_ = 0;
+};
+}  // namespace
+
+TEST_CASE("disarmed, the model runs and the device gets nothing") {
+  auto step = build(paper_scene());
+  Driver drive(step);
+  drive.stay(1e-3, 10);
+  const Snapshot& s = drive.to(-3e-3, 1600, 1e-3);
+  CHECK(s.model_force[1] > 0.3);
+  CHECK(s.force == zero);
+  CHECK(s.state == ServoState::disarmed);
+}
+
+TEST_CASE("force is given only after the tip has been in front of every membrane, then ramps in over half a second") {
+  auto step = build(paper_scene());
+  Driver drive(step);
+  step.arm();
+  CHECK(drive.stay(-2e-3, 100).state == ServoState::waiting);
+  CHECK(drive.to(1e-3, 800, -2e-3).state == ServoState::active);
+  drive.to(-2e-3, 100, 1e-3);
+  const Snapshot& early = drive.stay(-2e-3, 1);
+  CHECK(early.force[1] > 0);
+  CHECK(early.force[1] < 0.7 * early.model_force[1]);
+  const Snapshot& late = drive.stay(-2e-3, 1000);
+  CHECK(late.force == late.model_force);
+}
+
+TEST_CASE("armed inside tissue, with the model already running, it waits until the tip is out") {
+  auto step = build(paper_scene());
+  Driver drive(step);
+  drive.stay(1e-3, 10);
+  drive.to(-3e-3, 1600, 1e-3);
+  step.arm();
+  const Snapshot& s = drive.stay(-3e-3, 100);
+  CHECK(s.state == ServoState::waiting);
+  CHECK(s.force == zero);
+  CHECK(s.model_force[1] > 0.1);
+}
+
+TEST_CASE("every fault ends force in its own tick, is latched while ticks go on, and takes a reset and a new arming to leave") {
+  struct Case {
+    Fault fault;
+    void (*spoil)(DeviceSample&);
+  };
+  const Case all[] = {
+      {Fault::non_finite_input, [](DeviceSample& s) { s.position[1] = std::numeric_limits<double>::quiet_NaN(); }},
+      {Fault::non_finite_input, [](DeviceSample& s) { s.axis[2] = std::numeric_limits<double>::infinity(); }},
+      {Fault::bad_axis, [](DeviceSample& s) { s.axis = {0, -2, 0}; }},
+      {Fault::position_jump, [](DeviceSample& s) { s.position[0] += 0.01; }},
+      {Fault::missed_deadline, [](DeviceSample& s) { s.time += 0.1; }},
+      {Fault::device, [](DeviceSample& s) { s.healthy = false; }},
+  };
+  for (const Case& c : all) {
+    auto step = build(paper_scene());
+    Driver drive(step);
+    step.arm();
+    drive.stay(1e-3, 1600);
+    REQUIRE(drive.to(-3e-3, 1600, 1e-3).force[1] > 0.3);
+
+    DeviceSample bad = reading(drive.next(), -3e-3);
+    c.spoil(bad);
+    CHECK(step.step(bad).fault == c.fault);
+    CHECK(step.snapshot().force == zero);
+    CHECK(step.snapshot().state == ServoState::faulted);
+
+    const std::uint64_t before = step.snapshot().tick;
+    step.arm();
+    step.disarm();
+    drive.stay(-3e-3, 50);
+    CHECK(step.snapshot().fault == c.fault);
+    CHECK(step.snapshot().force == zero);
+    CHECK(step.snapshot().tick == before + 50);
+
+    step.reset();
+    CHECK(drive.to(1e-3, 1600, -3e-3).state == ServoState::disarmed);
+    CHECK(step.snapshot().fault == Fault::none);
+    step.arm();
+    drive.stay(1e-3, 1600);
+    CHECK(drive.to(-3e-3, 1600, 1e-3).force[1] > 0.3);
+  }
+}
+
+TEST_CASE("a reading that never changes ends in the fault that says so") {
+  auto step = build(paper_scene());
+  DeviceSample s = reading(0, 1e-3);
+  for (int k = 0; k < 40; ++k) {
+    s.time = k / 1600.0;
+    step.step(s);
+  }
+  CHECK(step.fault() == Fault::stale_sample);
+}
+
+TEST_CASE("a model that overflows is a fault, not a force") {
+  auto scene = paper_scene();
+  scene.membranes[0].point = {0, 1e308, 0};
+  scene.membranes[0].inward_normal = {1, -1, 0};
+  scene.needle.diameter = 1e300;
+  scene.membranes[0].membrane.stiffness = 1e300;
+  auto step = build(scene);
+  step.arm();
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const Snapshot& s = step.step(reading(k, 1e-3 - 1e-4 * static_cast<double>(k)));
+    for (double f : s.force) REQUIRE(std::isfinite(f));
+  }
+}
+
+TEST_CASE("the snapshot tells the whole tick") {
+  auto step = build(paper_scene());
+  step.arm();
+  Driver drive(step);
+  drive.stay(1e-3, 1600);
+  const Snapshot& s = drive.to(-3e-3, 1600, 1e-3);
+  CHECK(s.tick == 3199);
+  CHECK(s.membrane_count == 1);
+  CHECK(s.membranes[0].phase == Phase::sliding_in);
+  CHECK(s.membranes[0].axial_force == doctest::Approx(-s.model_force[1]));
+  CHECK(s.membranes[0].lower == doctest::Approx(s.membranes[0].axial_force));
+  CHECK(s.membranes[0].depth == doctest::Approx(-s.membranes[0].proxy[1]));
+  CHECK(s.membranes[0].direction == std::array<double, 3>{0, -1, 0});
+  CHECK(s.sample.position[1] == doctest::Approx(-3e-3));
+}
+
+TEST_CASE("a million ticks take no memory and end where they began to the last bit") {
+  auto scene = paper_scene();
+  scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -3e-3, 0}, {0, -1, 0}});
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    for (Direction direction : {Direction::stylus, Direction::motion}) {
+      scene.servo.solver = solver;
+      scene.direction = direction;
+      auto step = build(scene), again = build(scene);
+      step.arm();
+      again.arm();
+      const auto ticks = static_cast<std::uint64_t>(cases(250000));
+      const std::size_t before = allocations();
+      for (std::uint64_t k = 0; k < ticks; ++k) {
+        const double y = -3e-3 + 6e-3 * std::cos(2e-3 * static_cast<double>(k));
+        step.step(reading(k, y));
+        again.step(reading(k, y));
+      }
+      CHECK(allocations() == before);
+      CHECK(step.fault() == Fault::none);
+      CHECK(step.snapshot().force == again.snapshot().force);
+    }
+  }
+}
