@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# The proof that two commands are enough: a Debian with git, Python and certificates only, a clone, ./run and ./test, with a clock.
+#   sudo tools/bare_machine.sh [FOLDER]     needs debootstrap and 8 GB; a FOLDER is kept, with the bare system to start from again
+# SUITE=trixie takes another Debian. Prints the table that stands in docs/bare-machine.md.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+suite=${SUITE:-bookworm}
+
+if [ "$(id -u)" -ne 0 ]; then echo "Only root may make and enter a bare system: sudo $0" >&2; exit 1; fi
+command -v debootstrap >/dev/null || { echo "debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
+
+# A mount namespace of our own: whatever happens, no mount is left behind.
+if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "$@"; fi
+
+place=${1:-$(mktemp -d /var/tmp/punctura-bare.XXXXXX)}
+place=$(mkdir -p "$place" && cd "$place" && pwd -P)
+log=$place/log
+mkdir -p "$log"
+say() { printf '%s\n' "$*" >&2; }
+clean_up() {
+  local mounted
+  for mounted in "$place"/*/proc "$place"/*/dev; do if mountpoint -q "$mounted"; then umount -R -l "$mounted"; fi; done
+  if [ -z "$1" ]; then rm -rf --one-file-system "$place"; fi
+}
+trap 'clean_up "${1:-}"' EXIT
+
+# How this machine reaches Debian's archive and PyPI is its own affair: its settings are carried over, and none is written down here.
+mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null | grep -v security | sort -u | head -n 1)}
+mirror=${mirror:-http://deb.debian.org/debian}
+carry() {
+  local into=$1 file name
+  cp -L /etc/resolv.conf /etc/hosts "$into/etc/"
+  for file in $(grep -lsE '^\s*Acquire' /etc/apt/apt.conf /etc/apt/apt.conf.d/* | grep -v docker) /etc/pip.conf; do
+    if [ -f "$file" ]; then install -D -m 644 "$file" "$into$file"; fi
+  done
+  if [ -d /usr/local/share/ca-certificates ]; then cp -rL /usr/local/share/ca-certificates "$into/usr/local/share/"; fi
+  chroot "$into" update-ca-certificates >/dev/null 2>&1
+  settings=()
+  for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_CERT SSL_CERT_FILE REQUESTS_CA_BUNDLE; do
+    if [ -n "${!name:-}" ]; then settings+=("$name=${!name}"); fi
+  done
+}
+
+# inside SYSTEM USER COMMAND: as that user would type it after logging in, with nothing of this session's environment.
+inside() {
+  local system=$1 user=$2 home
+  home=$(chroot "$system" getent passwd "$user" | cut -d: -f6)
+  chroot --userspec="$user" "$system" /usr/bin/env -i HOME="$home" USER="$user" TERM=dumb LANG=C.UTF-8 \
+    PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "${settings[@]}" bash -c "cd && $3" </dev/null
+}
+
+# a_system NAME: a fresh copy of the bare system, with the clone's source in /srv.
+a_system() {
+  local system=$place/$1
+  rm -rf --one-file-system "$system"
+  cp -a "$place/base" "$system"
+  mkdir -p "$system/proc" "$system/dev"
+  mount -t proc proc "$system/proc"
+  mount --rbind /dev "$system/dev"
+  git clone -q --bare "$root" "$system/srv/punctura.git"
+  git config --file "$system/etc/gitconfig" safe.directory '*'
+  chroot "$system" useradd --create-home --shell /bin/bash ann
+  echo "$system"
+}
+
+table=""
+# timed SYSTEM USER WORDS COMMAND EXPECTED-EXIT: runs it, checks the exit, adds a row to the table.
+timed() {
+  local start=$SECONDS code=0 file=$log/${1##*/}-${3// /-}.log
+  inside "$1" "$2" "$4" >"$file" 2>&1 || code=$?
+  say "$3: $((SECONDS - start)) s, exit $code"
+  table="$table| $3 | $((SECONDS - start)) s |
+"
+  [ $code -eq "$5" ] || { say "should have ended with $5; the end of $file:"; tail -n 40 "$file" >&2; exit 1; }
+}
+
+if [ ! -f "$place/base/.made" ]; then
+  say "Making a bare $suite ..."
+  rm -rf --one-file-system "$place/base"
+  debootstrap --variant=minbase --include=git,python3,ca-certificates "$suite" "$place/base" "$mirror" >"$log/debootstrap.log" 2>&1 ||
+    { tail -n 20 "$log/debootstrap.log" >&2; exit 1; }
+  touch "$place/base/.made"
+fi
+carry "$place/base"
+
+system=$(a_system root)
+inside "$system" root "git clone -q /srv/punctura.git punctura"
+timed "$system" root "run, first time" "punctura/run" 0
+timed "$system" root "run, second time" "punctura/run" 0
+timed "$system" root "test, after run" "punctura/test" 0
+timed "$system" root "test, second time" "punctura/test" 0
+installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
+sizes=$(inside "$system" root 'du -sh --total punctura/.venv punctura/build | tr "\t\n" " ;"')
+
+system=$(a_system test-first)
+timed "$system" root "test, first, in a path with a space" "git clone -q /srv/punctura.git 'a clone' && 'a clone/test'" 0
+
+# Someone who is not root and has no sudo: told the one line, which root then types.
+system=$(a_system user)
+timed "$system" ann "run, by a user without rights" "git clone -q /srv/punctura.git punctura && punctura/run" 1
+line=$(grep -m 1 -o 'apt-get update && apt-get install .*' "$log/user-run,-by-a-user-without-rights.log")
+inside "$system" root "$line" >"$log/line.log" 2>&1
+timed "$system" ann "run, by that user, after root typed the line" "punctura/run" 0
+
+printf 'Debian %s (debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
+printf '| what | time |\n|---|---|\n%s\n' "$table"
+printf 'Debian packages installed by it:\n%s\n\nDisk: %s\n' "$installed" "$sizes"
