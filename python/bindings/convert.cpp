@@ -18,7 +18,8 @@ Input input_1d(const nb::object& array_like, const char* name) {
 
 Input points(const nb::object& array_like, const char* name) {
   Input array = input(array_like);
-  if (array.ndim() != 2 || array.shape(1) != 3) throw nb::value_error((std::string(name) + " must have shape (n, 3)").c_str());
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw nb::value_error((std::string(name) + " must have shape (n, 3)").c_str());
   return array;
 }
 

@@ -33,25 +33,35 @@ InsertionTrace run(Insertion& insertion, const nb::object& positions, const nb::
 
 void bind_insertion(nb::module_& m) {
   auto trace = nb::class_<InsertionTrace>(m, "InsertionTrace", "What a run gave, tick by tick; n ticks, m membranes.");
-  trace.def_prop_ro("force", [](const InsertionTrace& t) { return t.force; }, nb::sig("def force(self) -> numpy.typing.NDArray[numpy.float64]"),
-                    "On the device, (n, 3), N");
+  trace.def_prop_ro(
+      "force", [](const InsertionTrace& t) { return t.force; },
+      nb::sig("def force(self) -> numpy.typing.NDArray[numpy.float64]"), "On the device, (n, 3), N");
   def_membrane_columns(trace);
 
-  nb::class_<Insertion>(m, "Insertion",
-                        "A needle through all membranes of a scene: low-pass, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
-                        "The model's own force: no safety limits.")
-      .def("__init__", [](Insertion* self, const Scene& scene) {
-        raise_if(check(scene));
-        new (self) Insertion(build_insertion(scene));
-      }, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
+  nb::class_<Insertion>(
+      m, "Insertion",
+      "A needle through all membranes of a scene: low-pass, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
+      "The model's own force: no safety limits.")
+      .def(
+          "__init__",
+          [](Insertion* self, const Scene& scene) {
+            raise_if(check(scene));
+            new (self) Insertion(build_insertion(scene));
+          },
+          nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
       .def("reset", &Insertion::reset, "Forgets all motion.")
-      .def("step", [](Insertion& insertion, const Triple& p, const Triple& axis) {
-        return plain(insertion.step(vector(p), vector(axis).stableNormalized()));
-      }, nb::arg("p"), nb::arg("axis"), "One tick: measured position (m) and direction of the needle give the force on the device (N).")
+      .def(
+          "step",
+          [](Insertion& insertion, const Triple& p, const Triple& axis) {
+            return plain(insertion.step(vector(p), vector(axis).stableNormalized()));
+          },
+          nb::arg("p"), nb::arg("axis"),
+          "One tick: measured position (m) and direction of the needle give the force on the device (N).")
       .def("run", &run, nb::arg("p"), nb::arg("axis"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> InsertionTrace"),
            "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.")
-      .def_prop_ro("tip", [](const Insertion& i) { return plain(i.tip()); }, "The filtered position, m")
+      .def_prop_ro(
+          "tip", [](const Insertion& i) { return plain(i.tip()); }, "The filtered position, m")
       .def_prop_ro("force", [](const Insertion& i) { return plain(i.force()); }, "N");
 }
 

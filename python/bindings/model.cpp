@@ -34,15 +34,25 @@ std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane)
 template <typename L>
 nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
   return nb::class_<L>(m, name, doc)
-      .def_prop_ro("X", [](const L& l) { return l.constants().X; }, "Length of the tip, m. K06 (15)")
-      .def_prop_ro("A_I", [](const L& l) { return l.constants().A_I; }, "Growth of the insertion force, N/m. K06 (15)")
-      .def_prop_ro("A_O", [](const L& l) { return l.constants().A_O; },
-                   "Growth of the withdrawal force, N/m; negative where the membrane expels the tip. K06 (15)")
-      .def_prop_ro("Q", [](const L& l) { return l.constants().Q; }, "Precompression as a depth, m. K06 (15)")
-      .def_prop_ro("F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)")
-      .def("bounds", [](const L& l, double q) { const auto b = l.band(q); return nb::make_tuple(b.lower, b.upper); },
-           nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
-           "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
+      .def_prop_ro(
+          "X", [](const L& l) { return l.constants().X; }, "Length of the tip, m. K06 (15)")
+      .def_prop_ro(
+          "A_I", [](const L& l) { return l.constants().A_I; }, "Growth of the insertion force, N/m. K06 (15)")
+      .def_prop_ro(
+          "A_O", [](const L& l) { return l.constants().A_O; },
+          "Growth of the withdrawal force, N/m; negative where the membrane expels the tip. K06 (15)")
+      .def_prop_ro(
+          "Q", [](const L& l) { return l.constants().Q; }, "Precompression as a depth, m. K06 (15)")
+      .def_prop_ro(
+          "F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)")
+      .def(
+          "bounds",
+          [](const L& l, double q) {
+            const auto b = l.band(q);
+            return nb::make_tuple(b.lower, b.upper);
+          },
+          nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
+          "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
       .def("bounds", &bounds<L>, nb::arg("depth"),
            nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
                    "numpy.typing.NDArray[numpy.float64]]"),
@@ -60,8 +70,9 @@ void bind_model(nb::module_& m) {
         return nb::str("Needle(diameter={!r}, tip_angle={!r})").format(n.diameter, n.tip_angle);
       });
 
-  nb::class_<Membrane>(m, "Membrane",
-                       "A membrane: stiffness kappa (N/m), precompression c (N), friction mu, thickness H (m). K06 section 2")
+  nb::class_<Membrane>(
+      m, "Membrane",
+      "A membrane: stiffness kappa (N/m), precompression c (N), friction mu, thickness H (m). K06 section 2")
       .def(nb::init<double, double, double, double>(), nb::arg("stiffness"), nb::arg("precompression"),
            nb::arg("friction"), nb::arg("thickness"))
       .def_rw("stiffness", &Membrane::stiffness, "kappa, N/m")
@@ -74,19 +85,25 @@ void bind_model(nb::module_& m) {
       });
 
   bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)")
-      .def("__init__", [](ThinLaw* self, const Needle& needle, const Membrane& membrane) {
-        raise_if(problems_of(needle, membrane));
-        new (self) ThinLaw(needle, membrane);
-      }, nb::arg("needle"), nb::arg("membrane"), "Raises ConfigurationError with every bound that is broken.");
+      .def(
+          "__init__",
+          [](ThinLaw* self, const Needle& needle, const Membrane& membrane) {
+            raise_if(problems_of(needle, membrane));
+            new (self) ThinLaw(needle, membrane);
+          },
+          nb::arg("needle"), nb::arg("membrane"), "Raises ConfigurationError with every bound that is broken.");
 
   bind_law<ThickLaw>(m, "ThickLaw", "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)")
-      .def("__init__", [](ThickLaw* self, const Needle& needle, const Membrane& membrane, double obliquity) {
-        auto problems = problems_of(needle, membrane);
-        check_field(obliquity_field, obliquity, "", problems);
-        raise_if(problems);
-        new (self) ThickLaw(needle, membrane, obliquity);
-      }, nb::arg("needle"), nb::arg("membrane"), nb::arg("obliquity") = 0.0,
-         "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.")
+      .def(
+          "__init__",
+          [](ThickLaw* self, const Needle& needle, const Membrane& membrane, double obliquity) {
+            auto problems = problems_of(needle, membrane);
+            check_field(obliquity_field, obliquity, "", problems);
+            raise_if(problems);
+            new (self) ThickLaw(needle, membrane, obliquity);
+          },
+          nb::arg("needle"), nb::arg("membrane"), nb::arg("obliquity") = 0.0,
+          "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.")
       .def_prop_ro("H", &ThickLaw::thickness, "Thickness, m")
       .def_prop_ro("U", &ThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");
 }

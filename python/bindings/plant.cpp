@@ -16,8 +16,10 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
   for (std::size_t i = 0; i < n; ++i) {
     const double* row = position.data() + 3 * i;
     tips[i] = {row[0], row[1], row[2]};
-    const bool good = std::isfinite(time.data()[i]) && tips[i].allFinite() && (i == 0 || time.data()[i] > time.data()[i - 1]);
-    if (!good) throw nb::value_error(("sample " + std::to_string(i) + ": time must ascend, and all numbers be finite").c_str());
+    const bool good =
+        std::isfinite(time.data()[i]) && tips[i].allFinite() && (i == 0 || time.data()[i] > time.data()[i - 1]);
+    if (!good)
+      throw nb::value_error(("sample " + std::to_string(i) + ": time must ascend, and all numbers be finite").c_str());
   }
   return {std::vector<double>(time.data(), time.data() + n), std::move(tips)};
 }
@@ -27,38 +29,48 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
 void bind_plant(nb::module_& m) {
   const DeviceDynamics device;
   nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device; the defaults are a PHANTOM Omni's data sheet.")
-      .def("__init__", [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
-        std::vector<Problem> problems;
-        const Range above{0, no_bound, true, true, "must be greater than 0"}, from{0, no_bound, false, true, "must be 0 or more"};
-        check_field({"mass", "", "kg", above}, mass, "plant", problems);
-        check_field({"friction", "", "N", from}, friction, "plant", problems);
-        check_field({"encoder_step", "", "m", from}, encoder_step, "plant", problems);
-        check_field({"max_force", "", "N", from}, max_force, "plant", problems);
-        raise_if(problems);
-        new (self) DeviceDynamics{mass, friction, encoder_step, max_force};
-      }, nb::arg("mass") = device.mass, nb::arg("friction") = device.friction, nb::arg("encoder_step") = device.encoder_step,
-         nb::arg("max_force") = device.max_force,
-         "mass: apparent, kg. friction: dry, N. encoder_step: m, 0 is ideal. max_force: saturation, N.")
+      .def(
+          "__init__",
+          [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
+            std::vector<Problem> problems;
+            const Range above{0, no_bound, true, true, "must be greater than 0"},
+                from{0, no_bound, false, true, "must be 0 or more"};
+            check_field({"mass", "", "kg", above}, mass, "plant", problems);
+            check_field({"friction", "", "N", from}, friction, "plant", problems);
+            check_field({"encoder_step", "", "m", from}, encoder_step, "plant", problems);
+            check_field({"max_force", "", "N", from}, max_force, "plant", problems);
+            raise_if(problems);
+            new (self) DeviceDynamics{mass, friction, encoder_step, max_force};
+          },
+          nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
+          nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
+          "mass: apparent, kg. friction: dry, N. encoder_step: m, 0 is ideal. max_force: saturation, N.")
       .def_ro("mass", &DeviceDynamics::mass, "kg")
       .def_ro("friction", &DeviceDynamics::friction, "N")
       .def_ro("encoder_step", &DeviceDynamics::encoder_step, "m")
       .def_ro("max_force", &DeviceDynamics::max_force, "N");
 
   const Hand hand;
-  nb::class_<Hand>(m, "Hand", "The hand that holds the stylus: mass, and spring and damper to the desired motion. Illustrative values")
-      .def("__init__", [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
-        std::vector<Problem> problems;
-        const Range above{0, no_bound, true, true, "must be greater than 0"}, from{0, no_bound, false, true, "must be 0 or more"};
-        check_field({"mass", "", "kg", from}, mass, "hand", problems);
-        check_field({"damping", "", "N s/m", from}, damping, "hand", problems);
-        check_field({"stiffness", "", "N/m", from}, stiffness, "hand", problems);
-        check_field({"tremor_rms", "", "m", from}, tremor_rms, "hand", problems);
-        check_field({"tremor_hz", "", "Hz", above}, tremor_hz, "hand", problems);
-        raise_if(problems);
-        new (self) Hand{mass, damping, stiffness, tremor_rms, tremor_hz};
-      }, nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
-         nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
-         "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 is none. tremor_hz: its frequency.")
+  nb::class_<Hand>(
+      m, "Hand",
+      "The hand that holds the stylus: mass, and spring and damper to the desired motion. Illustrative values")
+      .def(
+          "__init__",
+          [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
+            std::vector<Problem> problems;
+            const Range above{0, no_bound, true, true, "must be greater than 0"},
+                from{0, no_bound, false, true, "must be 0 or more"};
+            check_field({"mass", "", "kg", from}, mass, "hand", problems);
+            check_field({"damping", "", "N s/m", from}, damping, "hand", problems);
+            check_field({"stiffness", "", "N/m", from}, stiffness, "hand", problems);
+            check_field({"tremor_rms", "", "m", from}, tremor_rms, "hand", problems);
+            check_field({"tremor_hz", "", "Hz", above}, tremor_hz, "hand", problems);
+            raise_if(problems);
+            new (self) Hand{mass, damping, stiffness, tremor_rms, tremor_hz};
+          },
+          nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
+          nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
+          "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 is none. tremor_hz: its frequency.")
       .def_ro("mass", &Hand::mass, "kg")
       .def_ro("damping", &Hand::damping, "N s/m")
       .def_ro("stiffness", &Hand::stiffness, "N/m")
@@ -66,35 +78,50 @@ void bind_plant(nb::module_& m) {
       .def_ro("tremor_hz", &Hand::tremor_hz, "Hz");
 
   const Strokes strokes{};
-  nb::class_<Strokes>(m, "Strokes", "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.")
-      .def("__init__", [](Strokes* self, const Triple& start, const Triple& end, std::size_t count, double duration, double rest, double variation) {
-        std::vector<Problem> problems;
-        const Range above{0, no_bound, true, true, "must be greater than 0"}, from{0, no_bound, false, true, "must be 0 or more"};
-        if (!vector(start).allFinite()) problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
-        if (!vector(end).allFinite()) problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
-        check_field({"duration", "", "s", above}, duration, "strokes", problems);
-        check_field({"rest", "", "s", from}, rest, "strokes", problems);
-        check_field({"variation", "", "-", from}, variation, "strokes", problems);
-        raise_if(problems);
-        new (self) Strokes{vector(start), vector(end), count, duration, rest, variation};
-      }, nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
-         nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
-         "start, end: m. count: strokes to and fro. duration: one way, s. rest: s. variation: relative standard deviation of\n"
-         "depth and duration from stroke to stroke.")
-      .def("duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); }, nb::arg("seed") = 0,
-           "How long all strokes take for a seed, s.");
+  nb::class_<Strokes>(m, "Strokes",
+                      "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.")
+      .def(
+          "__init__",
+          [](Strokes* self, const Triple& start, const Triple& end, std::size_t count, double duration, double rest,
+             double variation) {
+            std::vector<Problem> problems;
+            const Range above{0, no_bound, true, true, "must be greater than 0"},
+                from{0, no_bound, false, true, "must be 0 or more"};
+            if (!vector(start).allFinite())
+              problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
+            if (!vector(end).allFinite()) problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
+            check_field({"duration", "", "s", above}, duration, "strokes", problems);
+            check_field({"rest", "", "s", from}, rest, "strokes", problems);
+            check_field({"variation", "", "-", from}, variation, "strokes", problems);
+            raise_if(problems);
+            new (self) Strokes{vector(start), vector(end), count, duration, rest, variation};
+          },
+          nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
+          nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
+          "start, end: m. count: strokes to and fro. duration: one way, s. rest: s. variation: relative standard deviation of\n"
+          "depth and duration from stroke to stroke.")
+      .def(
+          "duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); },
+          nb::arg("seed") = 0, "How long all strokes take for a seed, s.");
 
   nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, linear between them.")
-      .def("__init__", [](RecordedMotion* self, const nb::object& time, const nb::object& position) {
-        new (self) RecordedMotion(recorded(time, position));
-      }, nb::arg("time"), nb::arg("position"),
-         nb::sig("def __init__(self, time: numpy.typing.ArrayLike, position: numpy.typing.ArrayLike) -> None"),
-         "time (n,): s, ascending. position (n, 3): m. Raises ValueError that names the sample.")
+      .def(
+          "__init__",
+          [](RecordedMotion* self, const nb::object& time, const nb::object& position) {
+            new (self) RecordedMotion(recorded(time, position));
+          },
+          nb::arg("time"), nb::arg("position"),
+          nb::sig("def __init__(self, time: numpy.typing.ArrayLike, position: numpy.typing.ArrayLike) -> None"),
+          "time (n,): s, ascending. position (n, 3): m. Raises ValueError that names the sample.")
       .def_prop_ro("duration", &RecordedMotion::duration, "s");
 
   nb::class_<Target>(m, "Target", "A target that somebody moves in steps; the hand follows smoothly.")
-      .def("__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); }, nb::arg("position"), "position: m")
-      .def("move_to", [](Target& t, const Triple& position) { t.move_to(vector(position)); }, nb::arg("position"), "position: m");
+      .def(
+          "__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); },
+          nb::arg("position"), "position: m")
+      .def(
+          "move_to", [](Target& t, const Triple& position) { t.move_to(vector(position)); }, nb::arg("position"),
+          "position: m");
 }
 
 }  // namespace punctura::bindings

@@ -25,4 +25,6 @@ class ConfigurationError(ValueError):
         self.source = source
         head = f"{source}: " if source else ""
         count = len(self.problems)
-        super().__init__(f"{head}{count} problem{'s' if count != 1 else ''}\n" + "\n".join(f"  {p}" for p in self.problems))
+        super().__init__(
+            f"{head}{count} problem{'s' if count != 1 else ''}\n" + "\n".join(f"  {p}" for p in self.problems)
+        )

@@ -16,8 +16,8 @@ template <typename Motion>
 class Experiment {
  public:
   /// axis: the direction in which the stylus points, constant. Throws SceneError.
-  Experiment(const Scene& scene, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {}, const Hand& hand = {},
-             std::uint64_t seed = 0)
+  Experiment(const Scene& scene, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {},
+             const Hand& hand = {}, std::uint64_t seed = 0)
       : servo_(build(scene)),
         plant_(device, hand, 1 / scene.servo.rate, seed),
         motion_(std::move(motion)),

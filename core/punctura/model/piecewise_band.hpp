@@ -25,7 +25,7 @@ struct PiecewiseBand {
   static constexpr std::size_t size = N;
 
   struct Piece {
-    Scalar origin{};                   ///< depth where x = 0, m
+    Scalar origin{};                     ///< depth where x = 0, m
     Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
   };
 

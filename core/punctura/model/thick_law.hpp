@@ -50,10 +50,10 @@ class BasicThickLaw {
   /// The pieces of Phi_I (A = A_I) or, withdrawing, of Phi_O (A = A_O). U_over_H is handed in since H may be 0.
   std::array<Quadratic<Scalar>, 5> edge(Scalar A, Scalar U_over_H, bool withdrawing = false) const noexcept {
     const auto& [X, A_I, A_O, Q, F] = constants_;
-    const bool thin = U_ <= X;                                    // all of the membrane fits on the tip
-    const Scalar m = std::min(U_, X);                             // most membrane that ever lies on the tip
+    const bool thin = U_ <= X;         // all of the membrane fits on the tip
+    const Scalar m = std::min(U_, X);  // most membrane that ever lies on the tip
     const Scalar m_over_H = thin ? U_over_H : X / H_;
-    const Scalar shaft_over_H = thin ? 0 : (U_ - X) / H_;         // membrane on the shaft when the tip begins to leave
+    const Scalar shaft_over_H = thin ? 0 : (U_ - X) / H_;  // membrane on the shaft when the tip begins to leave
 
     std::array<Quadratic<Scalar>, 5> phi{};
     phi[2] = {A * m_over_H * (m / 2 + Q), thin ? A * U_over_H : F / H_, 0};

@@ -43,27 +43,38 @@ inline constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 inline constexpr Field needle_fields[] = {
     {"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"}},
-    {"tip_angle", "theta", "rad",
+    {"tip_angle",
+     "theta",
+     "rad",
      {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"}},
 };
 
 inline constexpr Field membrane_fields[] = {
-    {"stiffness", "kappa", "N/m", {0, no_bound, true, true, "must be greater than 0: Q = c/(kappa tan(theta)), K06 (15)"}},
+    {"stiffness",
+     "kappa",
+     "N/m",
+     {0, no_bound, true, true, "must be greater than 0: Q = c/(kappa tan(theta)), K06 (15)"}},
     {"precompression", "c", "N", {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"}},
-    {"friction", "mu", "-", {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"}},
+    {"friction",
+     "mu",
+     "-",
+     {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"}},
     {"thickness", "H", "m", {0, no_bound, false, true, "must be 0 (the thin law) or more"}},
 };
 
 /// The angle between the needle and the membrane's inward normal. K06 Fig. 4.
 inline constexpr Field obliquity_field = {
-    "obliquity", "beta", "rad", {0, std::numbers::pi / 2, false, true, "must be 0 or more and less than pi/2, K06 (17)"}};
+    "obliquity",
+    "beta",
+    "rad",
+    {0, std::numbers::pi / 2, false, true, "must be 0 or more and less than pi/2, K06 (17)"}};
 
 /// Adds a problem where v is outside the field's range. Returns whether it is inside.
 inline bool check_field(const Field& field, double v, const std::string& path, std::vector<Problem>& problems) {
   if (field.range.holds(v)) return true;
   const std::string dot = path.empty() ? "" : ".";
-  problems.push_back({path + dot + std::string(field.name), v,
-                      std::isfinite(v) ? field.range.reason : "must be a finite number"});
+  problems.push_back(
+      {path + dot + std::string(field.name), v, std::isfinite(v) ? field.range.reason : "must be a finite number"});
   return false;
 }
 

@@ -9,10 +9,10 @@ namespace punctura {
 /// backdrive friction 0.26 N, nominal position resolution 0.055 mm (450 dpi), largest force at the nominal position 3.3 N.
 /// All four are nominal: the true ones change over the workspace and with the direction, which is not modelled here.
 struct DeviceDynamics {
-  double mass = 0.045;            ///< kg
-  double friction = 0.26;         ///< N, dry
-  double encoder_step = 0.055e-3; ///< m; 0 is an ideal sensor
-  double max_force = 3.3;         ///< N, norm, at which the motors saturate
+  double mass = 0.045;             ///< kg
+  double friction = 0.26;          ///< N, dry
+  double encoder_step = 0.055e-3;  ///< m; 0 is an ideal sensor
+  double max_force = 3.3;          ///< N, norm, at which the motors saturate
 
   Vector3d saturate(const Vector3d& force) const noexcept {
     const double norm = force.norm();

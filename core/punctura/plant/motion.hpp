@@ -13,11 +13,11 @@ namespace punctura {
 /// Repeated strokes from `start` to `end` and back, each a minimum-jerk movement (Flash and Hogan 1985) with a rest at both
 /// ends. Depth and duration vary from stroke to stroke, as a person's do.
 struct Strokes {
-  Vector3d start, end;        ///< m
-  std::size_t count = 3;      ///< strokes to and fro
-  double duration = 1.5;      ///< s, one way
-  double rest = 0.6;          ///< s at each end, and before the first stroke
-  double variation = 0.1;     ///< standard deviation of depth and duration, relative; both are kept within 3 of them
+  Vector3d start, end;     ///< m
+  std::size_t count = 3;   ///< strokes to and fro
+  double duration = 1.5;   ///< s, one way
+  double rest = 0.6;       ///< s at each end, and before the first stroke
+  double variation = 0.1;  ///< standard deviation of depth and duration, relative; both are kept within 3 of them
 };
 
 /// The motion of Strokes, laid out for one seed.

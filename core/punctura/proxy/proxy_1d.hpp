@@ -29,7 +29,7 @@ class Proxy1d {
 
     Friction<Scalar> friction;
     if (solver_ == Solver::paper) {
-      depth_ = p + c_.B_over_D * e_ + c_.inv_g * f_;              // q*, K06 (31)
+      depth_ = p + c_.B_over_D * e_ + c_.inv_g * f_;           // q*, K06 (31)
       friction = clamped_friction(law_.band(depth_), f_star);  // K06 (32)
     } else {
       friction = exact_friction(law_, p_prev + e_, f_star, c_.g);  // K06 (21)-(23)

@@ -10,10 +10,10 @@
 namespace punctura {
 
 struct ForceLimits {
-  double max_force = 3.3;         ///< N, norm. A PHANTOM Omni's peak, by its maker's data sheet
-  double continuous_force = 0.88; ///< N rms over continuous_time. The Omni's rating, by its maker's data sheet
-  double continuous_time = 10;    ///< s. A choice: no data sheet gives the motors' thermal time constant
-  double ramp_time = 0.5;         ///< s from zero to full force after arming
+  double max_force = 3.3;          ///< N, norm. A PHANTOM Omni's peak, by its maker's data sheet
+  double continuous_force = 0.88;  ///< N rms over continuous_time. The Omni's rating, by its maker's data sheet
+  double continuous_time = 10;     ///< s. A choice: no data sheet gives the motors' thermal time constant
+  double ramp_time = 0.5;          ///< s from zero to full force after arming
 };
 
 /// How often each limit has acted, in ticks.

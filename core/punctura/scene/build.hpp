@@ -14,7 +14,8 @@ namespace punctura {
 /// A scene that cannot be built, with all of its problems.
 class SceneError : public std::invalid_argument {
  public:
-  explicit SceneError(std::vector<Problem> problems) : std::invalid_argument(text(problems)), problems_(std::move(problems)) {}
+  explicit SceneError(std::vector<Problem> problems)
+      : std::invalid_argument(text(problems)), problems_(std::move(problems)) {}
   const std::vector<Problem>& problems() const noexcept { return problems_; }
 
  private:
@@ -41,8 +42,9 @@ BasicInsertion<Scalar> build_insertion(const Scene& scene) {
     sites.push_back({BasicThickLaw<Scalar>(needle, membrane), vector(placed.point).template cast<Scalar>(),
                      normal.template cast<Scalar>()});
   }
-  return BasicInsertion<Scalar>(sites, {to(scene.coupling.stiffness), to(scene.coupling.damping)}, to(1 / scene.servo.rate),
-                                scene.servo.solver, to(scene.servo.low_pass), scene.direction);
+  return BasicInsertion<Scalar>(sites, {to(scene.coupling.stiffness), to(scene.coupling.damping)},
+                                to(1 / scene.servo.rate), scene.servo.solver, to(scene.servo.low_pass),
+                                scene.direction);
 }
 
 /// The whole tick of a scene: input gate, model, force limits. Throws SceneError.

@@ -12,12 +12,18 @@
 namespace punctura {
 
 inline constexpr Field coupling_fields[] = {
-    {"stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
+    {"stiffness",
+     "K",
+     "N/m",
+     {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
     {"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}},
 };
 
 inline constexpr Field servo_fields[] = {
-    {"rate", "1/T", "Hz", {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
+    {"rate",
+     "1/T",
+     "Hz",
+     {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
     {"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}},
 };
 

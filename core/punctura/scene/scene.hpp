@@ -21,8 +21,8 @@ struct PlacedMembrane {
 };
 
 struct ServoSettings {
-  double rate = 1600;              ///< 1/T, Hz. K06 section 4
-  double low_pass = 300;           ///< cutoff of the position filter, Hz; 0 is off. K06 section 4
+  double rate = 1600;     ///< 1/T, Hz. K06 section 4
+  double low_pass = 300;  ///< cutoff of the position filter, Hz; 0 is off. K06 section 4
   Solver solver = Solver::exact;
 };
 

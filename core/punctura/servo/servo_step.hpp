@@ -85,8 +85,9 @@ class ServoStep {
     snapshot_.fault = fault_;
     for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
       const auto& proxy = insertion_.proxies()[i];
-      snapshot_.membranes[i] = {proxy.depth(),           proxy.axial_force(),      proxy.band().lower, proxy.band().upper,
-                                plain(proxy.position()), plain(proxy.direction()), proxy.phase()};
+      snapshot_.membranes[i] = {proxy.depth(),      proxy.axial_force(),     proxy.band().lower,
+                                proxy.band().upper, plain(proxy.position()), plain(proxy.direction()),
+                                proxy.phase()};
     }
   }
 

@@ -100,13 +100,15 @@ TEST_CASE("float and double agree to float's digits") {
   for (int i = 0; i < cases(5000); ++i) {
     const LawCase c = random_law(noise, 1e-4);
     const auto f = [](double x) { return static_cast<float>(x); };
-    const ThickLawF single({f(c.needle.diameter), f(c.needle.tip_angle)},
-                           {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
-                           f(c.obliquity));
+    const ThickLawF single(
+        {f(c.needle.diameter), f(c.needle.tip_angle)},
+        {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
+        f(c.obliquity));
     // The double law of the rounded parameters, so that only the arithmetic is compared.
-    const ThickLaw law({f(c.needle.diameter), f(c.needle.tip_angle)},
-                       {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
-                       f(c.obliquity));
+    const ThickLaw law(
+        {f(c.needle.diameter), f(c.needle.tip_angle)},
+        {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
+        f(c.obliquity));
     // mu tan(theta) near 1 divides by a small difference; that is the parameters' conditioning, not the arithmetic.
     if (c.membrane.friction * std::tan(c.needle.tip_angle) > 0.9) continue;
     const float q = f(between(noise, 0, 1.2) * (law.constants().X + law.path_length()));

@@ -70,7 +70,8 @@ TEST_CASE("the encoders report steps, within half a step of the truth") {
 TEST_CASE("the same seed gives the same run to the last bit, another seed another one") {
   const auto run = [](std::uint64_t seed) {
     Plant plant(DeviceDynamics{}, Hand{}, T, seed);
-    for (int k = 0; k < 2000; ++k) plant.step({0, 0.01 * (k % 50), 0}, {Vector3d(1e-6 * k, 0, 0), Vector3d(1e-6 / T, 0, 0)});
+    for (int k = 0; k < 2000; ++k)
+      plant.step({0, 0.01 * (k % 50), 0}, {Vector3d(1e-6 * k, 0, 0), Vector3d(1e-6 / T, 0, 0)});
     return Vector3d(plant.measured() + 1e-3 * plant.tip());
   };
   CHECK(run(3) == run(3));
@@ -123,7 +124,8 @@ TEST_CASE("the velocity of strokes is the derivative of their position") {
   Desired before = motion.at(0);
   for (double t = 1e-4; t < motion.duration(); t += 1e-4) {
     const Desired now = motion.at(t);
-    CHECK(now.velocity.x() == doctest::Approx((now.position.x() - before.position.x()) / 1e-4).epsilon(0.02).scale(1e-3));
+    CHECK(now.velocity.x() ==
+          doctest::Approx((now.position.x() - before.position.x()) / 1e-4).epsilon(0.02).scale(1e-3));
     before = now;
   }
 }

@@ -138,8 +138,10 @@ TEST_CASE("at a constant speed the exact force turns at the pop and nowhere else
           f_prev = f;
           if (std::abs(step) > 1e-12) step_prev = step;
         }
-        if (solver == Solver::exact) CHECK(turns <= 1);
-        else worst_paper = std::max(worst_paper, turns);
+        if (solver == Solver::exact)
+          CHECK(turns <= 1);
+        else
+          worst_paper = std::max(worst_paper, turns);
       }
     }
   }

@@ -13,7 +13,9 @@ const Vector3d down(0, -1, 0);
 PlacedMembrane at_depth(double depth, double thickness) {
   return {"wall", paper_membrane(thickness), {0, -depth, 0}, {0, -1, 0}};
 }
-Scene scene(std::vector<PlacedMembrane> membranes) { return {"test", paper_needle, {400, 1}, std::move(membranes), {}, Direction::stylus}; }
+Scene scene(std::vector<PlacedMembrane> membranes) {
+  return {"test", paper_needle, {400, 1}, std::move(membranes), {}, Direction::stylus};
+}
 }  // namespace
 
 TEST_CASE("membranes superpose: the force is the sum of what each gives alone, in scene order, to the last bit") {

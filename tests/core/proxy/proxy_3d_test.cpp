@@ -20,7 +20,9 @@ Proxy3d<ThickLaw> proxy_at_origin(Solver solver, double thickness = 1e-3) {
   return {ThickLaw(paper_needle, paper_membrane(thickness)), Vector3d::Zero(), down, coupling, T, solver};
 }
 
-Vector3d random_direction(Noise& noise) { return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized(); }
+Vector3d random_direction(Noise& noise) {
+  return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized();
+}
 }  // namespace
 
 TEST_CASE("along the normal, three dimensions are one") {
@@ -35,7 +37,8 @@ TEST_CASE("along the normal, three dimensions are one") {
       Proxy1d<ThickLaw> line(law, spring, T, solver);
       Proxy3d<ThickLaw> space(law, a, n, spring, T, solver);
       // Where the paper's substitution has gain above 1 it amplifies rounding from tick to tick; there, short runs only.
-      const double slope = std::max(law.constants().A_I * (law.constants().X + law.constants().Q), law.constants().F) / law.thickness();
+      const double slope =
+          std::max(law.constants().A_I * (law.constants().X + law.constants().Q), law.constants().F) / law.thickness();
       const double gain = slope / SampledCoupling<double>(spring, T).g;
       const std::size_t ticks = solver == Solver::paper && gain > 0.9 ? 8 : 600;
       for (double p : random_motion(noise, ticks, law.constants().X + law.path_length(), T)) {
@@ -54,7 +57,8 @@ TEST_CASE("rotating and moving the scene rotates the force") {
   for (int i = 0; i < cases(200); ++i) {
     const LawCase c = random_law(noise, 1e-3);
     const ThickLaw law(c.needle, c.membrane);
-    const Eigen::Quaterniond turn(Eigen::Vector4d(noise.normal(), noise.normal(), noise.normal(), noise.normal()).normalized());
+    const Eigen::Quaterniond turn(
+        Eigen::Vector4d(noise.normal(), noise.normal(), noise.normal(), noise.normal()).normalized());
     const Vector3d shift(0.01, -0.02, 0.03);
     const Vector3d axis = (down + 0.5 * random_direction(noise)).normalized();
     for (Solver solver : {Solver::paper, Solver::exact}) {

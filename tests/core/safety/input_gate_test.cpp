@@ -102,7 +102,6 @@ TEST_CASE("after a reset the first sample is judged by itself") {
 TEST_CASE("every fault has words of its own, and says what to do") {
   for (int i = 1; i <= static_cast<int>(Fault::device); ++i) {
     CHECK(std::string(describe(static_cast<Fault>(i))).size() > 20);
-    for (int j = 0; j < i; ++j)
-      CHECK(std::string(describe(static_cast<Fault>(i))) != describe(static_cast<Fault>(j)));
+    for (int j = 0; j < i; ++j) CHECK(std::string(describe(static_cast<Fault>(i))) != describe(static_cast<Fault>(j)));
   }
 }

@@ -9,7 +9,8 @@ namespace punctura::test {
 
 /// One membrane, surface at y = 0, needle from above.
 inline Scene paper_scene(double thickness = 1e-3, Solver solver = Solver::exact) {
-  Scene scene{"K06", paper_needle, {400, 1}, {{"wall", paper_membrane(thickness), {0, 0, 0}, {0, -1, 0}}}, {}, Direction::stylus};
+  Scene scene{"K06", paper_needle,     {400, 1}, {{"wall", paper_membrane(thickness), {0, 0, 0}, {0, -1, 0}}},
+              {},    Direction::stylus};
   scene.servo.solver = solver;
   return scene;
 }

@@ -9,9 +9,7 @@
 namespace punctura::test {
 
 inline double between(Noise& noise, double low, double high) { return low + (high - low) * noise.uniform(); }
-inline double between_log(Noise& noise, double low, double high) {
-  return low * std::pow(high / low, noise.uniform());
-}
+inline double between_log(Noise& noise, double low, double high) { return low * std::pow(high / low, noise.uniform()); }
 
 struct LawCase {
   Needle needle;
