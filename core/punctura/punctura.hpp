@@ -1,0 +1,13 @@
+// All of Punctura's core in one include. A project that needs one room may include that room's headers alone.
+#pragma once
+
+#include "punctura/experiment/experiment.hpp"
+#include "punctura/model/law.hpp"
+#include "punctura/model/thick_law.hpp"
+#include "punctura/model/thin_law.hpp"
+#include "punctura/model/validity.hpp"
+#include "punctura/proxy/insertion.hpp"
+#include "punctura/proxy/proxy_1d.hpp"
+#include "punctura/proxy/proxy_3d.hpp"
+#include "punctura/scene/build.hpp"
+#include "punctura/servo/servo_step.hpp"

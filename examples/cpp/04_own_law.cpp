@@ -1,0 +1,31 @@
+// A friction law of your own: anything that gives its band at a depth, and the pieces of which the band is made.
+#include <cstdio>
+
+#include "punctura/punctura.hpp"
+
+/// A gel that grips the shaft in proportion to the length inside it: friction(q) = slope q, both ways, up to a bottom.
+class GelLaw {
+ public:
+  using Scalar = double;
+
+  GelLaw(double slope, double bottom) {
+    pieces_.breaks = {0, bottom};
+    pieces_.pieces[1] = {0, {0, -slope, 0}, {0, slope, 0}};
+    pieces_.pieces[2] = {bottom, {-slope * bottom, 0, 0}, {slope * bottom, 0, 0}};
+  }
+  punctura::Band<double> band(double q) const noexcept { return pieces_.band(q); }
+  const punctura::PiecewiseBand<double, 3>& pieces() const noexcept { return pieces_; }
+
+ private:
+  punctura::PiecewiseBand<double, 3> pieces_{};
+};
+static_assert(punctura::Law<GelLaw>);
+
+int main() {
+  punctura::Proxy1d proxy(GelLaw(50, 30e-3), punctura::Coupling{400, 1}, 1 / 1600.0);
+  for (int k = 0; k <= 1600; ++k) {
+    const double depth = k < 800 ? 20e-3 * k / 800 : 20e-3 * (1600 - k) / 800;
+    const double force = proxy.step(depth);
+    if (k % 100 == 0) std::printf("depth %6.2f mm   force %7.4f N\n", depth * 1e3, force);
+  }
+}
