@@ -21,6 +21,7 @@ ROOMS = (
     "core/punctura/servo",
     "core/punctura/scene",
     "core/punctura/experiment",
+    "core/punctura",  # punctura.hpp, all rooms in one include
     "runtime/punctura_runtime",
     "python/bindings",
     "python/punctura",

@@ -35,7 +35,7 @@ class Proxy1d {
       friction = exact_friction(law_, p_prev + e_, f_star, c_.g);  // K06 (21)-(23)
     }
 
-    // K06 (25), written with (26) so that a proxy that sticks (f = f*) keeps its place to the last bit.
+    // K06 (25) and (26) in one: a proxy that sticks (f = f*) keeps its place to the last bit.
     e_ = e_ - (p - p_prev) + c_.inv_g * (friction.force - f_star);
     p_ = p;
     f_ = friction.force;

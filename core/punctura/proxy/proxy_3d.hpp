@@ -54,7 +54,7 @@ class Proxy3d {
     if (contact_ == Contact::inside) rub(solver_ == Solver::paper ? q_star : Vector(p_prev + e_), f_star);
     if (contact_ == Contact::inside) {
       f_ = f_star + b_ * (axial_force_ - b_.dot(f_star));  // K06 (39)
-      e_ = e_ - (p - p_prev) + c_.inv_g * (f_ - f_star);   // K06 (25) written with (37), as in Proxy1d
+      e_ = e_ - (p - p_prev) + c_.inv_g * (f_ - f_star);   // K06 (25) and (37), as in Proxy1d
     } else {
       f_.setZero();
       axial_force_ = 0;
