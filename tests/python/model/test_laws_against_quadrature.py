@@ -1,0 +1,100 @@
+"""K06 (18), (19) in the core, against quadrature of (16) and against the six printed cases."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import punctura
+from oracles import cases, core, quadrature, random_laws
+from oracles import law as printed
+
+DEPTHS = 40
+column = np.s_[:, None]
+
+
+@pytest.fixture(scope="module", params=list(cases.batches(10_000, 10_000)))
+def laws(request):
+    """(the law's lanes, depths, the core's lower and upper edge, quadrature's, its largest force)."""
+    seed, n = request.param
+    p = random_laws.parameters(seed, n, thinnest=1e-6)
+    L, q = p.law(), random_laws.depths(seed, p.law(), DEPTHS)
+    of_core = np.stack([core.law(p, lane).bounds(q[lane]) for lane in range(n)], axis=1)
+    exact = np.stack(quadrature.band(p.law(np.longdouble).lanes(column), q))
+    return L, q, of_core, exact, abs(exact).max(axis=(0, 2))
+
+
+def test_the_thick_law_is_the_integral_of_the_thin_law_over_the_path(laws):
+    _, _, of_core, exact, largest = laws
+    assert (abs(of_core - exact) / largest[column]).max() <= 1e-11
+
+
+def test_the_printed_six_cases_with_their_slips_mended_are_the_same_integral(laws):
+    L, q, of_core, exact, largest = laws
+    six = np.stack(printed.band(L.lanes(column), q))
+    assert (abs(six - exact) / largest[column]).max() <= 1e-11
+    assert (abs(six - of_core) / largest[column]).max() <= 1e-11
+
+
+def test_the_random_laws_reach_every_corner_that_the_comparison_claims():
+    p = random_laws.parameters(0, 10_000, thinnest=1e-6)
+    L = p.law()
+    assert p.thickness.min() < 1.1e-6 and p.thickness.max() > 1e-2
+    assert np.rad2deg(p.obliquity).max() > 74.9 and (p.obliquity == 0).any()
+    assert 0.3 < (L.A_O < 0).mean() < 0.8
+    assert (p.friction * np.tan(p.tip_angle)).max() > 0.99
+    assert p.tip_angle.max() > np.pi / 2 - 0.03
+    assert 0.2 < (L.U < L.X).mean() < 0.9
+
+
+def test_the_quadrature_is_right_to_rounding_by_exact_fractions():
+    """(16) by hand in rational numbers, where nothing rounds: phi is piecewise linear, so its integral is exact."""
+    p = random_laws.parameters(7, 60, thinnest=1e-6)
+    L, q = p.law(np.longdouble), random_laws.depths(7, p.law(), 10)
+    lower, upper = quadrature.band(L.lanes(column), q)
+
+    def exactly(value):
+        high = float(value)
+        return Fraction(high) + Fraction(float(value - np.longdouble(high)))
+
+    for i in range(60):
+        X, A_I, A_O, Q, F, H, U = (exactly(getattr(L, k)[i]) for k in ("X", "A_I", "A_O", "Q", "F", "H", "U"))
+        largest = max(abs(lower[i]).max(), abs(upper[i]).max())
+        for j in range(10):
+            end = Fraction(q[i, j])
+            start = end - U
+            low, high = (min(max(v, Fraction(0)), X) for v in (start, end))
+            tip = (high**2 - low**2) / 2 + Q * (high - low)
+            shaft = F * (max(end, X) - max(start, X))
+            for got, want in ((lower[i, j], -(A_I * tip + shaft) / H), (upper[i, j], (A_O * tip + shaft) / H)):
+                assert abs(exactly(got) - want) <= Fraction(1e-14) * exactly(largest)
+
+
+def test_the_bounds_of_one_depth_are_the_bounds_of_an_array():
+    p = random_laws.parameters(3, 50)
+    q = random_laws.depths(3, p.law(), 20)
+    for lane in range(50):
+        the_law = core.law(p, lane)
+        lower, upper = the_law.bounds(q[lane])
+        for j in range(20):
+            assert the_law.bounds(float(q[lane, j])) == (lower[j], upper[j])
+
+
+def test_as_the_thickness_goes_to_zero_the_law_tends_to_the_thin_law():
+    """Away from the jumps at 0 and X the difference is half the slope of phi times U: halve H and it halves."""
+    p = random_laws.parameters(11, 300)
+    L = p.law()
+    q = np.sort(np.random.default_rng(11).uniform(0.05, 1.5, (300, 30)), axis=1) * L.X[column]
+    q[abs(q - L.X[column]) < 0.04 * L.X[column]] = 0.5
+    thin_lower, thin_upper = printed.thin(L.lanes(column), q)
+    for lane in range(300):
+        the_needle, m = core.needle(p, lane), core.membrane(p, lane)
+        the_thin = punctura.ThinLaw(the_needle, m)
+        assert np.allclose(the_thin.bounds(q[lane]), (thin_lower[lane], thin_upper[lane]), rtol=1e-13, atol=0)
+        slope = max(L.A_I[lane], abs(L.A_O[lane]))
+        for thickness in L.X[lane] * np.array([1e-2, 1e-4, 1e-6]):
+            thick = punctura.ThickLaw(
+                the_needle, punctura.Membrane(m.stiffness, m.precompression, m.friction, float(thickness))
+            )
+            apart = abs(np.array(thick.bounds(q[lane])) - the_thin.bounds(q[lane])).max()
+            assert apart <= slope * thickness / 2 * (1 + 1e-6) + 1e-9 * L.largest[lane]

@@ -1,0 +1,6 @@
+"""Second opinions on the model, written from the paper (K06) and its mended slips alone.
+
+Nothing here calls or copies the code under test. Everything is vectorised over *lanes* (one lane is one law, or one
+membrane of one scene), so that a million random cases are a matter of minutes, and works in whatever float type it
+is given: run in `numpy.longdouble` beside `float64` it shows how far rounding alone can move a result.
+"""
