@@ -1,5 +1,7 @@
 """Builds the core's objects from one lane of random parameters."""
 
+import numpy as np
+
 import punctura
 from oracles.random_laws import Parameters
 
@@ -19,3 +21,21 @@ def law(p: Parameters, lane: int) -> "punctura.ThinLaw | punctura.ThickLaw":
     if p.thickness[lane] == 0:
         return punctura.ThinLaw(needle(p, lane), membrane(p, lane))
     return punctura.ThickLaw(needle(p, lane), membrane(p, lane), float(p.obliquity[lane]))
+
+
+def proxy_1d(r, lane: int, solver: str) -> punctura.Proxy1d:
+    """The core's proxy for one lane of random_runs.Runs."""
+    c = r.coupling
+    coupling = punctura.Coupling(float(c.K[lane]), float(c.B[lane]))
+    return punctura.Proxy1d(law(r.parameters, lane), coupling, float(c.T[lane]), solver=solver)
+
+
+def walk_1d(r, solver: str):
+    """(f, e, q), each (ticks, lanes), as the core gives them tick by tick."""
+    f, e, q = (np.empty_like(r.p) for _ in range(3))
+    for lane in range(r.p.shape[1]):
+        proxy = proxy_1d(r, lane, solver)
+        for k, p in enumerate(r.p[:, lane].tolist()):
+            f[k, lane] = proxy.step(p)
+            e[k, lane], q[k, lane] = proxy.offset, proxy.position
+    return f, e, q

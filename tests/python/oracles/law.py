@@ -83,3 +83,14 @@ def band(L: Law, q):
 def breaks(L: Law) -> np.ndarray:
     """The depths where the band changes its formula, along a new last axis, ascending [m]."""
     return np.stack([0 * L.X, np.minimum(L.U, L.X), np.maximum(L.U, L.X), L.X + L.U], axis=-1)
+
+
+def steepest(L: Law) -> np.ndarray:
+    """The largest |dPhi/dq| [N/m], from the derivative of (16): (phi(q) - phi(q - U)) / H; infinite where H = 0."""
+    corners = breaks(L)
+    places = np.concatenate([corners, (corners[:, 1:] + corners[:, :-1]) / 2], axis=1)
+    places = np.concatenate([places * (1 - 1e-9), places * (1 + 1e-9)], axis=1)
+    tall = L.lanes(np.s_[:, None])
+    rise = np.subtract(thin(tall, places), thin(tall, places - tall.U))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(L.H > 0, abs(rise).max(axis=(0, 2)) / L.H, np.inf)

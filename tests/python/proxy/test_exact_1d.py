@@ -1,0 +1,63 @@
+"""Solver "exact" in one dimension: it solves (21)-(23), at the first root in the direction of motion."""
+
+import numpy as np
+import pytest
+
+from oracles import cases, core, exact_residual, proxy_1d, random_runs
+
+TICKS = 150
+
+
+@pytest.fixture(scope="module", params=list(cases.batches(1000, 500)))
+def ticks(request):
+    """Every tick of random runs, as the core found them."""
+    seed, n = request.param
+    r = random_runs.runs(seed, n, TICKS)
+    return random_runs.ticks(r, *core.walk_1d(r, "exact"))
+
+
+def test_every_tick_solves_21_to_23_to_1e_11_newtons_at_the_first_root(ticks):
+    t = ticks
+    r = exact_residual.residual(t.law, t.coupling, t.before.p, t.before.e, t.q_prev, t.p, t.e, t.q, t.f)
+    assert abs(r.coupling).max() <= 1e-11
+    assert abs(r.place).max() <= 1e-11
+    assert r.friction.max() <= 1e-11
+    assert r.earlier.max() <= 1e-11
+
+
+def test_every_tick_from_the_same_state_finds_the_root_that_sampling_and_bisection_find(ticks):
+    t = ticks
+    mine = proxy_1d.exact(t.law, t.coupling, t.before, t.p)
+    assert abs(mine - t.f).max() <= 1e-11
+
+
+def test_a_proxy_that_is_held_does_not_move(ticks):
+    t = ticks
+    hold = proxy_1d.f_star(t.coupling, t.before, t.p)
+    held = t.f == hold
+    assert held.mean() > 0.1
+    moved = abs(t.q - t.q_prev)[held]
+    size = np.maximum.reduce([abs(t.p), abs(t.before.p), abs(t.e), abs(t.before.e)])[held]
+    assert (moved <= 8 * np.spacing(size)).all()
+
+
+def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
+    r = random_runs.runs(2, 60, 120)
+    f, e, _ = core.walk_1d(r, "exact")
+    for lane in range(60):
+        proxy = core.proxy_1d(r, lane, "exact")
+        p = np.ascontiguousarray(r.p[:, lane])
+        assert np.array_equal(np.concatenate([proxy.run(p[:50]), proxy.run(p[50:])]), f[:, lane])
+        assert proxy.offset == e[-1, lane]
+        proxy.reset()
+        assert np.array_equal(proxy.run(p), f[:, lane])
+
+
+def test_exact_is_the_default():
+    r = random_runs.runs(3, 1, 100)
+    import punctura
+
+    c = punctura.Coupling(float(r.coupling.K[0]), float(r.coupling.B[0]))
+    default = punctura.Proxy1d(core.law(r.parameters, 0), c, float(r.coupling.T[0]))
+    p = np.ascontiguousarray(r.p[:, 0])
+    assert np.array_equal(default.run(p), core.proxy_1d(r, 0, "exact").run(p))
