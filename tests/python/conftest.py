@@ -1,4 +1,4 @@
-"""Lets every test import the oracles as `from oracles import ...`, and makes hypothesis draw the same cases every time."""
+"""Lets every test write `from oracles import ...`, and makes hypothesis draw the same cases every time."""
 
 import os
 import sys

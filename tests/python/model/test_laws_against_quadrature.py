@@ -3,9 +3,8 @@
 from fractions import Fraction
 
 import numpy as np
-import pytest
-
 import punctura
+import pytest
 from oracles import cases, core, quadrature, random_laws
 from oracles import law as printed
 

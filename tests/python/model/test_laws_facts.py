@@ -1,13 +1,12 @@
-"""What model.md section 1 and K06 after (15) and (20) say of every admissible law, and section 5's reference numbers."""
+"""What K06 after (15) and after (20) says of every admissible law, and the reference numbers of its section 4."""
 
 import math
 
 import numpy as np
+import punctura
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-import punctura
 from oracles import core, random_laws
 
 SECTION_4 = (punctura.Needle(1.08e-3, 0.28), dict(stiffness=570.0, precompression=0.41, friction=0.2))
@@ -24,7 +23,7 @@ def test_the_constants_of_section_4_have_the_reference_values_to_12_digits():
         assert pytest.approx(19.210953071314766, rel=1e-12) == law.A_O
         assert pytest.approx(2.5014342724910454e-3, rel=1e-12) == law.Q
         assert pytest.approx(0.41024, rel=1e-12) == law.F
-        assert law.A_I * (law.X + law.Q) == pytest.approx(0.7357, abs=5e-5)
+        assert pytest.approx(0.7357, abs=5e-5) == law.A_I * (law.X + law.Q)
 
 
 @st.composite

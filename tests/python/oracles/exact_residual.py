@@ -47,9 +47,12 @@ def outside(value, low, high):
     return np.maximum(np.maximum(low - value, value - high), 0)
 
 
-def residual(L: Law, c: Coupling, p_prev, e_prev, q_prev, p, e, q, f) -> Residual:
-    """The residual of one tick per lane; q_prev is the proxy's own position of the tick before."""
-    slack = ULPS * np.spacing(np.maximum.reduce([abs(p), abs(e), abs(p_prev), abs(e_prev)]))
+def residual(L: Law, c: Coupling, p_prev, e_prev, q_prev, p, e, q, f, size=0.0) -> Residual:
+    """The residual of one tick per lane; q_prev is the proxy's own position of the tick before.
+
+    size: of the coordinates that the depths were computed from, where those are larger [m].
+    """
+    slack = ULPS * np.spacing(np.maximum.reduce([abs(p), abs(e), abs(p_prev), abs(e_prev), size + 0 * p]))
     (in_low, in_high), (out_low, out_high) = reach_of(L, q, slack)
     inwards, outwards = q > q_prev + slack, q < q_prev - slack
     friction = np.select(

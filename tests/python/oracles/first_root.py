@@ -21,7 +21,7 @@ def h(L: Law, g, q0, q, inwards):
 
 
 def samples(L: Law, g, q0, begin, end, inwards):
-    """Depths (lanes, many) from `begin` to `end`, in the order of the motion, between which h has no hidden sign change."""
+    """Depths (lanes, many) from `begin` to `end` in the order of the motion; between two of them h hides no sign change."""
     low, high = np.minimum(begin, end), np.maximum(begin, end)
     cuts = np.sort(np.clip(breaks(L), low[:, None], high[:, None]), axis=1)
     cuts = np.concatenate([low[:, None], cuts, high[:, None]], axis=1)
@@ -43,7 +43,7 @@ def samples(L: Law, g, q0, begin, end, inwards):
 
 def slide(L: Law, g, q0, q_prev, inwards):
     """q of the first root from q_prev inwards or outwards (lanes); at a jump of Phi that h crosses, the jump itself."""
-    floor = np.minimum(0, np.minimum(L.A_O, 0) * (L.X + L.Q) * np.where(L.H > 0, L.U / np.where(L.H > 0, L.H, 1), 1))
+    floor = np.minimum(L.A_O, 0) * (L.X + L.Q) * L.U_by_H  # Phi_O is nowhere below this
     end = np.where(inwards, np.maximum(q0, q_prev), np.minimum(q0 + floor / g, q_prev))
     grid = samples(L, g, q0, q_prev, end, inwards)
     tall = np.s_[:, None]

@@ -1,13 +1,16 @@
-"""K06 (13)-(15), (17) and the six printed cases of (18), (19), as they stand in the paper with its slips mended (E3, E4)."""
+"""K06 (13)-(15), (17) and the six printed cases of (18), (19), as they stand in the paper, slips mended (E3, E4)."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 
 @dataclass(frozen=True)
 class Law:
-    """Lanes of laws. X, Q, H, U [m]; A_I, A_O [N/m]; F [N]. H = 0 is the infinitely thin membrane."""
+    """Lanes of laws. X, Q, H, U [m]; A_I, A_O [N/m]; F [N]; U/H.
+
+    H = 0 is the infinitely thin membrane; entered at an angle, the limit of (16), (17) for H -> 0 is phi / cos(beta).
+    """
 
     X: np.ndarray
     A_I: np.ndarray
@@ -16,6 +19,7 @@ class Law:
     F: np.ndarray
     H: np.ndarray
     U: np.ndarray
+    U_by_H: np.ndarray
 
     def lanes(self, which) -> "Law":
         """The chosen lanes, or the same lanes with axes added: law.lanes(np.s_[:, None])."""
@@ -23,13 +27,12 @@ class Law:
 
     def with_cos_beta(self, cos_beta) -> "Law":
         """The same membranes entered at another obliquity. K06 (17)."""
-        return Law(self.X, self.A_I, self.A_O, self.Q, self.F, self.H, self.H / cos_beta)
+        return replace(self, U=self.H / cos_beta, U_by_H=1 / cos_beta + 0 * self.H)
 
     @property
     def largest(self) -> np.ndarray:
         """A bound on |Phi| [N]: the thin law's peak, stretched by the oblique path."""
-        stretch = np.where(self.H > 0, self.U / np.where(self.H > 0, self.H, 1), 1)
-        return stretch * np.maximum(self.A_I * (self.X + self.Q), self.F)
+        return self.U_by_H * np.maximum(self.A_I * (self.X + self.Q), self.F)
 
 
 def law(w, theta, kappa, c, mu, H=0.0, beta=0.0, dtype=np.float64) -> Law:
@@ -46,6 +49,7 @@ def law(w, theta, kappa, c, mu, H=0.0, beta=0.0, dtype=np.float64) -> Law:
         F=2 * mu * (kappa * w + c),
         H=H.copy(),
         U=H / np.cos(beta),
+        U_by_H=1 / np.cos(beta),
     )
 
 
@@ -77,7 +81,7 @@ def band(L: Law, q):
     """(lower, upper) edge of the friction band [N]: (18), (19), or (13), (14) where H = 0."""
     thin_lower, thin_upper = thin(L, q)
     lower, upper = _printed(q, L.A_I, L, -1), _printed(q, L.A_O, L, +1)
-    return np.where(L.H > 0, lower, thin_lower), np.where(L.H > 0, upper, thin_upper)
+    return np.where(L.H > 0, lower, thin_lower * L.U_by_H), np.where(L.H > 0, upper, thin_upper * L.U_by_H)
 
 
 def breaks(L: Law) -> np.ndarray:

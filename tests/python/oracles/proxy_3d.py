@@ -96,8 +96,9 @@ def exact(plane: Plane, L: Law, c: Coupling, s: State, p, axis) -> State:
         q0 = before[m] - hold_b[m] / c.g[m]
         depth[m] = first_root.slide(law.lanes(m), c.g[m], q0, before[m], inwards=hold_b[m] < lower[m])
         along[m] = c.g[m] * (depth[m] - q0)
-    # A needle at rest on the surface of an infinitely thin membrane has s = 0 and is held: it has not left.
-    inside &= (depth > 0) | ((L.H == 0) & (depth == 0) & (along != 0))
+    # A needle held on the very surface of an infinitely thin membrane (a jump of phi, which bisection meets from
+    # either side) has not left.
+    inside &= (depth > 0) | ((L.H == 0) & (abs(depth) <= np.finfo(float).tiny) & (along != 0))
     f = np.where(v3(inside), hold + b * v3(along - hold_b), 0)
     return State(f, (v3(c.B) * s.e + v3(c.T) * f) / v3(c.D), p, inside, barred, b)
 

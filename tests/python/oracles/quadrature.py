@@ -4,6 +4,8 @@ The path [q - U, q] is split where phi jumps or bends (0 and X); on each smooth 
 exact, because phi is linear there. What is left is rounding: eps (longdouble) * X / H, 1e-15 for H = 1 micrometre.
 """
 
+import itertools
+
 import numpy as np
 
 from oracles.law import Law
@@ -21,7 +23,7 @@ def _average(q, A, L: Law, sign):
     first = q - L.U
     cuts = [first, np.clip(0 * q, first, q), np.clip(L.X + 0 * q, first, q), q]
     total = np.zeros_like(q)
-    for low, high in zip(cuts, cuts[1:], strict=False):
+    for low, high in itertools.pairwise(cuts):
         middle, half = (low + high) / 2, (high - low) / 2
         total += half * (_phi(middle - NODE * half, A, L, sign) + _phi(middle + NODE * half, A, L, sign))
     return total / L.H

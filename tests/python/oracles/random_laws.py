@@ -6,6 +6,9 @@ import numpy as np
 
 from oracles.law import Law, law
 
+WIDEST = np.deg2rad(75)
+"""The largest obliquity drawn [rad]: venipuncture's."""
+
 
 @dataclass(frozen=True)
 class Parameters:
@@ -52,7 +55,7 @@ def membranes(rng, diameter, tip_angle, thinnest=1e-5, thickest=2e-2):
     return grip * (1 - share) / diameter, grip * share, friction, thickness
 
 
-def parameters(seed, n, thinnest=1e-5, widest=np.deg2rad(75)) -> Parameters:
+def parameters(seed, n, thinnest=1e-5, widest=WIDEST) -> Parameters:
     """n random laws; the same seed gives the same laws."""
     rng = np.random.default_rng([seed, n])
     diameter, tip_angle = needles(rng, n)

@@ -22,7 +22,9 @@ def runs(seed, n, ticks) -> Runs:
     parameters = random_laws.parameters(seed, n)
     rng = np.random.default_rng([seed, n, 4])
     thickness = np.where(rng.random(n) < 0.05, 0, parameters.thickness)
-    parameters = replace(parameters, thickness=np.where(rng.random(n) < 0.1, 1e-5, thickness))
+    thickness = np.where(rng.random(n) < 0.1, 1e-5, thickness)
+    obliquity = np.where(thickness > 0, parameters.obliquity, 0)  # the thin law of section 2.1 is met at right angles
+    parameters = replace(parameters, thickness=thickness, obliquity=obliquity)
     L = parameters.law()
     coupling = Coupling(*motions.couplings(seed, n))
     reach = np.clip(L.X + L.U, 2e-4, 0.04)
@@ -46,7 +48,7 @@ class Ticks:
 
 
 def ticks(r: Runs, f, e, q) -> Ticks:
-    """The ticks of runs (f, e, q as found by the code under test), the first ones with the state at rest before them."""
+    """The ticks of runs (f, e, q as found by the code under test); before the first ones everything is at rest."""
     n_ticks, n = r.p.shape
 
     def before(v, first):

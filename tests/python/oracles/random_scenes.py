@@ -1,6 +1,6 @@
 """Random 3-D scenes: 1 to 4 tilted membranes, a needle that works through them, and what E6 asks about."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -85,3 +85,18 @@ def scenes(seed, n, ticks) -> Scenes:
 def turned(s: Scenes, R) -> Scenes:
     """The same scenes, turned by the rotation matrix R about the origin."""
     return replace(s, plane=Plane(s.plane.a @ R.T, s.plane.n @ R.T), p=s.p @ R.T, axis=s.axis @ R.T)
+
+
+def lane_motions(s: Scenes):
+    """(p, axis) as every lane sees them: (ticks, lanes, 3)."""
+    return s.p[:, s.scene], s.axis[:, s.scene]
+
+
+def longer(s: Scenes) -> Scenes:
+    """The same scenes in extended precision."""
+    c = s.coupling
+    return replace(
+        s, law=s.parameters.law(np.longdouble), plane=Plane(*(v.astype(np.longdouble) for v in (s.plane.a, s.plane.n))),
+        coupling=Coupling(*(getattr(c, f.name).astype(np.longdouble) for f in fields(c))),
+        p=s.p.astype(np.longdouble), axis=s.axis.astype(np.longdouble),
+    )  # fmt: skip

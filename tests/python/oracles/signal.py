@@ -4,7 +4,7 @@ import numpy as np
 
 
 def low_pass(p, rate, cut_off):
-    """First-order low-pass with the exact gain for a held sample, from the first sample on; cut_off 0 is off. Axis 0 is time."""
+    """First-order low-pass with the exact gain for a held sample; starts at the first sample; cut_off 0 is off."""
     if cut_off == 0:
         return p.copy()
     gain = 1 - np.exp(-2 * np.pi * p.dtype.type(cut_off) / rate)

@@ -1,8 +1,8 @@
 """Solver "exact" in one dimension: it solves (21)-(23), at the first root in the direction of motion."""
 
 import numpy as np
+import punctura
 import pytest
-
 from oracles import cases, core, exact_residual, proxy_1d, random_runs
 
 TICKS = 150
@@ -55,8 +55,6 @@ def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
 
 def test_exact_is_the_default():
     r = random_runs.runs(3, 1, 100)
-    import punctura
-
     c = punctura.Coupling(float(r.coupling.K[0]), float(r.coupling.B[0]))
     default = punctura.Proxy1d(core.law(r.parameters, 0), c, float(r.coupling.T[0]))
     p = np.ascontiguousarray(r.p[:, 0])

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-
 from oracles import cases, core, proxy_1d, random_runs
 from oracles.law import steepest
 
@@ -34,7 +33,7 @@ def test_every_tick_relaxes_the_coupling_by_25(walked):
 
 
 def test_whole_runs_agree_wherever_rounding_alone_does_not_move_them(walked):
-    """(33) is one step of a fixed-point iteration of gain |dPhi/dq| / g. Above 1 it amplifies rounding from tick to tick
+    """(33) is one step of a fixed-point iteration of gain |dPhi/dq| / g. Above 1 it amplifies rounding tick by tick
     until it is as large as the force, and two correct programs part. The transcription in two float types shows where:
     as long as those agree to 1e-13 N, the core must agree with them to 1e-10 N; and only a gain above 1, or a proxy
     on a jump of a membrane of thickness 0, may make them part.

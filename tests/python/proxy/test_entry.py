@@ -1,0 +1,141 @@
+"""Entry: what model.md answers where K06 (41) is silent (E6), and the direction from the motion."""
+
+import itertools
+
+import numpy as np
+import punctura
+import pytest
+from oracles import cases, core, proxy_3d, random_scenes, signal
+
+NEEDLE, MEMBRANE = punctura.Needle(1.08e-3, 0.28), punctura.Membrane(570.0, 0.41, 0.2, 1e-3)
+COUPLING = punctura.Coupling(400.0, 1.0)
+RATE = 1600.0
+Z = np.array([0.0, 0.0, 1.0])
+SOLVERS = ("exact", "paper")
+
+
+def proxy(solver):
+    """A membrane in the plane z = 0 whose inward normal is +z."""
+    return punctura.Proxy3d(NEEDLE, MEMBRANE, [0, 0, 0], Z, COUPLING, 1 / RATE, solver=solver)
+
+
+def along_z(*depths):
+    return np.concatenate([np.linspace(a, b, 400) for a, b in itertools.pairwise(depths)])[:, None] * Z
+
+
+def tilted(degrees):
+    return np.array([np.sin(np.deg2rad(degrees)), 0, np.cos(np.deg2rad(degrees))])
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_start_inside_gives_no_force_until_the_tip_has_been_outside(solver):
+    p = proxy(solver)
+    assert not p.run(along_z(3e-3, 5e-3, 1e-4), Z).any()
+    assert p.phase == punctura.Phase.barred
+    assert not p.run(along_z(1e-4, -1e-3), Z).any()
+    assert p.phase == punctura.Phase.outside
+    assert p.run(along_z(-1e-3, 3e-3), Z)[-1, 2] < -0.3
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("degrees", [80.5, 89.9, 90.0, 100.0, 135.0, 180.0])
+def test_an_entry_beyond_80_degrees_or_from_behind_gives_no_force_until_the_tip_has_been_outside(solver, degrees):
+    p = proxy(solver)
+    assert not p.run(along_z(-1e-3, 3e-3), tilted(degrees)).any()
+    assert p.phase == punctura.Phase.barred
+    assert not p.run(along_z(3e-3, 4e-3), Z).any(), "a better direction later does not let it in"
+    p.run(along_z(4e-3, -1e-3), Z)
+    assert p.run(along_z(-1e-3, 3e-3), Z)[-1, 2] < -0.3
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_entry_within_80_degrees_holds_its_direction_until_the_tip_leaves(solver):
+    p, same = proxy(solver), proxy(solver)
+    b = tilted(79.5)
+    path = (np.linspace(-1e-3, 4e-3, 2000)[:, None]) * b
+    turning = np.array([tilted(a) for a in np.linspace(79.5, 0, 2000)])
+    turning[: np.searchsorted(path[:, 2], 2e-5)] = b
+    f = p.run(path, turning)
+    assert abs(f).max() > 0.1
+    assert np.array_equal(f, same.run(path, b))
+    assert abs(np.cross(f, b)).max() <= 1e-12, "along b, as the motion is"
+    assert np.allclose(p.direction, b, atol=1e-15)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_barred_tip_that_comes_out_never_makes_a_force_jump(solver):
+    """From behind through the surface, and back: not a newton before the tip has been in front."""
+    p = proxy(solver)
+    assert not p.run(along_z(20e-3, -2e-3), -Z).any()
+    first = np.linalg.norm(p.run(along_z(-2e-3, 2e-3), Z), axis=1)
+    assert np.diff(first).max() < 0.02
+
+
+def curved(rng, ticks, rate, speed):
+    """A smooth random path towards a membrane, every step longer than 4 micrometres."""
+    t = np.arange(ticks) / rate
+    side = rng.uniform(-1, 1, (2, 2)) * speed
+    swing = rng.uniform(5, 40, 2)
+    v = np.stack([side[0, 0] + side[0, 1] * np.sin(swing[0] * t), side[1, 0] + side[1, 1] * np.sin(swing[1] * t),
+                  speed * np.where(np.sin(swing[0] * t / 3) > -0.5, 1, -1)], axis=1)  # fmt: skip
+    return np.cumsum(v, axis=0) / rate - np.array([0, 0, 0.3 * ticks * speed / rate])
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_direction_from_the_motion_is_that_of_the_last_10_ms_or_the_last_tenths_of_a_millimetre(solver):
+    """Against the transcription, on paths whose every step is longer than the marks that a fixed memory keeps."""
+    rng = np.random.default_rng(61)
+    entered = 0
+    for _ in range(cases.count(60)):
+        rate = rng.uniform(500, 4000)
+        p = curved(rng, 300, rate, max(rng.uniform(4e-6 * rate, 0.03), 4e-6 * rate))
+        placed = punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)
+        servo = punctura.ServoSettings(rate, 0.0, solver)
+        trace = punctura.Insertion(punctura.Scene("s", NEEDLE, COUPLING, [placed], servo, direction="motion")).run(p, Z)
+        b = signal.motion_direction(p, rate)
+        follow = punctura.Proxy3d(NEEDLE, MEMBRANE, [0, 0, 0], Z, COUPLING, 1 / rate, solver=solver)
+        assert abs(follow.run(p, b) - trace.force).max() <= 1e-10
+        entered += trace.force.any()
+    assert entered > 0.5 * cases.count(60)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("rest", [0, 20_000])
+def test_a_slow_hand_enters_in_the_direction_of_its_last_tenths_of_a_millimetre_however_long_it_takes(solver, rest):
+    """0.05 mm/s: 10 ms are half a micrometre. The path bends 0.25 mm before the membrane, and may rest on the way."""
+    b = tilted(30)
+    straight = np.linspace(-0.25e-3, 1e-3, 40_000)[:, None] * b
+    sideways = straight[0] + np.linspace(-1e-3, 0, 2000)[:, None] * tilted(-60)
+    p = np.concatenate([sideways, straight[:7000], np.repeat(straight[6999:7000], rest, axis=0), straight[7000:]])
+    placed = punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)
+    servo = punctura.ServoSettings(RATE, 0.0, solver)
+
+    def force(direction, axis):
+        scene = punctura.Scene("s", NEEDLE, COUPLING, [placed], servo, direction=direction)
+        return punctura.Insertion(scene).run(p, axis).force
+
+    by_motion = force("motion", -Z)
+    assert abs(by_motion).max() > 0.1
+    assert abs(by_motion - force("stylus", b)).max() <= 1e-10
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_motion_that_does_not_point_into_the_membrane_does_not_enter(solver):
+    """Sliding along the surface and dipping below it by a trifle is a grazing entry."""
+    x = np.linspace(-20e-3, 20e-3, 1600)
+    p = np.stack([x, 0 * x, 0.01 * x], axis=1)  # 89.4 degrees
+    scene = punctura.Scene(
+        "s", NEEDLE, COUPLING, [punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)],
+        punctura.ServoSettings(RATE, 300.0, solver), direction="motion",
+    )  # fmt: skip
+    trace = punctura.Insertion(scene).run(p, Z)
+    assert not trace.force.any() and trace.phase[-1, 0] == punctura.Phase.barred.value
+
+
+def test_random_scenes_agree_with_the_transcription_on_who_enters_and_who_is_barred():
+    s = random_scenes.scenes(62, cases.count(200), 120)
+    for solver in SOLVERS:
+        *_, phase = core.walk_3d(s, solver)
+        states = proxy_3d.run(getattr(proxy_3d, solver), s.plane, s.law, s.coupling, *random_scenes.lane_motions(s))
+        barred = np.array([state.barred for state in states])
+        assert ((phase == punctura.Phase.barred.value) != barred).mean() <= 1e-3

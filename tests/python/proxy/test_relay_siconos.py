@@ -1,0 +1,30 @@
+"""The clamp of K06 (33) against a complementarity solver that was written for other purposes: Siconos' relay."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+from oracles import cases, core, proxy_1d, random_runs, siconos_relay_path
+
+SYSTEM_PYTHON = "/usr/bin/python3"  # Debian's python3-siconos is built for this one
+
+
+def test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay(tmp_path: Path):
+    """Needs the Debian package python3-siconos; without it this fails, it is not skipped."""
+    r = random_runs.runs(21, cases.count(100), 60)
+    t = random_runs.ticks(r, *core.walk_1d(r, "paper"))
+    hold = proxy_1d.f_star(t.coupling, t.before, t.p)
+    q_star = t.p + (t.coupling.B * t.before.e + t.coupling.T * t.before.f) / t.coupling.D
+    edges = np.array([core.law(r.parameters, lane).bounds(q) for lane, q in zip(t.lane, q_star.tolist(), strict=True)])
+
+    thick = t.law.H > 0  # at a jump of the thin law rounding of q* decides which side's band is meant
+    slides = thick & ((hold < edges[:, 0]) | (hold > edges[:, 1])) & (edges[:, 0] < edges[:, 1])
+    sticks = thick & (hold >= edges[:, 0]) & (hold <= edges[:, 1])
+    chosen = np.concatenate([np.flatnonzero(slides)[:2000], np.flatnonzero(sticks)[:1000]])
+    assert min(slides.sum(), sticks.sum()) > 200
+
+    np.save(tmp_path / "cases.npy", np.column_stack([hold, edges])[chosen])
+    command = [SYSTEM_PYTHON, siconos_relay_path, tmp_path / "cases.npy", tmp_path / "answers.npy"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, f"Siconos did not run (apt-get install python3-siconos):\n{done.stderr}"
+    assert abs(np.load(tmp_path / "answers.npy") - t.f[chosen]).max() <= 1e-12
