@@ -39,8 +39,11 @@ struct PiecewiseBand {
     return i;
   }
 
-  constexpr Band<Scalar> band(Scalar q) const noexcept {
-    const Piece& piece = pieces[index(q)];
+  constexpr Band<Scalar> band(Scalar q) const noexcept { return band(q, index(q)); }
+
+  /// The same where piece i is known to hold q.
+  constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept {
+    const Piece& piece = pieces[i];
     const Scalar x = q - piece.origin;
     return {piece.lower.value(x), piece.upper.value(x)};
   }
