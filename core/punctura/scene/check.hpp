@@ -42,7 +42,7 @@ inline double offender(const std::array<double, 3>& v) noexcept {
 /// All problems of a scene, each with its path (`membrane[1].friction`), SI value and reason. Empty: it may be built.
 inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
-  const bool needle_good = check(scene.needle, "needle", problems);
+  check(scene.needle, "needle", problems);
   check_field(coupling_fields[0], scene.coupling.stiffness, "coupling", problems);
   check_field(coupling_fields[1], scene.coupling.damping, "coupling", problems);
   check_field(servo_fields[0], scene.servo.rate, "servo", problems);
@@ -54,8 +54,9 @@ inline std::vector<Problem> check(const Scene& scene) {
   for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
-    const bool membrane_good = check(placed.membrane, path, problems);
-    if (needle_good && membrane_good) check_insertion(scene.needle, placed.membrane, path, problems);
+    check(placed.membrane, path, problems);
+    if (needle_fields[1].range.holds(scene.needle.tip_angle) && membrane_fields[2].range.holds(placed.membrane.friction))
+      check_insertion(scene.needle, placed.membrane, path, problems);
     if (!detail::finite(placed.point))
       problems.push_back({path + ".point", detail::offender(placed.point), "must be three finite numbers"});
     const auto& n = placed.inward_normal;
