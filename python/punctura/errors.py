@@ -3,7 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
+
+
+class _Missing:
+    """Stands for the value of a field that is not there."""
+
+    def __repr__(self) -> str:
+        return "MISSING"
+
+
+MISSING: Final = _Missing()
 
 
 class Problem(NamedTuple):
@@ -14,7 +24,8 @@ class Problem(NamedTuple):
     reason: str
 
     def __str__(self) -> str:
-        return f"{self.path} = {self.value!r}: {self.reason}"
+        given = "" if self.value is MISSING else f" = {self.value!r}"
+        return f"{self.path}{given}: {self.reason}" if self.path else self.reason
 
 
 class ConfigurationError(ValueError):
