@@ -34,8 +34,8 @@ Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
 /// are bounded. On each piece it is at most quadratic; at a break where the edge jumps (thin law) gap may pass zero in the
 /// jump, and the proxy then rests on the break with a force between the two edges.
 template <int direction, typename Pieces>
-typename Pieces::Scalar slide(const Pieces& law, std::size_t i, typename Pieces::Scalar q_prev, typename Pieces::Scalar f_star,
-                              typename Pieces::Scalar g) noexcept {
+typename Pieces::Scalar slide(const Pieces& law, std::size_t i, typename Pieces::Scalar q_prev,
+                              typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   using Scalar = typename Pieces::Scalar;
   constexpr std::size_t last = direction > 0 ? Pieces::size - 1 : 0;
   Scalar start = q_prev;

@@ -55,7 +55,8 @@ inline std::vector<Problem> check(const Scene& scene) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
     check(placed.membrane, path, problems);
-    if (needle_fields[1].range.holds(scene.needle.tip_angle) && membrane_fields[2].range.holds(placed.membrane.friction))
+    if (needle_fields[1].range.holds(scene.needle.tip_angle) &&
+        membrane_fields[2].range.holds(placed.membrane.friction))
       check_insertion(scene.needle, placed.membrane, path, problems);
     if (!detail::finite(placed.point))
       problems.push_back({path + ".point", detail::offender(placed.point), "must be three finite numbers"});
