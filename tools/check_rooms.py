@@ -21,7 +21,7 @@ ROOMS = (
     "core/punctura/servo",
     "core/punctura/scene",
     "core/punctura/experiment",
-    "core/punctura",  # punctura.hpp, all rooms in one include
+    "core/punctura/punctura.hpp",  # all of them in one include
     "runtime/punctura_runtime",
     "python/bindings",
     "python/punctura",
@@ -30,7 +30,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
 def room_of(path: str) -> str | None:
-    return next((room for room in ROOMS if path.startswith(room + "/")), None)
+    return next((room for room in ROOMS if path == room or path.startswith(room + "/")), None)
 
 
 def includes(text: str) -> Iterator[tuple[int, str]]:
