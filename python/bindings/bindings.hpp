@@ -62,6 +62,8 @@ class Rows {
 
 /// Throws punctura.ConfigurationError that carries every problem, if there is one.
 void raise_if(const std::vector<Problem>& problems);
+/// The same for a word that is not one of those allowed.
+[[noreturn]] void raise_word(const std::string& path, const std::string& given, const char* reason);
 
 /// "exact" or "paper" to Solver and back. Throws ConfigurationError for another word.
 Solver solver_from(const std::string& name, const std::string& path = "solver");

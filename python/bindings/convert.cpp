@@ -33,26 +33,33 @@ Rows::Rows(Input array, std::size_t n, const char* name) : array_(std::move(arra
   if (one) stride_ = 0;
 }
 
-void raise_if(const std::vector<Problem>& problems) {
-  if (problems.empty()) return;
-  nb::object errors = nb::module_::import_("punctura.errors");
-  nb::list list;
-  for (const auto& p : problems) list.append(errors.attr("Problem")(p.path, p.value, p.reason));
-  nb::object error = errors.attr("ConfigurationError")(list);
+namespace {
+
+[[noreturn]] void raise(const nb::list& problems) {
+  const nb::object error = nb::module_::import_("punctura.errors").attr("ConfigurationError")(problems);
   PyErr_SetObject(error.type().ptr(), error.ptr());
   throw nb::python_error();
 }
 
-namespace {
-[[noreturn]] void raise_word(const std::string& path, const std::string& given, const char* reason) {
-  nb::object errors = nb::module_::import_("punctura.errors");
-  nb::list list;
-  list.append(errors.attr("Problem")(path, given, reason));
-  nb::object error = errors.attr("ConfigurationError")(list);
-  PyErr_SetObject(error.type().ptr(), error.ptr());
-  throw nb::python_error();
+template <typename Value>
+nb::object problem(const std::string& path, const Value& value, const std::string& reason) {
+  return nb::module_::import_("punctura.errors").attr("Problem")(path, value, reason);
 }
+
 }  // namespace
+
+void raise_if(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  nb::list list;
+  for (const auto& p : problems) list.append(problem(p.path, p.value, p.reason));
+  raise(list);
+}
+
+void raise_word(const std::string& path, const std::string& given, const char* reason) {
+  nb::list list;
+  list.append(problem(path, given, reason));
+  raise(list);
+}
 
 Solver solver_from(const std::string& name, const std::string& path) {
   if (name == "exact") return Solver::exact;

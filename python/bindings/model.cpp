@@ -1,6 +1,7 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
 #include "bindings.hpp"
 #include "punctura/model/thick_law.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -62,27 +63,21 @@ nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
 }  // namespace
 
 void bind_model(nb::module_& m) {
-  nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
-      .def(nb::init<double, double>(), nb::arg("diameter"), nb::arg("tip_angle"))
-      .def_rw("diameter", &Needle::diameter, "w, m")
-      .def_rw("tip_angle", &Needle::tip_angle, "theta, rad")
-      .def("__repr__", [](const Needle& n) {
-        return nb::str("Needle(diameter={!r}, tip_angle={!r})").format(n.diameter, n.tip_angle);
-      });
+  auto needle = nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
+                    .def(nb::init<double, double>(), nb::arg("diameter"), nb::arg("tip_angle"))
+                    .def_ro("diameter", &Needle::diameter, "w, m")
+                    .def_ro("tip_angle", &Needle::tip_angle, "theta, rad");
+  def_value(needle, {"diameter", "tip_angle"});
 
-  nb::class_<Membrane>(
-      m, "Membrane",
-      "A membrane: stiffness kappa (N/m), precompression c (N), friction mu, thickness H (m). K06 section 2")
-      .def(nb::init<double, double, double, double>(), nb::arg("stiffness"), nb::arg("precompression"),
-           nb::arg("friction"), nb::arg("thickness"))
-      .def_rw("stiffness", &Membrane::stiffness, "kappa, N/m")
-      .def_rw("precompression", &Membrane::precompression, "c, N")
-      .def_rw("friction", &Membrane::friction, "mu, -")
-      .def_rw("thickness", &Membrane::thickness, "H, m; 0 is the thin law")
-      .def("__repr__", [](const Membrane& x) {
-        return nb::str("Membrane(stiffness={!r}, precompression={!r}, friction={!r}, thickness={!r})")
-            .format(x.stiffness, x.precompression, x.friction, x.thickness);
-      });
+  auto membrane =
+      nb::class_<Membrane>(m, "Membrane", "A membrane that grips the needle with dry friction. K06 section 2")
+          .def(nb::init<double, double, double, double>(), nb::arg("stiffness"), nb::arg("precompression"),
+               nb::arg("friction"), nb::arg("thickness"))
+          .def_ro("stiffness", &Membrane::stiffness, "kappa, N/m")
+          .def_ro("precompression", &Membrane::precompression, "c, N")
+          .def_ro("friction", &Membrane::friction, "mu, -")
+          .def_ro("thickness", &Membrane::thickness, "H, m; 0 is the thin law");
+  def_value(membrane, {"stiffness", "precompression", "friction", "thickness"});
 
   bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)")
       .def(

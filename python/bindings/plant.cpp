@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "punctura/plant/motion.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -28,54 +29,58 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
 
 void bind_plant(nb::module_& m) {
   const DeviceDynamics device;
-  nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device; the defaults are a PHANTOM Omni's data sheet.")
-      .def(
-          "__init__",
-          [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
-            std::vector<Problem> problems;
-            const Range above{0, no_bound, true, true, "must be greater than 0"},
-                from{0, no_bound, false, true, "must be 0 or more"};
-            check_field({"mass", "", "kg", above}, mass, "plant", problems);
-            check_field({"friction", "", "N", from}, friction, "plant", problems);
-            check_field({"encoder_step", "", "m", from}, encoder_step, "plant", problems);
-            check_field({"max_force", "", "N", from}, max_force, "plant", problems);
-            raise_if(problems);
-            new (self) DeviceDynamics{mass, friction, encoder_step, max_force};
-          },
-          nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
-          nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
-          "mass: apparent, kg. friction: dry, N. encoder_step: m, 0 is ideal. max_force: saturation, N.")
-      .def_ro("mass", &DeviceDynamics::mass, "kg")
-      .def_ro("friction", &DeviceDynamics::friction, "N")
-      .def_ro("encoder_step", &DeviceDynamics::encoder_step, "m")
-      .def_ro("max_force", &DeviceDynamics::max_force, "N");
+  auto plant =
+      nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device; the defaults are a PHANTOM Omni's data sheet.")
+          .def(
+              "__init__",
+              [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
+                std::vector<Problem> problems;
+                const Range above{0, no_bound, true, true, "must be greater than 0"},
+                    from{0, no_bound, false, true, "must be 0 or more"};
+                check_field({"mass", "", "kg", above}, mass, "plant", problems);
+                check_field({"friction", "", "N", from}, friction, "plant", problems);
+                check_field({"encoder_step", "", "m", from}, encoder_step, "plant", problems);
+                check_field({"max_force", "", "N", from}, max_force, "plant", problems);
+                raise_if(problems);
+                new (self) DeviceDynamics{mass, friction, encoder_step, max_force};
+              },
+              nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
+              nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
+              "mass: apparent, kg. friction: dry, N. encoder_step: m, 0 is ideal. max_force: saturation, N.")
+          .def_ro("mass", &DeviceDynamics::mass, "kg")
+          .def_ro("friction", &DeviceDynamics::friction, "N")
+          .def_ro("encoder_step", &DeviceDynamics::encoder_step, "m")
+          .def_ro("max_force", &DeviceDynamics::max_force, "N");
+  def_value(plant, {"mass", "friction", "encoder_step", "max_force"});
 
   const Hand hand;
-  nb::class_<Hand>(
-      m, "Hand",
-      "The hand that holds the stylus: mass, and spring and damper to the desired motion. Illustrative values")
-      .def(
-          "__init__",
-          [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
-            std::vector<Problem> problems;
-            const Range above{0, no_bound, true, true, "must be greater than 0"},
-                from{0, no_bound, false, true, "must be 0 or more"};
-            check_field({"mass", "", "kg", from}, mass, "hand", problems);
-            check_field({"damping", "", "N s/m", from}, damping, "hand", problems);
-            check_field({"stiffness", "", "N/m", from}, stiffness, "hand", problems);
-            check_field({"tremor_rms", "", "m", from}, tremor_rms, "hand", problems);
-            check_field({"tremor_hz", "", "Hz", above}, tremor_hz, "hand", problems);
-            raise_if(problems);
-            new (self) Hand{mass, damping, stiffness, tremor_rms, tremor_hz};
-          },
-          nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
-          nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
-          "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 is none. tremor_hz: its frequency.")
-      .def_ro("mass", &Hand::mass, "kg")
-      .def_ro("damping", &Hand::damping, "N s/m")
-      .def_ro("stiffness", &Hand::stiffness, "N/m")
-      .def_ro("tremor_rms", &Hand::tremor_rms, "m")
-      .def_ro("tremor_hz", &Hand::tremor_hz, "Hz");
+  auto hand_class =
+      nb::class_<Hand>(
+          m, "Hand",
+          "The hand that holds the stylus: mass, and spring and damper to the desired motion. Illustrative values")
+          .def(
+              "__init__",
+              [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
+                std::vector<Problem> problems;
+                const Range above{0, no_bound, true, true, "must be greater than 0"},
+                    from{0, no_bound, false, true, "must be 0 or more"};
+                check_field({"mass", "", "kg", from}, mass, "hand", problems);
+                check_field({"damping", "", "N s/m", from}, damping, "hand", problems);
+                check_field({"stiffness", "", "N/m", from}, stiffness, "hand", problems);
+                check_field({"tremor_rms", "", "m", from}, tremor_rms, "hand", problems);
+                check_field({"tremor_hz", "", "Hz", above}, tremor_hz, "hand", problems);
+                raise_if(problems);
+                new (self) Hand{mass, damping, stiffness, tremor_rms, tremor_hz};
+              },
+              nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
+              nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
+              "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 is none. tremor_hz: its frequency.")
+          .def_ro("mass", &Hand::mass, "kg")
+          .def_ro("damping", &Hand::damping, "N s/m")
+          .def_ro("stiffness", &Hand::stiffness, "N/m")
+          .def_ro("tremor_rms", &Hand::tremor_rms, "m")
+          .def_ro("tremor_hz", &Hand::tremor_hz, "Hz");
+  def_value(hand_class, {"mass", "damping", "stiffness", "tremor_rms", "tremor_hz"});
 
   const Strokes strokes{};
   nb::class_<Strokes>(m, "Strokes",

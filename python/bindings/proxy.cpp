@@ -5,6 +5,7 @@
 #include "punctura/model/thick_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"
+#include "value.hpp"
 
 #include <nanobind/stl/variant.h>
 
@@ -77,13 +78,12 @@ void bind_proxy(nb::module_& m) {
       .value("barred", Phase::barred,
              "Inside, but not entered from the front: no force until the tip has been outside, in front.");
 
-  nb::class_<Coupling>(m, "Coupling", "The virtual coupling: stiffness K (N/m) and damping B (N s/m). K06 (21)")
-      .def(nb::init<double, double>(), nb::arg("stiffness"), nb::arg("damping"))
-      .def_rw("stiffness", &Coupling::stiffness, "K, N/m")
-      .def_rw("damping", &Coupling::damping, "B, N s/m")
-      .def("__repr__", [](const Coupling& c) {
-        return nb::str("Coupling(stiffness={!r}, damping={!r})").format(c.stiffness, c.damping);
-      });
+  auto coupling =
+      nb::class_<Coupling>(m, "Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)")
+          .def(nb::init<double, double>(), nb::arg("stiffness"), nb::arg("damping"))
+          .def_ro("stiffness", &Coupling::stiffness, "K, N/m")
+          .def_ro("damping", &Coupling::damping, "B, N s/m");
+  def_value(coupling, {"stiffness", "damping"});
 
   nb::class_<AnyProxy1d>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)")
       .def(

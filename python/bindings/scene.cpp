@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -10,12 +11,7 @@ namespace {
 Direction direction_from(const std::string& name) {
   if (name == "stylus") return Direction::stylus;
   if (name == "motion") return Direction::motion;
-  nb::object errors = nb::module_::import_("punctura.errors");
-  nb::list list;
-  list.append(errors.attr("Problem")("needle.direction", name, "must be \"stylus\" or \"motion\""));
-  nb::object error = errors.attr("ConfigurationError")(list);
-  PyErr_SetObject(error.type().ptr(), error.ptr());
-  throw nb::python_error();
+  raise_word("needle.direction", name, "must be \"stylus\" or \"motion\"");
 }
 
 template <std::size_t n>
@@ -38,64 +34,62 @@ void describe_fields(nb::list& out, const char* path, const Field (&fields)[n]) 
 }  // namespace
 
 void bind_scene(nb::module_& m) {
-  nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane in its place.")
-      .def(nb::init<std::string, Membrane, Triple, Triple>(), nb::arg("name"), nb::arg("membrane"), nb::arg("point"),
-           nb::arg("inward_normal"),
-           "point: any point of the surface, m. inward_normal: a direction of any length but 0.")
-      .def_rw("name", &PlacedMembrane::name)
-      .def_rw("membrane", &PlacedMembrane::membrane)
-      .def_rw("point", &PlacedMembrane::point, "Any point of the surface, m")
-      .def_rw("inward_normal", &PlacedMembrane::inward_normal, "A direction of any length but 0")
-      .def("__repr__", [](const PlacedMembrane& p) {
-        return nb::str("PlacedMembrane({!r}, {!r}, point={!r}, inward_normal={!r})")
-            .format(p.name, p.membrane, p.point, p.inward_normal);
-      });
+  auto placed =
+      nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane in its place.")
+          .def(nb::init<std::string, Membrane, Triple, Triple>(), nb::arg("name"), nb::arg("membrane"),
+               nb::arg("point"), nb::arg("inward_normal"),
+               "point: any point of the surface, m. inward_normal: a direction of any length but 0.")
+          .def_ro("name", &PlacedMembrane::name)
+          .def_ro("membrane", &PlacedMembrane::membrane)
+          .def_prop_ro(
+              "point", [](const PlacedMembrane& p) { return as_tuple(p.point); },
+              nb::sig("def point(self) -> tuple[float, float, float]"), "Any point of the surface, m")
+          .def_prop_ro(
+              "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
+              nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0");
+  def_value(placed, {"name", "membrane", "point", "inward_normal"});
 
   const ServoSettings defaults;
-  nb::class_<ServoSettings>(m, "ServoSettings", "Rate of the servo loop, position filter and solver. K06 section 4")
-      .def(
-          "__init__",
-          [](ServoSettings* self, double rate, double low_pass, const std::string& solver) {
-            new (self) ServoSettings{rate, low_pass, solver_from(solver, "servo.solver")};
-          },
-          nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
-          nb::arg("solver") = name_of(defaults.solver),
-          "rate: 1/T, Hz. low_pass: cutoff, Hz; 0 is off. solver: \"exact\" or \"paper\".")
-      .def_rw("rate", &ServoSettings::rate, "1/T, Hz")
-      .def_rw("low_pass", &ServoSettings::low_pass, "Cutoff of the position filter, Hz; 0 is off")
-      .def_prop_rw(
-          "solver", [](const ServoSettings& s) { return name_of(s.solver); },
-          [](ServoSettings& s, const std::string& name) { s.solver = solver_from(name, "servo.solver"); },
-          "\"exact\" or \"paper\"")
-      .def("__repr__", [](const ServoSettings& s) {
-        return nb::str("ServoSettings(rate={!r}, low_pass={!r}, solver={!r})")
-            .format(s.rate, s.low_pass, name_of(s.solver));
-      });
+  auto servo =
+      nb::class_<ServoSettings>(m, "ServoSettings", "Rate of the servo loop, position filter and solver. K06 section 4")
+          .def(
+              "__init__",
+              [](ServoSettings* self, double rate, double low_pass, const std::string& solver) {
+                new (self) ServoSettings{rate, low_pass, solver_from(solver, "servo.solver")};
+              },
+              nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
+              nb::arg("solver") = name_of(defaults.solver),
+              "rate: 1/T, Hz. low_pass: cutoff, Hz; 0 is off. solver: \"exact\" or \"paper\".")
+          .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
+          .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff of the position filter, Hz; 0 is off")
+          .def_prop_ro("solver", [](const ServoSettings& s) { return name_of(s.solver); }, "\"exact\" or \"paper\"");
+  def_value(servo, {"rate", "low_pass", "solver"});
 
-  nb::class_<Scene>(m, "Scene", "Everything a run needs. Checked as a whole when it is built or run; see problems().")
-      .def(
-          "__init__",
-          [](Scene* self, const std::string& name, const Needle& needle, const Coupling& coupling,
-             const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const std::string& direction) {
-            Scene scene{name, needle, coupling, membranes, servo, direction_from(direction)};
-            raise_if(check(scene));
-            new (self) Scene(std::move(scene));
-          },
-          nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo") = defaults,
-          nb::arg("direction") = "stylus",
-          "direction: \"stylus\", as measured at entry, or \"motion\", as the tip has come. Raises ConfigurationError with all problems.")
-      .def_rw("name", &Scene::name)
-      .def_rw("needle", &Scene::needle)
-      .def_rw("coupling", &Scene::coupling)
-      .def_rw("membranes", &Scene::membranes)
-      .def_rw("servo", &Scene::servo)
-      .def_prop_rw(
-          "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
-          [](Scene& s, const std::string& name) { s.direction = direction_from(name); }, "\"stylus\" or \"motion\"")
-      .def("__repr__", [](const Scene& s) {
-        return nb::str("<Scene {!r}: {} membrane{}>")
-            .format(s.name, s.membranes.size(), s.membranes.size() == 1 ? "" : "s");
-      });
+  auto scene =
+      nb::class_<Scene>(m, "Scene", "Everything a run needs, checked as a whole.")
+          .def(
+              "__init__",
+              [](Scene* self, const std::string& name, const Needle& needle, const Coupling& coupling,
+                 const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo_settings,
+                 const std::string& direction) {
+                Scene made{name, needle, coupling, membranes, servo_settings, direction_from(direction)};
+                raise_if(check(made));
+                new (self) Scene(std::move(made));
+              },
+              nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"),
+              nb::arg("servo") = defaults, nb::arg("direction") = "stylus",
+              "direction: \"stylus\", as measured at entry, or \"motion\", as the tip has come. Raises ConfigurationError with all problems.")
+          .def_ro("name", &Scene::name)
+          .def_ro("needle", &Scene::needle)
+          .def_ro("coupling", &Scene::coupling)
+          .def_prop_ro(
+              "membranes", [](const Scene& s) { return nb::tuple(nb::cast(s.membranes)); },
+              nb::sig("def membranes(self) -> tuple[PlacedMembrane, ...]"))
+          .def_ro("servo", &Scene::servo)
+          .def_prop_ro(
+              "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
+              "\"stylus\" or \"motion\"");
+  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction"});
 
   m.def(
       "scene_problems",

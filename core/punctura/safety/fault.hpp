@@ -13,6 +13,7 @@ enum class Fault : std::uint8_t {
   position_jump,     ///< the position moved farther in one tick than a hand can
   stale_sample,      ///< the device repeated the same sample for too long
   missed_deadline,   ///< the tick came too late
+  clock,             ///< time went back
   non_finite_force,  ///< the model gave NaN or infinity: a defect, please report it
   device,            ///< the back-end reported a fault of its own
 };
@@ -29,6 +30,7 @@ constexpr const char* describe(Fault fault) noexcept {
       return "the device moved farther in one tick than a hand can: calibrate it, then reset with the tip outside tissue";
     case Fault::stale_sample: return "the device sent no new sample in time: check its connection, then reset";
     case Fault::missed_deadline: return "a tick came too late: close programs that keep the processor busy, then reset";
+    case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";
     case Fault::non_finite_force:
       return "the model gave a force that is not a number: please report the scene and the recording";
     case Fault::device: return "the device reported a fault of its own";

@@ -32,6 +32,7 @@ class InputGate {
       if (!(std::abs(axis.norm() - 1) <= limits_.axis_tolerance)) return Fault::bad_axis;
     }
     if (started_) {
+      if (!(s.time >= time_)) return Fault::clock;
       if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
       if (!((position - position_).norm() <= limits_.position_jump)) return Fault::position_jump;
     }

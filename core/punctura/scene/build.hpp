@@ -47,8 +47,11 @@ BasicInsertion<Scalar> build_insertion(const Scene& scene) {
                                 scene.direction);
 }
 
-/// The whole tick of a scene: input gate, model, force limits. Throws SceneError.
+/// The whole tick of a scene: input gate, model, force limits. Throws SceneError, for scene and limits together.
 inline ServoStep build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+  auto problems = check(scene);
+  for (Problem& problem : check(gate, limits)) problems.push_back(std::move(problem));
+  if (!problems.empty()) throw SceneError(std::move(problems));
   return ServoStep(build_insertion<double>(scene), 1 / scene.servo.rate, gate, limits);
 }
 

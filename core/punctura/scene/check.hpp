@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "punctura/model/validity.hpp"
+#include "punctura/safety/force_limits.hpp"
+#include "punctura/safety/input_gate.hpp"
 #include "punctura/scene/scene.hpp"
 #include "punctura/servo/snapshot.hpp"
 
@@ -25,6 +27,20 @@ inline constexpr Field servo_fields[] = {
      "Hz",
      {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
     {"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}},
+};
+
+inline constexpr Field gate_fields[] = {
+    {"position_jump", "-", "m", {0, no_bound, true, true, "must be greater than 0"}},
+    {"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
+    {"deadline", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
+    {"axis_tolerance", "-", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"}},
+};
+
+inline constexpr Field limit_fields[] = {
+    {"max_force", "-", "N", {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"}},
+    {"continuous_force", "-", "N", {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"}},
+    {"continuous_time", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
+    {"ramp_time", "-", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"}},
 };
 
 namespace detail {
@@ -66,6 +82,16 @@ inline std::vector<Problem> check(const Scene& scene) {
     else if (!(std::hypot(n[0], n[1], n[2]) > 0))
       problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
   }
+  return problems;
+}
+
+/// All problems of the safety limits.
+inline std::vector<Problem> check(const GateLimits& gate, const ForceLimits& limits) {
+  std::vector<Problem> problems;
+  const double gate_values[] = {gate.position_jump, gate.stale, gate.deadline, gate.axis_tolerance};
+  const double limit_values[] = {limits.max_force, limits.continuous_force, limits.continuous_time, limits.ramp_time};
+  for (std::size_t i = 0; i < 4; ++i) check_field(gate_fields[i], gate_values[i], "gate", problems);
+  for (std::size_t i = 0; i < 4; ++i) check_field(limit_fields[i], limit_values[i], "limits", problems);
   return problems;
 }
 

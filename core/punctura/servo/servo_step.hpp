@@ -60,6 +60,11 @@ class ServoStep {
     }
     if (state_ == ServoState::active) {
       force = limiter_.step(model_force);
+      if (!force.allFinite()) {  // cannot be, with limits that passed check(); a hand must not depend on that
+        fault_ = Fault::non_finite_force;
+        state_ = ServoState::faulted;
+        force.setZero();
+      }
     } else {
       limiter_.rest();
     }

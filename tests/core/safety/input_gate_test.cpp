@@ -84,6 +84,12 @@ TEST_CASE("a tick more than 20 ms after the last is a missed deadline") {
   CHECK(second(s) == Fault::none);
 }
 
+TEST_CASE("a clock that goes back is refused") {
+  auto s = sample(1);
+  s.time = -1e-6;
+  CHECK(second(s) == Fault::clock);
+}
+
 TEST_CASE("a back-end that reports a fault is believed") {
   auto s = sample(1);
   s.healthy = false;

@@ -55,6 +55,22 @@ TEST_CASE("a scene needs a membrane, and has room for 64") {
   CHECK(check(scene)[0].path == "membrane");
 }
 
+TEST_CASE("safety limits that would switch safety off are refused, together with what is wrong with the scene") {
+  auto scene = paper_scene();
+  scene.needle.diameter = 0;
+  GateLimits gate;
+  gate.position_jump = 0;
+  gate.axis_tolerance = 1;
+  ForceLimits limits{0, 0, -1, 0};
+  try {
+    build(scene, gate, limits);
+    FAIL("nothing was thrown");
+  } catch (const SceneError& error) {
+    CHECK(error.problems().size() == 7);
+    CHECK(error.problems()[3].path == "limits.max_force");
+  }
+}
+
 TEST_CASE("an inward normal may have any length") {
   auto scene = paper_scene();
   scene.membranes[0].inward_normal = {0, -17, 0};
