@@ -21,7 +21,7 @@ def h(L: Law, g, q0, q, inwards):
 
 
 def samples(L: Law, g, q0, begin, end, inwards):
-    """Depths (lanes, many) from `begin` to `end` in the order of the motion; between two of them h hides no sign change."""
+    """Depths (lanes, many) from `begin` to `end` in the order of the motion; between two h hides no sign change."""
     low, high = np.minimum(begin, end), np.maximum(begin, end)
     cuts = np.sort(np.clip(breaks(L), low[:, None], high[:, None]), axis=1)
     cuts = np.concatenate([low[:, None], cuts, high[:, None]], axis=1)

@@ -58,7 +58,7 @@ def paper(L: Law, c: Coupling, s: State, p):
 
 
 def paper_alternatives(L: Law, c: Coupling, s: State, p):
-    """(3, lanes): what (33) gives for q*, and a rounding to either side of it: they differ at the jumps of a thin law."""
+    """(3, lanes): what (33) gives for q* and for a rounding to either side: they differ at the jumps of a thin law."""
     q_star = p + (c.B * s.e + c.T * s.f) / c.D
     slack = 4 * np.spacing(np.maximum(abs(p), abs(p - q_star)))
     return np.stack([np.clip(f_star(c, s, p), *band(L, q_star + side * slack)) for side in (0, -1, 1)])
