@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from oracles import first_root
-from oracles.law import Law, band
+from oracles.law import Law, band, steepest
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,15 @@ def paper(L: Law, c: Coupling, s: State, p):
     hold = f_star(c, s, p)
     lower, upper = band(L, q_star)
     return np.where(hold < lower, lower, np.where(hold > upper, upper, hold))
+
+
+def contracts(L: Law, c: Coupling):
+    """Whether (33) forgets a rounding error: its gain |dPhi/dq| / g is below (1 + a) / (1 + 2 a), a = B/D.
+
+    See test_no_chatter.py for the recursion that this comes from.
+    """
+    a = c.B / c.D
+    return steepest(L) / c.g < (1 + a) / (1 + 2 * a)
 
 
 def paper_alternatives(L: Law, c: Coupling, s: State, p):

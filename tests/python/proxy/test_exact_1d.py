@@ -1,9 +1,11 @@
 """Solver "exact" in one dimension: it solves (21)-(23), at the first root in the direction of motion."""
 
+from dataclasses import replace
+
 import numpy as np
 import punctura
 import pytest
-from oracles import cases, core, exact_residual, proxy_1d, random_runs
+from oracles import cases, core, exact_residual, proxy_1d, random_laws, random_runs
 
 TICKS = 150
 
@@ -29,6 +31,24 @@ def test_every_tick_from_the_same_state_finds_the_root_that_sampling_and_bisecti
     t = ticks
     mine = proxy_1d.exact(t.law, t.coupling, t.before, t.p)
     assert abs(mine - t.f).max() <= 1e-11
+
+
+def test_with_couplings_far_beyond_any_device_the_residual_is_the_rounding_of_the_positions():
+    """K to 1e6 N/m and B/T to 1000 K: the coupling turns one unit in the last place of p into g ulp(p) newtons, 1e-10 N
+    and more, so no program in double can promise 1e-11 N there. It can promise a few such units.
+    """
+    r = random_runs.runs(9, cases.count(200), TICKS)
+    rng = np.random.default_rng(9)
+    n = r.p.shape[1]
+    K, T = random_laws.log_uniform(rng, 1e4, 1e6, n), r.coupling.T
+    r = replace(r, coupling=proxy_1d.Coupling(K, K * T * random_laws.log_uniform(rng, 10, 1000, n), T))
+    t = random_runs.ticks(r, *core.walk_1d(r, "exact"))
+    worst = exact_residual.residual(
+        t.law, t.coupling, t.before.p, t.before.e, t.q_prev, t.p, t.e, t.q, t.f
+    ).worst  # fmt: skip
+    size = np.maximum.reduce([abs(t.p), abs(t.e), abs(t.before.p), abs(t.before.e)])
+    assert (worst <= 1e-11 + 4 * t.coupling.g * np.spacing(size)).all()
+    assert worst.max() > 1e-11 or n < 200
 
 
 def test_a_proxy_that_is_held_does_not_move(ticks):

@@ -48,7 +48,7 @@ def scenes(request):
 
 
 def test_paper_gives_whole_runs_of_random_scenes_wherever_rounding_alone_does_not_move_them(scenes):
-    """As in one dimension: a gain |dPhi/dq| / g above 1 amplifies rounding; two float types show where it has."""
+    """As in one dimension: too large a gain |dPhi/dq| / g amplifies rounding; two float types show where it has."""
     of_core = np.stack([t.force for t in traces(scenes, "paper")], axis=1)
     mine, longer = transcribed(scenes, "paper"), transcribed(random_scenes.longer(scenes), "paper")
     drift = np.maximum.accumulate(abs(mine - longer).max(axis=2), axis=0)

@@ -35,14 +35,26 @@ def test_the_exact_force_turns_at_most_once_at_other_rates(rate):
 
 
 def test_the_papers_force_alternates_hundreds_of_times_on_the_membrane_of_fig_10():
-    """H = 0.1 mm at 1 to 5 mm/s: so the test above can fail."""
-    assert turns(1e-4, 1e-3, "paper") > 500
-    assert turns(1e-4, 5e-3, "paper") > 100
+    """H = 0.1 mm at 1 and 5 mm/s, by about g v T a tick (1.2 and 6 mN): so the test above can fail."""
+    assert turns(1e-4, 1e-3, "paper") > 1000
+    assert turns(1e-4, 5e-3, "paper") > 200
 
 
-def test_the_papers_force_does_not_alternate_where_its_substitution_contracts():
-    """The gain |dPhi/dq| / g is below 1 from about H = 0.16 mm on; well above that the paper's form is smooth too."""
-    assert max(turns(1e-3, v, "paper") for v in SPEEDS) <= 1
+def test_the_papers_force_alternates_below_the_thickness_that_its_recursion_predicts_and_not_above():
+    """On a falling edge, Phi_I' = -G g, (33) without its limits is linear in (e, f) with a = B/D:
+
+        f(k) = -G (g a e(k-1) + f(k-1)),   e(k) = a e(k-1) + f(k)/g
+
+    Its eigenvalue passes -1 at G = (1 + a) / (1 + 2 a): at gain 1 without a damper, at 2/3 with a strong one. With the
+    coupling of section 4 (a = 0.8, G = 0.69) and the steepest slope A_I (Q + H)/H that is H = 0.232 mm.
+    """
+    law = punctura.ThinLaw(NEEDLE, punctura.Membrane(570.0, 0.41, 0.2, 0.0))
+    g, a = COUPLING.stiffness + COUPLING.damping / PERIOD, 0.8
+    least = law.A_I * law.Q / (g * (1 + a) / (1 + 2 * a) - law.A_I)
+    assert least == pytest.approx(0.232e-3, abs=1e-6)
+    assert turns(0.95 * least, 1e-3, "paper") > 200
+    assert turns(1.1 * least, 1e-3, "paper") <= 5
+    assert max(turns(1.5 * least, v, "paper") for v in SPEEDS) <= 1
 
 
 def test_the_force_at_the_pop_falls_from_the_peak_to_the_shaft_friction():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from oracles import cases, core, proxy_1d, random_runs
-from oracles.law import steepest
 
 TICKS = 250
 
@@ -33,10 +32,10 @@ def test_every_tick_relaxes_the_coupling_by_25(walked):
 
 
 def test_whole_runs_agree_wherever_rounding_alone_does_not_move_them(walked):
-    """(33) is one step of a fixed-point iteration of gain |dPhi/dq| / g. Above 1 it amplifies rounding tick by tick
-    until it is as large as the force, and two correct programs part. The transcription in two float types shows where:
-    as long as those agree to 1e-13 N, the core must agree with them to 1e-10 N; and only a gain above 1, or a proxy
-    on a jump of a membrane of thickness 0, may make them part.
+    """(33) is one step of a fixed-point iteration of gain |dPhi/dq| / g. Where the gain is too large it amplifies
+    rounding tick by tick until it is as large as the force, and two correct programs part. The transcription in two
+    float types shows where: as long as those agree to 1e-13 N, the core must agree with them to 1e-10 N; and where the
+    recursion contracts, in every tick.
     """
     r, (f, _, _) = walked
     mine, e = proxy_1d.run(proxy_1d.paper, r.law, r.coupling, r.p)
@@ -50,7 +49,7 @@ def test_whole_runs_agree_wherever_rounding_alone_does_not_move_them(walked):
     steady = (drift <= 1e-13) & ~at_a_jump
     assert abs(f - longer)[steady].max() <= 1e-10
 
-    contracts = steepest(r.law) / r.coupling.g < 1
+    contracts = proxy_1d.contracts(r.law, r.coupling)
     assert (drift[-1, contracts] <= 1e-12).all()
     assert abs(f - longer)[:, contracts].max() <= 1e-10
     if steady.shape[1] >= 200:

@@ -5,8 +5,7 @@ from functools import partial
 import numpy as np
 import punctura
 import pytest
-from oracles import cases, core, exact_residual, proxy_3d, random_runs, random_scenes
-from oracles.law import steepest
+from oracles import cases, core, exact_residual, proxy_1d, proxy_3d, random_runs, random_scenes
 from oracles.proxy_3d import dot
 
 TICKS = 120
@@ -109,7 +108,7 @@ def test_along_the_normal_it_is_the_one_dimensional_proxy(solver):
     law = r.parameters.law().with_cos_beta(1.0)
     chosen = law.H > 0
     if solver == "paper":
-        chosen &= steepest(law) / r.coupling.g < 1
+        chosen &= proxy_1d.contracts(law, r.coupling)
     assert chosen.sum() > 40 or cases.count(150) < 150
     for lane in np.flatnonzero(chosen):
         n = random_scenes.unit(rng.standard_normal(3))
