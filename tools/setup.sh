@@ -66,7 +66,7 @@ pip_build_tools() {
 # The project is built in place of pip's throw-away folder, so that a changed file costs its own compilation only.
 pip_project() { pip install --no-build-isolation "$@"; }
 
-# set_up KIND [EXTRA]: KIND is run, test or bench; EXTRA names the optional dependencies of pyproject.toml that it needs.
+# set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {
   local kind=$1 extra=${2:-} deps sources
   export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1
