@@ -1,0 +1,60 @@
+"""What the measurements are held against."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+# Of one tick of one membrane in one dimension.
+MOST_OVER_FUSED = {"paper": 1.5, "exact": 2.5}
+LEAST_UNDER_NUMPY = 300.0
+
+
+class Ratio(NamedTuple):
+    """One ratio of two times, with its quartiles and what it is held against."""
+
+    what: str
+    value: float
+    lower_quartile: float
+    upper_quartile: float
+    target: str
+    passes: bool
+
+
+def over_fused(rows: list[dict[str, Any]]) -> list[Ratio]:
+    """Solver over reference loop, of each round apart: what slows a round slows both."""
+    ratios = []
+    for row in rows:
+        if row["form"] != "1-D" or row["membranes"] != 1:
+            continue
+        for name, most in MOST_OVER_FUSED.items():
+            spread = row["contestants"][name]["over_fused"]
+            ratios.append(
+                Ratio(
+                    f"{name} / fused, {row['scalar']}, {row['motion']} motion",
+                    spread["median"],
+                    spread["lower_quartile"],
+                    spread["upper_quartile"],
+                    f"at most {most:g}",
+                    spread["median"] <= most,
+                )
+            )
+    return ratios
+
+
+def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) -> list[Ratio]:
+    """NumPy loop over each solver in double; the quartiles are the least and the most that both spreads allow."""
+    numpy = loops["numpy"]
+    row = next(r for r in rows if (r["form"], r["scalar"], r["membranes"]) == ("1-D", "double", 1))
+    ratios = []
+    for name in MOST_OVER_FUSED:
+        ns = row["contestants"][name]
+        value = numpy["median_ns"] / ns["median_ns"]
+        low = numpy["lower_quartile_ns"] / ns["upper_quartile_ns"]
+        high = numpy["upper_quartile_ns"] / ns["lower_quartile_ns"]
+        target = f"at least {LEAST_UNDER_NUMPY:g}"
+        ratios.append(Ratio(f"NumPy loop / {name}, double", value, low, high, target, value >= LEAST_UNDER_NUMPY))
+    return ratios
+
+
+def all_ratios(result: dict[str, Any]) -> list[Ratio]:
+    return over_fused(result["rows"]) + under_numpy(result["rows"], result["loops"])

@@ -1,0 +1,112 @@
+"""The measurements: ns per tick of the model beside a hand-written loop and a NumPy loop. See docs/bench.md.
+
+python benchmarks/run.py [--check] [--json FILE] [--seconds S]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import sys
+import tempfile
+import time
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy_loop import LOOPS, Array
+from program import ROOT, ProgramError, build, call
+from ratios import Ratio, all_ratios
+from table import table, verdicts
+
+LOOP_TICKS = 4000  # 2.5 s of the hand: into the membrane and out again
+LOOP_REPETITIONS = 7
+
+
+def processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+def machine() -> dict[str, Any]:
+    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else None
+    return {"processor": processor(), "cores": os.cpu_count(), "load": load, "system": platform.platform()}
+
+
+def versions() -> dict[str, str]:
+    try:
+        own = metadata.version("punctura")
+    except metadata.PackageNotFoundError:
+        own = "(not installed)"
+    return {"punctura": own, "Python": platform.python_version(), "NumPy": np.__version__}
+
+
+def time_loops(depth: Array, force: Array, ticks: int, repetitions: int) -> dict[str, dict[str, float]]:
+    """ns per tick of the loops in Python, in turn, after each has shown the paper solver's forces to 1e-10 N."""
+    depth, force = depth[:ticks], force[:ticks]
+    for name, loop in LOOPS.items():
+        if not (worst := float(np.max(np.abs(loop(depth) - force)))) <= 1e-10:
+            raise ProgramError(f"the {name} loop and the paper solver differ by {worst:.3g} N")
+    times: dict[str, list[float]] = {name: [] for name in LOOPS}
+    for _ in range(repetitions):
+        for name, loop in LOOPS.items():
+            start = time.perf_counter_ns()
+            loop(depth)
+            times[name].append((time.perf_counter_ns() - start) / ticks)
+    return {
+        name: dict(
+            zip(
+                ("lower_quartile_ns", "median_ns", "upper_quartile_ns"),
+                map(float, np.quantile(t, (0.25, 0.5, 0.75))),
+                strict=True,
+            )
+        )
+        for name, t in times.items()
+    }
+
+
+def measure(program: Path, seconds: float) -> dict[str, Any]:
+    with tempfile.TemporaryDirectory() as folder:
+        dump = Path(folder) / "work.f64"
+        result = call(program, seconds, dump)
+        depth, force = np.fromfile(dump).reshape(2, -1)
+    result["versions"] = versions() | {"Eigen": result.pop("eigen")}
+    return {"machine": machine()} | result | {"loops": time_loops(depth, force, LOOP_TICKS, LOOP_REPETITIONS)}
+
+
+def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, check: bool) -> int:
+    """Prints and writes everything; the exit status: 1 for a missed target where that is asked for, else 0."""
+    print("\n".join(table(result)), end="\n\n")
+    print("\n".join(verdicts(ratios)))
+    if json_file is not None:
+        whole = result | {"ratios": [r._asdict() for r in ratios]}
+        json_file.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+    return 1 if check and not all(r.passes for r in ratios) else 0
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="./bench", description="Nanoseconds per tick, beside a hand-written loop and NumPy."
+    )
+    parser.add_argument("--check", action="store_true", help="exit with 1 if a target is missed")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured, and on what")
+    parser.add_argument("--seconds", type=float, default=0.5, help="for each of the 25 rows (default %(default)s)")
+    options = parser.parse_args(arguments)
+    try:
+        program = build(ROOT / "build/bench")
+        print("Measuring, a dot for each row:", file=sys.stderr)
+        result = measure(program, options.seconds)
+    except ProgramError as error:
+        print(error, file=sys.stderr)
+        return 3
+    return report(result, all_ratios(result), options.json, options.check)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

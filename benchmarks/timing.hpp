@@ -1,0 +1,78 @@
+// Times several ways of doing the same work against each other on a machine that is not quiet.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bench {
+
+/// The compiler must take it that memory was read and written: what was computed up to here stays.
+inline void keep_memory() { asm volatile("" ::: "memory"); }
+
+struct Contestant {
+  std::string name;
+  std::function<void()> run;                      ///< does the whole work once, always from the same start
+  std::function<std::vector<double>()> forces{};  ///< what its last run gave, N: to compare before measuring
+};
+
+struct Spread {
+  double median, lower_quartile, upper_quartile, fastest;
+};
+
+/// The value below which a share of the sorted numbers lies, interpolated.
+inline double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const std::size_t i = static_cast<std::size_t>(at);
+  const std::size_t j = std::min(i + 1, sorted.size() - 1);
+  return sorted[i] + (at - static_cast<double>(i)) * (sorted[j] - sorted[i]);
+}
+
+inline Spread spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), values.front()};
+}
+
+/// Of each round apart: what slows a round slows both. (`fastest` is then the least ratio.)
+inline Spread ratio(std::vector<double> times, const std::vector<double>& reference) {
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] /= reference[i];
+  return spread(std::move(times));
+}
+
+struct Times {
+  std::vector<Spread> spreads;              ///< nanoseconds per tick, one per contestant
+  std::vector<std::vector<double>> rounds;  ///< the same of every round, one row per contestant
+};
+
+/// Rounds in which every contestant runs once, each round in a new order: whatever else the machine does meets all alike.
+/// Ends after `seconds`, but not before `least` rounds nor after `most`.
+inline Times time_against_each_other(const std::vector<Contestant>& contestants, std::size_t ticks, double seconds,
+                                     std::size_t least = 21, std::size_t most = 401) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::size_t> order(contestants.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::mt19937 random(1);
+
+  Times times{{}, std::vector<std::vector<double>>(contestants.size())};
+  for (const auto& contestant : contestants) contestant.run();  // caches and branch predictors
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  for (std::size_t round = 0; round < most && (round < least || Clock::now() < end); ++round) {
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t i : order) {
+      const auto start = Clock::now();
+      contestants[i].run();
+      keep_memory();
+      const std::chrono::duration<double, std::nano> took = Clock::now() - start;
+      times.rounds[i].push_back(took.count() / static_cast<double>(ticks));
+    }
+  }
+  for (const auto& rounds : times.rounds) times.spreads.push_back(spread(rounds));
+  return times;
+}
+
+}  // namespace bench

@@ -1,0 +1,123 @@
+"""What ./bench concludes from its measurements, prints and writes."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import program
+import pytest
+import run
+from numpy_loop import X, bounds, numpy_loop, python_loop
+from program import ProgramError
+from ratios import all_ratios
+from table import SHARES
+
+
+def timing(ns, over=None):
+    times = {"median_ns": ns, "lower_quartile_ns": 0.9 * ns, "upper_quartile_ns": 1.2 * ns, "fastest_ns": 0.8 * ns}
+    if over is not None:
+        times["over_fused"] = {"median": over, "lower_quartile": 0.9 * over, "upper_quartile": 1.2 * over}
+    return times
+
+
+def measured(paper=1.4, exact=2.4, numpy=10_000.0):
+    row = {"motion": "encoder", "membranes": 1, "repetitions": 21}
+    contestants = {"fused": timing(10.0), "paper": timing(10 * paper, paper), "exact": timing(10 * exact, exact)}
+    servo = {"paper": timing(60.0), "exact": timing(70.0)}
+    slow = {"fused": timing(10.0), "paper": timing(90.0, 9.0), "exact": timing(90.0, 9.0)}
+    return {
+        "machine": {"processor": "one", "cores": 2, "load": 0.5, "system": "some"},
+        "compiler": "GNU 12",
+        "flags": "-O2",
+        "ticks": 100,
+        "versions": {"punctura": "0.1"},
+        "work": [{"motion": "encoder", "membranes": 1} | dict.fromkeys(SHARES, 0.25)],
+        "rows": [
+            row | {"form": "1-D", "scalar": "double", "contestants": contestants},
+            row | {"form": "1-D", "scalar": "double", "contestants": slow, "membranes": 8},
+            row | {"form": "3-D", "scalar": "double", "contestants": slow},
+            row | {"form": "servo step", "scalar": "double", "contestants": servo},
+        ],
+        "loops": {"numpy": timing(numpy), "python": timing(2000.0)},
+    }
+
+
+def test_targets_are_for_one_membrane_in_one_dimension_only():
+    ratios = all_ratios(measured())
+    names = ["paper / fused", "exact / fused", "NumPy loop / paper", "NumPy loop / exact"]
+    assert [r.what.split(",")[0] for r in ratios] == names
+    assert all(r.passes for r in ratios)
+
+
+@pytest.mark.parametrize(
+    ("measurement", "missed"),
+    [
+        ({"paper": 1.51}, "paper / fused"),
+        ({"exact": 2.51}, "exact / fused"),
+        ({"numpy": 7000.0}, "NumPy loop / exact"),
+        ({"paper": float("nan")}, "paper / fused"),
+    ],
+)
+def test_a_miss_is_named_and_ends_a_check_with_1(measurement, missed, capsys):
+    result = measured(**measurement)
+    ratios = all_ratios(result)
+    assert missed in [r.what.split(",")[0] for r in ratios if not r.passes]
+    assert run.report(result, ratios, None, check=True) == 1
+    assert f"MISS  {missed}" in capsys.readouterr().out
+    assert run.report(result, ratios, None, check=False) == 0
+
+
+def test_targets_met_end_a_check_with_0_and_are_printed_as_passed(capsys):
+    result = measured()
+    assert run.report(result, all_ratios(result), None, check=True) == 0
+    printed = capsys.readouterr().out
+    assert printed.count("PASS") == 4
+    assert "MISS" not in printed
+
+
+def test_the_json_file_holds_the_measurements_and_the_ratios(tmp_path):
+    result = measured()
+    run.report(result, all_ratios(result), tmp_path / "bench.json", check=False)
+    written = json.loads((tmp_path / "bench.json").read_text())
+    ratios = written.pop("ratios")
+    assert written == result
+    assert ratios[0] == {
+        "what": "paper / fused, double, encoder motion",
+        "value": 1.4,
+        "lower_quartile": pytest.approx(1.26),
+        "upper_quartile": pytest.approx(1.68),
+        "target": "at most 1.5",
+        "passes": True,
+    }
+
+
+def test_both_python_loops_give_the_same_forces_inside_the_band():
+    t = np.arange(1500) / 1600
+    depth = 4e-3 - 6e-3 * np.cos(9 * t)
+    force = numpy_loop(depth)
+    assert np.max(np.abs(force - python_loop(depth))) < 1e-12
+    lower, upper = bounds(np.array([X + 1e-3]))
+    assert np.max(force) == pytest.approx(upper[0])  # the whole shaft rubs: F
+    assert np.min(force) < lower[0] < 0  # and before the pop, the tip does more
+
+
+def test_the_loops_are_not_timed_when_they_disagree_with_the_paper_solver():
+    depth = 4e-3 - 6e-3 * np.cos(9 * np.arange(300) / 1600)
+    force = numpy_loop(depth)
+    times = run.time_loops(depth, force, 300, 2)
+    assert times["numpy"]["lower_quartile_ns"] <= times["numpy"]["median_ns"] <= times["numpy"]["upper_quartile_ns"]
+    with pytest.raises(ProgramError, match="the numpy loop and the paper solver differ by 1e-09 N"):
+        run.time_loops(depth, force + np.where(np.arange(300) == 150, 1e-9, 0), 300, 2)
+
+
+def test_a_program_that_finds_its_contestants_unequal_ends_the_measurements(monkeypatch, tmp_path, capsys):
+    def fails(command, **_):
+        return subprocess.CompletedProcess(command, 3, "")
+
+    monkeypatch.setattr(program.subprocess, "run", fails)
+    with pytest.raises(ProgramError, match="ended with 3"):
+        program.call(Path("bench_ticks"), 0.1, tmp_path / "dump")
+    monkeypatch.setattr(run, "build", lambda folder: Path("bench_ticks"))
+    assert run.main([]) == 3
+    assert "ended with 3" in capsys.readouterr().err
