@@ -1,0 +1,7 @@
+"""Scene files: reading, writing, checking, and the scenes that come with the package (docs/scene-file.md)."""
+
+from punctura.scene.json_schema import scene_json_schema
+from punctura.scene.ready import load_scene, scene_names, scene_path
+from punctura.scene.write import save_scene, scene_text
+
+__all__ = ["load_scene", "save_scene", "scene_json_schema", "scene_names", "scene_path", "scene_text"]

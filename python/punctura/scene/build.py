@@ -1,0 +1,97 @@
+"""From a scene file's tables to the core's structs, in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from decimal import Decimal
+from typing import Any, NamedTuple
+
+from punctura._core import Coupling, Membrane, Needle, PlacedMembrane, Scene, ServoSettings
+from punctura.scene.gauges import GAUGE_DIAMETER_MM
+from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.units import split_key, to_si
+
+# What stands in for a value that is missing or of the wrong type while the core looks at the others. Chosen so that
+# it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
+_STAND_INS: dict[str, Any] = {
+    "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
+    "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0,
+    "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
+}  # fmt: skip
+
+
+class Parts(NamedTuple):
+    """What a Scene is built from, and how the core's names for its fields relate to the file's keys."""
+
+    arguments: tuple[Any, ...]  # of Scene and of scene_problems
+    keys: dict[str, str]  # core path -> path in the file
+    stand_ins: set[str]  # core paths whose values are not the file's
+
+
+class _Reader:
+    def __init__(self, unsound: Collection[str]) -> None:
+        self.unsound = unsound
+        self.keys: dict[str, str] = {}
+        self.stand_ins: set[str] = set()
+
+    def table(self, raw: object, path: str, model: type[Any]) -> dict[str, Any]:
+        """The values of one table by the core's names; where the file has none that serve, a default or a stand-in."""
+        given: Mapping[str, Any] = raw if isinstance(raw, dict) else {}
+        values: dict[str, Any] = {}
+        for key, info in model.model_fields.items():
+            name, unit = split_key(key)
+            if key == "gauge":
+                name, unit = split_key("diameter_mm")
+            core_path, key_path = f"{path}.{name}", f"{path}.{key}"
+            if key in given and key_path not in self.unsound:
+                self.keys[core_path] = key_path
+                value = Decimal(GAUGE_DIAMETER_MM[given[key]]) if key == "gauge" else given[key]
+                values[name] = _si(value, unit)
+            elif key not in given and info.default is not None and not info.is_required():
+                values[name] = _si(info.default, unit)
+            elif values.get(name) is None:
+                values[name] = None
+        for name, value in values.items():
+            if value is None:
+                self.stand_ins.add(f"{path}.{name}")
+                values[name] = _STAND_INS[name]
+        return values
+
+
+def _si(value: Any, unit: Any) -> Any:
+    if isinstance(value, (list, tuple)):
+        return [_si(v, unit) for v in value]
+    if isinstance(value, (int, float)):
+        value = Decimal(repr(value))
+    return to_si(value, unit) if isinstance(value, Decimal) else value
+
+
+def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts:
+    """Reads what can be read of the tables; `unsound` are the paths that the schema has refused."""
+    reader = _Reader(unsound)
+    needle = reader.table(data.get("needle"), "needle", NeedleTable)
+    coupling = reader.table(data.get("coupling"), "coupling", CouplingTable)
+    servo = reader.table(data.get("servo"), "servo", ServoTable)
+    tables = data.get("membrane")
+    membranes = []
+    for i, raw in enumerate(tables if isinstance(tables, list) else []):
+        m = reader.table(raw, f"membrane[{i}]", MembraneTable)
+        membrane = Membrane(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
+        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"]))
+    name = data.get("name")
+    if not isinstance(tables, list) or "membrane" in unsound:
+        reader.stand_ins.add("membrane")
+    arguments = (
+        name if isinstance(name, str) else "scene",
+        Needle(needle["diameter"], needle["tip_angle"]),
+        Coupling(coupling["stiffness"], coupling["damping"]),
+        membranes,
+        ServoSettings(servo["rate"], servo["low_pass"], servo["solver"]),
+        needle["direction"],
+    )
+    return Parts(arguments, reader.keys, reader.stand_ins)
+
+
+def build_scene(scene_file: SceneFile) -> Scene:
+    """The scene that a sound scene file describes."""
+    return Scene(*scene_parts(scene_file.model_dump(mode="python", exclude_none=True)).arguments)

@@ -1,0 +1,51 @@
+"""The scene file as JSON Schema, for editors and forms. Bounds come from the core, defaults from its structs."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from typing import Any
+
+from punctura import _core
+from punctura.scene.gauges import GAUGE_DIAMETER_MM
+from punctura.scene.schema import ALTERNATIVES, SceneFile
+from punctura.scene.units import split_key, to_si
+
+_TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "MembraneTable": "membrane"}
+
+
+def scene_json_schema() -> dict[str, Any]:
+    """JSON Schema (2020-12) of a scene file. `x-unit` and `x-symbol` say a number's unit and its letter in K06."""
+    schema = SceneFile.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    fields = {field["path"]: field for field in _core.fields()}
+    for model, table in _TABLE_OF.items():
+        properties = schema["$defs"][model]["properties"]
+        for key, entry in properties.items():
+            _complete(entry, key, fields.get(f"{table}.{split_key(key)[0]}"))
+    needle = schema["$defs"]["NeedleTable"]
+    needle["properties"]["gauge"]["enum"] = list(GAUGE_DIAMETER_MM)
+    needle["allOf"] = [{"oneOf": [{"required": [key]} for key in pair]} for pair in ALTERNATIVES]
+    schema["properties"]["membrane"]["minItems"] = 1
+    return schema
+
+
+def _complete(entry: dict[str, Any], key: str, field: dict[str, Any] | None) -> None:
+    optional = entry.pop("anyOf", None)
+    if optional:  # a key that may be left out, but never be null
+        entry |= next(kind for kind in optional if kind.get("type") != "null")
+        entry.pop("default", None)
+    if entry.get("type") == "number" and "default" in entry:
+        entry["default"] = float(entry["default"])
+    unit = split_key(key)[1]
+    if unit.name:
+        entry["x-unit"] = unit.name
+    if field is None or entry.get("type") != "number":
+        return
+    for bound, is_open, closed_name, open_name in (
+        (field["min"], field["min_open"], "minimum", "exclusiveMinimum"),
+        (field["max"], field["max_open"], "maximum", "exclusiveMaximum"),
+    ):
+        if math.isfinite(bound):
+            entry[open_name if is_open else closed_name] = bound / to_si(Decimal(1), unit)
+    entry["x-reason"] = field["reason"]

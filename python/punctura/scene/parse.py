@@ -1,0 +1,48 @@
+"""From a file to the tables that stand in it, with a plain sentence where that fails."""
+
+from __future__ import annotations
+
+import re
+import sys
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from punctura.errors import MISSING, ConfigurationError, Problem
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
+    return ConfigurationError([Problem(where, MISSING, reason)], str(path))
+
+
+def read_text(path: Path) -> str:
+    """The text of a scene file; a byte-order mark is passed over."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise _error(path, "there is no such file") from None
+    except IsADirectoryError:
+        raise _error(path, "is a folder, not a scene file") from None
+    except UnicodeDecodeError as bad:
+        line = bad.object[: bad.start].count(b"\n") + 1
+        raise _error(path, "is not UTF-8 text; save it as UTF-8", f"line {line}") from None
+    except OSError as bad:
+        raise _error(path, f"cannot be read: {bad.strerror}") from None
+
+
+def parse_toml(text: str, path: Path) -> dict[str, Any]:
+    """The tables of a TOML text. Fractions stay the decimals that were written."""
+    try:
+        return tomllib.loads(text, parse_float=Decimal)
+    except tomllib.TOMLDecodeError as bad:
+        message = str(bad)
+        found = re.search(r" \(at (line \d+, column \d+|end of document)\)$", message)
+        where = found[1] if found else ""
+        if where == "end of document":
+            where = f"line {text.count(chr(10)) + 1}, at the end of the file"
+        raise _error(path, f"is not TOML: {message[: found.start()] if found else message}", where) from None

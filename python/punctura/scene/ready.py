@@ -1,0 +1,42 @@
+"""The scenes that come with the package."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from punctura._core import Scene
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.scene.build import build_scene
+from punctura.scene.check import check_tables
+from punctura.scene.parse import parse_toml, read_text
+
+_FOLDER = Path(__file__).parents[1] / "scenes"
+
+
+def scene_names() -> list[str]:
+    """Names of the ready scenes, as load_scene takes them."""
+    return sorted(file.stem for file in _FOLDER.glob("*.toml"))
+
+
+def scene_path(path_or_name: str | os.PathLike[str]) -> Path:
+    """The file of a ready scene, where `path_or_name` names one, else `path_or_name` as a file."""
+    if isinstance(path_or_name, str) and path_or_name in scene_names():
+        return _FOLDER / f"{path_or_name}.toml"
+    path = Path(path_or_name)
+    if isinstance(path_or_name, str) and not path.suffix and path.name == path_or_name and not path.exists():
+        known = ", ".join(scene_names())
+        raise ConfigurationError(
+            [Problem("", MISSING, f"there is neither a file nor a ready scene of this name; ready scenes: {known}")],
+            path_or_name,
+        )
+    return path
+
+
+def load_scene(path_or_name: str | os.PathLike[str]) -> Scene:
+    """The scene of a file or of a ready scene's name. Raises ConfigurationError with everything that is wrong."""
+    path = scene_path(path_or_name)
+    scene_file, problems = check_tables(parse_toml(read_text(path), path))
+    if scene_file is None:
+        raise ConfigurationError(problems, str(path))
+    return build_scene(scene_file)

@@ -1,0 +1,99 @@
+"""The scene file, described once: keys, units, titles and help. Reader, writer and JSON Schema all come from here.
+
+A number's key ends in its unit (scene/units.py), the rest of the key is the field's name in the core. No bound stands
+here: the core checks what is read, and tells JSON Schema its bounds (scene/json_schema.py).
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from punctura._core import ServoSettings
+from punctura.scene.fields import Number, Text, Vector, WholeNumber
+
+_SERVO = ServoSettings()  # where the defaults stand
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
+    extra: Any = {"x-symbol": symbol} if symbol else None
+    return Field(default, title=title, description=help, json_schema_extra=extra)
+
+
+class NeedleTable(_Table):
+    """The needle: a wedge of one slanted face, then a shaft (K06 Fig. 1)."""
+
+    model_config = ConfigDict(title="Needle")
+
+    diameter_mm: Number | None = _field("Diameter", "Outer diameter of the shaft.", "w", None)
+    gauge: WholeNumber | None = _field(
+        "Gauge", "The outer diameter as a gauge of ISO 9626, instead of diameter_mm.", "w", None
+    )
+    tip_angle_rad: Number | None = _field("Tip angle", "Angle between the slanted face and the axis.", "theta", None)
+    tip_angle_deg: Number | None = _field("Tip angle", "The tip angle in degrees, instead of radians.", "theta", None)
+    direction: Literal["stylus", "motion"] = _field(
+        "Direction",
+        "What gives the needle's direction when it enters: the device's stylus, or, for devices without orientation, "
+        "the motion of the tip.",
+        "b",
+        "stylus",
+    )
+
+
+class CouplingTable(_Table):
+    """The virtual spring and damper between device and proxy, one pair a membrane (K06 (21))."""
+
+    model_config = ConfigDict(title="Coupling")
+
+    stiffness_N_per_mm: Number = _field("Stiffness", "Spring of the virtual coupling.", "K")
+    damping_Ns_per_mm: Number = _field("Damping", "Damper of the virtual coupling.", "B")
+
+
+class ServoTable(_Table):
+    """How often the force is computed, and how."""
+
+    model_config = ConfigDict(title="Servo")
+
+    rate_hz: Number = _field("Rate", "Ticks a second.", "1/T", Decimal(repr(_SERVO.rate)))
+    low_pass_hz: Number = _field(
+        "Low-pass", "Cut-off of the first-order filter on the position; 0 is off.", "", Decimal(repr(_SERVO.low_pass))
+    )
+    solver: Literal["exact", "paper"] = _field(
+        "Solver", "exact solves K06 (21)-(23); paper takes one step towards it, K06 (33).", "", _SERVO.solver
+    )
+
+
+class MembraneTable(_Table):
+    """A membrane: a layer that grips the needle with dry friction (K06 section 2)."""
+
+    model_config = ConfigDict(title="Membrane")
+
+    name: Text = _field("Name", "What the membrane is called in plots and tables.")
+    stiffness_N_per_mm: Number = _field("Stiffness", "Resistance of the hole to being widened.", "kappa")
+    precompression_N: Number = _field("Precompression", "Grip of the hole when it is closed.", "c")
+    friction: Number = _field("Friction", "Coefficient of dry friction between needle and membrane.", "mu")
+    thickness_mm: Number = _field("Thickness", "0 is an infinitely thin membrane.", "H")
+    point_mm: Vector = _field("Point", "Any point of the surface at which the needle enters.", "a")
+    inward_normal: Vector = _field("Inward normal", "Direction into the membrane, of any length but 0.", "n")
+
+
+class SceneFile(_Table):
+    """A scene: a needle, the coupling that drives it and the membranes in its way."""
+
+    model_config = ConfigDict(title="Scene file")
+
+    name: Text = _field("Name", "What the scene is called.")
+    needle: NeedleTable
+    coupling: CouplingTable
+    servo: ServoTable = Field(default_factory=ServoTable)
+    membrane: list[MembraneTable] = _field("Membranes", "In the order in which their forces are added.")
+
+
+# Of each pair the file gives exactly one.
+ALTERNATIVES = (("diameter_mm", "gauge"), ("tip_angle_rad", "tip_angle_deg"))

@@ -1,0 +1,78 @@
+"""From a scene to the text of its file."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from punctura._core import Scene
+from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, ServoTable
+from punctura.scene.units import from_si, split_key
+
+_SKIPPED = ("gauge", "tip_angle_deg")  # the other ways to say what diameter_mm and tip_angle_rad say
+
+
+def scene_text(scene: Scene) -> str:
+    """TOML that load_scene turns back into the same scene, to the last bit."""
+    lines = [f"name = {_string(scene.name)}"]
+    needle = {"diameter": scene.needle.diameter, "tip_angle": scene.needle.tip_angle, "direction": scene.direction}
+    lines += _table("[needle]", NeedleTable, needle)
+    lines += _table("[coupling]", CouplingTable, _attributes(scene.coupling, CouplingTable))
+    lines += _table("[servo]", ServoTable, _attributes(scene.servo, ServoTable))
+    for placed in scene.membranes:
+        values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable)
+        lines += _table("[[membrane]]", MembraneTable, values)
+    return "\n".join(lines) + "\n"
+
+
+def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Writes a scene file; what stood at `path` stays until the new file is whole."""
+    target = Path(path)
+    handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(scene_text(scene))
+        os.replace(temporary, target)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def _attributes(struct: object, model: type[Any]) -> dict[str, Any]:
+    names = [split_key(key)[0] for key in model.model_fields]
+    return {name: getattr(struct, name) for name in names if hasattr(struct, name)}
+
+
+def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:
+    lines = ["", head]
+    for key in model.model_fields:
+        if key not in _SKIPPED:
+            name, unit = split_key(key)
+            lines.append(f"{key} = {_value(values[name], unit)}")
+    return lines
+
+
+def _value(value: Any, unit: Any) -> str:
+    if isinstance(value, str):
+        return _string(value)
+    if isinstance(value, (float, int)):
+        return _number(from_si(float(value), unit))
+    return "[" + ", ".join(_value(float(v), unit) for v in value) + "]"
+
+
+def _number(value: Decimal) -> str:
+    """A TOML float: it needs a point or an exponent."""
+    text = str(value.normalize())
+    if value == value.to_integral_value() and abs(value) < 10**17:
+        text = f"{value:.1f}" if not value.is_zero() else str(float(value))
+    elif "E" not in text and "." not in text:
+        text += ".0"
+    return text.replace("E+", "e").replace("E", "e")
+
+
+def _string(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,73 @@
+"""The scene file as JSON Schema: the core's bounds in the file's units, and all that a form needs."""
+
+from __future__ import annotations
+
+import json
+import math
+
+from punctura import ServoSettings, scene_json_schema
+from punctura._core import fields
+from punctura.scene.units import split_key
+
+
+def properties(table):
+    return scene_json_schema()["$defs"][table]["properties"]
+
+
+def test_the_schema_is_json():
+    assert json.loads(json.dumps(scene_json_schema())) == scene_json_schema()
+
+
+def test_unknown_keys_are_forbidden_everywhere():
+    schema = scene_json_schema()
+    assert all(table["additionalProperties"] is False for table in [schema, *schema["$defs"].values()])
+
+
+def test_every_key_has_title_help_and_type():
+    for table in ("NeedleTable", "CouplingTable", "ServoTable", "MembraneTable"):
+        for key, entry in properties(table).items():
+            assert entry["title"] and entry["description"] and entry["type"], key
+
+
+def test_every_number_of_the_core_is_in_the_schema_with_its_bounds_in_its_unit():
+    tables = {"needle": "NeedleTable", "coupling": "CouplingTable", "servo": "ServoTable", "membrane": "MembraneTable"}
+    seen = 0
+    for field in fields():
+        table, name = field["path"].split(".")
+        for key, entry in properties(tables[table]).items():
+            if split_key(key)[0] != name or key == "gauge":
+                continue
+            seen += 1
+            scale = float(split_key(key)[1].si)
+            low = entry["exclusiveMinimum" if field["min_open"] else "minimum"]
+            assert math.isclose(low * scale, field["min"])
+            if math.isfinite(field["max"]):
+                high = entry["exclusiveMaximum" if field["max_open"] else "maximum"]
+                assert math.isclose(high * scale, field["max"])
+            assert entry["x-reason"] == field["reason"]
+    assert seen == len(fields()) + 1  # the tip angle has two keys
+
+
+def test_the_tip_angle_in_degrees_stays_below_90():
+    assert properties("NeedleTable")["tip_angle_deg"]["exclusiveMaximum"] == 90
+    assert properties("NeedleTable")["tip_angle_deg"]["x-unit"] == "deg"
+
+
+def test_defaults_are_those_of_the_core():
+    servo, defaults = properties("ServoTable"), ServoSettings()
+    assert servo["rate_hz"]["default"] == defaults.rate
+    assert servo["low_pass_hz"]["default"] == defaults.low_pass
+    assert servo["solver"]["default"] == defaults.solver
+
+
+def test_of_two_ways_to_say_a_thing_exactly_one_is_asked_for():
+    pairs = [{key for way in both["oneOf"] for key in way["required"]} for both in
+             scene_json_schema()["$defs"]["NeedleTable"]["allOf"]]  # fmt: skip
+    assert pairs == [{"diameter_mm", "gauge"}, {"tip_angle_rad", "tip_angle_deg"}]
+    assert properties("NeedleTable")["gauge"]["enum"] == list(range(10, 35))
+
+
+def test_units_and_symbols_are_named():
+    membrane = properties("MembraneTable")
+    assert (membrane["stiffness_N_per_mm"]["x-unit"], membrane["stiffness_N_per_mm"]["x-symbol"]) == ("N/mm", "kappa")
+    assert membrane["friction"]["x-symbol"] == "mu" and "x-unit" not in membrane["friction"]

@@ -1,0 +1,83 @@
+"""What is saved is what is loaded again, to the last bit."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+
+from hypothesis import given
+from hypothesis import strategies as st
+from punctura import (
+    Coupling,
+    Membrane,
+    Needle,
+    PlacedMembrane,
+    Scene,
+    ServoSettings,
+    load_scene,
+    save_scene,
+    scene_names,
+)
+from punctura.scene.units import UNITS, from_si, to_si
+from punctura.scene.write import _number as toml_number
+
+
+def plain(scene):
+    """Everything that a scene holds, to be compared."""
+    laws = [(m.stiffness, m.precompression, m.friction, m.thickness) for m in (p.membrane for p in scene.membranes)]
+    places = [(p.name, tuple(p.point), tuple(p.inward_normal)) for p in scene.membranes]
+    needle = (scene.needle.diameter, scene.needle.tip_angle, scene.direction)
+    servo = (scene.servo.rate, scene.servo.low_pass, scene.servo.solver)
+    return scene.name, needle, (scene.coupling.stiffness, scene.coupling.damping), servo, laws, places
+
+
+positive = st.floats(1e-9, 1e9)
+
+
+@st.composite
+def scenes(draw):
+    membrane = st.builds(Membrane, positive, positive, st.floats(1e-6, 0.5), st.floats(0, 1.0))
+    vector = st.tuples(*[st.floats(-1e3, 1e3)] * 3)
+    placed = st.builds(PlacedMembrane, st.text(max_size=8), membrane, vector, vector.filter(any))
+    return Scene(
+        draw(st.text(st.characters(exclude_categories=["Cs"]))),
+        Needle(draw(positive), draw(st.floats(1e-6, 1.0))),
+        Coupling(draw(positive), draw(positive)),
+        draw(st.lists(placed, min_size=1, max_size=3)),
+        ServoSettings(draw(st.floats(100, 1e5)), draw(positive), draw(st.sampled_from(["exact", "paper"]))),
+        draw(st.sampled_from(["stylus", "motion"])),
+    )
+
+
+@given(scene=scenes())
+def test_a_saved_scene_is_the_same_to_the_last_bit(tmp_path_factory, scene):
+    path = tmp_path_factory.mktemp("scene") / "saved.toml"
+    save_scene(scene, path)
+    assert plain(load_scene(path)) == plain(scene)
+
+
+def test_every_ready_scene_survives_being_saved(tmp_path):
+    for name in scene_names():
+        save_scene(load_scene(name), tmp_path / "saved.toml")
+        assert plain(load_scene(tmp_path / "saved.toml")) == plain(load_scene(name))
+
+
+@given(value=st.floats(allow_nan=False, allow_infinity=False), unit=st.sampled_from(["mm", "N_per_mm", "N", "rad"]))
+def test_a_number_goes_to_its_unit_and_back_unchanged(value, unit):
+    written = Decimal(toml_number(from_si(value, UNITS[unit])))
+    assert math.copysign(1, to_si(written, UNITS[unit])) == math.copysign(1, value)
+    assert to_si(written, UNITS[unit]) == value
+
+
+def test_a_scene_is_saved_in_the_keys_of_the_file_with_plain_numbers(tmp_path):
+    save_scene(load_scene("k06-fig10"), tmp_path / "saved.toml")
+    text = (tmp_path / "saved.toml").read_text()
+    for line in ("diameter_mm = 1.08", "tip_angle_rad = 0.28", "stiffness_N_per_mm = 0.57", "rate_hz = 1600.0"):
+        assert line in text.splitlines()
+
+
+def test_saving_over_a_scene_leaves_one_file(tmp_path):
+    for name in ("k06-fig10", "k06-fig11"):
+        save_scene(load_scene(name), tmp_path / "saved.toml")
+    assert [p.name for p in tmp_path.iterdir()] == ["saved.toml"]
+    assert load_scene(tmp_path / "saved.toml").name == "K06 Fig. 11"
