@@ -23,6 +23,8 @@ from punctura._core import (
     ThinLaw,
 )
 from punctura.errors import ConfigurationError, Problem
+from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
+from punctura.simulation import MotionError, SimulationSummary, simulate
 
 __all__ = [
     "ConfigurationError",
@@ -33,6 +35,7 @@ __all__ = [
     "Insertion",
     "InsertionTrace",
     "Membrane",
+    "MotionError",
     "Needle",
     "Phase",
     "PlacedMembrane",
@@ -43,8 +46,14 @@ __all__ = [
     "RecordedMotion",
     "Scene",
     "ServoSettings",
+    "SimulationSummary",
     "Strokes",
     "Target",
     "ThickLaw",
     "ThinLaw",
+    "load_scene",
+    "save_scene",
+    "scene_json_schema",
+    "scene_names",
+    "simulate",
 ]

@@ -1,0 +1,66 @@
+"""Names of the columns that go in and come out."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+from pathlib import Path
+
+from punctura.simulation.motion_error import MotionError
+
+TIME_AND_POSITION = ["time_s", "x_m", "y_m", "z_m"]
+AXIS = ["axis_x", "axis_y", "axis_z"]
+FORCE = ["fx_N", "fy_N", "fz_N"]
+PER_MEMBRANE = ["depth_{}_m", "force_{}_N", "lower_{}_N", "upper_{}_N", "phase_{}"]
+
+_WANTED = f"the columns must be {','.join(TIME_AND_POSITION)} or {','.join(TIME_AND_POSITION + AXIS)}"
+
+
+def output_columns(has_axis: bool, membranes: int) -> list[str]:
+    """The columns of the output file, in order."""
+    each = [name.format(i) for i in range(membranes) for name in PER_MEMBRANE]
+    return TIME_AND_POSITION + (AXIS if has_axis else []) + FORCE + each
+
+
+def read_header(line: bytes, file: Path) -> list[str]:
+    """The column names of a motion file's first line, or an error that says what is wrong with them."""
+    try:
+        text = line.decode("utf-8-sig").strip()
+    except UnicodeDecodeError:
+        raise MotionError(file, 1, "is not UTF-8 text; save the file as CSV, UTF-8") from None
+    if not text:
+        raise MotionError(file, 1, f"is empty; {_WANTED}")
+    if ";" in text or "\t" in text:
+        sign = "semicolons" if ";" in text else "tabs"
+        raise MotionError(file, 1, f"the columns are separated by {sign}; use commas, and points in the numbers")
+    names = [name.strip() for name in next(csv.reader([text]))]
+    if names in (TIME_AND_POSITION, TIME_AND_POSITION + AXIS):
+        return names
+    raise MotionError(file, 1, f"{_difference(names)}; {_WANTED}")
+
+
+def _difference(names: list[str]) -> str:
+    if all(_is_number(name) for name in names):
+        return "the first line holds numbers, not the names of the columns"
+    known = TIME_AND_POSITION + AXIS
+    wanted = known if set(names) & set(AXIS) else TIME_AND_POSITION
+    parts = []
+    twice = sorted({name for name in names if names.count(name) > 1})
+    missing = [name for name in wanted if name not in names]
+    unknown = [name for name in names if name not in known]
+    if twice:
+        parts.append(f"column {', '.join(twice)} is there twice")
+    if missing:
+        parts.append(f"column {', '.join(missing)} is missing")
+    for name in unknown:
+        near = difflib.get_close_matches(name, missing, n=1)
+        parts.append(f"column {name!r} is unknown" + (f" (did you mean {near[0]}?)" if near else ""))
+    return ", ".join(parts) or f"the columns are in another order, {','.join(names)}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,15 @@
+"""What is raised where a motion file cannot be used."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class MotionError(ValueError):
+    """A motion file that cannot be used: which file, which line (0 for the file as a whole), what, and what to do."""
+
+    def __init__(self, file: str | Path, line: int, what: str) -> None:
+        self.file = str(file)
+        self.line = line
+        self.what = what
+        super().__init__(f"{file}, line {line}: {what}" if line else f"{file}: {what}")

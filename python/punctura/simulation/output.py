@@ -1,0 +1,88 @@
+"""Result files, CSV and Parquet. A file appears under its name only when it is whole."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Protocol
+
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+
+_ROWS_A_GROUP = 1 << 17
+
+
+class Output(Protocol):
+    """Takes the result block by block."""
+
+    def write(self, table: pa.Table) -> None: ...
+
+
+class _Csv:
+    """Numbers are written with as many digits as it takes to read the same double again, 17 at most."""
+
+    def __init__(self, file: pa.NativeFile, schema: pa.Schema) -> None:
+        self._file = file
+        file.write(",".join(schema.names).encode() + b"\n")
+        self._options = pyarrow.csv.WriteOptions(include_header=False, quoting_style="none")
+        self._schema = pa.schema([pa.field(f.name, _plain(f.type)) for f in schema])
+
+    def write(self, table: pa.Table) -> None:
+        pyarrow.csv.write_csv(table.cast(self._schema), self._file, self._options)
+
+
+def _plain(kind: pa.DataType) -> pa.DataType:
+    return kind.value_type if isinstance(kind, pa.DictionaryType) else kind
+
+
+class _Parquet:
+    def __init__(self, writer: pyarrow.parquet.ParquetWriter) -> None:
+        self._writer = writer
+        self._tables: list[pa.Table] = []
+        self._rows = 0
+
+    def write(self, table: pa.Table) -> None:
+        self._tables.append(table)
+        self._rows += len(table)
+        if self._rows >= _ROWS_A_GROUP:
+            self.flush()
+
+    def flush(self) -> None:
+        if self._rows:
+            self._writer.write_table(pa.concat_tables(self._tables), row_group_size=self._rows)
+        self._tables, self._rows = [], 0
+
+
+SUFFIXES = (".csv", ".parquet")
+
+
+@contextmanager
+def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
+    """A result file that is renamed to `path` at the end, or, after an error, leaves nothing behind."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    os.close(handle)
+    try:
+        if path.suffix.lower() == ".parquet":
+            with pyarrow.parquet.ParquetWriter(name, schema) as writer:
+                parquet = _Parquet(writer)
+                yield parquet
+                parquet.flush()
+        else:
+            with pa.OSFile(name, "wb") as file:
+                yield _Csv(file, schema)
+        os.chmod(name, 0o666 & ~_umask())
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _umask() -> int:
+    """The permissions that new files are denied; mkstemp denies more."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

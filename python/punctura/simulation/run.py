@@ -1,0 +1,149 @@
+"""The simulation itself: read a block, run the model over it, write a block."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura._core import Insertion, InsertionTrace, Scene
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.scene import load_scene, scene_text
+from punctura.simulation.even import TOLERANCE, Evenness
+from punctura.simulation.motion_error import MotionError
+from punctura.simulation.motion_file import MotionFile
+from punctura.simulation.output import SUFFIXES, open_output
+from punctura.simulation.resample import ROWS_AT_ONCE, Resampler, unit, with_axis
+from punctura.simulation.summary import MembraneSummary, SimulationSummary
+from punctura.simulation.table import output_schema, output_table
+
+Array = NDArray[np.float64]
+Progress = Callable[[float], None]
+
+_SURVEY_SHARE = 0.2  # of the progress is the first reading
+
+
+def simulate(
+    scene: Scene | str | os.PathLike[str],
+    motion_path: str | os.PathLike[str],
+    out_path: str | os.PathLike[str],
+    progress: Progress | None = None,
+) -> SimulationSummary:
+    """The model's own force, without safety limits, for a motion from a file.
+
+    scene: a Scene, a scene file or a ready scene's name. motion_path: CSV with
+    time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z]. out_path: .csv or .parquet. progress is told the share that is done.
+    Files of any length take the same memory. Raises ConfigurationError, MotionError or OSError; there is then no
+    output file.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda share: None)
+    name = scene.name if isinstance(scene, Scene) else str(os.fspath(scene))
+    scene = scene if isinstance(scene, Scene) else load_scene(scene)
+    source, target = Path(motion_path), Path(out_path)
+    _check_target(source, target)
+
+    motion = MotionFile(source)
+    even = _survey(motion, tell)
+    summary = SimulationSummary(name, str(source), str(target), servo_rate_hz=scene.servo.rate)
+    summary.rows_in = even.count
+    summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
+    resampler = _resampler(even, scene, summary)
+
+    insertion = Insertion(scene)
+    metadata = {"punctura.scene": scene_text(scene)}
+    schema = output_schema(motion.has_axis, len(scene.membranes), metadata)
+    default_axis = np.array(scene.membranes[0].inward_normal)
+    with open_output(target, schema) as output:
+        for part in _parts(motion, resampler, tell):
+            trace = insertion.run(part.position, default_axis if part.axis is None else part.axis)
+            output.write(output_table(schema, part.time, part.position, part.axis, trace))
+            _add(summary, part, trace)
+    summary.elapsed_s = time.perf_counter() - began
+    return summary
+
+
+class _Part(NamedTuple):
+    """Rows that go through the model together."""
+
+    time: Array
+    position: Array
+    axis: Array | None
+
+
+def _check_target(source: Path, target: Path) -> None:
+    problems = []
+    if not source.is_file():
+        reason = "is not a file" if source.exists() else "there is no such file"
+        problems.append(Problem(f"motion {source}", MISSING, reason))
+    if target.suffix.lower() not in SUFFIXES:
+        problems.append(Problem(f"out {target}", MISSING, f"must end in {' or '.join(SUFFIXES)}"))
+    if target.is_dir():
+        problems.append(Problem(f"out {target}", MISSING, "is a folder"))
+    elif not target.parent.is_dir():
+        problems.append(Problem(f"out {target}", MISSING, f"there is no folder {target.parent}"))
+    elif source.exists() and target.exists() and source.samefile(target):
+        problems.append(Problem(f"out {target}", MISSING, "is the motion itself"))
+    if problems:
+        raise ConfigurationError(problems)
+
+
+def _survey(motion: MotionFile, tell: Progress) -> Evenness:
+    """Reads the motion once, so that what is wrong with it is known before anything is computed."""
+    even = Evenness(motion.path)
+    for block in motion.blocks():
+        even.add(block.first_line, block.time)
+        if block.axis is not None:
+            nowhere = np.flatnonzero(~block.axis.any(axis=1))
+            if len(nowhere):
+                line = block.first_line + int(nowhere[0])
+                raise MotionError(motion.path, line, "axis_x, axis_y, axis_z are all 0; they must give a direction")
+        tell(_SURVEY_SHARE * block.bytes_read / motion.size)
+    if not even.count:
+        raise MotionError(motion.path, 2, "there is no motion below the column names")
+    return even
+
+
+def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resampler | None:
+    """None where the motion is sampled at the servo rate: then every row is one tick."""
+    period = 1 / scene.servo.rate
+    if even.step is None:
+        return None
+    summary.motion_rate_hz = 1 / even.step
+    if abs(even.step - period) * (even.count - 1) <= TOLERANCE * period:
+        return None
+    summary.resampled = True
+    summary.notes.append(
+        f"the motion is sampled at {1 / even.step:.6g} Hz, the servo runs at {scene.servo.rate:.6g} Hz: "
+        "the motion was resampled linearly"
+    )
+    return Resampler(even.first, even.step, period, even.count)
+
+
+def _parts(motion: MotionFile, resampler: Resampler | None, tell: Progress) -> Iterator[_Part]:
+    for block in motion.blocks():
+        for i in range(0, len(block.time), ROWS_AT_ONCE):
+            rows = slice(i, i + ROWS_AT_ONCE)
+            position, axis = block.position[rows], None if block.axis is None else block.axis[rows]
+            if resampler is None:
+                yield _Part(block.time[rows], position, axis)
+            else:
+                for stamps, values in resampler.add(position if axis is None else with_axis(position, axis)):
+                    yield _Part(stamps, values[:, :3], None if axis is None else unit(values[:, 3:]))
+            tell(_SURVEY_SHARE + (1 - _SURVEY_SHARE) * block.bytes_read / motion.size)
+
+
+def _add(summary: SimulationSummary, part: _Part, trace: InsertionTrace) -> None:
+    if not summary.rows_out:
+        summary.start_s = float(part.time[0])
+    summary.rows_out += len(part.time)
+    summary.end_s = float(part.time[-1])
+    summary.strongest_N = max(summary.strongest_N, float(np.linalg.norm(trace.force, axis=1).max()))
+    for i, membrane in enumerate(summary.membranes):
+        membrane.deepest_m = max(membrane.deepest_m, float(trace.depth[:, i].max()))
+        membrane.strongest_N = max(membrane.strongest_N, float(np.abs(trace.axial_force[:, i]).max()))
