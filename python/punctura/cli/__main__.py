@@ -1,0 +1,5 @@
+"""`python -m punctura.cli` is `punctura`."""
+
+from punctura.cli._app import main
+
+main()

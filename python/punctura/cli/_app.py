@@ -1,0 +1,69 @@
+"""Finds the verbs, runs one, and turns what goes wrong into a sentence and an exit status.
+
+0: done. 1: the run failed (a motion that cannot be used, a full disk). 2: called wrongly (usage, scene, paths).
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.errors import ConfigurationError
+
+FAILED, CALLED_WRONGLY, INTERRUPTED = 1, 2, 130
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"punctura {version('punctura')}")
+        raise typer.Exit
+
+
+def _start(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    """The force of a needle that goes through tissue membranes and comes out again."""
+
+
+def build_app() -> typer.Typer:
+    """The command line with every verb of this folder."""
+    app = typer.Typer(
+        callback=_start,
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+    )
+    for module in sorted(pkgutil.iter_modules([str(Path(__file__).parent)]), key=lambda m: m.name):
+        if not module.name.startswith("_"):
+            command = importlib.import_module(f"punctura.cli.{module.name}").command
+            app.command(module.name.replace("_", "-"))(command)
+    return app
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Runs the command line; ends the process with its exit status."""
+    try:
+        build_app()(None if arguments is None else list(arguments), prog_name="punctura")
+    except ConfigurationError as error:
+        _fail(error, CALLED_WRONGLY)
+    except (ValueError, OSError) as error:
+        _fail(error, FAILED)
+    except SystemExit as end:
+        if end.code == INTERRUPTED:  # typer has caught Ctrl-C
+            _fail("interrupted", INTERRUPTED)
+        raise
+
+
+def _fail(error: object, status: int) -> None:
+    print(f"punctura: {error}", file=sys.stderr)
+    sys.exit(status)

@@ -1,0 +1,30 @@
+"""`punctura scenes`: the scenes that come with the package."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+
+from punctura.scene import load_scene, scene_names, scene_path
+
+
+def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
+    """The ready scenes, by the names that the other verbs take."""
+    scenes = {name: load_scene(name) for name in scene_names()}
+    if as_json:
+        entries = [
+            {
+                "name": name,
+                "title": scene.name,
+                "membranes": [placed.name for placed in scene.membranes],
+                "file": str(scene_path(name)),
+            }
+            for name, scene in scenes.items()
+        ]
+        typer.echo(json.dumps(entries, indent=2))
+        return
+    width = max(len(name) for name in scenes)
+    for name, scene in scenes.items():
+        typer.echo(f"{name:{width}}  {scene.name}: {', '.join(placed.name for placed in scene.membranes)}")

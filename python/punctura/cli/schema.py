@@ -1,0 +1,14 @@
+"""`punctura schema`: the scene file as JSON Schema."""
+
+from __future__ import annotations
+
+import json
+
+import typer
+
+from punctura.scene import scene_json_schema
+
+
+def command() -> None:
+    """JSON Schema of the scene file: keys, units, bounds, defaults, help."""
+    typer.echo(json.dumps(scene_json_schema(), indent=2))

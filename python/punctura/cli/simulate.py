@@ -1,0 +1,38 @@
+"""`punctura simulate`: the model's force for a recorded motion."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.cli._progress import progress_bar
+from punctura.simulation import SimulationSummary, simulate
+
+
+def command(
+    scene: Annotated[str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")],
+    motion: Annotated[
+        Path, typer.Option("--motion", help="CSV: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
+    ],
+    out: Annotated[Path, typer.Option("--out", help="Where the result goes.", metavar="OUT.csv|.parquet")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """The model's own force for a motion from a file, without safety limits."""
+    with progress_bar("simulate") as tell:
+        summary = simulate(scene, motion, out, tell)
+    for note in summary.notes:
+        typer.echo(f"punctura: note: {note}", err=True)
+    typer.echo(json.dumps(summary.to_dict(), indent=2) if as_json else _in_words(summary))
+
+
+def _in_words(summary: SimulationSummary) -> str:
+    lines = [
+        f"{summary.out}: {summary.rows_out} ticks at {summary.servo_rate_hz:g} Hz, "
+        f"{summary.start_s:.6g} s to {summary.end_s:.6g} s, strongest force {summary.strongest_N:.4g} N"
+    ]
+    for membrane in summary.membranes:
+        lines.append(f"  {membrane.name}: {membrane.deepest_m * 1e3:.4g} mm deep, {membrane.strongest_N:.4g} N")
+    return "\n".join(lines)

@@ -1,0 +1,176 @@
+"""The command line: verbs, exit statuses, plain sentences on stderr."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from importlib.metadata import version
+
+import pytest
+from punctura import scene_names
+from punctura.cli import _progress
+
+HEADER = "time_s,x_m,y_m,z_m\n"
+
+
+def punctura(*arguments, cwd=None):
+    environment = {**os.environ, "NO_COLOR": "1", "COLUMNS": "100"}
+    command = [sys.executable, "-m", "punctura.cli", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment)
+
+
+@pytest.fixture
+def motion(tmp_path):
+    path = tmp_path / "motion.csv"
+    path.write_text(HEADER + "".join(f"{i / 1600!r},0,{0.001 - i * 1e-5!r},0\n" for i in range(1000)))
+    return path
+
+
+def test_the_version_is_that_of_the_package():
+    done = punctura("--version")
+    assert (done.returncode, done.stdout) == (0, f"punctura {version('punctura')}\n")
+
+
+def test_without_a_verb_it_lists_the_verbs():
+    done = punctura()
+    for verb in ("scenes", "schema", "simulate"):
+        assert re.search(rf"^\s+{verb} +\w", done.stdout + done.stderr, re.M)
+
+
+def test_each_verb_is_a_file_and_tells_how_it_is_used():
+    for verb in ("scenes", "schema", "simulate"):
+        done = punctura(verb, "--help")
+        assert done.returncode == 0 and f"Usage: punctura {verb}" in done.stdout
+
+
+def test_an_unknown_verb_is_a_usage_error():
+    done = punctura("fly")
+    assert done.returncode == 2 and "No such command 'fly'" in done.stderr and not done.stdout
+
+
+def test_scenes_lists_names_and_membranes():
+    lines = punctura("scenes").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == scene_names()
+    assert "k06-fig12     K06 Fig. 12: first membrane, second membrane" in lines
+
+
+def test_scenes_as_json_name_their_files():
+    entries = json.loads(punctura("scenes", "--json").stdout)
+    assert [entry["name"] for entry in entries] == scene_names()
+    assert entries[1] == {
+        "name": "k06-fig10",
+        "title": "K06 Fig. 10",
+        "membranes": ["thin membrane"],
+        "file": entries[1]["file"],
+    }
+    assert all(os.path.isfile(entry["file"]) for entry in entries)
+
+
+def test_schema_prints_json_schema():
+    schema = json.loads(punctura("schema").stdout)
+    assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+    assert {"needle", "coupling", "membrane", "name"} == set(schema["required"])
+
+
+def test_simulate_says_in_words_what_it_did(motion, tmp_path):
+    done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    first, second = done.stdout.splitlines()
+    assert first.startswith(f"{tmp_path / 'out.csv'}: 1000 ticks at 1600 Hz, 0 s to 0.624375 s, strongest force 0.7")
+    assert second.startswith("  thin membrane: ")
+    assert len((tmp_path / "out.csv").read_text().splitlines()) == 1001
+
+
+def test_simulate_as_json_is_only_json_on_stdout(motion, tmp_path):
+    done = punctura("simulate", "k06-fig12", "--motion", motion, "--out", tmp_path / "out.parquet", "--json")
+    summary = json.loads(done.stdout)
+    assert (summary["rows_in"], summary["rows_out"], summary["resampled"]) == (1000, 1000, False)
+    assert [m["name"] for m in summary["membranes"]] == ["first membrane", "second membrane"]
+    assert done.stderr == ""
+
+
+def test_a_note_goes_to_stderr_and_into_the_json(motion, tmp_path):
+    motion.write_text(HEADER + "".join(f"{i / 500!r},0,0,0\n" for i in range(50)))
+    done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv", "--json")
+    note = "the motion is sampled at 500 Hz, the servo runs at 1600 Hz: the motion was resampled linearly"
+    assert json.loads(done.stdout)["notes"] == [note]
+    assert done.stderr == f"punctura: note: {note}\n"
+
+
+def test_a_bad_motion_fails_with_status_1_and_one_sentence(motion, tmp_path):
+    motion.write_text(HEADER + "0,0,0,0\n0.000625,0,nan,0\n")
+    done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv")
+    assert (done.returncode, done.stdout) == (1, "")
+    what = "y_m is nan; fill the sample in, or cut the motion there"
+    assert done.stderr == f"punctura: {motion}, line 3: {what}\n"
+    assert [p.name for p in tmp_path.iterdir()] == ["motion.csv"]
+
+
+def test_a_bad_scene_is_called_wrongly_with_all_its_problems(motion, tmp_path):
+    (tmp_path / "bad.toml").write_text("name = 3\n")
+    done = punctura("simulate", "bad.toml", "--motion", motion, "--out", "out.csv", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "punctura: bad.toml: 4 problems\n"
+        "  name = 3: must be text, in quotes\n"
+        "  needle: is missing; write a table [needle]\n"
+        "  coupling: is missing; write a table [coupling]\n"
+        "  membrane: is missing; write a table [[membrane]]\n"
+    )
+
+
+def test_missing_files_and_a_wrong_ending_are_called_wrongly(tmp_path):
+    done = punctura("simulate", "k06-fig10", "--motion", "none.csv", "--out", "out.xlsx", cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == (
+        "punctura: 2 problems\n  motion none.csv: there is no such file\n  out out.xlsx: must end in .csv or .parquet\n"
+    )
+
+
+def test_missing_options_are_a_usage_error():
+    done = punctura("simulate", "k06-fig10")
+    assert done.returncode == 2 and "Missing option '--motion'" in done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_an_interrupt_leaves_nothing_behind(tmp_path):
+    slow = tmp_path / "slow.csv"
+    slow.write_text(HEADER + "0,0,0,0\n" + "1e6,0,0,0\n" + "2e6,0,0,0\n")  # 3.2e9 ticks
+    command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    while len(list(tmp_path.iterdir())) < 2:
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate()[1] == "punctura: interrupted\n"
+    assert process.returncode == 130
+    assert [p.name for p in tmp_path.iterdir()] == ["slow.csv"]
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_bar_shows_itself_on_a_terminal_only_and_after_a_second_only(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    clock = iter([0.0, 0.5, 1.5, 2.0])
+    monkeypatch.setattr(_progress.time, "monotonic", lambda: next(clock))
+    terminal = Terminal()
+    with _progress.progress_bar("simulate", terminal) as tell:
+        tell(0.2)
+        assert terminal.getvalue() == ""
+        tell(0.6)
+    assert "simulate" in terminal.getvalue()
+
+    monkeypatch.setattr(_progress.time, "monotonic", iter([0.0, 5.0, 9.0]).__next__)
+    pipe = io.StringIO()
+    with _progress.progress_bar("simulate", pipe) as tell:
+        tell(0.2)
+    assert pipe.getvalue() == ""
