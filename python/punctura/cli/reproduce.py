@@ -1,0 +1,32 @@
+"""`punctura reproduce`: K06's figures and a page that shows them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.cli._progress import progress_bar
+from punctura.reproduce import Reproduction, reproduce
+
+
+def command(
+    out: Annotated[Path, typer.Option("--out", help="The folder that everything goes to.", metavar="DIR")] = Path(
+        "out/reproduce"
+    ),
+    as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
+) -> None:
+    """K06 Figs. 3, 5, 10, 11 and 12 as PNG, SVG and CSV, and one page that shows them."""
+    with progress_bar("reproduce") as tell:
+        result = reproduce(out, tell)
+    typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else _in_words(result))
+
+
+def _in_words(result: Reproduction) -> str:
+    lines = ["                                                        expected    measured"]
+    for m in result.measured:
+        expected = "" if m.expected != m.expected else f"{m.expected:.4g}"
+        lines.append(f"{m.figure:9}{m.quantity:46} {expected:>9}   {m.measured:>9.4g} {m.unit}")
+    return "\n".join([*lines, "", f"{len(result.files)} files. Open the page: {result.page}"])

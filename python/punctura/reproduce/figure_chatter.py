@@ -1,0 +1,119 @@
+"""The close-up: what the paper's substitution (31) does to the force at entry, and that the exact solution does not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from punctura.reproduce import palette
+from punctura.reproduce.chatter import SOLVERS, SPEED, SWEEP_MM, THIN, SteadyEntry, onset, steady_entry, swing
+from punctura.reproduce.drawing import Drawing, Measured, Table
+from punctura.reproduce.measure import alternations, of_law
+from punctura.reproduce.operator import Operation, paper_on_same_motion
+from punctura.reproduce.scenes import NEEDLE, Solver, k06_membrane
+from punctura.reproduce.style import new_figure, note
+from punctura.reproduce.words import read_words
+
+LINE: dict[Solver, dict[str, Any]] = {
+    "exact": {"color": palette.INSERTION.light, "lw": 1.4, "zorder": 4},
+    "paper": {"color": palette.PAPER_FORM.light, "lw": 1.4, "zorder": 3},
+}
+CLOSE_UP = slice(150, 166)  # ticks, counted from contact
+AFTER_ENTRY = 60  # ticks of panel a after the membrane is filled
+WINDOW_S = 0.15  # of the experiment, panel d
+FAST = 100e-3  # m/s, for comparison
+
+
+def figure_chatter(fig_10: Operation) -> Drawing:
+    """Four panels: difference, close-up, thickness, experiment."""
+    exact, paper = (steady_entry(THIN, solver) for solver in SOLVERS)
+    counts = {solver: [steady_entry(h * 1e-3, solver).turns for h in SWEEP_MM] for solver in SOLVERS}
+    figure = new_figure(5.8)
+    (difference, close), (sweep, experiment) = figure.subplots(2, 2)
+    shown = slice(0, exact.ticks_in_entry + AFTER_ENTRY)
+    _difference(difference, exact, paper, shown)
+    _close(close, exact, paper)
+    _sweep(sweep, counts)
+    window = _experiment(experiment, fig_10)
+    handles = [Line2D([], [], **LINE["exact"], label="exact")]
+    handles += [Line2D([], [], **LINE["paper"], label="paper's form (33)")]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    words = read_words(
+        "chatter",
+        speed_mm_s=SPEED * 1e3,
+        turns_paper=paper.turns,
+        turns_exact=exact.turns,
+        onset_mm=onset() * 1e3,
+        swing_mN=swing(paper) * 1e3,
+        fast_mm_s=FAST * 1e3,
+        fast_swing_mN=swing(steady_entry(THIN, "paper", FAST)) * 1e3,
+        experiment_exact=alternations(np.asarray(window["f_y_exact_N"])),
+        experiment_paper=alternations(np.asarray(window["f_y_paper_N"])),
+    )
+    in_close_up = np.zeros(exact.force.size, dtype=int)
+    in_close_up[CLOSE_UP] = 1
+    tables: dict[str, Table] = {
+        "chatter": {
+            "time_ms": exact.time[shown] * 1e3,
+            "p_y_mm": exact.p_y[shown] * 1e3,
+            "f_y_exact_N": exact.force[shown],
+            "f_y_paper_N": paper.force[shown],
+            "in_close_up": in_close_up[shown],
+        },
+        "chatter-thickness": {"H_mm": SWEEP_MM, "turns_exact": counts["exact"], "turns_paper": counts["paper"]},
+        "chatter-experiment": window,
+    }
+    return Drawing("chatter", words, figure, tables, _measured(exact, paper))
+
+
+def _measured(exact: SteadyEntry, paper: SteadyEntry) -> tuple[Measured, ...]:
+    law, at = of_law(NEEDLE, k06_membrane(THIN)), f"at {SPEED * 1e3:g} mm/s"
+    return (
+        Measured("Close-up", f"turns of the force {at}, exact", "", 1, exact.turns, "one, at the pop"),
+        Measured("Close-up", f"turns of the force {at}, paper's form", "", np.nan, paper.turns, ""),
+        Measured("Close-up", f"force before the pop {at}, exact", "N", law.peak, exact.pop[0], "largest of (18)"),
+        Measured("Close-up", f"force after the pop {at}, exact", "N", law.plateau, exact.pop[1], "F U/H, (18)"),
+    )
+
+
+def _difference(axes: Axes, exact: SteadyEntry, paper: SteadyEntry, shown: slice) -> None:
+    time = exact.time * 1e3
+    axes.plot(time[shown], (paper.force - exact.force)[shown] * 1e3, color=palette.PAPER_FORM.light, lw=0.5)
+    axes.plot(time[shown], np.zeros(time[shown].size), **LINE["exact"])
+    axes.axvspan(time[CLOSE_UP.start], time[CLOSE_UP.stop], color=palette.GUIDE.light, lw=0, zorder=0.5)
+    axes.set(title="a  steady 5 mm/s: paper's form minus exact", xlabel="time since contact  (ms)", ylabel="mN")
+
+
+def _close(axes: Axes, exact: SteadyEntry, paper: SteadyEntry) -> None:
+    for solver, run in zip(SOLVERS, (exact, paper), strict=True):
+        axes.step(run.time[CLOSE_UP] * 1e3, run.force[CLOSE_UP], where="post", **LINE[solver])
+    axes.set(title="b  the ticks marked in a", xlabel="time since contact  (ms)", ylabel="$f_y$  (N)")
+
+
+def _sweep(axes: Axes, counts: dict[Solver, list[int]]) -> None:
+    for solver in SOLVERS:
+        axes.plot(SWEEP_MM, counts[solver], marker="o", ms=2.6, **{**LINE[solver], "lw": 0.8})
+    axes.axvline(onset() * 1e3, color=palette.MUTED.light, lw=0.8, ls=(0, (3, 2)))
+    axes.set(xscale="log", title="c  turns of the force on the way in", xlabel="thickness $H$  (mm)", ylabel="count")
+    axes.set_xticks([0.02, 0.1, 0.5, 1, 4], ["0.02", "0.1", "0.5", "1", "4"])
+    axes.minorticks_off()
+    note(axes, f"(31) settles\nabove {onset() * 1e3:.2f} mm", (onset() * 1e3, 160), (0.9, 190))
+
+
+def _experiment(axes: Axes, run: Operation) -> Table:
+    paper = paper_on_same_motion(run)
+    start = int(np.argmax(run.f_y_N > 0)) - 8
+    window = slice(start, start + round(WINDOW_S * run.scene.servo.rate))
+    time = (run.trace.time[window] - run.trace.time[start]) * 1e3
+    for solver, force in zip(SOLVERS, (run.f_y_N, paper), strict=True):
+        axes.step(time, force[window], where="post", **{**LINE[solver], "lw": 0.8})
+    axes.set(title="d  at the simulated device", xlabel="time  (ms)", ylabel="$f_y$  (N)")
+    return {
+        "time_ms": time,
+        "p_y_mm": run.p_y_mm[window],
+        "f_y_exact_N": run.f_y_N[window],
+        "f_y_paper_N": paper[window],
+    }

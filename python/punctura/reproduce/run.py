@@ -1,0 +1,101 @@
+"""Makes all figures, their data and the page: `punctura reproduce`."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from punctura.reproduce.drawing import Drawing, Measured
+from punctura.reproduce.figure_10 import figure_10
+from punctura.reproduce.figure_11 import figure_11
+from punctura.reproduce.figure_12 import figure_12
+from punctura.reproduce.figure_chatter import figure_chatter
+from punctura.reproduce.figure_laws import figure_3, figure_5
+from punctura.reproduce.figure_pop import figure_pop
+from punctura.reproduce.operator import operate
+from punctura.reproduce.page import write_page
+from punctura.reproduce.scenes import k06_scene
+from punctura.reproduce.style import DPI, figure_style
+from punctura.reproduce.table import write_csv
+from punctura.reproduce.versions import versions
+
+PAGE = "index.html"
+STROKE_DEPTH_MM = {"k06-fig10": 9.0, "k06-fig11": 9.0, "k06-fig12": 11.0}
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """What was made, and what was measured on the way."""
+
+    folder: Path
+    files: tuple[str, ...]  # in the folder, the page first
+    measured: tuple[Measured, ...]
+
+    @property
+    def page(self) -> Path:
+        """The page that shows everything."""
+        return self.folder / PAGE
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON. An expected value that there is not is null."""
+        return {
+            "page": str(self.page),
+            "folder": str(self.folder),
+            "files": list(self.files),
+            "versions": versions(),
+            "measured": [
+                {**vars(m), "expected": m.expected if m.expected == m.expected else None} for m in self.measured
+            ],
+        }
+
+
+def reproduce(folder: str | os.PathLike[str], tell: Callable[[float], None] = lambda share: None) -> Reproduction:
+    """Writes K06 Figs. 3, 5, 10, 11, 12, the close-up and the pop as PNG, SVG and CSV, and a page that shows them.
+
+    `tell` hears the share done, 0 to 1. Everything is made aside first: if that fails, `folder` gets no file.
+    """
+    target = Path(folder).absolute()
+    target.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".making-", dir=target) as aside:
+        workshop = Path(aside)
+        drawings = list[Drawing]()
+        with figure_style():
+            recipes = _recipes()
+            for i, recipe in enumerate(recipes):
+                drawing = recipe()
+                _save(drawing, workshop)
+                drawings.append(drawing)
+                tell((i + 1) / (len(recipes) + 1))
+        write_page(drawings, workshop, PAGE)
+        made = sorted(file.name for file in workshop.iterdir())
+        files = [PAGE, *(name for name in made if name != PAGE)]
+        for name in reversed(files):  # the page last: it never shows what is not there
+            shutil.move(workshop / name, target / name)
+    tell(1.0)
+    return Reproduction(target, tuple(files), tuple(m for drawing in drawings for m in drawing.measured))
+
+
+def _recipes() -> list[Callable[[], Drawing]]:
+    runs = {name: operate(k06_scene(name), depth) for name, depth in STROKE_DEPTH_MM.items()}
+    return [
+        figure_pop,
+        figure_3,
+        figure_5,
+        lambda: figure_10(runs["k06-fig10"]),
+        lambda: figure_chatter(runs["k06-fig10"]),
+        lambda: figure_11(runs["k06-fig11"]),
+        lambda: figure_12(runs["k06-fig12"]),
+    ]
+
+
+def _save(drawing: Drawing, folder: Path) -> None:
+    # No date and no version of the drawing library, so that a second run gives the same files.
+    drawing.figure.savefig(folder / f"{drawing.name}.png", dpi=DPI, metadata={"Software": None})
+    drawing.figure.savefig(folder / f"{drawing.name}.svg", metadata={"Date": None, "Creator": None})
+    for name, table in drawing.tables.items():
+        write_csv(table, folder / f"{name}.csv")

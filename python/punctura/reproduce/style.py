@@ -1,0 +1,122 @@
+"""How every figure looks: for print at 300 dpi, with matplotlib's own font, whatever the user's settings are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from matplotlib import font_manager, patheffects
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Annotation
+
+from punctura.reproduce import palette
+
+WIDTH_IN = 7.0  # two columns of a journal page
+DPI = 300
+
+_SETTINGS: dict[str, Any] = {
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "dejavusans",
+    "font.size": 8.5,
+    "axes.titlesize": 9,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "axes.edgecolor": palette.MUTED.light,
+    "axes.labelcolor": palette.INK.light,
+    "text.color": palette.INK.light,
+    "xtick.color": palette.MUTED.light,
+    "ytick.color": palette.MUTED.light,
+    "xtick.labelcolor": palette.INK.light,
+    "ytick.labelcolor": palette.INK.light,
+    "axes.linewidth": 0.7,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": palette.GRID.light,
+    "grid.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.facecolor": palette.PAGE.light,
+    "axes.facecolor": "none",
+    "savefig.facecolor": palette.PAGE.light,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+    "svg.fonttype": "path",  # a figure looks the same where the font is missing
+    "svg.hashsalt": "punctura",  # and is the same file every time
+}
+
+
+@contextmanager
+def figure_style() -> Iterator[None]:
+    """matplotlib's defaults and the settings above, until the block ends; a user's matplotlibrc plays no part."""
+    own_font = Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"
+    font_manager.fontManager.addfont(own_font)
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        settings: Any = matplotlib.rcParams
+        settings.update(_SETTINGS)
+        yield
+
+
+def new_figure(height_in: float, width_in: float = WIDTH_IN) -> Figure:
+    """A figure that needs no window and no pyplot."""
+    figure = Figure(figsize=(width_in, height_in), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def halo(width: float = 2.5) -> list[patheffects.AbstractPathEffect]:
+    """An edge in the colour of the page, so that text stays readable where it meets a line."""
+    return [patheffects.withStroke(linewidth=width, foreground=palette.PAGE.light)]
+
+
+def note(
+    axes: Axes,
+    text: str,
+    at: tuple[float, float],
+    place: tuple[float, float],
+    colour: palette.Colour = palette.INK,
+    **more: Any,
+) -> Annotation:
+    """A word at `place` with a thin leader to `at`, both in data units."""
+    return axes.annotate(
+        text,
+        xy=at,
+        xytext=place,
+        color=colour.light,
+        path_effects=halo(),
+        arrowprops={"arrowstyle": "-", "color": palette.MUTED.light, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2},
+        **{"ha": "center", "va": "center", "fontsize": 8, **more},
+    )
+
+
+def arrow(
+    axes: Axes,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    colour: palette.Colour = palette.INK,
+    size: float = 9,
+) -> None:
+    """A direction: a small filled head at `end`."""
+    axes.annotate(
+        "",
+        xy=end,
+        xytext=start,
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": colour.light,
+            "linewidth": 0.9,
+            "mutation_scale": size,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+    )

@@ -1,0 +1,17 @@
+"""What made the figures."""
+
+from __future__ import annotations
+
+import platform
+from importlib.metadata import version
+
+
+def versions() -> dict[str, str]:
+    """Name and version of what the numbers and pictures depend on."""
+    return {
+        "punctura": version("punctura"),
+        "python": platform.python_version(),
+        "numpy": version("numpy"),
+        "matplotlib": version("matplotlib"),
+        "system": f"{platform.system()} {platform.machine()}",
+    }
