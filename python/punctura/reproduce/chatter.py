@@ -58,11 +58,10 @@ def period() -> float:
     return 1 / one_membrane(THIN).servo.rate
 
 
-def swing(entry: SteadyEntry) -> float:
-    """How far the force falls back where it turns on the way in, before the pop: the median, N."""
-    step = np.diff(entry.force[: entry.ticks_in_entry])
-    back = step[step < -1e-6]
-    return float(-np.median(back)) if back.size else 0.0
+def swing(paper: SteadyEntry, exact: SteadyEntry) -> float:
+    """By how much the paper's force shakes about the exact one while it enters, from tick to tick: the median, N."""
+    ticks = slice(0, exact.ticks_in_entry)
+    return float(np.median(np.abs(np.diff(paper.force[ticks] - exact.force[ticks]))))
 
 
 def onset() -> float:

@@ -24,7 +24,7 @@ LINE: dict[Solver, dict[str, Any]] = {
 CLOSE_UP = slice(150, 166)  # ticks, counted from contact
 AFTER_ENTRY = 60  # ticks of panel a after the membrane is filled
 WINDOW_S = 0.15  # of the experiment, panel d
-FAST = 100e-3  # m/s, for comparison
+FAST = 20e-3  # m/s, for comparison
 
 
 def figure_chatter(fig_10: Operation) -> Drawing:
@@ -47,9 +47,9 @@ def figure_chatter(fig_10: Operation) -> Drawing:
         turns_paper=paper.turns,
         turns_exact=exact.turns,
         onset_mm=onset() * 1e3,
-        swing_mN=swing(paper) * 1e3,
+        swing_mN=swing(paper, exact) * 1e3,
         fast_mm_s=FAST * 1e3,
-        fast_swing_mN=swing(steady_entry(THIN, "paper", FAST)) * 1e3,
+        fast_swing_mN=swing(*(steady_entry(THIN, solver, FAST) for solver in ("paper", "exact"))) * 1e3,
         experiment_exact=alternations(np.asarray(window["f_y_exact_N"])),
         experiment_paper=alternations(np.asarray(window["f_y_paper_N"])),
     )

@@ -12,6 +12,7 @@ from punctura.reproduce.scenes import INWARD
 
 SEED = 209  # three strokes through the membrane, and one that turns before the pop
 START_MM = 1.5  # above the first surface
+STROKE_DEPTH_MM = {"k06-fig10": 9.0, "k06-fig11": 9.0, "k06-fig12": 11.0}  # wanted; the hand yields
 COUNT, DURATION_S, REST_S, VARIATION = 4, 1.4, 0.35, 0.25
 GUIDE_SPEED = 2e-3  # m/s, of the steady motion drawn behind
 

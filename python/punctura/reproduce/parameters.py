@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from punctura import Hand, Plant
-from punctura.reproduce.operator import COUNT, DURATION_S, REST_S, SEED, START_MM, VARIATION
+from punctura.reproduce.operator import COUNT, DURATION_S, REST_S, SEED, START_MM, STROKE_DEPTH_MM, VARIATION
 from punctura.reproduce.scenes import k06_scene
 
 _K06 = "K06 section 4"
@@ -25,6 +25,7 @@ class Parameter(NamedTuple):
 def parameters() -> list[Parameter]:
     """Of Figs. 5 and 10 to 12."""
     scene, plant, hand = k06_scene("k06-fig10"), Plant(), Hand()
+    depths = " / ".join(f"{depth:g}" for depth in STROKE_DEPTH_MM.values()) + " mm"
     membrane = scene.membranes[0].membrane
     return [
         Parameter("needle", "diameter w", f"{scene.needle.diameter * 1e3:g} mm", _K06),
@@ -46,7 +47,7 @@ def parameters() -> list[Parameter]:
         Parameter("hand", "tremor", f"{hand.tremor_rms * 1e3:g} mm rms at {hand.tremor_hz:g} Hz", "illustrative"),
         Parameter("strokes", "count, one way, rest", f"{COUNT}, {DURATION_S:g} s, {REST_S:g} s", _CHOICE),
         Parameter("strokes", "start above the membrane", f"{START_MM:g} mm", _CHOICE),
-        Parameter("strokes", "wanted depth", "9 mm, Fig. 12: 11 mm", _CHOICE),
+        Parameter("strokes", "wanted depth, Figs. 10 / 11 / 12", depths, _CHOICE),
         Parameter("strokes", "spread of depth and time", f"{VARIATION * 100:g} %", _CHOICE),
         Parameter("strokes", "seed", f"{SEED}", _CHOICE),
     ]

@@ -17,7 +17,7 @@ from punctura.reproduce.figure_12 import figure_12
 from punctura.reproduce.figure_chatter import figure_chatter
 from punctura.reproduce.figure_laws import figure_3, figure_5
 from punctura.reproduce.figure_pop import figure_pop
-from punctura.reproduce.operator import operate
+from punctura.reproduce.operator import STROKE_DEPTH_MM, operate
 from punctura.reproduce.page import write_page
 from punctura.reproduce.scenes import k06_scene
 from punctura.reproduce.style import DPI, figure_style
@@ -25,7 +25,6 @@ from punctura.reproduce.table import write_csv
 from punctura.reproduce.versions import versions
 
 PAGE = "index.html"
-STROKE_DEPTH_MM = {"k06-fig10": 9.0, "k06-fig11": 9.0, "k06-fig12": 11.0}
 
 
 @dataclass(frozen=True)
@@ -57,9 +56,16 @@ class Reproduction:
 def reproduce(folder: str | os.PathLike[str], tell: Callable[[float], None] = lambda share: None) -> Reproduction:
     """Writes K06 Figs. 3, 5, 10, 11, 12, the close-up and the pop as PNG, SVG and CSV, and a page that shows them.
 
-    `tell` hears the share done, 0 to 1. Everything is made aside first: if that fails, `folder` gets no file.
+    `tell` hears the share done, 0 to 1. Everything is made aside first: a failure (OSError) leaves no file.
     """
     target = Path(folder).absolute()
+    try:
+        return _reproduce(target, tell)
+    except OSError as error:
+        raise OSError(f"cannot write to {target}: {error.strerror or error}") from error
+
+
+def _reproduce(target: Path, tell: Callable[[float], None]) -> Reproduction:
     target.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".making-", dir=target) as aside:
         workshop = Path(aside)

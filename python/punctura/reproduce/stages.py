@@ -11,14 +11,16 @@ OUTSIDE, INSERTION, REVERSAL, WITHDRAWAL = "outside", "insertion", "reversal", "
 
 
 def stages(phase: NDArray[np.uint8]) -> NDArray[np.str_]:
-    """The stage of each tick, from phases (n ticks, m membranes).
+    """The stage of each tick, from phases (n ticks, m membranes). The needle slides where it slides in every membrane.
 
     An encoder moves in counts, so that a proxy which slides in sticks between two of them. A stretch of sticking
     belongs to the slide on both of its sides where they agree, and is a reversal where they do not.
     """
-    slides = (phase == int(Phase.sliding_in)).any(axis=1) * 1 - (phase == int(Phase.sliding_out)).any(axis=1) * 1
-    outside = (phase == int(Phase.outside)).all(axis=1)
-    marks = np.where(outside, 2, slides)
+    out_of = phase == int(Phase.outside)
+    slides_in = ((phase == int(Phase.sliding_in)) | out_of).all(axis=1)
+    slides_out = ((phase == int(Phase.sliding_out)) | out_of).all(axis=1)
+    outside = out_of.all(axis=1)
+    marks = np.where(outside, 2, slides_in * 1 - slides_out * 1)
     before, after = _last_mark(marks), _last_mark(marks[::-1])[::-1]
     # A tick at rest between outside and a slide belongs to the slide.
     before = np.where(before == 2, after, before)
