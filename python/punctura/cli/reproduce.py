@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from punctura.cli._progress import progress_bar
-from punctura.reproduce import Reproduction, reproduce
+
+if TYPE_CHECKING:
+    from punctura.reproduce import Reproduction
 
 
 def command(
@@ -19,13 +21,15 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
 ) -> None:
     """K06 Figs. 3, 5, 10, 11 and 12 as PNG, SVG and CSV, and one page that shows them."""
+    from punctura.reproduce import reproduce  # it needs the drawing library, which the other verbs need not wait for
+
     with progress_bar("reproduce") as tell:
         result = reproduce(out, tell)
     typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else _in_words(result))
 
 
 def _in_words(result: Reproduction) -> str:
-    lines = ["                                                        expected    measured"]
+    lines = [f"{'':55} {'expected':>9}   {'measured':>9}"]
     for m in result.measured:
         expected = "" if m.expected != m.expected else f"{m.expected:.4g}"
         lines.append(f"{m.figure:9}{m.quantity:46} {expected:>9}   {m.measured:>9.4g} {m.unit}")
