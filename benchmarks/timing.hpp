@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <functional>
 #include <random>
 #include <string>
@@ -14,6 +15,17 @@ namespace bench {
 
 /// The compiler must take it that memory was read and written: what was computed up to here stays.
 inline void keep_memory() { asm volatile("" ::: "memory"); }
+
+/// Time that this thread has computed, ns: what others do with the processor meanwhile is not counted.
+inline double computed_ns() {
+#ifdef CLOCK_THREAD_CPUTIME_ID
+  std::timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+#else
+  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now().time_since_epoch()).count();
+#endif
+}
 
 struct Contestant {
   std::string name;
@@ -64,11 +76,10 @@ inline Times time_against_each_other(const std::vector<Contestant>& contestants,
   for (std::size_t round = 0; round < most && (round < least || Clock::now() < end); ++round) {
     std::shuffle(order.begin(), order.end(), random);
     for (const std::size_t i : order) {
-      const auto start = Clock::now();
+      const double start = computed_ns();
       contestants[i].run();
       keep_memory();
-      const std::chrono::duration<double, std::nano> took = Clock::now() - start;
-      times.rounds[i].push_back(took.count() / static_cast<double>(ticks));
+      times.rounds[i].push_back((computed_ns() - start) / static_cast<double>(ticks));
     }
   }
   for (const auto& rounds : times.rounds) times.spreads.push_back(spread(rounds));
