@@ -35,7 +35,7 @@ def table(result: dict[str, Any]) -> Iterator[str]:
         shares = ", ".join(f"{k.replace('_', ' ')} {work[k]:.0%}" for k in SHARES)
         yield f"  {work['membranes']:3} membranes, {work['motion']:8} {shares}"
     yield ""
-    yield "ns per tick: median of interleaved repetitions, in time of the processor, ± half the distance between the quartiles"
+    yield "ns per tick: median of interleaved rounds, in processor time, ± half the distance between the quartiles"
     yield (
         f"  {'form':11} {'scalar':7} {'membranes':9} {'motion':8}"
         + "".join(f"{n:>14}" for n in NAMES)
