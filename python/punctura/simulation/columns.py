@@ -33,10 +33,18 @@ def read_header(line: bytes, file: Path) -> list[str]:
     if ";" in text or "\t" in text:
         sign = "semicolons" if ";" in text else "tabs"
         raise MotionError(file, 1, f"the columns are separated by {sign}; use commas, and points in the numbers")
-    names = [name.strip() for name in next(csv.reader([text]))]
+    names = split_line(text, 1, file)
     if names in (TIME_AND_POSITION, TIME_AND_POSITION + AXIS):
         return names
     raise MotionError(file, 1, f"{_difference(names)}; {_WANTED}")
+
+
+def split_line(text: str, line: int, file: Path) -> list[str]:
+    """The fields of a line of CSV."""
+    try:
+        return [field.strip() for field in next(csv.reader([text], skipinitialspace=True))]
+    except csv.Error as bad:
+        raise MotionError(file, line, f"is not CSV ({bad})") from None
 
 
 def _difference(names: list[str]) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.simulation.columns import split_line
 from punctura.simulation.motion_error import MotionError
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -31,7 +31,7 @@ def read_lines(block: bytes, first_line: int, columns: list[str], file: Path) ->
 def _read_line(text: str, line: int, columns: list[str], file: Path) -> list[float]:
     if not text:
         raise MotionError(file, line, "is empty; remove the line, or fill it in")
-    fields = [field.strip() for field in next(csv.reader([text]))]
+    fields = split_line(text, line, file)
     if len(fields) != len(columns):
         count = f"{len(fields)} value{'s' if len(fields) != 1 else ''} for {len(columns)} columns"
         hint = f"write one each for {','.join(columns)}"

@@ -109,6 +109,12 @@ def test_a_file_that_is_no_text_is_told(tmp_path):
     assert error_of(tmp_path, [], raw=HEADER.encode() + b"\n0,0,\xff,0\n") == f"line 2: {save}"
 
 
+def test_a_line_that_is_no_csv_is_told(tmp_path):
+    assert error_of(tmp_path, spoilt(9, lambda row: "7" * 200_000)) == (
+        "line 9: is not CSV (field larger than field limit (131072))"
+    )
+
+
 def test_a_direction_of_no_length_is_told(tmp_path):
     lines = [f"{line},0,-1,0" for line in LINES]
     lines[40] = f"{LINES[40]},0,0,0"
