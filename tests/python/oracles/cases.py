@@ -2,20 +2,30 @@
 
 PUNCTURA_CASES=1000000 pytest tests/python        a long night
 PUNCTURA_CASES=20 pytest tests/python             a first look
+
+The comparisons with the oracles go on batch by batch to any number; a test that holds all its cases at once stops
+at MOST.
 """
 
 import os
 from collections.abc import Iterator
 
+MOST = 2000
 
-def count(usual: int) -> int:
-    """The number of random cases for a test that usually draws `usual`."""
+
+def asked(usual: int) -> int:
+    """PUNCTURA_CASES, or the usual number."""
     return int(os.environ.get("PUNCTURA_CASES", usual))
 
 
+def count(usual: int) -> int:
+    """The number of random cases for a test that holds them all at once and usually draws `usual`."""
+    return min(asked(usual), MOST)
+
+
 def batches(usual: int, size: int) -> Iterator[tuple[int, int]]:
-    """(seed, number of cases) of batches of at most `size`, together `count(usual)` cases."""
-    left, seed = count(usual), 0
+    """(seed, number of cases) of batches of at most `size`, together PUNCTURA_CASES or `usual` cases."""
+    left, seed = asked(usual), 0
     while left > 0:
         yield seed, min(size, left)
         left, seed = left - size, seed + 1

@@ -105,16 +105,16 @@ def test_turning_the_scene_turns_the_force(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_the_axial_force_is_inside_the_bounds_and_outside_there_is_none(solver):
     s = random_scenes.scenes(54, cases.count(150), TICKS)
-    lanes_inside = 0
+    touched = 0
     for i, t in enumerate(traces(s, solver)):
         touching = np.isin(t.phase, [1, 2, 3])
-        lanes_inside += touching.any(axis=0).sum()
+        touched += touching.any()
         # On a jump of a membrane of thickness 0 the exact force stands between both sides of the band.
         thick = touching & (s.parameters.thickness[s.members(i)] > 0)
         assert (t.axial_force >= t.lower - 1e-11)[thick].all() and (t.axial_force <= t.upper + 1e-11)[thick].all()
         assert not t.axial_force[~touching].any()
         assert not t.force[~touching.any(axis=1)].any()
-    assert lanes_inside > 100
+    assert touched > 0.4 * s.p.shape[1]
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

@@ -86,7 +86,8 @@ def test_exact_solves_23_along_the_needle_to_1e_11_newtons_at_the_first_root(wal
     assert worst <= 1e-11
 
 
-def test_the_random_scenes_meet_every_phase_and_every_case_of_entry(scenes):
+def test_the_random_scenes_meet_every_phase_and_every_case_of_entry():
+    scenes = random_scenes.scenes(0, 400, TICKS)
     p, axis = random_scenes.lane_motions(scenes)
     states = proxy_3d.run(proxy_3d.paper, scenes.plane, scenes.law, scenes.coupling, p, axis)
     inside, barred = np.array([s.inside for s in states]), np.array([s.barred for s in states])

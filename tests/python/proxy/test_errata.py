@@ -1,0 +1,110 @@
+"""The slips of K06 section 3 and 4, each with a counterexample to what is printed. docs/errata.md names these tests."""
+
+from dataclasses import replace
+
+import numpy as np
+import punctura
+import pytest
+from oracles import first_root, law, proxy_1d, proxy_3d, random_scenes
+
+NEEDLE = punctura.Needle(1.08e-3, 0.28)
+COUPLING = proxy_1d.Coupling(np.array([400.0]), np.array([1.0]), np.array([1 / 1600]))
+SECTION_4 = dict(w=1.08e-3, theta=0.28, kappa=570.0, c=0.41, mu=0.2)
+DOWN = np.array([0.0, -1.0, 0.0])
+
+
+def as_printed(n, depths, H=1e-3):
+    """b.f of (41) to the letter, but for L (read as H) and its missing middle case, on a stroke straight down (-y)."""
+    L, c = law.law(**SECTION_4, H=H), COUPLING
+    e, f, p_prev, along = np.zeros(3), np.zeros(3), depths[0] * DOWN, []
+    for p in depths[:, None] * DOWN:
+        q_star = p + (c.B * e + c.T * f) / c.D
+        if n @ q_star >= 0:
+            f = np.zeros(3)
+        else:
+            b = DOWN
+            bent = replace(L, U=L.H / (n @ b))
+            f_star = -c.g * (p - p_prev) + c.K * e
+            s = np.array([n @ q_star / (n @ b)])
+            lower, upper = (edge[0] for edge in law.band(bent, s))
+            f_b = b @ f_star
+            clamped = lower if f_b < lower else upper if f_b > upper else f_b
+            f = f_star + b * (clamped - f_b)
+        e, p_prev = (c.B * e + c.T * f) / c.D, p
+        along.append(DOWN @ f)
+    return np.array(along)
+
+
+STROKE = np.linspace(-1e-3, 8e-3, 2000)
+
+
+def mended(n, depths, H=1e-3):
+    proxy = punctura.Proxy3d(
+        NEEDLE, punctura.Membrane(570.0, 0.41, 0.2, H), [0, 0, 0], n, punctura.Coupling(400.0, 1.0), 1 / 1600, "paper"
+    )
+    return proxy.run(depths[:, None] * DOWN, DOWN) @ DOWN
+
+
+def test_e1_as_printed_with_the_inward_normal_a_needle_meets_no_force_at_all():
+    assert abs(as_printed(DOWN, STROKE)).max() <= 1e-15
+    assert mended(DOWN, STROKE).min() < -0.6
+
+
+def test_e1_as_printed_with_the_normal_of_the_experiment_the_membrane_pulls_the_needle_in():
+    """n = [0, 1, 0], entered downwards: n.b = -1, so U is negative and (18) changes its sign."""
+    inside = as_printed(-DOWN, STROKE)[STROKE > 3e-3]
+    assert (inside > 0.3).all()
+    assert (mended(DOWN, STROKE)[STROKE > 3e-3] < -0.3).all()
+
+
+def test_e2_an_ordinary_stroke_spends_ticks_in_the_case_that_41_leaves_out():
+    """In, and half a millimetre back: f* lies inside the band, where (41) as printed gives the force no value."""
+    depths = np.concatenate([STROKE, np.linspace(STROKE[-1], STROKE[-1] - 5e-4, 500)])
+    L = law.law(**SECTION_4, H=1e-3)
+    f, e = proxy_1d.run(proxy_1d.paper, L, COUPLING, depths[:, None])
+    hold = [proxy_1d.f_star(COUPLING, proxy_1d.State(f[k - 1], e[k - 1], depths[k - 1]), depths[k])[0]
+            for k in range(1, len(depths))]  # fmt: skip
+    unnamed = (np.array(hold) == f[1:, 0]) & (f[1:, 0] != 0)
+    assert unnamed.sum() > 400
+
+
+def test_e5_the_explicit_euler_filter_overshoots_a_step_and_the_exact_one_does_not():
+    turn = 2 * np.pi * 300 / 1600
+    euler, exact = [0.0], [0.0]
+    for _ in range(50):
+        euler.append(euler[-1] + turn * (1 - euler[-1]))
+        exact.append(exact[-1] + (1 - np.exp(-turn)) * (1 - exact[-1]))
+    assert turn == pytest.approx(1.178, abs=1e-3)
+    assert max(euler) == pytest.approx(1.178, abs=1e-3), "overshoots by 18 %"
+    assert max(exact) <= 1 and (np.diff(exact) >= 0).all()
+
+
+def roots(H, q0):
+    """How many depths solve g (q - q0) = Phi_I(q) for section 4's needle, membrane and coupling."""
+    L = law.law(**SECTION_4, H=H)
+    q = np.linspace(-1e-3, 9e-3, 400_001)
+    sign = np.sign(first_root.h(L, COUPLING.g, q0, q, np.True_))
+    return int((sign[1:] != sign[:-1]).sum())
+
+
+def test_e8_29_has_three_solutions_at_the_pop_of_a_thin_membrane():
+    """Where Phi_I rises faster than g, from (A_I (X + Q) - F) / H > g: below H = 0.163 mm with section 4's numbers."""
+    L = law.law(**SECTION_4)
+    assert (L.A_I * (L.X + L.Q) - L.F)[0] / COUPLING.g[0] == pytest.approx(0.163e-3, abs=1e-6)
+    starts = np.linspace(L.X[0], L.X[0] + 6e-4, 121)
+    assert max(roots(1e-4, q0) for q0 in starts) == 3
+    assert max(roots(2e-4, q0) for q0 in starts) == 1
+
+
+def test_e10_judged_with_the_force_of_the_last_tick_a_tip_enters_and_leaves_again_and_again():
+    """(41) asks whether q*, which holds f(k-1), is outside. On the same motions the exact solver enters less than half
+    as often; each entry reads b and U anew.
+    """
+    s = random_scenes.scenes(0, 150, 150)
+    entries = {}
+    for solver in ("paper", "exact"):
+        tick = getattr(proxy_3d, solver)
+        states = proxy_3d.run(tick, s.plane, s.law, s.coupling, *random_scenes.lane_motions(s))
+        inside = np.array([state.inside for state in states])
+        entries[solver] = (inside[1:] & ~inside[:-1]).sum()
+    assert entries["paper"] > 2 * entries["exact"] > 0
