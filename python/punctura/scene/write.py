@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
+import secrets
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -32,13 +32,12 @@ def scene_text(scene: Scene) -> str:
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Writes a scene file; what stood at `path` stays until the new file is whole."""
     target = Path(path)
-    handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(scene_text(scene))
+        temporary.write_bytes(scene_text(scene).encode("utf-8"))
         os.replace(temporary, target)
     except BaseException:
-        os.unlink(temporary)
+        temporary.unlink(missing_ok=True)
         raise
 
 

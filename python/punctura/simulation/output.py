@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -63,26 +63,18 @@ SUFFIXES = (".csv", ".parquet")
 @contextmanager
 def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
     """A result file that is renamed to `path` at the end, or, after an error, leaves nothing behind."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-    os.close(handle)
+    # Named before it is made, so that no interrupt can come between the file and the try.
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     try:
         if path.suffix.lower() == ".parquet":
-            with pyarrow.parquet.ParquetWriter(name, schema) as writer:
+            with pyarrow.parquet.ParquetWriter(str(temporary), schema) as writer:
                 parquet = _Parquet(writer)
                 yield parquet
                 parquet.flush()
         else:
-            with pa.OSFile(name, "wb") as file:
+            with pa.OSFile(str(temporary), "wb") as file:
                 yield _Csv(file, schema)
-        os.chmod(name, 0o666 & ~_umask())
-        os.replace(name, path)
+        os.replace(temporary, path)
     except BaseException:
-        Path(name).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise
-
-
-def _umask() -> int:
-    """The permissions that new files are denied; mkstemp denies more."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
