@@ -138,17 +138,22 @@ def test_missing_options_are_a_usage_error():
     assert done.returncode == 2 and "Missing option '--motion'" in done.stderr
 
 
+def heed_interrupts():
+    """A job that a shell started in the background ignores interrupts, and so would all that it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="sends a signal")
 def test_an_interrupt_leaves_nothing_behind(tmp_path):
     slow = tmp_path / "slow.csv"
     slow.write_text(HEADER + "0,0,0,0\n" + "1e6,0,0,0\n" + "2e6,0,0,0\n")  # 3.2e9 ticks
     command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts)
     while len(list(tmp_path.iterdir())) < 2:
         assert process.poll() is None
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    assert process.communicate()[1] == "punctura: interrupted\n"
+    assert process.communicate(timeout=60)[1] == "punctura: interrupted\n"
     assert process.returncode == 130
     assert [p.name for p in tmp_path.iterdir()] == ["slow.csv"]
 
