@@ -1,7 +1,9 @@
-# Every header of core alone in a file of its own: what it needs it must include, and it must compile without a warning.
+# Every header of core and runtime alone in a file of its own: what it needs it must include, and it must compile without a warning.
 # Included twice, so that a missing #pragma once shows.
 function(punctura_add_header_checks target)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/core/*.hpp)
+  file(GLOB_RECURSE core CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/core/*.hpp)
+  file(GLOB_RECURSE runtime CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/runtime/*.hpp)
+  set(headers ${core} ${runtime})
   set(sources)
   foreach(header IN LISTS headers)
     string(MAKE_C_IDENTIFIER ${header} name)
@@ -10,5 +12,5 @@ function(punctura_add_header_checks target)
     list(APPEND sources ${source})
   endforeach()
   add_library(${target} OBJECT ${sources})
-  target_link_libraries(${target} PRIVATE punctura::punctura punctura_warnings)
+  target_link_libraries(${target} PRIVATE punctura::runtime punctura_warnings)
 endfunction()

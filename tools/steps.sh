@@ -74,19 +74,20 @@ compile() {
 }
 
 # The C++ tests as GCC compiles them, each header alone among them.
-step_cpp() { compile dev && build/dev/tests/core/core_tests; }
+step_cpp() { compile dev && build/dev/tests/core/core_tests && build/dev/tests/runtime/runtime_tests; }
 
 # The same with Clang, for its warnings.
 step_clang() { compile clang; }
 
 # The sanitizers are slow: a fiftieth of the random cases reaches the same code.
 step_asan() {
-  compile asan core_tests &&
-    UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}" build/asan/tests/core/core_tests
+  compile asan core_tests runtime_tests || return
+  export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
+  build/asan/tests/core/core_tests && build/asan/tests/runtime/runtime_tests
 }
 step_tsan() {
-  local run=build/tsan/tests/core/core_tests said
-  compile tsan core_tests || return
+  local run=build/tsan/tests/runtime/runtime_tests said
+  compile tsan runtime_tests || return
   export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
   # Where the kernel places memory at more random addresses than this sanitizer knows, it refuses to start; setarch asks for fewer.
   said=$($run --list-test-cases 2>&1) || case $said in *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;; esac

@@ -10,4 +10,5 @@ NB_MODULE(_core, m) {
   bind_insertion(m);
   bind_plant(m);
   bind_experiment(m);
+  bind_runtime(m);
 }

@@ -1,4 +1,4 @@
-// What a device reports in a tick, and what it is able to do.
+// What a device reports in a tick.
 #pragma once
 
 #include <array>
@@ -14,12 +14,8 @@ struct DeviceSample {
   std::array<double, 3> axis;      ///< unit direction in which the needle points; not read with Direction::motion
   std::uint32_t buttons;           ///< one bit each
   bool healthy;                    ///< false: the back-end reports a fault of its own
-};
-
-/// What a device can do to a hand.
-struct DeviceAbilities {
-  double max_force;         ///< N, for a moment
-  double continuous_force;  ///< N, for ever
+  double motor_temperature =
+      0;  ///< of the hottest motor, 0 to 1 where its maker sees danger; 0 where it is not reported
 };
 
 }  // namespace punctura

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "punctura/model/vector3.hpp"
@@ -25,6 +26,11 @@ class EntryDirection {
       : recent_(static_cast<std::size_t>(std::lround(window / period)) + 1), path_(marks + 2) {}
 
   void reset() noexcept { ticks_ = 0; }
+
+  /// Goes on with the history of another one of the same period, which loses it. Takes no memory.
+  void resume(EntryDirection& previous) noexcept {
+    if (previous.recent_.size() == recent_.size()) std::swap(*this, previous);
+  }
 
   /// One tick: p (m), the filtered tip, gives the direction in which it has come.
   Vector step(const Vector& p) noexcept {

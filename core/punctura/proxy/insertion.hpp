@@ -1,6 +1,7 @@
 // K06 Fig. 8: a needle through several membranes, one proxy and one coupling each.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -50,6 +51,14 @@ class BasicInsertion {
     for (Proxy& proxy : proxies_) proxy.reset();
     tip_.setZero();
     force_.setZero();
+  }
+
+  /// Goes on from where another insertion of the same period is, which loses its history. Takes no memory.
+  void resume(BasicInsertion& previous) noexcept {
+    low_pass_.resume(previous.low_pass_);
+    if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
+    for (std::size_t i = 0; i < std::min(proxies_.size(), previous.proxies_.size()); ++i)
+      proxies_[i].resume(previous.proxies_[i]);
   }
 
   /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).

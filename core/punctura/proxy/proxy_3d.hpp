@@ -35,6 +35,21 @@ class Proxy3d {
     axial_force_ = 0;
   }
 
+  /// Goes on from where another proxy is in the same place, under its own law and coupling. A membrane in another place is a new
+  /// one: it starts afresh.
+  void resume(const Proxy3d& previous) noexcept {
+    if (previous.a_ != a_ || previous.n_ != n_) return;
+    started_ = previous.started_;
+    contact_ = previous.contact_;
+    phase_ = previous.phase_;
+    p_ = previous.p_;
+    e_ = previous.e_;
+    f_ = previous.f_;
+    b_ = previous.b_;
+    cos_beta_ = previous.cos_beta_;
+    if (contact_ == Contact::inside) law_.set_obliquity(cos_beta_);
+  }
+
   /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41).
   const Vector& step(const Vector& p, const Vector& axis) noexcept {
     const Vector p_prev = started_ ? p_ : p;
@@ -59,7 +74,7 @@ class Proxy3d {
       f_.setZero();
       axial_force_ = 0;
       band_ = {0, 0};
-      e_ = c_.B_over_D * e_;  // K06 (25) with f = 0
+      e_ = c_.relaxed(e_);  // K06 (25) with f = 0
       depth_ = n_.dot(p + e_ - a_);
     }
     p_ = p;

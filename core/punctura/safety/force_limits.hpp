@@ -14,11 +14,12 @@ struct ForceLimits {
   double continuous_force = 0.88;  ///< N rms over continuous_time. The Omni's rating, by its maker's data sheet
   double continuous_time = 10;     ///< s. A choice: no data sheet gives the motors' thermal time constant
   double ramp_time = 0.5;          ///< s from zero to full force after arming
+  double warm_motor = 0.8;         ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
 };
 
 /// How often each limit has acted, in ticks.
 struct LimitCounters {
-  std::uint64_t peak = 0, continuous = 0, ramp = 0;
+  std::uint64_t peak = 0, continuous = 0, temperature = 0, ramp = 0;
 };
 
 /// Clamp by norm (never per axis: that would turn the force), budget for continuous force, ramp in.
@@ -35,16 +36,25 @@ class ForceLimiter {
   /// Starts a new ramp. The budget and the counters stay: motors do not cool by a reset.
   void reset() noexcept { gain_ = 0; }
 
-  /// One tick: the model's force (N, finite) gives the force for the device.
-  Vector3d step(const Vector3d& wanted) noexcept {
+  /// Goes on from where another limiter is, with its own limits: ramp, budget and counters.
+  void resume(const ForceLimiter& previous) noexcept {
+    gain_ = previous.gain_;
+    mean_square_ = previous.mean_square_;
+    counters_ = previous.counters_;
+  }
+
+  /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1.
+  Vector3d step(const Vector3d& wanted, double motor_temperature = 0) noexcept {
     gain_ = std::min(1.0, gain_ + ramp_step_);
     if (gain_ < 1) ++counters_.ramp;
     Vector3d force = gain_ * wanted;
 
-    const double norm = force.norm(), ceiling = this->ceiling();
+    const double cool =
+        motor_temperature <= limits_.warm_motor ? 1 : std::max(0.0, (1 - motor_temperature) / (1 - limits_.warm_motor));
+    const double norm = force.norm(), ceiling = cool * this->ceiling();
     if (norm > ceiling) {
       force *= ceiling / norm;
-      ++(ceiling < limits_.max_force ? counters_.continuous : counters_.peak);
+      ++(cool < 1 ? counters_.temperature : ceiling < limits_.max_force ? counters_.continuous : counters_.peak);
     }
     spend(force.squaredNorm());
     return force;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "punctura/device/sample.hpp"
 #include "punctura/model/vector3.hpp"
@@ -14,6 +15,7 @@ struct GateLimits {
   double stale = 0.015;          ///< s without a new reading
   double deadline = 0.020;       ///< s from one tick to the next
   double axis_tolerance = 1e-3;  ///< of the axis' length from 1
+  std::uint32_t dead_man = 0;    ///< buttons of which one must be held for force to be given; 0 asks for none
 };
 
 /// Judges one sample after the other. Each comparison is written so that NaN fails it.
@@ -22,6 +24,20 @@ class InputGate {
   InputGate(const GateLimits& limits, bool axis_is_used) noexcept : limits_(limits), axis_is_used_(axis_is_used) {}
 
   void reset() noexcept { started_ = false; }
+
+  /// Goes on from where another gate is, with its own limits.
+  void resume(const InputGate& previous) noexcept {
+    started_ = previous.started_;
+    time_ = previous.time_;
+    fresh_time_ = previous.fresh_time_;
+    sequence_ = previous.sequence_;
+    position_ = previous.position_;
+  }
+
+  /// Whether the hand allows force: no fault, but no force either while it does not.
+  bool held(const DeviceSample& s) const noexcept {
+    return limits_.dead_man == 0 || (s.buttons & limits_.dead_man) != 0;
+  }
 
   Fault step(const DeviceSample& s) noexcept {
     if (!s.healthy) return Fault::device;

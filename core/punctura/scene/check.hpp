@@ -41,6 +41,7 @@ inline constexpr Field limit_fields[] = {
     {"continuous_force", "-", "N", {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"}},
     {"continuous_time", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
     {"ramp_time", "-", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"}},
+    {"warm_motor", "-", "-", {0, 1, false, true, "must be from 0 to below 1"}},
 };
 
 namespace detail {
@@ -89,9 +90,10 @@ inline std::vector<Problem> check(const Scene& scene) {
 inline std::vector<Problem> check(const GateLimits& gate, const ForceLimits& limits) {
   std::vector<Problem> problems;
   const double gate_values[] = {gate.position_jump, gate.stale, gate.deadline, gate.axis_tolerance};
-  const double limit_values[] = {limits.max_force, limits.continuous_force, limits.continuous_time, limits.ramp_time};
+  const double limit_values[] = {limits.max_force, limits.continuous_force, limits.continuous_time, limits.ramp_time,
+                                 limits.warm_motor};
   for (std::size_t i = 0; i < 4; ++i) check_field(gate_fields[i], gate_values[i], "gate", problems);
-  for (std::size_t i = 0; i < 4; ++i) check_field(limit_fields[i], limit_values[i], "limits", problems);
+  for (std::size_t i = 0; i < 5; ++i) check_field(limit_fields[i], limit_values[i], "limits", problems);
   return problems;
 }
 

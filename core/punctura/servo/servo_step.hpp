@@ -18,7 +18,10 @@ class ServoStep {
  public:
   /// period: T, s. Made by build() (scene/build.hpp), which checks the scene first.
   ServoStep(Insertion insertion, double period, const GateLimits& gate = {}, const ForceLimits& limits = {})
-      : insertion_(std::move(insertion)), gate_(gate, insertion_.uses_axis()), limiter_(limits, period) {
+      : insertion_(std::move(insertion)),
+        gate_(gate, insertion_.uses_axis()),
+        limiter_(limits, period),
+        fade_step_(period / fade_time) {
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
   }
 
@@ -35,11 +38,29 @@ class ServoStep {
 
   /// Leaves a fault, forgets all motion, and is disarmed.
   void reset() noexcept {
+    fade_ = 0;
     insertion_.reset();
     gate_.reset();
     fault_ = Fault::none;
     state_ = ServoState::disarmed;
   }
+
+  /// Goes on where another step of the same period is: a scene changed while somebody holds the device.
+  ///
+  /// Membranes in the same place keep their proxies. What the change does to the force is faded in over `fade_time`: the hand
+  /// feels no jump. Takes no memory; `previous` is of no use afterwards.
+  void resume(ServoStep& previous) noexcept {
+    insertion_.resume(previous.insertion_);
+    gate_.resume(previous.gate_);
+    limiter_.resume(previous.limiter_);
+    state_ = previous.state_;
+    fault_ = previous.fault_;
+    tick_ = previous.tick_;
+    wanted_ = previous.wanted_;
+    fade_ = 1;
+    fade_starts_ = true;
+  }
+  static constexpr double fade_time = 0.2;  ///< s
 
   /// One tick. Gives the record of it; its `force` is for the device. Valid until the next step.
   const Snapshot& step(const DeviceSample& sample) noexcept {
@@ -54,12 +75,13 @@ class ServoStep {
       state_ = ServoState::faulted;
       model_force.setZero();
     }
-    if (state_ == ServoState::waiting && insertion_.outside()) {
+    if (state_ == ServoState::active && !gate_.held(sample)) state_ = ServoState::waiting;
+    if (state_ == ServoState::waiting && insertion_.outside() && gate_.held(sample)) {
       state_ = ServoState::active;
       limiter_.reset();
     }
     if (state_ == ServoState::active) {
-      force = limiter_.step(model_force);
+      force = limiter_.step(faded(model_force), sample.motor_temperature);
       if (!force.allFinite()) {  // cannot be, with limits that passed check(); a hand must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
@@ -67,6 +89,8 @@ class ServoStep {
       }
     } else {
       limiter_.rest();
+      wanted_.setZero();
+      fade_ = 0;
     }
     record(sample, model_force, force);
     return snapshot_;
@@ -78,6 +102,15 @@ class ServoStep {
   Fault fault() const noexcept { return fault_; }
 
  private:
+  /// The model's force, on its way from what the hand felt before resume().
+  Vector3d faded(const Vector3d& model_force) noexcept {
+    if (fade_starts_) offset_ = wanted_ - model_force;
+    fade_starts_ = false;
+    wanted_ = model_force + fade_ * offset_;
+    fade_ = std::max(0.0, fade_ - fade_step_);
+    return wanted_;
+  }
+
   void record(const DeviceSample& sample, const Vector3d& model_force, const Vector3d& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
@@ -102,6 +135,9 @@ class ServoStep {
   ServoState state_ = ServoState::disarmed;
   Fault fault_ = Fault::none;
   std::uint64_t tick_ = 0;
+  double fade_step_, fade_ = 0;
+  bool fade_starts_ = false;
+  Vector3d wanted_ = Vector3d::Zero(), offset_ = Vector3d::Zero();
   Snapshot snapshot_{};
 };
 

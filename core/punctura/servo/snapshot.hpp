@@ -17,7 +17,7 @@ inline constexpr std::size_t max_membranes = 64;
 
 enum class ServoState : std::uint8_t {
   disarmed,  ///< the model runs, the device gets no force
-  waiting,   ///< armed, but the tip is not in front of every membrane yet
+  waiting,   ///< armed, but the tip is not in front of every membrane, or the dead-man button is not held
   active,    ///< forces go out, ramped in at first
   faulted,   ///< a fault is latched, the force is zero
 };

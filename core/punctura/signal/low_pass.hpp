@@ -18,6 +18,12 @@ class LowPass {
 
   void reset() noexcept { started_ = false; }
 
+  /// Goes on from where another filter is, with its own cutoff.
+  void resume(const LowPass& previous) noexcept {
+    y_ = previous.y_;
+    started_ = previous.started_;
+  }
+
   Value step(const Value& x) noexcept {
     if (off_ || !started_) {
       y_ = x;

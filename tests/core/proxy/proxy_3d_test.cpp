@@ -88,6 +88,18 @@ TEST_CASE("there is no force outside, and at rest no motion") {
   }
 }
 
+TEST_CASE("outside, the offset fades to next to nothing, and never into denormal numbers") {
+  auto proxy = proxy_at_origin(Solver::exact);
+  for (int k = 0; k < 1600; ++k) proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, down);
+  bool normal = true;
+  for (int k = 0; k < 16000; ++k) {
+    proxy.step({0, 1e-3, 0}, down);
+    normal = normal && proxy.offset().unaryExpr([](double e) { return e == 0 || std::isnormal(e); }).all();
+  }
+  CHECK(normal);
+  CHECK(proxy.offset().norm() < 1e-150);
+}
+
 TEST_CASE("a start inside gives no force until the tip has been outside, in front") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     auto proxy = proxy_at_origin(solver);

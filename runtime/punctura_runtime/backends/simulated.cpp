@@ -1,0 +1,90 @@
+#include "punctura_runtime/backends/simulated.hpp"
+
+#include "punctura_runtime/loop/pacer.hpp"
+
+namespace punctura {
+
+namespace {
+
+Desired desired_at(SimulatedDevice::Motion& motion, double time) noexcept {
+  return std::visit([time](auto& m) { return m.at(time); }, motion);
+}
+
+}  // namespace
+
+SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
+    : options_(options),
+      motion_(std::move(motion)),
+      plant_(options.dynamics, options.hand, 1 / options.rate, options.seed),
+      wish_{plain(desired_at(motion_, 0).position), options.axis, 0},
+      wishes_(wish_) {
+  info_ = {"simulated", "PHANTOM Omni, simulated",     "",          true, 1, options.dynamics.max_force, 0.88,
+           unknown,     options.dynamics.encoder_step, options.rate};
+  plant_.place(vector(wish_.target));
+}
+
+void SimulatedDevice::start(Tick tick) {
+  if (thread_.joinable()) return;
+  stop_ = false;
+  ready_ = false;
+  thread_ = std::thread([this, tick] { run(tick); });
+  ready_.wait(false);
+}
+
+void SimulatedDevice::stop() noexcept {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+std::vector<std::string> SimulatedDevice::statements() const {
+  std::vector<std::string> all;
+  for (const auto& item : realtime_)
+    all.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
+  return all;
+}
+
+void SimulatedDevice::move_to(const std::array<double, 3>& position) noexcept {
+  wish_.target = position;
+  wishes_.write([this](Wish& to) { to = wish_; });
+}
+
+void SimulatedDevice::point(const std::array<double, 3>& axis, std::uint32_t buttons) noexcept {
+  wish_.axis = axis;
+  wish_.buttons = buttons;
+  wishes_.write([this](Wish& to) { to = wish_; });
+}
+
+void SimulatedDevice::run(Tick tick) noexcept {
+  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  ready_ = true;
+  ready_.notify_all();
+
+  Pacer<> pacer(options_.rate);
+  const std::int64_t start = os::now_ns();
+  for (std::uint64_t k = 0; !stop_ && (options_.ticks == 0 || k < options_.ticks); ++k) {
+    if (options_.real_time) {
+      missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
+      one_tick(tick, k, static_cast<double>(os::now_ns() - start) * 1e-9);
+    } else {
+      one_tick(tick, k, static_cast<double>(k) / options_.rate);
+    }
+  }
+  plant_.step(Vector3d::Zero(), {plant_.tip(), Vector3d::Zero()});
+  last_force_.write([](std::array<double, 3>& to) { to = {0, 0, 0}; });
+  finished_ = true;
+}
+
+void SimulatedDevice::one_tick(Tick tick, std::uint64_t k, double time) noexcept {
+  const Wish& wish = wishes_.read();
+  if (Target* target = std::get_if<Target>(&motion_)) target->move_to(vector(wish.target));
+  // The hand moves on the plant's own time, so that a late tick does not make it jump.
+  const Desired desired = desired_at(motion_, static_cast<double>(k) / options_.rate);
+
+  DeviceSample sample{k, time, plain(plant_.measured()), wish.axis, wish.buttons, true};
+  if (auto* how = spoiler_.exchange(nullptr)) how(sample);
+  const Tick::Force force = tick(sample);
+  last_force_.write([&](std::array<double, 3>& to) { to = force; });
+  plant_.step(vector(force), desired);
+}
+
+}  // namespace punctura

@@ -1,0 +1,51 @@
+// Absolute-time ticks for devices that have no clock of their own.
+#pragma once
+
+#include <cstdint>
+
+#include "punctura_runtime/os/os.hpp"
+
+namespace punctura {
+
+/// The system's clock. Tests put one of their own in its place.
+struct SystemClock {
+  std::int64_t now() const noexcept { return os::now_ns(); }
+  void sleep_until(std::int64_t time) const noexcept { os::sleep_until_ns(time); }
+};
+
+/// Wakes at start, start + T, start + 2T, ... A late tick does not move the later ones; ticks whose time has passed altogether are
+/// left out and counted, never made up for in a burst.
+template <typename Clock = SystemClock>
+class Pacer {
+ public:
+  Pacer(double rate_hz, Clock clock = {}) noexcept : clock_(clock), rate_(rate_hz), start_(clock_.now()) {}
+
+  /// Sleeps until the next tick is due. How many ticks were left out before it.
+  std::uint64_t wait() noexcept {
+    ++count_;
+    std::uint64_t missed = 0;
+    const std::int64_t now = clock_.now();
+    if (due(count_ + 1) <= now) {  // not even the tick after this one is still to come
+      const auto behind = static_cast<std::uint64_t>(static_cast<double>(now - start_) * 1e-9 * rate_);
+      missed = behind > count_ ? behind - count_ : 0;
+      count_ += missed;
+    }
+    if (due(count_) > now) clock_.sleep_until(due(count_));
+    return missed;
+  }
+
+  /// When the present tick was due, ns.
+  std::int64_t due() const noexcept { return due(count_); }
+
+ private:
+  std::int64_t due(std::uint64_t tick) const noexcept {
+    return start_ + static_cast<std::int64_t>(static_cast<double>(tick) * 1e9 / rate_);
+  }
+
+  Clock clock_;
+  double rate_;
+  std::int64_t start_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace punctura

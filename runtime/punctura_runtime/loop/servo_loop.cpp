@@ -1,0 +1,160 @@
+#include "punctura_runtime/loop/servo_loop.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <thread>
+
+namespace punctura {
+
+void copy(const Snapshot& from, Snapshot& to) noexcept {
+  std::memcpy(static_cast<void*>(&to), &from,
+              offsetof(Snapshot, membranes) + from.membrane_count * sizeof(MembraneRecord));
+}
+
+namespace {
+
+/// A limit is never above what the device's maker allows; NaN (not known) leaves it.
+double tighter(double limit, double rating) noexcept { return rating < limit ? rating : limit; }
+
+}  // namespace
+
+ServoLoop::ServoLoop(std::unique_ptr<Device> device, Scene scene, LoopSettings settings)
+    : device_(std::move(device)), scene_(std::move(scene)), settings_(settings), period_(1 / device_->info().rate) {
+  settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
+  settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
+  step_ = built(scene_).release();
+  scene_.servo.rate = device_->info().rate;
+  history_.resize(settings_.history);
+}
+
+ServoLoop::~ServoLoop() {
+  stop();
+  delete step_;
+}
+
+std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
+  Scene at_rate = scene;
+  at_rate.servo.rate = device_->info().rate;
+  return std::make_unique<ServoStep>(build(at_rate, settings_.gate, settings_.limits));
+}
+
+SpscRing<Snapshot>& ServoLoop::listen(std::size_t capacity) {
+  if (running_) throw std::logic_error("listen() must come before start()");
+  listeners_.push_back(std::make_unique<SpscRing<Snapshot>>(capacity));
+  return *listeners_.back();
+}
+
+void ServoLoop::start() {
+  if (running_.exchange(true)) return;
+  last_begin_ = 0;
+  try {
+    device_->start({&ServoLoop::call, this});
+  } catch (...) {
+    running_ = false;
+    throw;
+  }
+}
+
+void ServoLoop::stop() noexcept {
+  if (!running_) return;
+  ask(pause_bit);
+  device_->stop();
+  running_ = false;
+}
+
+void ServoLoop::reset() noexcept {
+  const std::lock_guard lock(readers_);  // nobody reads the history that a reset lets go on
+  ask(reset_bit);
+}
+
+void ServoLoop::exchange(Scene scene) {
+  auto step = built(scene);
+  scene.servo.rate = device_->info().rate;
+  scene_ = std::move(scene);
+  if (!running_) {
+    step->resume(*step_);
+    delete step_;
+    step_ = step.release();
+    return;
+  }
+  handover_.offer(std::move(step));
+  // A few ticks at most; a device that has ceased to tick must not hold the caller.
+  for (int i = 0; i < 200 && handover_.pending(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  handover_.collect();
+}
+
+LoopReport ServoLoop::report() const noexcept {
+  return {ticks_.load(),
+          late_.load(),
+          period_times_.counts(),
+          compute_times_.counts(),
+          period_times_.largest_ns(),
+          compute_times_.largest_ns()};
+}
+
+Snapshot ServoLoop::latest() {
+  const std::lock_guard lock(readers_);
+  return latest_.read();
+}
+
+std::vector<Snapshot> ServoLoop::fault_history() {
+  const std::lock_guard lock(readers_);
+  std::vector<Snapshot> all;
+  if (!frozen_.load(std::memory_order_acquire) || (asked_.load() & reset_bit) != 0) return all;
+  const std::uint64_t kept = std::min<std::uint64_t>(remembered_, history_.size());
+  for (std::uint64_t i = remembered_ - kept; i < remembered_; ++i) all.push_back(history_[i % history_.size()]);
+  return all;
+}
+
+Tick::Force ServoLoop::call(void* self, const DeviceSample& sample) noexcept {
+  return static_cast<ServoLoop*>(self)->tick(sample);
+}
+
+Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
+  const std::int64_t begin = settings_.now_ns();
+  if (ServoStep* next = handover_.take()) {
+    next->resume(*step_);
+    handover_.retire(step_);
+    step_ = next;
+  }
+  obey();
+
+  const Snapshot& snapshot = step_->step(sample);
+  remember(snapshot);
+  latest_.write([&](Snapshot& to) { copy(snapshot, to); });
+  for (auto& ring : listeners_) ring->push([&](Snapshot& to) { copy(snapshot, to); });
+
+  if (last_begin_ != 0) {
+    const std::int64_t period = begin - last_begin_;
+    period_times_.add(period);
+    if (static_cast<double>(period) * 1e-9 > 1.5 * period_) late_.fetch_add(1, std::memory_order_relaxed);
+  }
+  last_begin_ = begin;
+  ticks_.fetch_add(1, std::memory_order_relaxed);
+  const Tick::Force force = snapshot.force;
+  compute_times_.add(settings_.now_ns() - begin);
+  return force;
+}
+
+void ServoLoop::obey() noexcept {
+  const std::uint32_t asked = asked_.exchange(0, std::memory_order_acq_rel);
+  if (asked == 0) return;
+  if (asked & reset_bit) {
+    step_->reset();
+    frozen_.store(false, std::memory_order_release);
+    remembered_ = 0;
+  }
+  if (asked & arm_bit) step_->arm();
+  if (asked & pause_bit) step_->disarm();
+}
+
+void ServoLoop::remember(const Snapshot& snapshot) noexcept {
+  if (history_.empty() || frozen_.load(std::memory_order_relaxed)) return;
+  copy(snapshot, history_[remembered_ % history_.size()]);
+  ++remembered_;
+  if (snapshot.fault != Fault::none) frozen_.store(true, std::memory_order_release);
+}
+
+}  // namespace punctura

@@ -1,0 +1,55 @@
+// Everything that differs from one operating system to the next. One file each implements it: linux.cpp, windows.cpp, macos.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace punctura::os {
+
+/// Nanoseconds on a clock that never goes back.
+std::int64_t now_ns() noexcept;
+
+/// Sleeps until that time on now_ns(). May wake late, never early.
+void sleep_until_ns(std::int64_t time) noexcept;
+
+/// What was asked of the scheduler and what came of it, in words for a person.
+struct RealtimeItem {
+  std::string what;
+  bool granted;
+  std::string detail;  ///< why not, and how to allow it
+};
+
+struct RealtimeSettings {
+  int priority = 80;        ///< of first-in-first-out scheduling, 1 to 99; 0 asks for none
+  int processor = -1;       ///< the one to stay on; -1 is any
+  bool lock_memory = true;  ///< no page of ours is put aside
+  bool awake = true;        ///< the processor does not go to sleep between ticks
+};
+
+/// Makes the calling thread as punctual as the system allows. What it does not allow is said, and does no harm.
+std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings);
+
+/// A shared library found at run time.
+class Library {
+ public:
+  Library() = default;
+  /// Tries each name in turn. error() says what was tried when none opens.
+  static Library open(const std::vector<std::string>& names);
+  Library(Library&& other) noexcept;
+  Library& operator=(Library&& other) noexcept;
+  ~Library();
+
+  explicit operator bool() const noexcept { return handle_ != nullptr; }
+  const std::string& path() const noexcept { return path_; }
+  const std::string& error() const noexcept { return error_; }
+
+  /// nullptr where the library has no such symbol.
+  void* symbol(const char* name) const noexcept;
+
+ private:
+  void* handle_ = nullptr;
+  std::string path_, error_;
+};
+
+}  // namespace punctura::os
