@@ -38,7 +38,7 @@ def test_a_start_inside_gives_no_force_until_the_tip_has_been_outside(solver):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("degrees", [80.5, 89.9, 90.0, 100.0, 135.0, 180.0])
+@pytest.mark.parametrize("degrees", [80.001, 89.9, 90.0, 100.0, 135.0, 180.0])
 def test_an_entry_beyond_80_degrees_or_from_behind_gives_no_force_until_the_tip_has_been_outside(solver, degrees):
     p = proxy(solver)
     assert not p.run(along_z(-1e-3, 3e-3), tilted(degrees)).any()
@@ -51,9 +51,9 @@ def test_an_entry_beyond_80_degrees_or_from_behind_gives_no_force_until_the_tip_
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_an_entry_within_80_degrees_holds_its_direction_until_the_tip_leaves(solver):
     p, same = proxy(solver), proxy(solver)
-    b = tilted(79.5)
+    b = tilted(79.999)
     path = (np.linspace(-1e-3, 4e-3, 2000)[:, None]) * b
-    turning = np.array([tilted(a) for a in np.linspace(79.5, 0, 2000)])
+    turning = np.array([tilted(a) for a in np.linspace(79.999, 0, 2000)])
     turning[: np.searchsorted(path[:, 2], 2e-5)] = b
     f = p.run(path, turning)
     assert abs(f).max() > 0.1
