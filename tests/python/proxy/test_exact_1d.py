@@ -7,7 +7,7 @@ import punctura
 import pytest
 from oracles import cases, core, exact_residual, proxy_1d, random_laws, random_runs
 
-TICKS = 150
+TICKS = 200
 
 
 @pytest.fixture(scope="module", params=list(cases.batches(1000, 500)))
