@@ -66,10 +66,11 @@ a_system() {
 table=""
 # timed SYSTEM USER WORDS COMMAND EXPECTED-EXIT: runs it, checks the exit, adds a row to the table.
 timed() {
-  local start=$SECONDS code=0 file=$log/${1##*/}-${3// /-}.log
-  inside "$1" "$2" "$4" >"$file" 2>&1 || code=$?
-  say "$3: $((SECONDS - start)) s, exit $code"
-  table="$table| $3 | $((SECONDS - start)) s |
+  local code=0 file=$log/${1##*/}-${3// /-}.log took
+  TIMEFORMAT='%0R s | %0U s'
+  took=$({ time inside "$1" "$2" "$4" >"$file" 2>&1; } 2>&1) || code=$?
+  say "$3: $took, exit $code"
+  table="$table| $3 | $took |
 "
   [ $code -eq "$5" ] || { say "should have ended with $5; the end of $file:"; tail -n 40 "$file" >&2; exit 1; }
 }
@@ -103,5 +104,5 @@ inside "$system" root "$line" >"$log/line.log" 2>&1
 timed "$system" ann "run, by that user, after root typed the line" "punctura/run" 0
 
 printf 'Debian %s (debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
-printf '| what | time |\n|---|---|\n%s\n' "$table"
+printf '| what | by the clock | of the processor |\n|---|---|---|\n%s\n' "$table"
 printf 'Debian packages installed by it:\n%s\n\nDisk: %s\n' "$installed" "$sizes"
