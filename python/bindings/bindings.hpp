@@ -25,6 +25,7 @@ void bind_scene(nb::module_&);
 void bind_insertion(nb::module_&);
 void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
+void bind_limits(nb::module_&);
 void bind_runtime(nb::module_&);
 
 /// A read-only view of numbers in memory: somebody's own array, without a copy, where it is float64 and contiguous.

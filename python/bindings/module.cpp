@@ -10,5 +10,6 @@ NB_MODULE(_core, m) {
   bind_insertion(m);
   bind_plant(m);
   bind_experiment(m);
+  bind_limits(m);
   bind_runtime(m);
 }

@@ -1,6 +1,171 @@
-// runtime: the live loop.
+// runtime: devices and the live loop. No tick ever takes the GIL.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/variant.h>
+
 #include "bindings.hpp"
+#include "punctura_runtime/backends/simulated.hpp"
+#include "punctura_runtime/loop/servo_loop.hpp"
+#include "snapshot_columns.hpp"
 
 namespace punctura::bindings {
-void bind_runtime(nb::module_&) {}
+namespace {
+
+using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
+
+SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
+  if (const auto* strokes = std::get_if<Strokes>(&motion)) return StrokesMotion(*strokes, seed);
+  if (const auto* recorded = std::get_if<RecordedMotion>(&motion)) return *recorded;
+  return std::get<Target>(motion);
+}
+
+/// Snapshots of a running loop, for one reader.
+struct Listener {
+  SpscRing<Snapshot>* ring;
+
+  nb::dict read(std::size_t limit) {
+    SnapshotColumns columns;
+    {
+      nb::gil_scoped_release release;
+      columns.reserve(std::min<std::size_t>(limit, 4096));
+      ring->pop(limit, [&](const Snapshot& s) { columns.add(s); });
+    }
+    return columns.to_dict();
+  }
+};
+
+nb::dict quantiles(const Histogram::Counts& counts, std::uint64_t largest) {
+  nb::dict d;
+  const auto seconds = [](std::uint64_t ns) { return static_cast<double>(ns) * 1e-9; };
+  d["p50"] = seconds(Histogram::quantile(counts, 0.5));
+  d["p99"] = seconds(Histogram::quantile(counts, 0.99));
+  d["p99_9"] = seconds(Histogram::quantile(counts, 0.999));
+  d["largest"] = seconds(largest);
+  std::vector<std::uint64_t> copy(counts.begin(), counts.end());
+  d["counts"] = to_numpy(std::move(copy), {counts.size()});
+  return d;
+}
+
+nb::dict report(const ServoLoop& loop) {
+  const LoopReport r = loop.report();
+  nb::dict d;
+  d["ticks"] = r.ticks;
+  d["late"] = r.late;
+  d["period"] = quantiles(r.period, r.largest_period_ns);
+  d["compute"] = quantiles(r.compute, r.largest_compute_ns);
+  return d;
+}
+
+nb::dict as_columns(const std::vector<Snapshot>& snapshots) {
+  SnapshotColumns columns;
+  for (const Snapshot& s : snapshots) columns.add(s);
+  return columns.to_dict();
+}
+
+constexpr const char* columns_doc =
+    "A dict of arrays, one row a tick: tick, sequence, time (s), position and axis (n, 3), buttons, healthy, motor_temperature,\n"
+    "tip, model_force, force (n, 3), ceiling (N), peak_limited, continuous_limited, temperature_limited, ramp_limited (counts so\n"
+    "far), state, fault, commands; of each membrane depth, axial_force, lower, upper, phase (n, m), proxy, direction (n, m, 3).";
+
+}  // namespace
+
+void bind_runtime(nb::module_& m) {
+  nb::exception<DeviceError>(m, "DeviceError", PyExc_RuntimeError);
+
+  nb::class_<Device>(m, "Device", "An open haptic device. It calls the tick from a thread of its own.")
+      .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
+      .def("trouble", &Device::trouble, "What went wrong, in words; empty if nothing did.")
+      .def("statements", &Device::statements, "What its user should know of how it runs. After the loop's start.");
+
+  const SimulatedOptions options;
+  nb::class_<SimulatedDevice, Device>(m, "SimulatedDevice",
+                                      "The plant as a device: a PHANTOM Omni in a simulated hand.")
+      .def(
+          "__init__",
+          [](SimulatedDevice* self, const AnyMotion& motion, const DeviceDynamics& plant, const Hand& hand, double rate,
+             std::uint64_t seed, bool real_time, std::uint64_t ticks, const Triple& axis, int priority) {
+            SimulatedOptions made;
+            made.dynamics = plant;
+            made.hand = hand;
+            std::vector<Problem> problems;
+            check_field(servo_fields[0], rate, "device", problems);
+            raise_if(problems);
+            made.rate = rate;
+            made.seed = seed;
+            made.real_time = real_time;
+            made.ticks = ticks;
+            made.axis = plain(unit(axis, "axis"));
+            made.realtime.priority = priority;
+            new (self) SimulatedDevice(laid_out(motion, seed), made);
+          },
+          nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
+          nb::arg("rate") = options.rate, nb::arg("seed") = 0, nb::arg("real_time") = true, nb::arg("ticks") = 0,
+          nb::arg("axis") = options.axis, nb::arg("priority") = options.realtime.priority,
+          "motion: Strokes, RecordedMotion or Target. rate: Hz. real_time: False runs as fast as possible. ticks: how many; 0 is no\n"
+          "end. axis: where the stylus points. priority: of real-time scheduling, 0 asks for none.")
+      .def("move_to", &SimulatedDevice::move_to, nb::arg("position"), "Of a Target: where the hand shall go, m.")
+      .def(
+          "point",
+          [](SimulatedDevice& d, const Triple& axis, std::uint32_t buttons) {
+            d.point(plain(unit(axis, "axis")), buttons);
+          },
+          nb::arg("axis"), nb::arg("buttons") = 0, "Where the stylus points, and the buttons that are held (bits).")
+      .def_prop_ro("finished", &SimulatedDevice::finished, "All ticks asked for have been.")
+      .def_prop_ro("missed", &SimulatedDevice::missed, "Ticks left out since their time had passed.")
+      .def_prop_ro("last_force", &SimulatedDevice::last_force, "What the plant was given last, N.");
+
+  nb::class_<Listener>(m, "Listener", "Every tick's snapshot, for one reader.")
+      .def("read", &Listener::read, nb::arg("limit") = 1 << 16,
+           nb::sig("def read(self, limit: int = 65536) -> dict[str, typing.Any]"), columns_doc)
+      .def_prop_ro(
+          "lost", [](const Listener& l) { return l.ring->lost(); }, "Snapshots that found no room.")
+      .def_prop_ro("capacity", [](const Listener& l) { return l.ring->capacity(); }, "Snapshots that it holds.");
+
+  nb::class_<ServoLoop>(m, "ServoLoop", "A scene on a device: the servo step, tick after tick, on the device's thread.")
+      .def(
+          "__init__",
+          [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
+             const ForceLimits& limits) {
+            LoopSettings settings;
+            settings.gate = gate;
+            settings.limits = limits;
+            new (self) ServoLoop(std::move(device), scene, settings);
+          },
+          nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},
+          "A device runs in one loop at a time. The period is the device's own; its force ratings\n"
+          "tighten the limits.")
+      .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),
+           "Ticks come, disarmed. Raises DeviceError.")
+      .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Zero force, then no tick any more.")
+      .def("arm", &ServoLoop::arm, "Force, once the tip is outside tissue.")
+      .def("pause", &ServoLoop::pause, "No force; ticks go on.")
+      .def("reset", &ServoLoop::reset, "Leaves a fault; disarmed.")
+      .def(
+          "exchange",
+          [](ServoLoop& loop, const Scene& scene) {
+            raise_if(check(scene));
+            nb::gil_scoped_release release;
+            loop.exchange(scene);
+          },
+          nb::arg("scene"),
+          "Another scene, taken between two ticks and faded in. Raises ConfigurationError; then nothing has changed.")
+      .def(
+          "listen", [](ServoLoop& loop, std::size_t capacity) { return Listener{&loop.listen(capacity)}; },
+          nb::arg("capacity") = 8192, nb::keep_alive<0, 1>(), "Before start: every tick's snapshot from then on.")
+      .def_prop_ro("running", &ServoLoop::running)
+      .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
+      .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "As it runs, at the device's rate.")
+      .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy, "As they act, with the device's ratings.")
+      .def(
+          "report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),
+          "ticks, late, and of period and compute the quantiles p50, p99, p99_9, the largest (s) and the counts by bin.")
+      .def(
+          "latest", [](ServoLoop& loop) { return as_columns({loop.latest()}); },
+          nb::sig("def latest(self) -> dict[str, typing.Any]"), "The last tick's snapshot, as columns with one row.")
+      .def(
+          "fault_history", [](ServoLoop& loop) { return as_columns(loop.fault_history()); },
+          nb::sig("def fault_history(self) -> dict[str, typing.Any]"),
+          "The last snapshots up to the latched fault, as columns; none without one.");
+}
+
 }  // namespace punctura::bindings

@@ -7,6 +7,9 @@
 // Everything here is noexcept and takes no memory: a tick throws nothing, allocates nothing, locks nothing, logs nothing.
 #pragma once
 
+#include <algorithm>
+#include <utility>
+
 #include "punctura/proxy/insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
@@ -28,16 +31,19 @@ class ServoStep {
   /// Asks for force. It comes as soon as the tip is in front of every membrane, over ForceLimits::ramp_time. A latched fault
   /// is not left by this: it takes reset().
   void arm() noexcept {
+    commands_ |= command_arm;
     if (state_ == ServoState::disarmed) state_ = ServoState::waiting;
   }
 
   /// Ends force at once.
   void disarm() noexcept {
+    commands_ |= command_disarm;
     if (state_ != ServoState::faulted) state_ = ServoState::disarmed;
   }
 
   /// Leaves a fault, forgets all motion, and is disarmed.
   void reset() noexcept {
+    commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
     insertion_.reset();
     gate_.reset();
@@ -56,6 +62,7 @@ class ServoStep {
     state_ = previous.state_;
     fault_ = previous.fault_;
     tick_ = previous.tick_;
+    commands_ = previous.commands_ | command_scene;
     wanted_ = previous.wanted_;
     fade_ = 1;
     fade_starts_ = true;
@@ -119,6 +126,7 @@ class ServoStep {
     snapshot_.force = plain(force);
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
+    snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;
     for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
@@ -135,6 +143,7 @@ class ServoStep {
   ServoState state_ = ServoState::disarmed;
   Fault fault_ = Fault::none;
   std::uint64_t tick_ = 0;
+  std::uint32_t commands_ = 0;
   double fade_step_, fade_ = 0;
   bool fade_starts_ = false;
   Vector3d wanted_ = Vector3d::Zero(), offset_ = Vector3d::Zero();

@@ -22,6 +22,9 @@ enum class ServoState : std::uint8_t {
   faulted,   ///< a fault is latched, the force is zero
 };
 
+/// What was asked of the step since the tick before, as bits: with them, and the samples, a recording can be run again.
+enum Command : std::uint32_t { command_arm = 1, command_disarm = 2, command_reset = 4, command_scene = 8 };
+
 struct MembraneRecord {
   double depth;                     ///< m, see Proxy3d::depth
   double axial_force;               ///< N, along b
@@ -41,6 +44,7 @@ struct Snapshot {
   LimitCounters limits;
   ServoState state;
   Fault fault;
+  std::uint32_t commands;  ///< bits of Command, obeyed in the order reset, arm, disarm
   std::uint32_t membrane_count;
   std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are filled
 };

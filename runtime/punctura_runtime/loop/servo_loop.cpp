@@ -20,7 +20,7 @@ double tighter(double limit, double rating) noexcept { return rating < limit ? r
 
 }  // namespace
 
-ServoLoop::ServoLoop(std::unique_ptr<Device> device, Scene scene, LoopSettings settings)
+ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
     : device_(std::move(device)), scene_(std::move(scene)), settings_(settings), period_(1 / device_->info().rate) {
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);

@@ -43,7 +43,7 @@ void copy(const Snapshot& from, Snapshot& to) noexcept;
 class ServoLoop {
  public:
   /// The period is that of the device, whatever rate the scene asks for; a device's own force ratings tighten the limits. Throws SceneError.
-  ServoLoop(std::unique_ptr<Device> device, Scene scene, LoopSettings settings = {});
+  ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings = {});
   ~ServoLoop();
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
@@ -80,7 +80,7 @@ class ServoLoop {
 
   static constexpr std::uint32_t arm_bit = 1, pause_bit = 2, reset_bit = 4;
 
-  std::unique_ptr<Device> device_;
+  std::shared_ptr<Device> device_;
   Scene scene_;
   LoopSettings settings_;
   double period_;

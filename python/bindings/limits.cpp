@@ -1,0 +1,86 @@
+// core/punctura/safety and device: what limits a force, why there is none, and what a device says of itself.
+#include "bindings.hpp"
+#include "punctura/device/device.hpp"
+#include "punctura/scene/check.hpp"
+#include "punctura/servo/snapshot.hpp"
+#include "value.hpp"
+
+namespace punctura::bindings {
+
+void bind_limits(nb::module_& m) {
+  nb::enum_<Fault>(m, "Fault", nb::is_arithmetic(), "Why a tick gave no force.")
+      .value("none", Fault::none)
+      .value("non_finite_input", Fault::non_finite_input)
+      .value("bad_axis", Fault::bad_axis)
+      .value("position_jump", Fault::position_jump)
+      .value("stale_sample", Fault::stale_sample)
+      .value("missed_deadline", Fault::missed_deadline)
+      .value("clock", Fault::clock)
+      .value("non_finite_force", Fault::non_finite_force)
+      .value("device", Fault::device);
+  m.def("describe", &describe, nb::arg("fault"), "What a fault means, and what to do.");
+
+  nb::enum_<ServoState>(m, "ServoState", nb::is_arithmetic(), "Whether the device is given force.")
+      .value("disarmed", ServoState::disarmed, "The model runs, the device gets no force.")
+      .value("waiting", ServoState::waiting, "Armed, but the tip is inside tissue, or the dead-man button is not held.")
+      .value("active", ServoState::active, "Forces go out, ramped in at first.")
+      .value("faulted", ServoState::faulted, "A fault is latched, the force is zero.");
+
+  const GateLimits gate;
+  auto gate_class =
+      nb::class_<GateLimits>(m, "GateLimits", "What a sample must fulfil before the model sees it.")
+          .def(
+              "__init__",
+              [](GateLimits* self, double jump, double stale, double deadline, double axis, std::uint32_t dead_man) {
+                const GateLimits made{jump, stale, deadline, axis, dead_man};
+                raise_if(check(made, ForceLimits{}));
+                new (self) GateLimits(made);
+              },
+              nb::arg("position_jump") = gate.position_jump, nb::arg("stale") = gate.stale,
+              nb::arg("deadline") = gate.deadline, nb::arg("axis_tolerance") = gate.axis_tolerance,
+              nb::arg("dead_man") = gate.dead_man,
+              "position_jump: m from one reading to the next. stale: s without a new reading. deadline: s between ticks.\n"
+              "axis_tolerance: of the axis' length from 1. dead_man: buttons (bits) of which one must be held; 0 is none.")
+          .def_ro("position_jump", &GateLimits::position_jump, "m")
+          .def_ro("stale", &GateLimits::stale, "s")
+          .def_ro("deadline", &GateLimits::deadline, "s")
+          .def_ro("axis_tolerance", &GateLimits::axis_tolerance)
+          .def_ro("dead_man", &GateLimits::dead_man);
+  def_value(gate_class, {"position_jump", "stale", "deadline", "axis_tolerance", "dead_man"});
+
+  const ForceLimits limits;
+  auto limits_class =
+      nb::class_<ForceLimits>(m, "ForceLimits", "What bounds the force that leaves for a device.")
+          .def(
+              "__init__",
+              [](ForceLimits* self, double max, double continuous, double time, double ramp, double warm) {
+                const ForceLimits made{max, continuous, time, ramp, warm};
+                raise_if(check(GateLimits{}, made));
+                new (self) ForceLimits(made);
+              },
+              nb::arg("max_force") = limits.max_force, nb::arg("continuous_force") = limits.continuous_force,
+              nb::arg("continuous_time") = limits.continuous_time, nb::arg("ramp_time") = limits.ramp_time,
+              nb::arg("warm_motor") = limits.warm_motor,
+              "max_force: N, norm. continuous_force: N rms over continuous_time (s). ramp_time: s from none to full force.\n"
+              "warm_motor: motor temperature (0 to 1) above which the force comes down, to none at 1.")
+          .def_ro("max_force", &ForceLimits::max_force, "N")
+          .def_ro("continuous_force", &ForceLimits::continuous_force, "N rms")
+          .def_ro("continuous_time", &ForceLimits::continuous_time, "s")
+          .def_ro("ramp_time", &ForceLimits::ramp_time, "s")
+          .def_ro("warm_motor", &ForceLimits::warm_motor);
+  def_value(limits_class, {"max_force", "continuous_force", "continuous_time", "ramp_time", "warm_motor"});
+
+  nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.")
+      .def_ro("backend", &DeviceInfo::backend)
+      .def_ro("model", &DeviceInfo::model)
+      .def_ro("serial", &DeviceInfo::serial)
+      .def_ro("has_orientation", &DeviceInfo::has_orientation)
+      .def_ro("button_count", &DeviceInfo::button_count)
+      .def_ro("max_force", &DeviceInfo::max_force, "N, for a moment")
+      .def_ro("continuous_force", &DeviceInfo::continuous_force, "N, for ever")
+      .def_ro("max_stiffness", &DeviceInfo::max_stiffness, "N/m")
+      .def_ro("encoder_step", &DeviceInfo::encoder_step, "m")
+      .def_ro("rate", &DeviceInfo::rate, "Ticks a second, Hz");
+}
+
+}  // namespace punctura::bindings
