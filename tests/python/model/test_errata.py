@@ -36,7 +36,7 @@ def test_e3_the_fifth_case_of_19_holds_on_max_u_x_to_x_plus_u_and_not_on_x_to_u(
 
 
 def test_e4_9_needs_mu_squared_to_be_the_sum_of_2_and_6():
-    """f_rI + f_lI = -g [mu + (mu + t)/(1 - mu t)], which is (9) with 1 - mu^2; with 1 - mu it is 3 % off."""
+    """f_rI + f_lI = -g [mu + (mu + t)/(1 - mu t)], which is (9) with 1 - mu^2; with 1 - mu it is 7 % off."""
     mu, t = 0.2, np.tan(0.28)
     total = mu + (mu + t) / (1 - mu * t)
     assert (2 * mu + (1 - mu**2) * t) / (1 - mu * t) == pytest.approx(total, rel=1e-15)

@@ -80,7 +80,7 @@ def test_e5_the_explicit_euler_filter_overshoots_a_step_and_the_exact_one_does_n
 
 
 def roots(H, q0):
-    """For each q0, how many depths about the pop solve g (q - q0) = Phi_I(q); section 4's needle, membrane, coupling."""
+    """For each q0, how many depths about the pop solve g (q - q0) = Phi_I(q) with the numbers of section 4."""
     q = np.linspace(2e-3, 6e-3, 8001)
     lower, _ = law.band(law.law(**SECTION_4, H=H), q)
     sign = np.sign(COUPLING.g * (q - q0[:, None]) - lower)
