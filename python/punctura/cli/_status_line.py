@@ -1,0 +1,48 @@
+"""One line that says how a live run is doing, rewritten in place on a terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TextIO
+
+from punctura.live import RunSummary
+
+EVERY_S = 0.1
+
+
+class StatusLine:
+    """Silent where nobody watches."""
+
+    def __init__(self, stream: TextIO | None = None) -> None:
+        self._stream = stream or sys.stderr
+        self._next = 0.0
+        self._width = 0
+
+    def __call__(self, summary: RunSummary) -> None:
+        now = time.monotonic()
+        if not self._stream.isatty() or now < self._next:
+            return
+        self._next = now + EVERY_S
+        text = status_text(summary)
+        self._stream.write("\r" + text.ljust(self._width))
+        self._stream.flush()
+        self._width = len(text)
+
+    def end(self) -> None:
+        if self._width:
+            self._stream.write("\r" + " " * self._width + "\r")
+            self._stream.flush()
+
+
+def status_text(summary: RunSummary) -> str:
+    """Time, rate, state, force, and of each membrane depth and phase."""
+    x, y, z = summary.force_N
+    membranes = "  ".join(
+        f"{name} {depth * 1e3:.1f} mm {phase.replace('_', ' ')}"
+        for name, depth, phase in zip(summary.membranes, summary.depth_m, summary.phases, strict=False)
+    )
+    return (
+        f"{summary.time_s:6.1f} s  {summary.rate_Hz:g} Hz  {summary.state}  "
+        f"force {x:+.2f} {y:+.2f} {z:+.2f} N  {membranes}  lost {summary.gaps}"
+    )

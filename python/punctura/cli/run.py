@@ -1,0 +1,70 @@
+"""`punctura run`: a scene on a device, now."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+from punctura._core import ServoLoop, SimulatedDevice
+from punctura.cli._status_line import StatusLine
+from punctura.live import Ended, RunSummary, run_live, strokes_through
+from punctura.scene import load_scene
+
+FAULTED = 1
+
+
+def command(
+    scene: Annotated[
+        str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")
+    ] = "k06-fig10",
+    headless: Annotated[bool, typer.Option("--headless", help="In this terminal, without a page.")] = False,
+    device: Annotated[str, typer.Option("--device", help="Which device.")] = "simulated",
+    duration: Annotated[
+        float | None, typer.Option("--duration", help="How long, s; without it until Ctrl-C.", min=0.0)
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """A scene on a device at its full rate, with every safety limit on.
+
+    The simulated device makes strokes through the scene.
+    """
+    if not headless:
+        raise typer.BadParameter("there is no page yet; add --headless", param_hint="punctura run")
+    if device != "simulated":
+        raise typer.BadParameter(f"no device is called {device!r}; there is: simulated", param_hint="--device")
+    loaded = load_scene(scene)
+    opened = SimulatedDevice(strokes_through(loaded), rate=loaded.servo.rate, axis=loaded.membranes[0].inward_normal)
+    line = StatusLine()
+
+    def begin(_loop: ServoLoop) -> Callable[[], None]:
+        typer.echo(f"punctura: {loaded.name} on {opened.info.model}; Ctrl-C ends it", err=True)
+        return line.end
+
+    try:
+        summary = run_live(opened, loaded, duration, watch=line, prepare=begin)
+    except Ended as end:
+        if end.name == "SIGINT":
+            raise KeyboardInterrupt from None  # the command line says "interrupted"
+        typer.echo(f"punctura: ended by {end.name}; the force is off", err=True)
+        sys.exit(128 + end.number)
+    typer.echo(json.dumps(summary.to_dict(), indent=2) if as_json else in_words(summary))
+    if summary.fault:
+        typer.echo(f"punctura: {summary.fault}", err=True)
+        raise typer.Exit(FAULTED)
+
+
+def in_words(summary: RunSummary) -> str:
+    """The summary for a person."""
+    lines = [
+        f"{summary.scene} on {summary.device}",
+        f"  {summary.ticks} ticks at {summary.rate_Hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
+        f"99.9 % were computed within {summary.compute_p99_9_s * 1e6:.3g} us",
+        f"  strongest force {summary.strongest_N:.3g} N, limited in {summary.limited_ticks} ticks",
+    ]
+    for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
+        lines.append(f"  {name}: {depth * 1e3:.3g} mm deep")
+    return "\n".join(lines + [f"  {text}" for text in summary.statements])

@@ -1,0 +1,86 @@
+"""Runs a scene on a device until it is over, and leaves the device without force on every way out."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from punctura import Scene
+from punctura._core import Device, ForceLimits, GateLimits, ServoLoop
+from punctura.live.summary import RunSummary
+
+ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
+POLL_S = 0.05
+
+
+class Ended(BaseException):
+    """A signal asked the run to end. Not an Exception: nothing on the way may take it for an error and go on."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.name = signal.Signals(number).name
+        super().__init__(self.name)
+
+
+@contextmanager
+def ends_on_signals() -> Iterator[None]:
+    """Turns an interrupt, a termination and a closed terminal into Ended: the force ends before the program does."""
+    wanted = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)]
+
+    def end(number: int, _frame: FrameType | None) -> None:
+        raise Ended(number)
+
+    if threading.current_thread() is not threading.main_thread():  # only the main thread may take signals
+        yield
+        return
+    before = {number: signal.signal(number, end) for number in wanted}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def run_live(
+    device: Device,
+    scene: Scene,
+    duration: float | None = None,
+    gate: GateLimits | None = None,
+    limits: ForceLimits | None = None,
+    watch: Callable[[RunSummary], None] | None = None,
+    prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
+) -> RunSummary:
+    """Ticks until `duration` (s) is over, a fault is latched, the device has ended, or a signal comes.
+
+    A signal raises Ended, after the stop. watch: called some 20 times a second with the summary. prepare: called
+    with the loop before it starts, to add listeners; what it returns is called after the stop.
+    """
+    info = device.info
+    summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
+    with ends_on_signals():
+        loop = ServoLoop(device, scene, gate or GateLimits(), limits or ForceLimits())
+        listener = loop.listen(int(ROOM_S * info.rate))
+        finish = prepare(loop) if prepare else None
+        try:
+            loop.arm()
+            loop.start()
+            began = time.monotonic()
+            while not summary.fault and not getattr(device, "finished", False):
+                left = POLL_S if duration is None else min(POLL_S, duration - (time.monotonic() - began))
+                if left <= 0:
+                    break
+                time.sleep(left)
+                summary.add(listener.read())
+                if watch:
+                    watch(summary)
+        finally:
+            loop.stop()
+            summary.add(listener.read())
+            summary.finish(loop)
+            if finish:
+                finish()
+    return summary

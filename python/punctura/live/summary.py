@@ -1,0 +1,82 @@
+"""What a live run was, gathered while it runs in constant memory."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from punctura import Phase, Scene
+from punctura._core import Fault, ServoLoop, ServoState, describe
+
+Columns = dict[str, Any]
+
+
+@dataclass
+class RunSummary:
+    """Everything in SI; `to_dict` is what `--json` prints."""
+
+    scene: str
+    device: str
+    rate_Hz: float
+    membranes: list[str]
+    ticks: int = 0
+    gaps: int = 0  # ticks whose snapshot never came
+    strongest_N: float = 0.0
+    deepest_m: list[float] = field(default_factory=list)
+    limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
+    fault: str = ""
+    late: int = 0
+    compute_p99_9_s: float = 0.0
+    period_p50_s: float = 0.0
+    statements: list[str] = field(default_factory=list)
+    # The last tick, for a status line.
+    force_N: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    depth_m: list[float] = field(default_factory=list)
+    phases: list[str] = field(default_factory=list)
+    state: str = "disarmed"
+    time_s: float = 0.0
+    _next_tick: int = 0
+
+    @classmethod
+    def of(cls, scene: Scene, device: str, rate: float) -> RunSummary:
+        names = [placed.name for placed in scene.membranes]
+        return cls(scene.name, device, rate, names, deepest_m=[0.0] * len(names))
+
+    def add(self, columns: Columns) -> None:
+        """Takes a batch from a Listener."""
+        tick = columns["tick"]
+        n = len(tick)
+        if n == 0:
+            return
+        self.gaps += int(tick[-1]) + 1 - self._next_tick - n
+        self._next_tick = int(tick[-1]) + 1
+        self.ticks += n
+        self.strongest_N = max(self.strongest_N, float(np.linalg.norm(columns["force"], axis=1).max()))
+        deepest = columns["depth"].max(axis=0)
+        self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
+        self.limited_ticks = int(
+            columns["peak_limited"][-1] + columns["continuous_limited"][-1] + columns["temperature_limited"][-1]
+        )
+        x, y, z = columns["force"][-1]
+        self.force_N = (float(x), float(y), float(z))
+        self.depth_m = [float(d) for d in columns["depth"][-1]]
+        self.phases = [Phase(int(p)).name for p in columns["phase"][-1]]
+        self.state = ServoState(int(columns["state"][-1])).name
+        self.time_s = float(columns["time"][-1])
+        if fault := int(columns["fault"][-1]):
+            self.fault = describe(Fault(fault))
+
+    def finish(self, loop: ServoLoop) -> None:
+        """Takes the loop's own account, after it has stopped."""
+        report = loop.report()
+        self.late = report["late"]
+        self.compute_p99_9_s = report["compute"]["p99_9"]
+        self.period_p50_s = report["period"]["p50"]
+        self.statements = loop.device.statements()
+        if trouble := loop.device.trouble():
+            self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
+
+    def to_dict(self) -> dict[str, Any]:
+        return {key: value for key, value in asdict(self).items() if not key.startswith("_")}

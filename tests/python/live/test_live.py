@@ -1,0 +1,139 @@
+"""A live run from Python and from the command line, on the simulated device."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
+from punctura.live import RunSummary, run_live, strokes_through
+
+SCENE = pn.load_scene("k06-fig10")
+STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+
+
+def simulated(ticks=4000, **kw):
+    return SimulatedDevice(STROKES, real_time=False, ticks=ticks, **kw)
+
+
+def punctura(*arguments, **kw):
+    return subprocess.run(
+        [sys.executable, "-m", "punctura.cli", *arguments], capture_output=True, text=True, timeout=60, **kw
+    )
+
+
+def test_a_run_ends_with_the_device_and_its_summary_counts_every_tick():
+    summary = run_live(simulated(), SCENE)
+    assert (summary.ticks, summary.gaps, summary.fault) == (4000, 0, "")
+    assert summary.strongest_N == pytest.approx(0.73, abs=0.01)
+    assert summary.deepest_m[0] > 5e-3
+    assert summary.state == "active"
+
+
+def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
+    loop = ServoLoop(simulated(seed=3), SCENE)
+    listener = loop.listen(4096)
+    loop.arm()
+    loop.start()
+    while not loop.device.finished:
+        time.sleep(0.001)
+    loop.stop()
+    live = listener.read()
+    offline = pn.Experiment(SCENE, STROKES, seed=3).run(2.5)
+    assert listener.lost == 0
+    assert np.array_equal(live["tick"], np.arange(4000))
+    assert np.array_equal(live["force"], offline.force)
+    assert np.array_equal(live["axial_force"], offline.axial_force)
+    assert live["commands"][0] == 1 and not live["commands"][1:].any()
+
+
+def test_a_limit_that_acts_is_counted_and_told():
+    summary = run_live(simulated(), SCENE, limits=ForceLimits(max_force=0.5))
+    assert summary.strongest_N == pytest.approx(0.5)
+    assert summary.limited_ticks > 100
+
+
+def test_a_dead_man_button_that_nobody_holds_gives_no_force():
+    summary = run_live(simulated(), SCENE, gate=GateLimits(dead_man=1))
+    assert (summary.strongest_N, summary.state) == (0.0, "waiting")
+
+
+def test_a_fault_ends_the_run_and_says_what_to_do():
+    summary = run_live(simulated(ticks=0), SCENE, gate=GateLimits(position_jump=1e-6))
+    assert summary.fault == describe(Fault.position_jump)
+    assert "calibrate" in summary.fault
+    assert summary.force_N == (0.0, 0.0, 0.0)
+
+
+def test_strokes_go_from_in_front_of_all_membranes_to_behind_them():
+    for name in pn.scene_names():
+        scene = pn.load_scene(name)
+        summary = run_live(
+            SimulatedDevice(
+                strokes_through(scene, 1), real_time=False, ticks=8000, axis=scene.membranes[0].inward_normal
+            ),
+            scene,
+        )
+        assert summary.fault == ""
+        assert summary.state == "active"
+        assert min(summary.deepest_m) > 0, name
+
+
+def test_the_summary_counts_snapshots_that_never_came():
+    summary = RunSummary.of(SCENE, "x", 1600.0)
+    loop = ServoLoop(simulated(ticks=1000), SCENE)
+    listener = loop.listen(64)
+    loop.start()
+    while not loop.device.finished:
+        time.sleep(0.001)
+    loop.stop()
+    summary.add(listener.read())
+    assert summary.ticks == 64
+    assert summary.gaps + listener.lost == 1000 - 64
+
+
+def test_safety_limits_that_would_switch_safety_off_are_refused_with_all_reasons():
+    with pytest.raises(pn.ConfigurationError) as error:
+        ForceLimits(max_force=0, ramp_time=0)
+    assert [p.path for p in error.value.problems] == ["limits.max_force", "limits.ramp_time"]
+    with pytest.raises(pn.ConfigurationError):
+        GateLimits(deadline=float("nan"))
+
+
+def test_headless_prints_a_summary_a_program_can_read():
+    done = punctura("run", "k06-fig12", "--headless", "--duration", "1.5", "--json")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert summary["gaps"] == 0
+    assert 2000 < summary["ticks"] <= 2500
+    assert summary["device"].startswith("simulated")
+
+
+def test_without_headless_it_says_what_to_add():
+    done = punctura("run")
+    assert done.returncode == 2
+    assert "add --headless" in done.stderr
+
+
+def test_an_unknown_device_is_a_usage_error():
+    done = punctura("run", "--headless", "--device", "omega")
+    assert done.returncode == 2
+    assert "omega" in done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends signals")
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_signal_ends_the_run_with_the_force_off(name):
+    heed = lambda: [signal.signal(s, signal.SIG_DFL) for s in (signal.SIGINT, signal.SIGHUP)]  # noqa: E731
+    command = [sys.executable, "-m", "punctura.cli", "run", "--headless"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed)
+    assert process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated; Ctrl-C ends it\n"
+    process.send_signal(getattr(signal, name))
+    _, said = process.communicate(timeout=60)
+    assert said == ("punctura: interrupted\n" if name == "SIGINT" else f"punctura: ended by {name}; the force is off\n")
+    assert process.returncode == 128 + getattr(signal, name)
