@@ -39,6 +39,9 @@ apt_install() {
 
 provide_packages() {
   local as_root="" line answer
+  if [ -n "${CXX:-}" ] && ! has_compiler "$CXX"; then
+    fail "CXX=$CXX is no compiler that knows C++20. Name another one, or leave CXX unset."
+  fi
   find_missing "$1"
   [ -n "$missing" ] || return 0
   if ! command -v apt-get >/dev/null; then fail "Punctura needs, and this system lacks:$needs

@@ -15,26 +15,22 @@ PY
 
 # Sets python (a path), python_version (3.11.2), python_minor (3.11) and python_lacks ("complete", "venv", "headers", "venv+headers").
 find_python() {
-  local candidate path facts version new_enough lacks real fallback="" seen=""
-  for candidate in ${PYTHON:+"$PYTHON"} /usr/bin/python3 python3 python3.13 python3.12 python3.11 python3.10; do
-    path=$(command -v "$candidate" 2>/dev/null) || continue
-    facts=$(python_facts "$path") || continue
-    read -r version new_enough lacks real <<<"$facts"
-    if [ "$new_enough" = yes ]; then
-      if [ "$lacks" = complete ] || [ "$candidate" = "${PYTHON:-}" ]; then
-        python=$real python_version=$version python_minor=${version%.*} python_lacks=$lacks
-        return 0
+  local candidate path version new_enough lacks real best="" old=""
+  for candidate in "${PYTHON:-/usr/bin/python3}" python3 python3.13 python3.12 python3.11 python3.10; do
+    if path=$(command -v "$candidate" 2>/dev/null) && read -r version new_enough lacks real <<<"$(python_facts "$path")"; then
+      if [ "$new_enough" = old ]; then old="$old $path ($version)"; fi
+      if [ "$new_enough" = yes ]; then
+        [ -n "$best" ] || best="$version $lacks $real"
+        if [ "$lacks" = complete ]; then best="$version $lacks $real" && break; fi
       fi
-      [ -n "$fallback" ] || fallback="$version $lacks $real"
-    else
-      seen="$seen $path ($version)"
     fi
-    if [ -n "${PYTHON:-}" ]; then break; fi
+    [ -z "${PYTHON:-}" ] || break
   done
-  if [ -n "${PYTHON:-}" ]; then
-    fail "PYTHON=$PYTHON is ${seen:+too old:$seen. }${seen:-no Python that runs. }Punctura needs Python 3.10 or newer; name one, or leave PYTHON unset."
+  if [ -z "$best" ] && [ -n "${PYTHON:-}" ]; then
+    fail "PYTHON=$PYTHON is $([ -n "$old" ] && echo "too old:$old" || echo "no Python that runs"). Punctura needs Python 3.10 or newer: name one, or leave PYTHON unset."
+  elif [ -z "$best" ]; then
+    fail "Punctura needs Python 3.10 or newer.${old:+ Found only:$old.} Install one (Debian, Ubuntu: apt-get install python3), or say where it is: PYTHON=/path/to/python3 ./run"
   fi
-  [ -n "$fallback" ] || fail "Punctura needs Python 3.10 or newer.${seen:+ Found only:$seen.} Install one (Debian, Ubuntu: apt-get install python3), or say where it is: PYTHON=/path/to/python3 ./run"
-  read -r python_version python_lacks python <<<"$fallback"
+  read -r python_version python_lacks python <<<"$best"
   python_minor=${python_version%.*}
 }

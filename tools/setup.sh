@@ -57,14 +57,14 @@ except ModuleNotFoundError:  # Python 3.10
 print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"]))
 PY
 }
-pip() { "$venv/bin/python" -m pip --disable-pip-version-check --no-input "$@"; }
+pip() { "$venv/bin/python" -m pip --disable-pip-version-check --no-input --no-color "$@"; }
 pip_build_tools() {
   local requirements
-  requirements=$(build_requirements) && pip install $requirements "cmake>=3.26" "ninja>=1.11"
+  requirements=$(build_requirements) && pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
 }
 
 # The project is built in place of pip's throw-away folder, so that a changed file costs its own compilation only.
-pip_project() { pip install --no-build-isolation "$@"; }
+pip_project() { pip install --progress-bar off --no-build-isolation "$@"; }
 
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {
