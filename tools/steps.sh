@@ -132,4 +132,4 @@ step_examples() {
 }
 
 # By name only: slow, and a matter of taste.
-step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy; }
+step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
