@@ -83,7 +83,7 @@ set_up() {
   make_venv
   export PATH="$venv/bin:$PATH"
   deps="$(digest_files pyproject.toml)"
-  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core python) ${CXX:-}"
+  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python) ${CXX:-}"
   if ! stamped build-tools "$deps"; then
     step "Build tools from PyPI" build-tools pip_build_tools
     stamp build-tools "$deps"

@@ -79,7 +79,7 @@ step_cpp() { compile dev && build/dev/tests/core/core_tests && build/dev/tests/r
 # The same with Clang, for its warnings.
 step_clang() { compile clang; }
 
-# The sanitizers are slow: a fiftieth of the random cases reaches the same code.
+# The sanitizers are slow: a few of the random cases reach the same code.
 step_asan() {
   compile asan core_tests runtime_tests || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
