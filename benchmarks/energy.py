@@ -1,0 +1,83 @@
+"""What a device that holds the force over the tick gives out, beside what the model gives: docs/passivity.md.
+
+    python benchmarks/energy.py [--json FILE]
+
+Each row is a simulated operator at a simulated device who goes in and out of K06's membranes and ends where it began.
+`model` counts the work as f(k).(x(k) - x(k-1)), which the discrete-time model cannot make positive; `held` counts it as
+the hand feels it, f(k).(x(k+1) - x(k)). The difference is what holding costs. Negative is dissipated.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import punctura as pn
+
+STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=4, variation=0.0)
+DEVICES = {
+    "Omni": pn.Plant(),
+    "Omni, ideal sensor": pn.Plant(encoder_step=0.0),
+    "no friction, ideal sensor": pn.Plant(friction=0.0, encoder_step=0.0),
+}
+
+
+def work(trace: pn.ExperimentTrace) -> tuple[float, float, float]:
+    """(model, held, length of the path): J, J, m; over the whole trace, which ends where it began."""
+    x, f = trace.tip, trace.force
+    moved = np.diff(x, axis=0)
+    model = float(np.einsum("ij,ij->", f[1:], moved))
+    held = float(np.einsum("ij,ij->", f[:-1], moved))
+    return model, held, float(np.linalg.norm(moved, axis=1).sum())
+
+
+def rows() -> list[dict[str, object]]:
+    out: list[dict[str, object]] = []
+    for scene_name in ("k06-fig10", "k06-fig11", "k06-fig12"):
+        for solver in ("exact", "paper"):
+            for device_name, plant in DEVICES.items():
+                scene = pn.load_scene(scene_name)
+                scene = scene.replace(servo=scene.servo.replace(solver=solver))
+                experiment = pn.Experiment(scene, STROKES, plant, pn.Hand(tremor_rms=0.0))
+                model, held, path = work(experiment.run(experiment.duration + 1))
+                out.append(
+                    {
+                        "scene": scene_name,
+                        "solver": solver,
+                        "device": device_name,
+                        "model_mJ": model * 1e3,
+                        "held_mJ": held * 1e3,
+                        "surplus_mJ": (held - model) * 1e3,
+                        "friction_of_device_mJ": plant.friction * path * 1e3,
+                    }
+                )
+    return out
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", type=Path, metavar="FILE")
+    arguments = parser.parse_args()
+    table = rows()
+    heads = f"{'model mJ':>9} {'held mJ':>9} {'surplus mJ':>11} {'device friction mJ':>19}"
+    print(f"{'scene':10} {'solver':6} {'device':26} {heads}")
+    for r in table:
+        print(
+            f"{r['scene']:10} {r['solver']:6} {r['device']:26} {r['model_mJ']:9.3f} {r['held_mJ']:9.3f} "
+            f"{r['surplus_mJ']:11.4f} {r['friction_of_device_mJ']:19.2f}"
+        )
+    coupling = pn.load_scene("k06-fig10").coupling
+    period = 1 / pn.load_scene("k06-fig10").servo.rate
+    bound = coupling.stiffness * period / 2 + coupling.damping
+    print(
+        f"\nColgate and Schenkel: passive at any grip with b > K T / 2 + |B| = {bound:.3f} N s/m in the device itself."
+    )
+    print(f"The Omni has dry friction instead, 0.26 N: as much at every speed below {0.26 / bound:.2f} m/s.")
+    if arguments.json:
+        arguments.json.write_text(json.dumps(table, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()
