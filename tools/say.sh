@@ -15,17 +15,17 @@ step() {
   "$@" >"$log" 2>&1 </dev/null || code=$?
   [ $code -ne 0 ] || { printf '%d s\n' $((SECONDS - start)); return 0; }
   printf 'FAILED after %d s\n' $((SECONDS - start))
-  { echo; tail -n 25 "$log" | sed 's/^/    /'; } >&2
+  { echo; tail -n 15 "$log" | sed 's/^/    /'; } >&2
   fail "$(advice "$log")
 The whole log: $log"
 }
 
 # What a person can do about the failure in a log.
 advice() {
-  if grep -qiE 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve|Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
-    echo "The network could not be reached (see above). Check the connection, or the proxy and the package index in your settings, then start again."
-  elif grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif' "$1"; then
+  if grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif' "$1"; then
     echo "A certificate was not trusted. Install ca-certificates (or your organisation's certificate), or set PIP_CERT, then start again."
+  elif grep -qiE 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve|Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
+    echo "The network could not be reached (see above). Check the connection, or the proxy and the package index in your settings, then start again."
   elif grep -qiE 'No matching distribution found' "$1"; then
     echo "The package index does not answer, or has nothing for this Python ($python_version). Check the network and pip's settings (pip config list), then start again."
   elif grep -qiE 'No space left on device' "$1"; then
