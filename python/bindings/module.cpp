@@ -12,4 +12,5 @@ NB_MODULE(_core, m) {
   bind_experiment(m);
   bind_limits(m);
   bind_runtime(m);
+  bind_devices(m);
 }

@@ -1,0 +1,32 @@
+// What a back-end is to the registry: a name, what it says of itself, and how its device is opened.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "punctura/device/device.hpp"
+#include "punctura_runtime/backends/status.hpp"
+
+namespace punctura {
+
+struct OpenOptions {
+  double rate = 1600;   ///< Hz, wished for: the device's `info().rate` says what came of it
+  std::string device;   ///< which one, as its maker names it; empty is the first
+  std::string library;  ///< path of the maker's library; empty looks where it usually is
+};
+
+struct Backend {
+  const char* name;
+  BackendStatus (*status)();                                ///< moves nothing and gives no force
+  std::shared_ptr<Device> (*open)(const OpenOptions& how);  ///< throws DeviceError
+};
+
+/// Each is defined in its own file, and named once more in the table of registry.cpp.
+namespace backends {
+extern const Backend openhaptics;
+extern const Backend force_dimension;
+extern const Backend haply;
+extern const Backend simulated;
+}  // namespace backends
+
+}  // namespace punctura

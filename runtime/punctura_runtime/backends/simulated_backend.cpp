@@ -1,0 +1,23 @@
+// The simulated device in the registry: always there, its hand follows a target.
+#include "punctura_runtime/backends/backend.hpp"
+#include "punctura_runtime/backends/simulated.hpp"
+
+namespace punctura {
+
+namespace {
+
+BackendStatus status() {
+  return {"simulated", BackendStatus::State::available, "A simulated PHANTOM Omni: no hardware.", {"PHANTOM Omni"}};
+}
+
+std::shared_ptr<Device> open(const OpenOptions& how) {
+  SimulatedOptions options;
+  options.rate = how.rate;
+  return std::make_shared<SimulatedDevice>(Target({0, 5e-3, 0}), options);
+}
+
+}  // namespace
+
+const Backend backends::simulated{"simulated", &status, &open};
+
+}  // namespace punctura
