@@ -70,6 +70,36 @@ void bind_limits(nb::module_& m) {
           .def_ro("warm_motor", &ForceLimits::warm_motor);
   def_value(limits_class, {"max_force", "continuous_force", "continuous_time", "ramp_time", "warm_motor"});
 
+  const Placement nowhere;
+  auto placement =
+      nb::class_<Placement>(
+          m, "Placement",
+          "Where the device stands in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis.")
+          .def(
+              "__init__",
+              [](Placement* self, const std::array<double, 4>& rotation, const Triple& offset, double scale,
+                 double tip_offset) {
+                const Placement made{rotation, offset, scale, tip_offset};
+                raise_if(check(made));
+                new (self) Placement(made);
+              },
+              nb::arg("rotation") = nowhere.rotation, nb::arg("offset") = nowhere.offset,
+              nb::arg("scale") = nowhere.scale, nb::arg("tip_offset") = nowhere.tip_offset,
+              "rotation: quaternion w, x, y, z, of any length but 0. offset: m. scale: scene metres for a metre of the device. tip_offset:\n"
+              "m along the stylus, from the device's point to the tip. Raises ConfigurationError.")
+          .def_prop_ro(
+              "rotation",
+              [](const Placement& p) {
+                return nb::make_tuple(p.rotation[0], p.rotation[1], p.rotation[2], p.rotation[3]);
+              },
+              nb::sig("def rotation(self) -> tuple[float, float, float, float]"))
+          .def_prop_ro(
+              "offset", [](const Placement& p) { return as_tuple(p.offset); },
+              nb::sig("def offset(self) -> tuple[float, float, float]"), "m")
+          .def_ro("scale", &Placement::scale)
+          .def_ro("tip_offset", &Placement::tip_offset, "m");
+  def_value(placement, {"rotation", "offset", "scale", "tip_offset"});
+
   nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.")
       .def_ro("backend", &DeviceInfo::backend)
       .def_ro("model", &DeviceInfo::model)

@@ -125,13 +125,15 @@ void bind_runtime(nb::module_& m) {
       .def(
           "__init__",
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
-             const ForceLimits& limits) {
+             const ForceLimits& limits, const Placement& placement) {
             LoopSettings settings;
             settings.gate = gate;
             settings.limits = limits;
+            settings.placement = placement;
             new (self) ServoLoop(std::move(device), scene, settings);
           },
           nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},
+          nb::arg("placement") = Placement{},
           "A device runs in one loop at a time. The period is the device's own; its force ratings\n"
           "tighten the limits.")
       .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "punctura/device/placement.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
@@ -83,6 +84,21 @@ inline std::vector<Problem> check(const Scene& scene) {
     else if (!(std::hypot(n[0], n[1], n[2]) > 0))
       problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
   }
+  return problems;
+}
+
+/// All problems of a placement.
+inline std::vector<Problem> check(const Placement& placement) {
+  std::vector<Problem> problems;
+  const auto& r = placement.rotation;
+  const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  if (!(length > 0 && std::isfinite(length)))
+    problems.push_back({"placement.rotation", r[0], "must be a quaternion w, x, y, z: four finite numbers, not all 0"});
+  if (!detail::finite(placement.offset))
+    problems.push_back({"placement.offset", detail::offender(placement.offset), "must be three finite numbers"});
+  check_field({"scale", "-", "-", {0, no_bound, true, true, "must be greater than 0"}}, placement.scale, "placement",
+              problems);
+  check_field({"tip_offset", "-", "m", {}}, placement.tip_offset, "placement", problems);
   return problems;
 }
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from punctura._core import ServoLoop, SimulatedDevice
+from punctura._core import DeviceError, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
-from punctura.live import Ended, RunSummary, run_live, strokes_through
+from punctura.live import Ended, RunSummary, fit_direction, load_placement, open_for, run_live
 from punctura.scene import load_scene
 
 FAULTED = 1
@@ -22,9 +23,15 @@ def command(
         str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")
     ] = "k06-fig10",
     headless: Annotated[bool, typer.Option("--headless", help="In this terminal, without a page.")] = False,
-    device: Annotated[str, typer.Option("--device", help="Which device.")] = "simulated",
+    device: Annotated[
+        str, typer.Option("--device", help="As punctura devices names it; without it the best there is.")
+    ] = "",
     duration: Annotated[
         float | None, typer.Option("--duration", help="How long, s; without it until Ctrl-C.", min=0.0)
+    ] = None,
+    placement: Annotated[
+        Path | None,
+        typer.Option("--placement", help="Where the device stands: punctura place.", metavar="FILE.toml"),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
@@ -34,10 +41,15 @@ def command(
     """
     if not headless:
         raise typer.BadParameter("there is no page yet; add --headless", param_hint="punctura run")
-    if device != "simulated":
-        raise typer.BadParameter(f"no device is called {device!r}; there is: simulated", param_hint="--device")
     loaded = load_scene(scene)
-    opened = SimulatedDevice(strokes_through(loaded), rate=loaded.servo.rate, axis=loaded.membranes[0].inward_normal)
+    stands = load_placement(placement) if placement else Placement()
+    try:
+        opened = open_for(loaded, device)
+    except DeviceError as error:
+        raise typer.BadParameter(str(error), param_hint="--device") from None
+    fitted, note = fit_direction(loaded, opened)
+    if note:
+        typer.echo(f"punctura: note: {note}", err=True)
     line = StatusLine()
 
     def begin(_loop: ServoLoop) -> Callable[[], None]:
@@ -45,7 +57,7 @@ def command(
         return line.end
 
     try:
-        summary = run_live(opened, loaded, duration, watch=line, prepare=begin)
+        summary = run_live(opened, fitted, duration, placement=stands, watch=line, prepare=begin)
     except Ended as end:
         if end.name == "SIGINT":
             raise KeyboardInterrupt from None  # the command line says "interrupted"

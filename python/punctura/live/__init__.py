@@ -1,7 +1,19 @@
 """A scene on a device, now: what `punctura run` does, for programs."""
 
+from punctura.live.choose import fit_direction, open_for
 from punctura.live.motion import strokes_through
+from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.session import Ended, run_live
 from punctura.live.summary import RunSummary
 
-__all__ = ["Ended", "RunSummary", "run_live", "strokes_through"]
+__all__ = [
+    "Ended",
+    "RunSummary",
+    "fit_direction",
+    "load_placement",
+    "open_for",
+    "placement_from_pose",
+    "placement_text",
+    "run_live",
+    "strokes_through",
+]

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 from punctura import Scene
-from punctura._core import Device, ForceLimits, GateLimits, ServoLoop
+from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop
 from punctura.live.summary import RunSummary
 
 ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
@@ -51,6 +51,7 @@ def run_live(
     duration: float | None = None,
     gate: GateLimits | None = None,
     limits: ForceLimits | None = None,
+    placement: Placement | None = None,
     watch: Callable[[RunSummary], None] | None = None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
 ) -> RunSummary:
@@ -62,7 +63,7 @@ def run_live(
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
     with ends_on_signals():
-        loop = ServoLoop(device, scene, gate or GateLimits(), limits or ForceLimits())
+        loop = ServoLoop(device, scene, gate or GateLimits(), limits or ForceLimits(), placement or Placement())
         listener = loop.listen(int(ROOM_S * info.rate))
         finish = prepare(loop) if prepare else None
         try:

@@ -21,7 +21,13 @@ double tighter(double limit, double rating) noexcept { return rating < limit ? r
 }  // namespace
 
 ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
-    : device_(std::move(device)), scene_(std::move(scene)), settings_(settings), period_(1 / device_->info().rate) {
+    : device_(std::move(device)),
+      scene_(std::move(scene)),
+      settings_(settings),
+      period_(1 / device_->info().rate),
+      placer_(settings.placement),
+      placed_(settings.placement != Placement{}) {
+  if (auto problems = check(settings.placement); !problems.empty()) throw SceneError(std::move(problems));
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
   step_ = built(scene_).release();
@@ -121,7 +127,7 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   }
   obey();
 
-  const Snapshot& snapshot = step_->step(sample);
+  const Snapshot& snapshot = step_->step(placed_ ? placer_.to_scene(sample) : sample);
   remember(snapshot);
   latest_.write([&](Snapshot& to) { copy(snapshot, to); });
   for (auto& ring : listeners_) ring->push([&](Snapshot& to) { copy(snapshot, to); });
@@ -133,7 +139,7 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   }
   last_begin_ = begin;
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  const Tick::Force force = snapshot.force;
+  const Tick::Force force = placed_ ? placer_.to_device(snapshot.force) : snapshot.force;
   compute_times_.add(settings_.now_ns() - begin);
   return force;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura/device/placement.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura_runtime/loop/histogram.hpp"
 #include "punctura_runtime/os/os.hpp"
@@ -20,6 +21,7 @@ namespace punctura {
 struct LoopSettings {
   GateLimits gate{};
   ForceLimits limits{};
+  Placement placement{};
   std::size_t history = 1000;                      ///< snapshots kept for a fault
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests put a clock of their own here
 };
@@ -84,6 +86,8 @@ class ServoLoop {
   Scene scene_;
   LoopSettings settings_;
   double period_;
+  Placer placer_;
+  bool placed_;  ///< a placement other than the default: without one, samples and forces pass to the last bit
   std::atomic<bool> running_{false};
 
   // Of the ticking thread.

@@ -11,7 +11,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
-from punctura.live import RunSummary, run_live, strokes_through
+from punctura.live import RunSummary, fit_direction, run_live, strokes_through
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -137,3 +137,22 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     _, said = process.communicate(timeout=60)
     assert said == ("punctura: interrupted\n" if name == "SIGINT" else f"punctura: ended by {name}; the force is off\n")
     assert process.returncode == 128 + getattr(signal, name)
+
+
+def test_devices_tells_every_back_end_and_its_state():
+    done = punctura("devices", "--json")
+    assert done.returncode == 0, done.stderr
+    entries = {entry["backend"]: entry for entry in json.loads(done.stdout)}
+    assert entries["simulated"]["state"] == "available"
+    assert all(entry["state"] == "available" or entry["detail"] for entry in entries.values())
+    assert "simulated" in punctura("devices").stdout
+
+
+def test_a_device_without_orientation_takes_the_direction_from_motion():
+    class Plain:
+        class info:
+            has_orientation = False
+
+    scene, note = fit_direction(SCENE, Plain)
+    assert scene.direction == "motion" and "no orientation" in note
+    assert fit_direction(SCENE, simulated()) == (SCENE, "")

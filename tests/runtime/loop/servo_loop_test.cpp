@@ -157,6 +157,39 @@ TEST_CASE("limits are never wider than the device's own ratings") {
   CHECK(loop.latest().limits.peak > 0);
 }
 
+TEST_CASE("a device that stands elsewhere, turned and scaled, feels the same force in its own axes") {
+  // The device points along its +x where the scene points down, is 0.1 m away, moves half as far, and its tip is 20 mm ahead.
+  LoopSettings settings;
+  settings.placement.rotation = {std::sqrt(0.5), 0, 0, -std::sqrt(0.5)};  // a quarter turn about z: x to -y
+  settings.placement.scale = 2;
+  settings.placement.tip_offset = 0.02;
+  settings.placement.offset = {0, 0.02 + 0.2, 0};
+  Cranked turned(paper_scene(), 1600, settings), plain(paper_scene());
+  for (Cranked* c : {&turned, &plain}) {
+    c->loop->start();
+    c->loop->arm();
+  }
+  double worst = 0;
+  for (int k = 1; k <= 4800; ++k) {
+    const double y = 1e-3 - (k < 1600 ? 0 : 4e-3 * (k - 1600) / 3200.0);
+    DeviceSample sample = reading(static_cast<std::uint64_t>(k), 0);
+    sample.position = {0.1 - y / 2, 0, 0};
+    sample.axis = {1, 0, 0};
+    const auto f = turned.device->tick(sample), g = plain.device->tick(reading(static_cast<std::uint64_t>(k), y));
+    worst = std::max({worst, std::abs(f[0] + g[1]), std::abs(f[1]), std::abs(f[2])});
+    REQUIRE(std::abs(turned.loop->latest().sample.position[1] - y) < 1e-15);
+  }
+  CHECK(worst < 1e-9);
+  CHECK(plain.loop->latest().force[1] > 0.3);
+}
+
+TEST_CASE("a placement that cannot be is refused") {
+  LoopSettings settings;
+  settings.placement.scale = 0;
+  settings.placement.rotation = {0, 0, 0, 0};
+  CHECK_THROWS_AS(Cranked(paper_scene(), 1600, settings), SceneError);
+}
+
 TEST_CASE("every tick's snapshot goes to every listener; a listener that sleeps loses its own only") {
   Cranked c;
   auto& awake = c.loop->listen(256);

@@ -1,0 +1,24 @@
+"""`punctura devices`: what there is to feel with, and why something is not there."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+
+from punctura._core import enumerate_devices
+
+
+def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
+    """Every kind of device: whether it can be opened now, and if not, why and what to do."""
+    entries = enumerate_devices()
+    if as_json:
+        typer.echo(json.dumps(entries, indent=2))
+        return
+    for entry in entries:
+        typer.echo(f"{entry['backend']:16} {entry['state'].replace('_', ' ')}")
+        if entry["detail"]:
+            typer.echo(f"{'':16} {entry['detail']}")
+        for device in entry["devices"]:
+            typer.echo(f"{'':16} - {device}")

@@ -1,0 +1,53 @@
+"""`punctura place`: shows the device where the scene is, with the force off."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from punctura._core import DeviceError, ServoLoop
+from punctura.live import fit_direction, open_for, placement_from_pose, placement_text
+from punctura.scene import load_scene
+
+IN_FRONT = 20e-3  # m before the first membrane: where the hand is asked to hold the tip
+
+
+def command(
+    scene: Annotated[str, typer.Argument(help="The scene to place the device in.")] = "k06-fig10",
+    device: Annotated[str, typer.Option("--device", help="As punctura devices names it.")] = "",
+    tip_offset_mm: Annotated[
+        float, typer.Option("--tip-offset-mm", help="From the device's point to the needle's tip, along the stylus.")
+    ] = 0.0,
+    out: Annotated[Path, typer.Option("--out", help="Where the placement goes.", metavar="FILE.toml")] = Path(
+        "placement.toml"
+    ),
+) -> None:
+    """Asks for one pose, and writes the placement that `punctura run --placement` takes. No force is given."""
+    loaded = load_scene(scene)
+    try:
+        opened = open_for(loaded, device)
+    except DeviceError as error:
+        raise typer.BadParameter(str(error), param_hint="--device") from None
+    fitted, note = fit_direction(loaded, opened)
+    first = fitted.membranes[0]
+    inward = np.array(first.inward_normal) / np.linalg.norm(first.inward_normal)
+    loop = ServoLoop(opened, fitted)
+    loop.start()  # disarmed: it reads, and gives no force
+    try:
+        typer.echo(
+            f"Hold the stylus where the tip shall be {IN_FRONT * 1e3:g} mm in front of '{first.name}'"
+            + ("" if note else ", pointing as it shall go straight in")
+        )
+        typer.prompt("then press Enter", default="", show_default=False, prompt_suffix=" ")
+        pose = loop.latest()
+    finally:
+        loop.stop()
+    axis = inward if note else pose["axis"][0]
+    placement = placement_from_pose(
+        pose["position"][0], axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
+    )
+    out.write_text(placement_text(placement), encoding="utf-8")
+    typer.echo(f"{out}: written. Try it: punctura run {scene} --headless --placement {out}")

@@ -1,0 +1,31 @@
+"""Which device to run on."""
+
+from __future__ import annotations
+
+from punctura import Scene
+from punctura._core import Device, DeviceError, SimulatedDevice, enumerate_devices, open_device
+from punctura.live.motion import strokes_through
+
+
+def open_for(scene: Scene, name: str = "") -> Device:
+    """The device of that name, `backend` or `backend:device`; without one the first available, else the simulated.
+
+    Raises DeviceError, which says what there is, or what to do.
+    """
+    states = {entry["backend"]: entry for entry in enumerate_devices()}
+    backend, _, device = name.partition(":")
+    if not name:
+        there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
+        backend = there[0] if there else "simulated"
+    if backend == "simulated":
+        return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=scene.membranes[0].inward_normal)
+    if backend not in states:
+        raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
+    return open_device(backend, scene.servo.rate, device)
+
+
+def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:
+    """The scene as a device without orientation can run it, and a note about that; as it is for one that has."""
+    if scene.direction == "motion" or device.info.has_orientation:
+        return scene, ""
+    return scene.replace(direction="motion"), "the device reports no orientation: the needle points where the tip moves"

@@ -1,0 +1,101 @@
+"""Placement files: where a device stands in the scene. TOML, in millimetres; a rotation is a quaternion."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura._core import Placement
+from punctura.errors import ConfigurationError, Problem
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+Vector = npt.NDArray[np.float64]
+KEYS = {"rotation": 4, "offset_mm": 3, "scale": 0, "tip_offset_mm": 0}
+
+
+def load_placement(path: str | os.PathLike[str]) -> Placement:
+    """Reads a placement file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
+    with open(path, "rb") as file:
+        try:
+            table = tomllib.load(file)
+        except tomllib.TOMLDecodeError as error:
+            raise ConfigurationError([Problem("", None, f"is not TOML: {error}")], str(path)) from None
+    known = f"unknown key; there are {', '.join(KEYS)}"
+    problems = [Problem(key, value, known) for key, value in table.items() if key not in KEYS]
+    problems += [p for key, size in KEYS.items() if key in table for p in _wrong(key, table[key], size)]
+    if problems:
+        raise ConfigurationError(problems, str(path))
+    metres = [x * 1e-3 for x in table.get("offset_mm", (0.0, 0.0, 0.0))]
+    return Placement(
+        rotation=table.get("rotation", (1.0, 0.0, 0.0, 0.0)),
+        offset=(metres[0], metres[1], metres[2]),
+        scale=table.get("scale", 1.0),
+        tip_offset=table.get("tip_offset_mm", 0.0) * 1e-3,
+    )
+
+
+def _wrong(key: str, value: Any, size: int) -> list[Problem]:
+    numbers = value if size else [value]
+    good = isinstance(numbers, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in numbers)
+    if good and len(numbers) == (size or 1):
+        return []
+    return [Problem(key, value, f"must be {f'{size} numbers' if size else 'a number'}")]
+
+
+def placement_text(placement: Placement) -> str:
+    """The file that load_placement reads back."""
+    rotation = ", ".join(repr(x) for x in placement.rotation)
+    offset = ", ".join(repr(x * 1e3) for x in placement.offset)
+    return (
+        "# Where the device stands: point = rotation * (scale * device point) + offset + tip_offset * axis.\n"
+        f"rotation = [{rotation}]  # quaternion w, x, y, z\n"
+        f"offset_mm = [{offset}]\n"
+        f"scale = {placement.scale!r}\n"
+        f"tip_offset_mm = {placement.tip_offset * 1e3!r}\n"
+    )
+
+
+def placement_from_pose(
+    position: npt.ArrayLike,
+    axis: npt.ArrayLike,
+    wanted_tip: npt.ArrayLike,
+    wanted_axis: npt.ArrayLike,
+    tip_offset: float = 0.0,
+) -> Placement:
+    """The placement that puts a pose of the device where the scene wants it, by the shortest turn.
+
+    position (m) and axis: as the device reports them. wanted_tip (m) and wanted_axis: in the scene, of any length.
+    """
+    rotation = shortest_turn(axis, wanted_axis)
+    turned = rotate(rotation, np.asarray(position, float))
+    b = np.asarray(wanted_axis, float)
+    offset = np.asarray(wanted_tip, float) - turned - tip_offset * b / np.linalg.norm(b)
+    return Placement(rotation, (float(offset[0]), float(offset[1]), float(offset[2])), 1.0, tip_offset)
+
+
+def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, float, float, float]:
+    """The quaternion w, x, y, z of the smallest rotation that takes one direction to another."""
+    a, b = (np.asarray(v, float) / np.linalg.norm(np.asarray(v, float)) for v in (start, end))
+    w = 1.0 + float(a @ b)
+    if w < 1e-9:  # opposite: half a turn about anything across
+        across = np.cross(a, [1.0, 0.0, 0.0] if abs(a[0]) < 0.9 else [0.0, 1.0, 0.0])
+        q = np.array([0.0, *(across / np.linalg.norm(across))])
+    else:
+        q = np.array([w, *np.cross(a, b)])
+    q = q / np.linalg.norm(q)
+    return float(q[0]), float(q[1]), float(q[2]), float(q[3])
+
+
+def rotate(quaternion: tuple[float, float, float, float], v: Vector) -> Vector:
+    """v turned by a unit quaternion w, x, y, z."""
+    w, u = quaternion[0], np.array(quaternion[1:])
+    turned: Vector = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
+    return turned

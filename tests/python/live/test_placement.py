@@ -1,0 +1,86 @@
+"""Where a device stands in the scene: files, poses, and the guided command."""
+
+import subprocess
+import sys
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura._core import Placement, SimulatedDevice
+from punctura.live import load_placement, placement_from_pose, placement_text, run_live
+from punctura.live.placement import rotate, shortest_turn
+
+
+def to_scene(p, position, axis):
+    turned = rotate(p.rotation, p.scale * np.asarray(position, float))
+    b = rotate(p.rotation, np.asarray(axis, float))
+    return turned + np.array(p.offset) + p.tip_offset * b, b
+
+
+def test_the_shortest_turn_takes_one_direction_to_the_other():
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        a, b = rng.normal(size=(2, 3))
+        assert np.allclose(rotate(shortest_turn(a, b), a / np.linalg.norm(a)), b / np.linalg.norm(b))
+    for a in np.eye(3):
+        assert np.allclose(rotate(shortest_turn(a, -a), a), -a)
+        assert np.allclose(rotate(shortest_turn(a, a), a), a)
+
+
+def test_a_pose_lands_where_the_scene_wants_it():
+    rng = np.random.default_rng(2)
+    for _ in range(100):
+        position, axis, tip, wanted = rng.normal(size=(4, 3))
+        p = placement_from_pose(position, axis, tip, wanted, tip_offset=0.03)
+        there, b = to_scene(p, position, axis / np.linalg.norm(axis))
+        assert np.allclose(there, tip)
+        assert np.allclose(b, wanted / np.linalg.norm(wanted))
+
+
+def test_a_placement_survives_its_file(tmp_path):
+    p = Placement((0.1, -0.2, 0.3, 0.9), (0.1, -0.2, 1 / 3), 0.5, 0.017)
+    path = tmp_path / "placement.toml"
+    path.write_text(placement_text(p))
+    back = load_placement(path)
+    assert back.rotation == p.rotation and back.scale == p.scale
+    assert np.allclose(back.offset, p.offset, rtol=1e-15) and back.tip_offset == pytest.approx(p.tip_offset, rel=1e-15)
+    path.write_text("")
+    assert load_placement(path) == Placement()
+
+
+def test_all_that_is_wrong_with_a_file_is_told_at_once(tmp_path):
+    path = tmp_path / "placement.toml"
+    path.write_text('rotation = [1, 2]\nscale = "big"\noffset = [1, 2, 3]\n')
+    with pytest.raises(pn.ConfigurationError) as error:
+        load_placement(path)
+    assert [p.path for p in error.value.problems] == ["offset", "rotation", "scale"]
+    path.write_text("scale = 0\n")
+    with pytest.raises(pn.ConfigurationError, match=r"placement\.scale"):
+        load_placement(path)
+    path.write_text("scale = \n")
+    with pytest.raises(pn.ConfigurationError, match="is not TOML"):
+        load_placement(path)
+
+
+def test_a_run_with_a_placement_meets_the_membrane_where_the_placement_puts_it():
+    scene = pn.load_scene("k06-fig10")
+    strokes = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+
+    def deepest(placement):
+        device = SimulatedDevice(strokes, real_time=False, ticks=4000)
+        return run_live(device, scene, placement=placement).deepest_m[0]
+
+    assert deepest(Placement()) > 5e-3
+    assert deepest(Placement(offset=(0, 0.1, 0))) == 0
+
+
+def test_place_writes_what_run_takes(tmp_path):
+    out = tmp_path / "here.toml"
+    command = [sys.executable, "-m", "punctura.cli", "place", "--out", str(out), "--device", "simulated"]
+    done = subprocess.run(command, input="\n", capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert "20 mm in front of 'thin membrane'" in done.stdout
+    placement = load_placement(out)
+    # The simulated hand rests 5 mm above the surface, pointing in: it is taken 15 mm higher, and not turned.
+    assert placement.offset[1] == pytest.approx(15e-3, abs=1e-3)
+    assert placement.rotation == pytest.approx((1, 0, 0, 0))
