@@ -84,17 +84,15 @@ if [ ! -f "$place/base/.made" ]; then
 fi
 carry "$place/base"
 
+# As root; called from another folder, in a path with a space.
 system=$(a_system root)
-inside "$system" root "git clone -q /srv/punctura.git punctura"
-timed "$system" root "run, first time" "punctura/run" 0
-timed "$system" root "run, second time" "punctura/run" 0
-timed "$system" root "test, after run" "punctura/test" 0
-timed "$system" root "test, second time" "punctura/test" 0
+inside "$system" root "git clone -q /srv/punctura.git 'a clone'"
+timed "$system" root "run, first time" "'a clone/run'" 0
+timed "$system" root "run, second time" "'a clone/run'" 0
+timed "$system" root "test, after run" "'a clone/test'" 0
+timed "$system" root "test, second time" "'a clone/test'" 0
 installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
-sizes=$(inside "$system" root 'du -sh --total punctura/.venv punctura/build | tr "\t\n" " ;"')
-
-system=$(a_system test-first)
-timed "$system" root "test, first, in a path with a space" "git clone -q /srv/punctura.git 'a clone' && 'a clone/test'" 0
+sizes=$(inside "$system" root 'cd "a clone" && du -sh .venv build | tr "\t\n" " ;"')
 
 # Someone who is not root and has no sudo: told the one line, which root then types.
 system=$(a_system user)
