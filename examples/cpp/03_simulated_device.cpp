@@ -1,4 +1,4 @@
-// The whole tick on a simulated PHANTOM Omni in a simulated hand: input gate, low-pass, model, force limits.
+// The whole tick on a simulated PHANTOM Omni in a simulated hand: input gate, conditioning, model, force limits.
 #include <cstdio>
 
 #include "punctura/punctura.hpp"

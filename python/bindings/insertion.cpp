@@ -40,7 +40,7 @@ void bind_insertion(nb::module_& m) {
 
   nb::class_<Insertion>(
       m, "Insertion",
-      "A needle through all membranes of a scene: low-pass, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
+      "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
       "The model's own force: no safety limits.")
       .def(
           "__init__",
@@ -61,7 +61,7 @@ void bind_insertion(nb::module_& m) {
            nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> InsertionTrace"),
            "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.")
       .def_prop_ro(
-          "tip", [](const Insertion& i) { return plain(i.tip()); }, "The filtered position, m")
+          "tip", [](const Insertion& i) { return plain(i.tip()); }, "The conditioned position, m")
       .def_prop_ro("force", [](const Insertion& i) { return plain(i.force()); }, "N");
 }
 

@@ -14,6 +14,14 @@ Direction direction_from(const std::string& name) {
   raise_word("needle.direction", name, "must be \"stylus\" or \"motion\"");
 }
 
+Conditioning conditioning_from(const std::string& name) {
+  if (name == "low_pass") return Conditioning::low_pass;
+  if (name == "line_fit") return Conditioning::line_fit;
+  raise_word("servo.conditioning", name, "must be \"low_pass\" or \"line_fit\"");
+}
+
+const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
+
 template <std::size_t n>
 void describe_fields(nb::list& out, const char* path, const Field (&fields)[n]) {
   const auto text = [](std::string_view s) { return nb::str(s.data(), s.size()); };
@@ -51,19 +59,30 @@ void bind_scene(nb::module_& m) {
 
   const ServoSettings defaults;
   auto servo =
-      nb::class_<ServoSettings>(m, "ServoSettings", "Rate of the servo loop, position filter and solver. K06 section 4")
+      nb::class_<ServoSettings>(m, "ServoSettings",
+                                "Rate of the servo loop, position conditioning and solver. K06 section 4")
           .def(
               "__init__",
-              [](ServoSettings* self, double rate, double low_pass, const std::string& solver) {
-                new (self) ServoSettings{rate, low_pass, solver_from(solver, "servo.solver")};
+              [](ServoSettings* self, double rate, double low_pass, const std::string& solver,
+                 const std::string& conditioning, double encoder_step) {
+                new (self) ServoSettings{rate, low_pass, solver_from(solver, "servo.solver"),
+                                         conditioning_from(conditioning), encoder_step};
               },
               nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
-              nb::arg("solver") = name_of(defaults.solver),
-              "rate: 1/T, Hz. low_pass: cutoff, Hz; 0 is off. solver: \"exact\" or \"paper\".")
+              nb::arg("solver") = name_of(defaults.solver), nb::arg("conditioning") = name_of(defaults.conditioning),
+              nb::arg("encoder_step") = defaults.encoder_step,
+              "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\", K06's filter, of cutoff low_pass (Hz; 0 is "
+              "off), or \"line_fit\", for a device whose encoders count in steps of encoder_step (m; 0 is off).")
           .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
-          .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff of the position filter, Hz; 0 is off")
-          .def_prop_ro("solver", [](const ServoSettings& s) { return name_of(s.solver); }, "\"exact\" or \"paper\"");
-  def_value(servo, {"rate", "low_pass", "solver"});
+          .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff, Hz, for conditioning \"low_pass\"; 0 is off")
+          .def_prop_ro(
+              "solver", [](const ServoSettings& s) { return name_of(s.solver); }, "\"exact\" or \"paper\"")
+          .def_prop_ro(
+              "conditioning", [](const ServoSettings& s) { return name_of(s.conditioning); },
+              "\"low_pass\" or \"line_fit\"")
+          .def_ro("encoder_step", &ServoSettings::encoder_step,
+                  "Step of the device's encoders, m, for conditioning \"line_fit\"; 0 is an ideal sensor");
+  def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
 
   auto scene =
       nb::class_<Scene>(m, "Scene", "Everything a run needs, checked as a whole.")

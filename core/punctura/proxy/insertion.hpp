@@ -8,7 +8,7 @@
 #include "punctura/model/thick_law.hpp"
 #include "punctura/proxy/entry_direction.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
-#include "punctura/signal/low_pass.hpp"
+#include "punctura/signal/conditioning.hpp"
 
 namespace punctura {
 
@@ -25,7 +25,7 @@ struct MembraneSite {
   Vector3<Scalar> point, inward_normal;
 };
 
-/// The model from measured position to force: low-pass, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
+/// The model from measured position to force: position conditioning, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
 ///
 /// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction.
 template <typename Scalar_>
@@ -36,8 +36,9 @@ class BasicInsertion {
   using Proxy = Proxy3d<BasicThickLaw<Scalar>>;
 
   BasicInsertion(const std::vector<MembraneSite<Scalar>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
-                 Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus)
-      : low_pass_(low_pass_hz, period) {
+                 Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
+                 Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
+      : conditioner_(conditioning, low_pass_hz, encoder_step, period) {
     if (direction == Direction::motion) from_motion_.emplace(period);
     proxies_.reserve(sites.size());
     for (const auto& site : sites)
@@ -46,7 +47,7 @@ class BasicInsertion {
   }
 
   void reset() noexcept {
-    low_pass_.reset();
+    conditioner_.reset();
     if (from_motion_) from_motion_->reset();
     for (Proxy& proxy : proxies_) proxy.reset();
     tip_.setZero();
@@ -55,7 +56,7 @@ class BasicInsertion {
 
   /// Goes on from where another insertion of the same period is, which loses its history. Takes no memory.
   void resume(BasicInsertion& previous) noexcept {
-    low_pass_.resume(previous.low_pass_);
+    conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
     for (std::size_t i = 0; i < std::min(proxies_.size(), previous.proxies_.size()); ++i)
       proxies_[i].resume(previous.proxies_[i]);
@@ -63,14 +64,14 @@ class BasicInsertion {
 
   /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).
   const Vector& step(const Vector& position, const Vector& axis) noexcept {
-    tip_ = low_pass_.step(position);
+    tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
     force_.setZero();
     for (Proxy& proxy : proxies_) force_ += proxy.step(tip_, direction);
     return force_;
   }
 
-  const Vector& tip() const noexcept { return tip_; }      ///< the filtered position, m
+  const Vector& tip() const noexcept { return tip_; }      ///< the conditioned position, m
   const Vector& force() const noexcept { return force_; }  ///< the sum of all membranes, N
   bool uses_axis() const noexcept { return !from_motion_; }
   const std::vector<Proxy>& proxies() const noexcept { return proxies_; }
@@ -83,7 +84,7 @@ class BasicInsertion {
   }
 
  private:
-  LowPass<Scalar, Vector> low_pass_;
+  PositionConditioner<Scalar> conditioner_;
   std::optional<EntryDirection<Scalar>> from_motion_;
   std::vector<Proxy> proxies_;
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();

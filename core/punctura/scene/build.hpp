@@ -43,8 +43,8 @@ BasicInsertion<Scalar> build_insertion(const Scene& scene) {
                      normal.template cast<Scalar>()});
   }
   return BasicInsertion<Scalar>(sites, {to(scene.coupling.stiffness), to(scene.coupling.damping)},
-                                to(1 / scene.servo.rate), scene.servo.solver, to(scene.servo.low_pass),
-                                scene.direction);
+                                to(1 / scene.servo.rate), scene.servo.solver, to(scene.servo.low_pass), scene.direction,
+                                scene.servo.conditioning, to(scene.servo.encoder_step));
 }
 
 /// The whole tick of a scene: input gate, model, force limits. Throws SceneError, for scene and limits together.

@@ -28,6 +28,10 @@ inline constexpr Field servo_fields[] = {
      "Hz",
      {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
     {"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}},
+    {"encoder_step",
+     "-",
+     "m",
+     {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"}},
 };
 
 inline constexpr Field gate_fields[] = {
@@ -65,6 +69,7 @@ inline std::vector<Problem> check(const Scene& scene) {
   check_field(coupling_fields[1], scene.coupling.damping, "coupling", problems);
   check_field(servo_fields[0], scene.servo.rate, "servo", problems);
   check_field(servo_fields[1], scene.servo.low_pass, "servo", problems);
+  check_field(servo_fields[2], scene.servo.encoder_step, "servo", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
   if (scene.membranes.size() > max_membranes)
     problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be 64 membranes at most"});

@@ -10,6 +10,7 @@
 #include "punctura/proxy/coupling.hpp"
 #include "punctura/proxy/insertion.hpp"
 #include "punctura/proxy/solver.hpp"
+#include "punctura/signal/conditioning.hpp"
 
 namespace punctura {
 
@@ -22,8 +23,10 @@ struct PlacedMembrane {
 
 struct ServoSettings {
   double rate = 1600;     ///< 1/T, Hz. K06 section 4
-  double low_pass = 300;  ///< cutoff of the position filter, Hz; 0 is off. K06 section 4
+  double low_pass = 300;  ///< cutoff, Hz, for Conditioning::low_pass; 0 is off. K06 section 4
   Solver solver = Solver::exact;
+  Conditioning conditioning = Conditioning::low_pass;
+  double encoder_step = 0.055e-3;  ///< m, for line_fit; 0 is an ideal sensor. A PHANTOM Omni's
 };
 
 struct Scene {

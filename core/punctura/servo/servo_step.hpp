@@ -1,8 +1,8 @@
 // ONE TICK: sample in, force out. Read this first.
 //
-//   device -> input gate -> low-pass -> proxy 1..n -> sum -> force limits -> device
-//                |          '------- Insertion -------'           |
-//                +------- fault (latched) -> zero force <---------+
+//   device -> input gate -> conditioning -> proxy 1..n -> sum -> force limits -> device
+//                |          '--------- Insertion ---------'           |
+//                +--------- fault (latched) -> zero force <-----------+
 //
 // Everything here is noexcept and takes no memory: a tick throws nothing, allocates nothing, locks nothing, logs nothing.
 #pragma once

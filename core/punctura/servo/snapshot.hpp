@@ -37,7 +37,7 @@ struct MembraneRecord {
 struct Snapshot {
   std::uint64_t tick;
   DeviceSample sample;
-  std::array<double, 3> tip;          ///< the filtered position, m
+  std::array<double, 3> tip;          ///< the conditioned position, m
   std::array<double, 3> model_force;  ///< the sum of all membranes, N
   std::array<double, 3> force;        ///< what goes to the device, N
   double ceiling;                     ///< the largest force permitted in this tick, N

@@ -35,6 +35,8 @@ class LowPass {
   }
 
   Scalar gain() const noexcept { return off_ ? Scalar{1} : gain_; }
+  /// By how many ticks it is behind a steady motion.
+  Scalar lag() const noexcept { return 1 / gain() - 1; }
 
  private:
   bool off_, started_ = false;

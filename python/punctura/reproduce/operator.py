@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Experiment, ExperimentTrace, Hand, Insertion, InsertionTrace, Plant, Scene, ServoSettings, Strokes
+from punctura import Experiment, ExperimentTrace, Hand, Insertion, InsertionTrace, Plant, Scene, Strokes
 from punctura.reproduce.scenes import INWARD
 
 SEED = 209  # three strokes through the membrane, and one that turns before the pop
@@ -69,6 +69,6 @@ def steady(scene: Scene, deepest: float, speed: float = GUIDE_SPEED) -> tuple[Fl
 def paper_on_same_motion(operation: Operation) -> Floats:
     """f_y (N) that the paper's form gives for the positions measured in a run, tick by tick."""
     scene = operation.scene
-    servo = ServoSettings(scene.servo.rate, scene.servo.low_pass, "paper")
+    servo = scene.servo.replace(solver="paper")
     other = Scene(scene.name, scene.needle, scene.coupling, scene.membranes, servo, scene.direction)
     return np.asarray(Insertion(other).run(operation.trace.position, INWARD).force[:, 1])

@@ -15,8 +15,9 @@ from punctura.scene.units import split_key, to_si
 # it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
 _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
-    "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0,
-    "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
+    "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
+    "precompression": 0.0, "friction": 1e-6, "thickness": 0.0, "point": [0.0, 0.0, 0.0],
+    "inward_normal": [0.0, -1.0, 0.0],
 }  # fmt: skip
 
 
@@ -86,7 +87,7 @@ def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts
         Needle(needle["diameter"], needle["tip_angle"]),
         Coupling(coupling["stiffness"], coupling["damping"]),
         membranes,
-        ServoSettings(servo["rate"], servo["low_pass"], servo["solver"]),
+        ServoSettings(**servo),
         needle["direction"],
     )
     return Parts(arguments, reader.keys, reader.stand_ins)

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from punctura._core import ServoSettings
 from punctura.scene.fields import Number, Text, Vector, WholeNumber
+from punctura.scene.units import UNITS, from_si
 
 _SERVO = ServoSettings()  # where the defaults stand
 
@@ -62,10 +63,23 @@ class ServoTable(_Table):
 
     rate_hz: Number = _field("Rate", "Ticks a second.", "1/T", Decimal(repr(_SERVO.rate)))
     low_pass_hz: Number = _field(
-        "Low-pass", "Cut-off of the first-order filter on the position; 0 is off.", "", Decimal(repr(_SERVO.low_pass))
+        "Low-pass", "Cut-off of the conditioning low_pass; 0 is off.", "", Decimal(repr(_SERVO.low_pass))
     )
     solver: Literal["exact", "paper"] = _field(
         "Solver", "exact solves K06 (21)-(23); paper takes one step towards it, K06 (33).", "", _SERVO.solver
+    )
+    conditioning: Literal["low_pass", "line_fit"] = _field(
+        "Conditioning",
+        "What the positions pass first: low_pass is K06's first-order filter; line_fit, for real devices, keeps the "
+        "steps of their encoders from shaking the force.",
+        "",
+        _SERVO.conditioning,
+    )
+    encoder_step_mm: Number = _field(
+        "Encoder step",
+        "How far the tip seems to jump when an encoder counts, for line_fit; 0 is an ideal sensor.",
+        "",
+        from_si(_SERVO.encoder_step, UNITS["mm"]),
     )
 
 

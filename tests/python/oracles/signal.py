@@ -1,4 +1,4 @@
-"""What comes before the model: the 300 Hz low-pass of K06 section 4 (E5), and the direction from the motion."""
+"""What comes before the model: the low-pass of K06 section 4 (E5), the line fit, the direction from the motion."""
 
 import numpy as np
 
@@ -12,6 +12,29 @@ def low_pass(p, rate, cut_off):
     for k in range(1, len(p)):
         out[k] = out[k - 1] + gain * (p[k] - out[k - 1])
     return out
+
+
+def line_fit(p, rate, step):
+    """(ticks,) one axis: a line over the last 10 ms or half, a quarter ... of it, within two steps, then 150 Hz.
+
+    Both times are shorter for steps below 0.055 mm, with the root of the step. The line is followed beyond the newest
+    sample by as many ticks as the low-pass is behind a steady motion.
+    """
+    share = min(1.0, step / 0.055e-3) ** 0.5
+    lag = 1 / (1 - np.exp(-2 * np.pi * 150 / share / rate)) - 1
+    seen = np.concatenate([np.full(200, p[0]), p])
+    out = np.empty(len(p))
+    for k in range(200, len(seen)):
+        out[k - 200] = seen[k]
+        n = 2 * max(1, int(share * 0.010 * rate / 2 + 0.5)) + 1
+        while n >= 3:
+            t = np.arange(1 - n, 1)
+            slope, end = np.polyfit(t, seen[k - n + 1 : k + 1], 1)
+            if abs(end + slope * t - seen[k - n + 1 : k + 1]).max() <= 2 * step:
+                out[k - 200] = end + lag * slope
+                break
+            n = n // 2 | 1  # always odd
+    return low_pass(out, rate, 150.0 / share)
 
 
 def motion_direction(p, rate, seconds=0.010, path=0.2e-3):

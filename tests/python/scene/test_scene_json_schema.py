@@ -58,6 +58,9 @@ def test_defaults_are_those_of_the_core():
     assert servo["rate_hz"]["default"] == defaults.rate
     assert servo["low_pass_hz"]["default"] == defaults.low_pass
     assert servo["solver"]["default"] == defaults.solver
+    assert servo["conditioning"]["default"] == defaults.conditioning
+    assert servo["conditioning"]["enum"] == ["low_pass", "line_fit"]
+    assert math.isclose(servo["encoder_step_mm"]["default"] * 1e-3, defaults.encoder_step)
 
 
 def test_of_two_ways_to_say_a_thing_exactly_one_is_asked_for():

@@ -83,6 +83,15 @@ ONE_PROBLEM = {
         ("[coupling]", "[servo]\nsolver = 'fast'\n[coupling]"),
         "servo.solver = 'fast': must be 'exact' or 'paper'",
     ),
+    "a conditioning that is none": (
+        ("[coupling]", "[servo]\nconditioning = 'smooth'\n[coupling]"),
+        "servo.conditioning = 'smooth': must be 'low_pass' or 'line_fit'",
+    ),
+    "an encoder step in micrometres": (
+        ("[coupling]", "[servo]\nencoder_step_mm = 55\n[coupling]"),
+        "servo.encoder_step_mm = 55: must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser "
+        "(at most 1 mm)",
+    ),
     "a missing key": (("friction = 0.2\n", ""), "membrane[0].friction: is missing"),
     "a missing name": (('name = "test"\n', ""), "name: is missing"),
     "no diameter at all": (

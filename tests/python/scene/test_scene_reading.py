@@ -24,13 +24,22 @@ def test_every_value_arrives_in_si_rounded_once(write):
 def test_what_is_left_out_takes_the_defaults_of_the_core(write):
     scene, defaults = load_scene(write()), ServoSettings()
     assert (scene.servo.rate, scene.servo.low_pass) == (defaults.rate, defaults.low_pass)
-    assert scene.servo.solver == defaults.solver
+    assert scene.servo == defaults
+    assert (defaults.solver, defaults.conditioning) == ("exact", "low_pass")
     assert scene.direction == "stylus"
 
 
 def test_the_servo_table_may_be_given_in_part(write):
     scene = load_scene(write(("[coupling]", '[servo]\nrate_hz = 2000\nsolver = "paper"\n\n[coupling]')))
     assert (scene.servo.rate, scene.servo.low_pass, scene.servo.solver) == (2000.0, 300.0, "paper")
+
+
+def test_the_conditioning_and_the_step_of_the_encoders_arrive(write):
+    servo = load_scene(
+        write(("[coupling]", '[servo]\nconditioning = "line_fit"\nencoder_step_mm = 0.01\n\n[coupling]'))
+    ).servo
+    assert (servo.conditioning, servo.encoder_step) == ("line_fit", 1e-5)
+    assert servo.low_pass == 300.0
 
 
 def test_the_direction_may_come_from_the_motion(write):

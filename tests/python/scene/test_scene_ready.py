@@ -28,7 +28,7 @@ def test_the_paper_s_scenes_hold_the_values_of_its_section_4(name, thickness):
     scene = load_scene(name)
     assert (scene.needle.diameter, scene.needle.tip_angle) == (1.08e-3, 0.28)
     assert (scene.coupling.stiffness, scene.coupling.damping) == (400.0, 1.0)
-    assert (scene.servo.rate, scene.servo.low_pass) == (1600.0, 300.0)
+    assert (scene.servo.rate, scene.servo.low_pass, scene.servo.conditioning) == (1600.0, 300.0, "low_pass")
     assert [p.membrane.thickness for p in scene.membranes] == thickness
     for placed in scene.membranes:
         m = placed.membrane

@@ -27,7 +27,7 @@ def plain(scene):
     laws = [(m.stiffness, m.precompression, m.friction, m.thickness) for m in (p.membrane for p in scene.membranes)]
     places = [(p.name, tuple(p.point), tuple(p.inward_normal)) for p in scene.membranes]
     needle = (scene.needle.diameter, scene.needle.tip_angle, scene.direction)
-    servo = (scene.servo.rate, scene.servo.low_pass, scene.servo.solver)
+    servo = scene.servo
     return scene.name, needle, (scene.coupling.stiffness, scene.coupling.damping), servo, laws, places
 
 
@@ -44,7 +44,13 @@ def scenes(draw):
         Needle(draw(positive), draw(st.floats(1e-6, 1.0))),
         Coupling(draw(positive), draw(positive)),
         draw(st.lists(placed, min_size=1, max_size=3)),
-        ServoSettings(draw(st.floats(100, 1e5)), draw(positive), draw(st.sampled_from(["exact", "paper"]))),
+        ServoSettings(
+            draw(st.floats(100, 1e5)),
+            draw(positive),
+            draw(st.sampled_from(["exact", "paper"])),
+            draw(st.sampled_from(["low_pass", "line_fit"])),
+            draw(st.floats(0, 1e-3)),
+        ),
         draw(st.sampled_from(["stylus", "motion"])),
     )
 

@@ -1,0 +1,75 @@
+// What stands between encoders and model: the paper's filter, or what keeps an encoder's steps from shaking the force.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "punctura/model/vector3.hpp"
+#include "punctura/signal/line_fit.hpp"
+#include "punctura/signal/low_pass.hpp"
+
+namespace punctura {
+
+/// How measured positions become those of the model. Compared, with others, in docs/conditioning.md.
+enum class Conditioning : std::uint8_t {
+  low_pass,  ///< a first-order low-pass, as in K06 section 4
+  line_fit,  ///< LineFit on each axis, then a low-pass whose lag it makes up for: for real devices
+};
+
+/// How much a line fit smooths: what a step of 0.055 mm needs, and less for finer encoders. With the root of the step the force
+/// noise stays about the same, and a fine device is not made to lag for noise that it does not have.
+template <typename Scalar>
+struct Smoothing {
+  Scalar window;     ///< of LineFit, s
+  Scalar cutoff_hz;  ///< of the low-pass behind it; 0 is off, for an ideal sensor
+
+  static Smoothing of(Scalar encoder_step) noexcept {
+    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(0.055e-3)));
+    return {Scalar(0.010) * share, share > 0 ? Scalar(150) / share : Scalar(0)};
+  }
+};
+
+/// From the measured position (m) to the one that the model is given (m).
+///
+/// Each axis by itself: encoders count axis by axis, and an axis that rests stays quiet while another moves.
+template <typename Scalar>
+class PositionConditioner {
+ public:
+  using Vector = Vector3<Scalar>;
+
+  /// low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m; 0 is off.
+  PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
+      : fits_(conditioning == Conditioning::line_fit),
+        low_pass_(fits_ ? Smoothing<Scalar>::of(encoder_step).cutoff_hz : low_pass_hz, period),
+        lines_{fit(encoder_step, period), fit(encoder_step, period), fit(encoder_step, period)} {}
+
+  void reset() noexcept {
+    for (auto& line : lines_) line.reset();
+    low_pass_.reset();
+  }
+
+  /// Goes on from where another conditioner of the same period is, which loses its history.
+  void resume(PositionConditioner& previous) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) lines_[i].resume(previous.lines_[i]);
+    low_pass_.resume(previous.low_pass_);
+  }
+
+  Vector step(const Vector& measured) noexcept {
+    if (!fits_) return low_pass_.step(measured);
+    return low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});
+  }
+
+ private:
+  LineFit<Scalar> fit(Scalar encoder_step, Scalar period) const {
+    return {encoder_step, Smoothing<Scalar>::of(encoder_step).window, period, low_pass_.lag()};
+  }
+
+  bool fits_;
+  LowPass<Scalar, Vector> low_pass_;
+  std::array<LineFit<Scalar>, 3> lines_;
+};
+
+}  // namespace punctura
