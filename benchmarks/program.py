@@ -34,7 +34,7 @@ def tool(name: str) -> str | None:
     return str(beside) if beside.is_file() else shutil.which(name)
 
 
-def build(folder: Path) -> Path:
+def build(folder: Path, target: str = "bench_ticks") -> Path:
     """Configures where needed and compiles; gives the path of the program."""
     cmake, ninja, eigen = tool("cmake"), tool("ninja"), eigen_folder()
     if cmake is None:
@@ -48,12 +48,12 @@ def build(folder: Path) -> Path:
     wanted, stamp = "\n".join([*configure, os.environ.get("CXX", "")]), folder / "configured-with"
     if not stamp.is_file() or stamp.read_text() != wanted:
         shutil.rmtree(folder, ignore_errors=True)
-    for command in (configure, [cmake, "--build", str(folder), "--target", "bench_ticks"]):
+    for command in (configure, [cmake, "--build", str(folder), "--target", target]):
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0:
             raise ProgramError(f"{' '.join(command)}\n{done.stdout[-4000:]}")
     stamp.write_text(wanted)
-    return folder / "benchmarks/bench_ticks"
+    return folder / "benchmarks" / target
 
 
 def call(program: Path, seconds: float, dump: Path) -> dict[str, Any]:
