@@ -86,7 +86,8 @@ TEST_CASE("over a closed cycle the model gives out no work where A_O >= 0, with 
       REQUIRE(cycle.given <= 1e-10 * (cycle.exchanged + 1e-6));
     }
   }
-  MESSAGE("most given out, relative to what was exchanged: " << worst << ", in " << touched << " cycles that met tissue");
+  MESSAGE("most given out, relative to what was exchanged: " << worst << ", in " << touched
+                                                             << " cycles that met tissue");
   CHECK(touched > cases(1000));  // of twice as many: most cycles do meet tissue
 }
 
