@@ -157,6 +157,7 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("running", &ServoLoop::running)
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "As it runs, at the device's rate.")
+      .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy, "As they act, with the device's ratings.")
       .def(
           "report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),

@@ -66,6 +66,7 @@ class ServoLoop {
 
   Device& device() noexcept { return *device_; }
   const Scene& scene() const noexcept { return scene_; }
+  const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
   LoopReport report() const noexcept;
   Snapshot latest();  ///< the last tick's
