@@ -28,6 +28,7 @@ void bind_experiment(nb::module_&);
 void bind_limits(nb::module_&);
 void bind_runtime(nb::module_&);
 void bind_devices(nb::module_&);
+void bind_replay(nb::module_&);
 
 /// A read-only view of numbers in memory: somebody's own array, without a copy, where it is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;

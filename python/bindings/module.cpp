@@ -13,4 +13,5 @@ NB_MODULE(_core, m) {
   bind_limits(m);
   bind_runtime(m);
   bind_devices(m);
+  bind_replay(m);
 }

@@ -1,0 +1,34 @@
+"""`punctura export`: a recording for other programs."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.cli._progress import progress_bar
+
+FAILED = 1
+
+
+def command(
+    file: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="FILE")],
+    out: Annotated[Path, typer.Option("--out", help="Where it goes.", metavar="OUT.csv|.parquet|.mcap")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """A recording as CSV, Parquet or MCAP, also one whose process was killed."""
+    from punctura.record.export import export
+
+    try:
+        with progress_bar("export") as tell:
+            result = export(file, out, tell)
+    except ModuleNotFoundError as missing:
+        typer.echo(f"punctura: {missing}", err=True)
+        sys.exit(FAILED)
+    for note in result.notes:
+        typer.echo(f"punctura: note: {note}", err=True)
+    lost = f", {result.lost} lost" if result.lost else ""
+    typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else f"{result.out}: {result.ticks} ticks{lost}")

@@ -1,0 +1,44 @@
+"""`punctura replay`: a recording's forces again, from its inputs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.cli._progress import progress_bar
+
+DIFFERS = 1
+
+
+def command(
+    file: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="FILE")],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Where the computed ticks go, as a recording.", metavar="FILE2.parquet")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """Computes every tick of a recording again and compares it bit for bit.
+
+    Status 0: all ticks are identical. 1: some are not, or could not be computed.
+    """
+    from punctura.record.replay import replay
+
+    with progress_bar("replay") as tell:
+        result = replay(file, out, tell)
+    for note in result.notes:
+        typer.echo(f"punctura: note: {note}", err=True)
+    if as_json:
+        typer.echo(json.dumps(result.to_dict(), indent=2))
+    elif result.first_difference is None:
+        typer.echo(f"{result.file}: {result.ticks} ticks, identical")
+    else:
+        first = result.first_difference
+        typer.echo(
+            f"{result.file}: differs first at tick {first['tick']}: {first['column']} was {first['recorded']!r}, "
+            f"is {first['computed']!r}"
+        )
+    if not (result.identical and result.complete):
+        raise typer.Exit(DIFFERS)

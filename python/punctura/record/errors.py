@@ -1,0 +1,7 @@
+"""What goes wrong with recordings."""
+
+from __future__ import annotations
+
+
+class RecordingError(ValueError):
+    """A recording that cannot be begun, read or run again: which file, what is wrong, what to do."""

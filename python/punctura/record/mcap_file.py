@@ -1,0 +1,105 @@
+"""MCAP, for viewers of robot data: a JSON message a tick, with its JSON Schema. Needs the package `mcap`."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+
+from punctura.record.columns import NEW_SCENES, words_of
+from punctura.record.recording import Recording
+
+TICKS, SCENES = "punctura/tick", "punctura/scene"
+
+_SCENE_SCHEMA = {
+    "type": "object",
+    "properties": {"tick": {"type": "integer"}, "toml": {"type": "string", "description": "the scene file"}},
+}
+
+
+def write_mcap(recording: Recording, path: Path, progress: Callable[[float], None] | None = None) -> None:
+    """All ticks on the topic punctura/tick, scenes on punctura/scene; the file appears when it is whole."""
+    writer_class = _writer_class()
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    try:
+        with temporary.open("wb") as file:
+            _Messages(writer_class(file), recording).write(progress)
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def _writer_class() -> Any:
+    try:
+        from mcap.writer import Writer
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError("MCAP needs the package mcap: pip install 'punctura[mcap]'", name="mcap") from None
+    return Writer
+
+
+class _Messages:
+    def __init__(self, writer: Any, recording: Recording) -> None:
+        self._writer, self._recording = writer, recording
+        self._stamp = self._began = recording.info.began_ns
+        self._first_time: float | None = None
+
+    def write(self, progress: Callable[[float], None] | None) -> None:
+        writer, recording = self._writer, self._recording
+        writer.start(profile="", library=recording.info.build)
+        writer.add_metadata("punctura.recording", {"json": json.dumps(recording.info.data)})
+        ticks = self._channel(TICKS, "punctura.Tick", _tick_schema(recording.schema))
+        scenes = self._channel(SCENES, "punctura.Scene", _SCENE_SCHEMA)
+        self._message(scenes, 0, {"tick": 0, "toml": recording.info.data["scene"]})
+        for batch in recording.batches(progress):
+            for row in batch.to_pylist():
+                tick, taken = row["tick"], row.pop(NEW_SCENES) or []
+                self._advance(row["time_s"])
+                for toml in taken:
+                    self._message(scenes, tick, {"tick": tick, "toml": toml})
+                self._message(ticks, tick, {name: _plain(value) for name, value in row.items()})
+        writer.finish()
+
+    def _channel(self, topic: str, name: str, schema: dict[str, Any]) -> int:
+        made = self._writer.register_schema(name=name, encoding="jsonschema", data=json.dumps(schema).encode())
+        return int(self._writer.register_channel(topic=topic, message_encoding="json", schema_id=made))
+
+    def _advance(self, time_s: float) -> None:
+        """The clock on the wall when the tick was; a tick whose time is no number keeps the last one's."""
+        if self._first_time is None and math.isfinite(time_s):
+            self._first_time = time_s
+        stamp = self._began + (time_s - (self._first_time or 0.0)) * 1e9
+        if math.isfinite(stamp) and 0 <= stamp < 2**63:
+            self._stamp = int(stamp)
+
+    def _message(self, channel: int, tick: int, content: dict[str, Any]) -> None:
+        data = json.dumps(content, allow_nan=False, separators=(",", ":")).encode()
+        self._writer.add_message(
+            channel, log_time=self._stamp, publish_time=self._stamp, sequence=tick & 0xFFFFFFFF, data=data
+        )
+
+
+def _plain(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _tick_schema(schema: pa.Schema) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": {f.name: _json_type(f) for f in schema if f.name != NEW_SCENES},
+    }
+
+
+def _json_type(field: pa.Field) -> dict[str, Any]:
+    words = words_of(field.name)
+    if words is not None:
+        return {"type": ["string", "null"], "enum": [*words, None]}
+    if pa.types.is_boolean(field.type):
+        return {"type": "boolean"}
+    return {"type": "integer"} if pa.types.is_integer(field.type) else {"type": ["number", "null"]}

@@ -1,0 +1,105 @@
+"""Finished recordings: Parquet, with the description of the run in the file's metadata."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from punctura.record.errors import RecordingError
+from punctura.record.header import from_metadata, to_metadata
+from punctura.record.stream import BROKEN
+
+Progress = Callable[[float], None]
+
+_ROWS_A_GROUP = 1 << 15
+
+
+class ParquetRecording:
+    """A finished recording's reader."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.notes: list[str] = []
+        with self._open() as file:
+            self.schema = file.schema_arrow.remove_metadata()
+            self.info = from_metadata(file.schema_arrow, path)
+            self.rows = file.metadata.num_rows
+
+    def batches(self, progress: Progress | None = None) -> Iterator[pa.RecordBatch]:
+        with self._open() as file:
+            done = 0
+            try:
+                for batch in file.iter_batches(batch_size=_ROWS_A_GROUP):
+                    batch.validate(full=True)
+                    yield batch.replace_schema_metadata(None)
+                    done += len(batch)
+                    if progress:
+                        progress(done / max(1, self.rows))
+            except BROKEN as bad:
+                raise RecordingError(f"{self.path} is damaged after {done} ticks: {bad}") from None
+
+    def _open(self) -> pq.ParquetFile:
+        try:
+            return pq.ParquetFile(str(self.path), page_checksum_verification=True)
+        except BROKEN as bad:
+            raise RecordingError(f"{self.path} cannot be read, or is damaged: {bad}") from None
+
+
+class _Groups:
+    """Gathers batches to row groups."""
+
+    def __init__(self, writer: pq.ParquetWriter, schema: pa.Schema) -> None:
+        self._writer, self._schema = writer, schema
+        self._batches: list[pa.RecordBatch] = []
+        self._rows = 0
+
+    def write(self, batch: pa.RecordBatch) -> None:
+        self._batches.append(batch)
+        self._rows += len(batch)
+        if self._rows >= _ROWS_A_GROUP:
+            self.flush()
+
+    def flush(self) -> None:
+        if self._rows:
+            batches = [batch.replace_schema_metadata(self._schema.metadata) for batch in self._batches]
+            self._writer.write_table(pa.Table.from_batches(batches, self._schema), row_group_size=self._rows)
+        self._batches, self._rows = [], 0
+
+
+@contextmanager
+def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any]) -> Iterator[_Groups]:
+    """A finished recording that has its name only when it is whole and on the disk; after an error there is nothing.
+
+    Numbers keep their bits: no dictionary between them and the file, which would take one NaN for another.
+    """
+    schema = schema.with_metadata(to_metadata(data, schema))
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    numbers = [f.name for f in schema if pa.types.is_floating(f.type)]
+    try:
+        with pq.ParquetWriter(
+            str(temporary),
+            schema,
+            compression="zstd",
+            use_dictionary=[f.name for f in schema if pa.types.is_dictionary(f.type)],
+            use_byte_stream_split=numbers,
+            write_page_checksum=True,
+        ) as writer:
+            groups = _Groups(writer, schema)
+            yield groups
+            groups.flush()
+        descriptor = os.open(temporary, os.O_RDWR)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise

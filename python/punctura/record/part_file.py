@@ -1,0 +1,66 @@
+"""Reads a recording that was not finished: its process was killed, or still runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pyarrow as pa
+
+from punctura.record.errors import RecordingError
+from punctura.record.header import from_metadata
+from punctura.record.schema import read_schema, worded
+from punctura.record.stream import BROKEN, Decoder
+from punctura.record.survey import Survey
+
+Progress = Callable[[float], None]
+
+
+class PartFile:
+    """Read once when it is opened, so that everything about it is known; what is not whole is left out and noted."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._size = path.stat().st_size
+        self.survey = Survey()
+        self.notes: list[str] = []
+        with pa.OSFile(str(path), "rb") as file:
+            decoder = Decoder(file, self._size)
+            for batch in decoder:
+                self._check_order(batch)
+                self.survey.add(batch)
+        if not decoder.schemas:
+            raise RecordingError(f"{path} is not a recording of Punctura, or is damaged at its beginning")
+        self.info = from_metadata(decoder.schemas[0], path)
+        self.schema = read_schema(max(decoder.schemas, key=len))
+        self._note(decoder)
+
+    def batches(self, progress: Progress | None = None) -> Iterator[pa.RecordBatch]:
+        """The ticks there were when it was opened."""
+        left = self.survey.rows
+        with pa.OSFile(str(self.path), "rb") as file:
+            for batch in Decoder(file, self._size):
+                if left <= 0:
+                    return
+                yield worded(batch[:left], self.schema)
+                left -= len(batch)
+                if progress:
+                    progress(min(1.0, file.tell() / max(1, self._size)))
+
+    def _check_order(self, batch: pa.RecordBatch) -> None:
+        try:
+            tick = batch.column("tick").to_numpy()
+            sound = len(tick) == 0 or (tick[0] > self.survey.last_tick and (tick[1:] > tick[:-1]).all())
+        except BROKEN:
+            sound = False
+        if not sound:
+            raise RecordingError(f"{self.path} is damaged: its ticks are not in order")
+
+    def _note(self, decoder: Decoder) -> None:
+        whole = f"whole up to tick {self.survey.last_tick}" if self.survey.rows else "without a tick"
+        if decoder.broken:
+            self.notes.append(f"the end of the file is cut off or damaged and was left out; the recording is {whole}")
+        elif not decoder.ended:
+            self.notes.append(f"the recording was not finished; it is {whole}")
+        if decoder.damaged:
+            self.notes.append(f"{decoder.damaged} damaged parts of the file were left out; their ticks are missing")

@@ -1,0 +1,179 @@
+"""Records every tick of a running loop."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+import pyarrow as pa
+
+from punctura._core import Scene, ServoLoop
+from punctura.record.append_file import AppendFile
+from punctura.record.backlog import Backlog, Piece
+from punctura.record.columns import Columns, flatten, membrane_count
+from punctura.record.errors import RecordingError
+from punctura.record.finish import finish_recording, part_path
+from punctura.record.header import describe_device, describe_run
+from punctura.record.scene_log import SceneLog
+from punctura.record.schema import raw_batch
+from punctura.record.status import RecorderStatus
+from punctura.record.stream import Encoder
+from punctura.record.writer import Writer
+
+INTERVAL_S = 0.1  # from one batch to the next
+_RING_S = 5.0  # s of ticks that the ring holds, for a reader who is late
+_BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
+_ROWS_AT_ONCE = 4096
+_COMMAND_SCENE = 8
+
+
+class Recorder:
+    """From before a loop's start until `finish`: `path`.part while it runs, then `path`, a Parquet file.
+
+    The tick pays a copy into a ring. One thread empties the ring ten times a second, another one writes: neither a slow
+    nor a full disk reaches the loop. What cannot be kept is counted, and the count is in the file.
+
+        with Recorder(loop, "run.parquet") as recorder:
+            loop.start()
+            ...
+            loop.stop()
+        print(recorder.status())
+    """
+
+    def __init__(self, loop: ServoLoop, path: str | Path, capacity: int | None = None) -> None:
+        """Before loop.start(). capacity: snapshots in the ring. Raises RecordingError where nothing can be written."""
+        self.path = Path(path)
+        self._part = part_path(self.path)
+        if loop.running:
+            raise RecordingError("a recording begins before its loop does: make the Recorder before loop.start()")
+        self._loop = loop
+        self._header = describe_run(loop)
+        self._encoder = Encoder(self._header)
+        self._scenes = SceneLog(loop)
+        file = self._open()
+        self._listener = loop.listen(capacity or int(_RING_S * loop.scene.servo.rate))
+        self._backlog = Backlog(_BACKLOG_BYTES)
+        self._writer = Writer(file, self._backlog, self._part)
+        self._file = file
+        self._next_tick = int(loop.report()["ticks"])  # that none is missing before
+        self._width = len(loop.scene.membranes)  # that the present stream has columns for
+        self._carried: list[str] = []  # scenes taken in ticks that were lost
+        self._dropped = 0
+        self._defect = ""
+        self._final: RecorderStatus | None = None
+        self._stop = threading.Event()
+        self._reader = threading.Thread(target=self._read, name="punctura-recorder-reader", daemon=True)
+        self._batch(self._listener.read(0))  # so that a file that is killed at once can be read, too
+        self._reader.start()
+
+    def exchange(self, scene: Scene) -> None:
+        """loop.exchange(scene), remembered: the recording holds the scene from the tick that takes it."""
+        self._scenes.exchange(scene)
+
+    def status(self) -> RecorderStatus:
+        """How it is doing; from any thread."""
+        if self._final is not None:
+            return self._final
+        lost = int(self._listener.lost)
+        return RecorderStatus(
+            file=self._part,
+            rows=self._writer.rows,
+            last_tick=self._writer.last_tick,
+            bytes=self._writer.size,
+            lost=lost + self._dropped,
+            lost_in_ring=lost,
+            lost_in_backlog=self._dropped,
+            waiting_bytes=self._backlog.waiting_bytes,
+            slowest_write_s=self._writer.slowest_s,
+            trouble=self._writer.trouble or self._defect,
+            notes=list(self._writer.notes),
+        )
+
+    def finish(self) -> RecorderStatus:
+        """After loop.stop(): writes what there is, and makes it Parquet. A failing disk is in `trouble`, not raised."""
+        if self._final is None:
+            self._stop.set()
+            self._reader.join()
+            self._backlog.put(Piece(self._encoder.end(), 0, -1))
+            self._backlog.close()
+            self._writer.join()
+            self._dropped += self._backlog.rows()
+            after = {"device_after": describe_device(self._loop.device)}
+            self._final = finish_recording(self.path, self._file, self.status(), after)
+        return self._final
+
+    def __enter__(self) -> Recorder:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.finish()
+
+    def _open(self) -> AppendFile:
+        if self.path.suffix.lower() != ".parquet":
+            raise RecordingError(f"{self.path}: a recording's name must end in .parquet")
+        if self.path.exists():
+            raise RecordingError(f"{self.path} is there already; a recording overwrites nothing")
+        try:
+            return AppendFile(self._part)
+        except FileExistsError:
+            raise RecordingError(
+                f"{self._part} is there already: a recording that was not finished, or still runs. "
+                f"Save it with `punctura export {self._part} --out FILE.parquet`, or delete it"
+            ) from None
+        except OSError as bad:
+            raise RecordingError(f"{self._part} cannot be made: {bad.strerror}") from None
+
+    def _read(self) -> None:
+        while not self._stop.wait(INTERVAL_S):
+            self._empty_ring()
+        self._empty_ring()
+
+    def _empty_ring(self) -> None:
+        while True:
+            snapshots: Columns = self._listener.read(_ROWS_AT_ONCE)
+            n = len(snapshots["tick"])
+            if n == 0:
+                return
+            try:
+                kept = self._keep(snapshots)
+            except Exception as bad:  # a defect of ours must not end the recording
+                self._defect = f"ticks could not be recorded, please report this: {bad!r}"
+                kept = False
+            if kept:
+                self._next_tick = int(snapshots["tick"][-1]) + 1
+            else:
+                self._dropped += n
+            if n < _ROWS_AT_ONCE:
+                return
+
+    def _keep(self, snapshots: Columns) -> bool:
+        """One batch to the backlog. False: it is lost. The next one that is kept says so by the gap before it."""
+        scenes = self._taken(snapshots)
+        batch = self._batch(snapshots, scenes)
+        if self._backlog.put(Piece(self._encoder.batch(batch), len(batch), int(snapshots["tick"][-1]))):
+            self._carried = []
+            return True
+        self._carried = [scene for row in scenes if row for scene in row]
+        return False
+
+    def _batch(self, snapshots: Columns, scenes: list[list[str] | None] | None = None) -> pa.RecordBatch:
+        """As the file has it. Where it has more columns than the stream, a new stream begins."""
+        self._width = max(self._width, membrane_count(snapshots))
+        gap = np.diff(snapshots["tick"].astype(np.int64), prepend=self._next_tick - 1) - 1
+        batch = raw_batch(flatten(snapshots, self._width), gap.astype(np.uint32), scenes or [])
+        if self._encoder.schema is None or batch.schema.names != self._encoder.schema.names:
+            self._backlog.put(Piece(self._encoder.begin(batch.schema), 0, -1))
+        return batch
+
+    def _taken(self, snapshots: Columns) -> list[list[str] | None]:
+        """The scenes of each tick that took one."""
+        scenes: list[list[str] | None] = [None] * len(snapshots["tick"])
+        for k in np.flatnonzero(snapshots["commands"] & _COMMAND_SCENE):
+            scenes[k] = self._scenes.taken(int(snapshots["tick"][k]))
+        if self._carried:
+            scenes[0] = self._carried + (scenes[0] or [])
+        return scenes

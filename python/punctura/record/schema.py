@@ -1,0 +1,78 @@
+"""Types of a recording's columns: as numbers while it is written, with words in place of codes when it is read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from punctura.record.columns import LOST, NEW_SCENES, Columns, words_of
+
+SCENES_TYPE = pa.list_(pa.string())
+_WORD = pa.dictionary(pa.int8(), pa.string())
+NO_PHASE = 255
+
+
+def raw_batch(flat: Columns, lost: NDArray[np.uint32], scenes: list[list[str] | None]) -> pa.RecordBatch:
+    """A batch as it is written while a loop runs. NaN of a membrane that is not there is null."""
+    arrays = {name: _array(name, column) for name, column in flat.items()}
+    arrays[LOST] = pa.array(lost)
+    arrays[NEW_SCENES] = pa.array(scenes, type=SCENES_TYPE)
+    return pa.RecordBatch.from_arrays(list(arrays.values()), names=list(arrays))
+
+
+def _array(name: str, column: NDArray[Any]) -> pa.Array:
+    values = np.ascontiguousarray(column)
+    if name.startswith("phase_"):
+        return pa.array(values, mask=values == NO_PHASE)
+    if of_membrane(name):
+        return pa.array(values, mask=np.isnan(values))
+    return pa.array(values)
+
+
+def of_membrane(name: str) -> bool:
+    """Whether a column belongs to one membrane: depth_0_m, proxy_1_x_m."""
+    parts = name.split("_")
+    return len(parts) > 1 and parts[1].isdigit()
+
+
+def membranes_in(schema: pa.Schema) -> int:
+    """How many membranes the columns are for."""
+    return sum(name.startswith("phase_") for name in schema.names)
+
+
+def read_schema(raw: pa.Schema) -> pa.Schema:
+    """The columns as a reader sees them."""
+    return pa.schema([pa.field(f.name, _WORD if words_of(f.name) else f.type) for f in raw])
+
+
+def worded(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:
+    """A raw batch under a reader's schema: words for codes; a column that it does not have is null."""
+    arrays = []
+    for field in schema:
+        index = batch.schema.get_field_index(field.name)
+        words = words_of(field.name)
+        if index < 0:
+            arrays.append(pa.nulls(len(batch), field.type))
+        elif words is not None and batch.schema.field(index).type == pa.uint8():
+            codes = batch.column(index).cast(pa.int8())
+            arrays.append(pa.DictionaryArray.from_arrays(codes, pa.array(words), safe=True))
+        else:
+            arrays.append(batch.column(index))
+    return pa.RecordBatch.from_arrays(arrays, schema=schema)
+
+
+def numbers(batch: pa.RecordBatch, name: str) -> NDArray[Any]:
+    """A column as numbers for a computation: null is NaN, or 255 for a word's code."""
+    column = batch.column(name)
+    words = words_of(name)
+    if words is not None and not pa.types.is_integer(column.type):
+        import pyarrow.compute as pc
+
+        codes = pc.index_in(column.cast(pa.string()), value_set=pa.array(words)).fill_null(NO_PHASE)
+        return np.asarray(codes.to_numpy(zero_copy_only=False)).astype(np.uint8)
+    if pa.types.is_floating(column.type):
+        return np.asarray(column.to_numpy(zero_copy_only=False))
+    return np.asarray(column.to_numpy(zero_copy_only=False))

@@ -1,0 +1,29 @@
+"""How a recording is doing."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True)
+class RecorderStatus:
+    """A moment's account. `trouble` is what is wrong now, in words; empty if nothing is."""
+
+    file: Path  # where the recording stands at this moment
+    finished: bool = False
+    rows: int = 0  # ticks on the disk
+    last_tick: int = -1  # the last of them
+    bytes: int = 0
+    lost: int = 0  # ticks that will never be in the file
+    lost_in_ring: int = 0  # of these: the reader of the ring came too late
+    lost_in_backlog: int = 0  # of these: the disk was too slow, or full for too long
+    waiting_bytes: int = 0
+    slowest_write_s: float = 0.0
+    trouble: str = ""
+    notes: list[str] = field(default_factory=list)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self) | {"file": str(self.file)}

@@ -1,0 +1,97 @@
+"""The form of a recording while it is written: Arrow IPC streams, one after the other, each batch with a check sum.
+
+Any Arrow library reads the first stream of such a file. A second one begins only where a new scene has more membranes.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.ipc
+
+from punctura.record.collected import Collected
+from punctura.record.header import to_metadata
+
+CHECK = b"crc32"
+# What pyarrow raises for bytes that are no stream.
+BROKEN = (pa.ArrowException, OSError, ValueError, KeyError, MemoryError, OverflowError)
+
+
+def check_sum(batch: pa.RecordBatch) -> bytes:
+    """Over the bytes of the batch as they stand in the file."""
+    return str(zlib.crc32(batch.serialize())).encode()
+
+
+class Encoder:
+    """Turns batches into bytes to append."""
+
+    def __init__(self, header: dict[str, Any]) -> None:
+        self._header = header
+        self._out = Collected()
+        self._writer: pa.RecordBatchStreamWriter | None = None
+        self.schema: pa.Schema | None = None
+
+    def begin(self, schema: pa.Schema) -> bytes:
+        """A stream for these columns; the one before, if any, is ended."""
+        if self._writer is not None:
+            self._writer.close()
+        self.schema = schema.with_metadata(to_metadata(self._header, schema))
+        self._writer = pa.ipc.new_stream(self._out, self.schema)
+        return self._out.take()
+
+    def batch(self, batch: pa.RecordBatch) -> bytes:
+        assert self._writer is not None and self.schema is not None
+        batch = batch.replace_schema_metadata(self.schema.metadata)
+        self._writer.write_batch(batch, custom_metadata={CHECK: check_sum(batch)})
+        return self._out.take()
+
+    def end(self) -> bytes:
+        """The mark that the recording was ended in order."""
+        if self._writer is not None:
+            self._writer.close()
+            self._writer = None
+        return self._out.take()
+
+
+class Decoder:
+    """The batches of a file in turn. `damaged` counts those whose check sum is wrong; `broken`: what ended it."""
+
+    def __init__(self, file: pa.NativeFile, size: int) -> None:
+        self._file, self._size = file, size
+        self.damaged = 0
+        self.broken = ""
+        self.ended = False  # the last stream was ended in order
+        self.schemas: list[pa.Schema] = []
+
+    def __iter__(self) -> Iterator[pa.RecordBatch]:
+        try:
+            while self._file.tell() < self._size:
+                self.ended = False
+                yield from self._stream()
+                self.ended = True
+        except BROKEN as bad:
+            self.broken = str(bad).splitlines()[0] if str(bad) else type(bad).__name__
+
+    def _stream(self) -> Iterator[pa.RecordBatch]:
+        reader = pa.ipc.open_stream(self._file)
+        self.schemas.append(reader.schema)
+        while True:
+            try:
+                batch, metadata = reader.read_next_batch_with_custom_metadata()
+            except StopIteration:
+                return
+            if self._sound(batch, metadata):
+                yield batch
+            else:
+                self.damaged += 1
+
+    @staticmethod
+    def _sound(batch: pa.RecordBatch, metadata: Any) -> bool:
+        try:
+            batch.validate(full=True)
+            return metadata is not None and metadata.get(CHECK) == check_sum(batch)
+        except BROKEN:
+            return False
