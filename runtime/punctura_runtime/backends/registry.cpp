@@ -8,6 +8,7 @@ namespace punctura {
 namespace {
 
 const Backend* const table[] = {
+    &backends::haply,
     &backends::simulated,
 };
 
