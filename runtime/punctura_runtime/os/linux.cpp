@@ -1,5 +1,4 @@
 // Linux.
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
@@ -69,35 +68,5 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   if (settings.awake) items.push_back(item("processor kept awake", keep_awake(), "allow writing /dev/cpu_dma_latency"));
   return items;
 }
-
-Library Library::open(const std::vector<std::string>& names) {
-  Library library;
-  for (const std::string& name : names) {
-    // Global, since some makers' libraries look for symbols in others that they do not name.
-    if ((library.handle_ = dlopen(name.c_str(), RTLD_LAZY | RTLD_GLOBAL))) {
-      library.path_ = name;
-      library.error_.clear();
-      return library;
-    }
-    library.error_ += (library.error_.empty() ? "" : "; ") + std::string(dlerror());
-  }
-  return library;
-}
-
-Library::Library(Library&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)), path_(std::move(other.path_)), error_(std::move(other.error_)) {}
-
-Library& Library::operator=(Library&& other) noexcept {
-  std::swap(handle_, other.handle_);
-  std::swap(path_, other.path_);
-  std::swap(error_, other.error_);
-  return *this;
-}
-
-Library::~Library() {
-  if (handle_) dlclose(handle_);
-}
-
-void* Library::symbol(const char* name) const noexcept { return handle_ ? dlsym(handle_, name) : nullptr; }
 
 }  // namespace punctura::os

@@ -1,4 +1,5 @@
-// Everything that differs from one operating system to the next. One file each implements it: linux.cpp, windows.cpp, macos.cpp.
+// Everything that differs from one operating system to the next. One file each implements it: linux.cpp, windows.cpp, macos.cpp;
+// what Linux and macOS share stands in posix_*.cpp.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +30,11 @@ struct RealtimeSettings {
 
 /// Makes the calling thread as punctual as the system allows. What it does not allow is said, and does no harm.
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings);
+
+// Of a shared library: the system's own calls. nullptr says that there is none, and `error` why.
+void* load_library(const char* name, std::string& error);
+void unload_library(void* handle) noexcept;
+void* library_symbol(void* handle, const char* name) noexcept;
 
 /// A shared library found at run time.
 class Library {

@@ -1,0 +1,64 @@
+// macOS. Written by the documents of the system; not run by us yet (docs/realtime.md).
+#include <mach/mach.h>
+#include <mach/mach_error.h>
+#include <mach/mach_time.h>
+#include <mach/thread_policy.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "punctura_runtime/os/os.hpp"
+
+namespace punctura::os {
+
+namespace {
+
+/// Mach's clock counts in units of its own.
+mach_timebase_info_data_t timebase() noexcept {
+  static const mach_timebase_info_data_t info = [] {
+    mach_timebase_info_data_t i;
+    mach_timebase_info(&i);
+    return i;
+  }();
+  return info;
+}
+
+std::uint64_t ticks_from_ns(std::int64_t ns) noexcept {
+  return static_cast<std::uint64_t>(ns) * timebase().denom / timebase().numer;
+}
+
+}  // namespace
+
+std::int64_t now_ns() noexcept {
+  return static_cast<std::int64_t>(mach_absolute_time() * timebase().numer / timebase().denom);
+}
+
+void sleep_until_ns(std::int64_t time) noexcept { mach_wait_until(ticks_from_ns(time)); }
+
+std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
+  std::vector<RealtimeItem> items;
+  if (settings.priority > 0) {
+    // macOS has no first-in-first-out priority for programs; a time-constraint thread is what its audio uses.
+    thread_time_constraint_policy_data_t policy{};
+    policy.period = static_cast<std::uint32_t>(ticks_from_ns(625'000));
+    policy.computation = static_cast<std::uint32_t>(ticks_from_ns(60'000));
+    policy.constraint = static_cast<std::uint32_t>(ticks_from_ns(300'000));
+    policy.preemptible = 1;
+    const kern_return_t result =
+        thread_policy_set(mach_thread_self(), THREAD_TIME_CONSTRAINT_POLICY, reinterpret_cast<thread_policy_t>(&policy),
+                          THREAD_TIME_CONSTRAINT_POLICY_COUNT);
+    items.push_back(
+        {"time-constraint thread", result == KERN_SUCCESS, result == KERN_SUCCESS ? "" : mach_error_string(result)});
+  }
+  if (settings.processor >= 0)
+    items.push_back({"processor", false, "macOS does not let a thread stay on one processor"});
+  if (settings.lock_memory) {
+    const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    items.push_back({"memory locked", locked, locked ? "" : std::strerror(errno)});
+  }
+  return items;
+}
+
+}  // namespace punctura::os

@@ -1,0 +1,19 @@
+// Shared libraries on Linux and macOS.
+#include <dlfcn.h>
+
+#include "punctura_runtime/os/os.hpp"
+
+namespace punctura::os {
+
+void* load_library(const char* name, std::string& error) {
+  // Global, since some makers' libraries look for symbols in others that they do not name.
+  void* handle = dlopen(name, RTLD_LAZY | RTLD_GLOBAL);
+  if (!handle) error = dlerror();
+  return handle;
+}
+
+void unload_library(void* handle) noexcept { dlclose(handle); }
+
+void* library_symbol(void* handle, const char* name) noexcept { return dlsym(handle, name); }
+
+}  // namespace punctura::os

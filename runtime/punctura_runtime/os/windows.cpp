@@ -1,0 +1,112 @@
+// Windows 10, version 1803, or later.
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+// After windows.h, which they need.
+#include <avrt.h>
+#include <timeapi.h>
+
+#include <string>
+
+#include "punctura_runtime/os/os.hpp"
+
+#ifndef CREATE_WAITABLE_TIMER_HIGH_RESOLUTION
+#define CREATE_WAITABLE_TIMER_HIGH_RESOLUTION 0x00000002
+#endif
+
+namespace punctura::os {
+
+namespace {
+
+std::string words_for(DWORD error) {
+  char* text = nullptr;
+  const DWORD length =
+      FormatMessageA(FORMAT_MESSAGE_ALLOCATE_BUFFER | FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS,
+                     nullptr, error, 0, reinterpret_cast<char*>(&text), 0, nullptr);
+  std::string words(text ? text : "", text ? length : 0);
+  LocalFree(text);
+  while (!words.empty() && (words.back() == '\n' || words.back() == '\r' || words.back() == '.')) words.pop_back();
+  return words.empty() ? "error " + std::to_string(error) : words;
+}
+
+RealtimeItem item(const char* what, bool granted) { return {what, granted, granted ? "" : words_for(GetLastError())}; }
+
+/// A timer that wakes within a fraction of a millisecond, one a thread; without it Windows wakes at its 15.6 ms.
+class PreciseTimer {
+ public:
+  PreciseTimer() noexcept
+      : handle_(CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS)) {}
+  ~PreciseTimer() {
+    if (handle_) CloseHandle(handle_);
+  }
+  void sleep(std::int64_t ns) noexcept {
+    LARGE_INTEGER due;
+    due.QuadPart = -(ns / 100);  // relative, in 100 ns
+    if (handle_ && SetWaitableTimer(handle_, &due, 0, nullptr, nullptr, FALSE))
+      WaitForSingleObject(handle_, INFINITE);
+    else
+      Sleep(static_cast<DWORD>(ns / 1'000'000));
+  }
+
+ private:
+  HANDLE handle_;
+};
+
+}  // namespace
+
+std::int64_t now_ns() noexcept {
+  static const std::int64_t frequency = [] {
+    LARGE_INTEGER f;
+    QueryPerformanceFrequency(&f);
+    return f.QuadPart;
+  }();
+  LARGE_INTEGER count;
+  QueryPerformanceCounter(&count);
+  return count.QuadPart / frequency * 1'000'000'000 + count.QuadPart % frequency * 1'000'000'000 / frequency;
+}
+
+void sleep_until_ns(std::int64_t time) noexcept {
+  thread_local PreciseTimer timer;
+  for (std::int64_t left = time - now_ns(); left > 0; left = time - now_ns()) {
+    if (left > 100'000)
+      timer.sleep(left - 50'000);
+    else
+      YieldProcessor();  // the last tenth of a millisecond, which no timer hits
+  }
+}
+
+std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
+  std::vector<RealtimeItem> items;
+  if (settings.priority > 0) {
+    DWORD index = 0;
+    items.push_back(
+        item("multimedia class 'Pro Audio'", AvSetMmThreadCharacteristicsA("Pro Audio", &index) != nullptr));
+    items.push_back(
+        item("time-critical priority", SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL) != 0));
+  }
+  if (settings.processor >= 0)
+    items.push_back(
+        item("one processor", SetThreadAffinityMask(GetCurrentThread(), DWORD_PTR{1} << settings.processor) != 0));
+  if (settings.lock_memory)
+    items.push_back(
+        {"memory locked", false, "Windows locks single pages only; the loop's own stay in use and so in memory"});
+  if (settings.awake)
+    items.push_back(item("system kept awake", SetThreadExecutionState(ES_CONTINUOUS | ES_SYSTEM_REQUIRED) != 0));
+  return items;
+}
+
+void* load_library(const char* name, std::string& error) {
+  HMODULE handle = LoadLibraryA(name);
+  if (!handle) error = std::string(name) + ": " + words_for(GetLastError());
+  return reinterpret_cast<void*>(handle);
+}
+
+void unload_library(void* handle) noexcept { FreeLibrary(reinterpret_cast<HMODULE>(handle)); }
+
+void* library_symbol(void* handle, const char* name) noexcept {
+  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(handle), name));
+}
+
+}  // namespace punctura::os

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Core, runtime and their tests, built for Windows with mingw-w64 and run under Wine, as far as that goes.
+#   tools/windows.sh            builds and runs
+# Needs Debian's g++-mingw-w64-x86-64-posix, wine and doctest-dev; installs them where it may.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+cd "$root"
+
+need=""
+command -v x86_64-w64-mingw32-g++-posix >/dev/null || need="$need g++-mingw-w64-x86-64-posix"
+wine=$(command -v wine64 || command -v wine || true)
+[ -n "$wine" ] || [ -x /usr/lib/wine/wine64 ] || need="$need wine wine64"
+[ -e /usr/include/doctest/doctest.h ] || need="$need doctest-dev"
+[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first: it brings CMake, Ninja and Eigen" >&2; exit 1; }
+if [ -n "$need" ]; then
+  if [ "$(id -u)" = 0 ]; then
+    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq $need >/dev/null
+  else
+    echo "tools/windows.sh needs packages. Type: sudo apt-get install$need" >&2
+    exit 1
+  fi
+fi
+wine=$(command -v wine64 || command -v wine || echo /usr/lib/wine/wine64)
+
+export PATH=$root/.venv/bin:$PATH
+eigen=$(python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/cmeel.prefix/include/eigen3
+# doctest lies among the system's own headers, which are not for Windows: take it alone.
+mkdir -p build/windows/include && ln -sfn /usr/include/doctest build/windows/include/doctest
+cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" -DCMAKE_BUILD_TYPE=Release \
+  -DPUNCTURA_TESTS=ON -DPUNCTURA_EIGEN_DIR="$eigen" -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
+cmake --build build/windows/tree
+
+export WINEPREFIX=$root/build/windows/wine WINEDEBUG=-all
+for tests in core runtime; do
+  echo "== $tests under Wine"
+  "$wine" "build/windows/tree/tests/$tests/${tests}_tests.exe"
+done
