@@ -13,6 +13,7 @@ import typer
 from punctura._core import DeviceError, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
 from punctura.live import Ended, RunSummary, fit_direction, load_placement, open_for, run_live
+from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
 FAULTED = 1
@@ -33,6 +34,9 @@ def command(
         Path | None,
         typer.Option("--placement", help="Where the device stands: punctura place.", metavar="FILE.toml"),
     ] = None,
+    record: Annotated[
+        Path | None, typer.Option("--record", help="Every tick goes into this file.", metavar="FILE.parquet")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """A scene on a device at its full rate, with every safety limit on.
@@ -52,9 +56,16 @@ def command(
         typer.echo(f"punctura: note: {note}", err=True)
     line = StatusLine()
 
-    def begin(_loop: ServoLoop) -> Callable[[], None]:
+    def begin(loop: ServoLoop) -> Callable[[], None]:
+        recorder = Recorder(loop, record) if record else None
         typer.echo(f"punctura: {loaded.name} on {opened.info.model}; Ctrl-C ends it", err=True)
-        return line.end
+
+        def finish() -> None:
+            line.end()
+            if recorder:
+                _tell(recorder.finish())
+
+        return finish
 
     try:
         summary = run_live(opened, fitted, duration, placement=stands, watch=line, prepare=begin)
@@ -67,6 +78,12 @@ def command(
     if summary.fault:
         typer.echo(f"punctura: {summary.fault}", err=True)
         raise typer.Exit(FAULTED)
+
+
+def _tell(status: RecorderStatus) -> None:
+    typer.echo(f"punctura: {status.file}: {status.rows} ticks recorded, {status.lost} lost", err=True)
+    for text in [*status.notes, *([status.trouble] if status.trouble else [])]:
+        typer.echo(f"punctura: recording: {text}", err=True)
 
 
 def in_words(summary: RunSummary) -> str:

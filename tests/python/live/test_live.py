@@ -114,6 +114,23 @@ def test_headless_prints_a_summary_a_program_can_read():
     assert summary["device"].startswith("simulated")
 
 
+def test_a_recorded_run_holds_every_tick_and_runs_again_to_the_last_bit(tmp_path):
+    file = tmp_path / "run.parquet"
+    done = punctura("run", "k06-fig12", "--headless", "--duration", "2", "--record", str(file), "--json")
+    assert done.returncode == 0, done.stderr
+    ticks = json.loads(done.stdout)["ticks"]
+    assert f"run.parquet: {ticks} ticks recorded, 0 lost" in done.stderr
+    again = punctura("replay", str(file))
+    assert again.returncode == 0, again.stderr
+    assert "identical" in again.stdout
+
+
+def test_a_recording_that_cannot_be_written_is_told_before_anything_moves(tmp_path):
+    done = punctura("run", "--headless", "--duration", "1", "--record", str(tmp_path / "run.csv"))
+    assert done.returncode == 1
+    assert "must end in .parquet" in done.stderr
+
+
 def test_without_headless_it_says_what_to_add():
     done = punctura("run")
     assert done.returncode == 2
