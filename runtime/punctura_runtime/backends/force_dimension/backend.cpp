@@ -1,0 +1,48 @@
+// Force Dimension's devices in the registry.
+#include "punctura_runtime/backends/backend.hpp"
+#include "punctura_runtime/backends/force_dimension/device.hpp"
+
+namespace punctura {
+
+namespace {
+
+using namespace force_dimension;
+constexpr const char* name = "force_dimension";
+
+std::string joined(const std::vector<std::string>& all) {
+  std::string text;
+  for (const auto& one : all) text += (text.empty() ? "" : ", ") + one;
+  return text;
+}
+
+BackendStatus status() {
+  using State = BackendStatus::State;
+  const Loaded library = load();
+  if (library.state != State::available) return {name, library.state, library.detail, {}};
+  try {
+    const Survey found = survey(library.api);
+    const std::string by = " By " + library.path + ".";
+    if (!found.ready.empty())
+      return {name, State::available, joined(found.ready) + ": can be opened." + by, found.ready};
+    if (!found.uncalibrated.empty())
+      return {name, State::needs_calibration, calibration_advice(found.uncalibrated.front()) + by, found.uncalibrated};
+    const Refusal& why = found.refusals.front();
+    return {name, why.state, std::string(why.what()) + "." + by, {}};
+  } catch (const Refusal& why) {
+    return {name, why.state, why.what(), {}};
+  }
+}
+
+std::shared_ptr<Device> open(const OpenOptions& how) {
+  Options options;
+  options.rate = how.rate;
+  options.device = how.device;
+  options.library = how.library;
+  return std::make_shared<ForceDimensionDevice>(std::move(options));
+}
+
+}  // namespace
+
+const Backend backends::force_dimension{name, &status, &open};
+
+}  // namespace punctura

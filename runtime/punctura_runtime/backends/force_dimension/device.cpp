@@ -1,0 +1,183 @@
+#include "punctura_runtime/backends/force_dimension/device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "punctura_runtime/loop/pacer.hpp"
+
+namespace punctura::force_dimension {
+
+namespace {
+
+/// Whether asking for the status costs a transfer is not known, so not every tick asks: by then the device itself has cut the force,
+/// and what is left to do is to say so and to keep it away.
+constexpr double status_interval = 0.004;  // s
+constexpr double time_for_force = 0.5;     // s after start() in which the device must have switched its force on
+
+}  // namespace
+
+ForceDimensionDevice::ForceDimensionDevice(Options options) : options_(std::move(options)) {
+  const double norm = std::hypot(options_.tool[0], options_.tool[1], options_.tool[2]);
+  if (!(norm > 0) || !std::isfinite(norm))
+    throw DeviceError("the tool direction must be three finite numbers that are not all 0");
+  if (!(options_.rate > 0) || !std::isfinite(options_.rate)) throw DeviceError("the rate must be above 0 Hz");
+  for (double& component : options_.tool) component /= norm;
+  library_ = load(options_.library);
+  if (library_.state != BackendStatus::State::available) throw Refusal(library_.state, library_.detail);
+  open();
+}
+
+void ForceDimensionDevice::open() {
+  const Api& api = library_.api;
+  connection_.emplace(connect(api, options_.device));
+  const std::string label = connection_->label();
+  try {
+    if (!connection_->calibrated()) {
+      if (!options_.auto_init) throw Refusal(BackendStatus::State::needs_calibration, calibration_advice(label));
+      connection_.reset();
+      auto_init(api, label);
+      connection_.emplace(connect(api, label));
+      if (!connection_->calibrated()) throw Refusal(BackendStatus::State::needs_calibration, calibration_advice(label));
+    }
+    info_ = connection_->info();
+  } catch (...) {
+    connection_.reset();
+    throw;
+  }
+  options_.device = label;  // after stop() it is this one again
+  info_.rate = std::min(options_.rate, fastest);
+  id_ = connection_->id();
+}
+
+void ForceDimensionDevice::start(Tick tick) {
+  if (thread_.joinable()) return;
+  if (!connection_) open();
+  stop_ = finished_ = ready_ = false;
+  trouble_ = Trouble::none;
+  saturated_ = repeated_ = missed_ = 0;
+  sample_ = {};
+  sample_.axis = to_ours(options_.tool);  // of a device without a wrist: as if its handle stood straight
+  sample_.healthy = true;
+  ticks_ = 0;
+  force_seen_ = false;
+  status_every_ = static_cast<std::uint64_t>(std::max(1.0, std::round(info_.rate * status_interval)));
+
+  const Api& api = library_.api;
+  int status[status_size] = {};
+  if (api.status(status, id_) < 0) throw DeviceError(info_.model + ": " + words_for(api, api.last_error()));
+  error_at_start_ = status[status_error] != 0;
+  api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, and is harmless then
+  if (api.enable_force(1, id_) < 0)
+    throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, api.last_error()));
+  try {
+    thread_ = std::thread([this, tick] { run(tick); });
+  } catch (const std::system_error& error) {
+    silence();
+    throw DeviceError(std::string("no thread for the device's ticks: ") + error.what());
+  }
+  ready_.wait(false);
+}
+
+void ForceDimensionDevice::stop() noexcept {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();  // it leaves the device silent
+  connection_.reset();
+}
+
+void ForceDimensionDevice::run(Tick tick) noexcept {
+  realtime_ = os::make_realtime(options_.realtime);
+  ready_ = true;
+  ready_.notify_all();
+
+  Pacer<LoopClock> pacer(info_.rate, options_.clock);
+  const std::int64_t start = options_.clock.now();
+  while (!stop_) {
+    missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
+    if (!one_tick(tick, static_cast<double>(options_.clock.now() - start) * 1e-9)) break;
+  }
+  silence();
+  finished_ = true;
+}
+
+/// Zero force, then force off. Each is tried whatever became of the other.
+void ForceDimensionDevice::silence() noexcept {
+  library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);
+  library_.api.enable_force(0, id_);
+}
+
+/// Whether there will be another tick. The loop is told of a fault in one last tick, whose force goes nowhere.
+bool ForceDimensionDevice::one_tick(Tick tick, double time) noexcept {
+  const Api& api = library_.api;
+  sample_.time = time;
+  if (!read() || (ticks_++ % status_every_ == 0 && !watch(time))) {
+    sample_.healthy = false;
+    tick(sample_);
+    return false;
+  }
+  sample_.healthy = trouble_.load(std::memory_order_relaxed) == Trouble::none;
+
+  Tick::Force force = tick(sample_);
+  if (!sample_.healthy) force = {0, 0, 0};
+  const Triple f = to_device(force);
+  const int written = api.write(f[0], f[1], f[2], 0, 0, 0, 0, id_);
+  if (written < 0) {
+    fail(Trouble::writing, api.last_error());
+    sample_.healthy = false;
+    tick(sample_);
+    return false;
+  }
+  if (written == motor_saturated) saturated_.fetch_add(1, std::memory_order_relaxed);
+  return true;
+}
+
+bool ForceDimensionDevice::read() noexcept {
+  const Api& api = library_.api;
+  double x = 0, y = 0, z = 0, frame[3][3] = {};
+  const int got = api.read(&x, &y, &z, frame, id_);
+  if (got < 0) {
+    fail(Trouble::reading, api.last_error());
+    return false;
+  }
+  if (got == time_guard && ticks_ > 0) {
+    repeated_.fetch_add(1, std::memory_order_relaxed);
+  } else {
+    ++sample_.sequence;
+    sample_.position = to_ours({x, y, z});
+    if (info_.has_orientation) sample_.axis = to_ours(turned(frame, options_.tool));
+  }
+  sample_.buttons = api.buttons(id_);
+  return true;
+}
+
+/// What the device says of its own state. False where it cannot be asked.
+bool ForceDimensionDevice::watch(double time) noexcept {
+  const Api& api = library_.api;
+  int status[status_size] = {};
+  if (api.status(status, id_) < 0) {
+    fail(Trouble::reading, api.last_error());
+    return false;
+  }
+  // It is in one of four modes: reset, idle, force, brake.
+  const bool force = status[status_force] != 0 && status[status_brake] == 0;
+  if (status[status_reset] != 0) {
+    fail(Trouble::calibration_lost, 0);
+  } else if (status[status_error] != 0 && !error_at_start_) {
+    fail(Trouble::controller, 0);
+  } else if (force_seen_ && !force) {
+    fail(Trouble::force_off, status[status_force_off_cause]);
+  } else if (!force && time > time_for_force) {
+    fail(Trouble::force_never_on, 0);
+  }
+  force_seen_ = force_seen_ || force;
+  return true;
+}
+
+/// The first trouble is the one that is told.
+void ForceDimensionDevice::fail(Trouble what, int code) noexcept {
+  if (trouble_.load(std::memory_order_relaxed) != Trouble::none) return;
+  code_.store(code, std::memory_order_relaxed);
+  trouble_.store(what, std::memory_order_release);
+}
+
+}  // namespace punctura::force_dimension

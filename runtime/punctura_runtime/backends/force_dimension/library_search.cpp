@@ -1,0 +1,99 @@
+// Where Force Dimension's library may be.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "punctura_runtime/backends/force_dimension/library.hpp"
+
+namespace punctura::force_dimension {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(__aarch64__) || defined(_M_ARM64)
+[[maybe_unused]] constexpr const char *linux_machine = "aarch64", *mac_machine = "arm64";
+#elif defined(__i386__)
+[[maybe_unused]] constexpr const char *linux_machine = "i686", *mac_machine = "i386";
+#else
+[[maybe_unused]] constexpr const char *linux_machine = "x86_64", *mac_machine = "x86_64";
+#endif
+
+fs::path from_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? fs::path(value) : fs::path();
+}
+
+/// What a folder holds whose name begins so, the newest version first: 3.17.5 before 3.9.0.
+std::vector<fs::path> matching(const fs::path& folder, const std::string& beginning) {
+  std::vector<fs::path> found;
+  std::error_code nothing;
+  if (folder.empty()) return found;
+  for (const auto& entry : fs::directory_iterator(folder, nothing))
+    if (entry.path().filename().string().rfind(beginning, 0) == 0) found.push_back(entry.path());
+
+  const auto numbers = [](const fs::path& path) {
+    std::vector<int> all{0};
+    for (const char c : path.filename().string()) {
+      if (c >= '0' && c <= '9' && all.back() < 100000) all.back() = all.back() * 10 + (c - '0');
+      if (c == '.' || c == '-') all.push_back(0);
+    }
+    return all;
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const auto& a, const auto& b) { return std::pair(numbers(a), a) > std::pair(numbers(b), b); });
+  return found;
+}
+
+struct Places {
+  std::vector<fs::path> folders;
+  std::string suffix;              ///< of a library's file: drd + this, with anything behind it
+  std::vector<std::string> names;  ///< for the system to find, after `lib` or not
+};
+
+Places places() {
+  const fs::path sdk = from_environment("FDSDK");
+  Places all;
+#if defined(_WIN32)
+  if (!sdk.empty()) all.folders.push_back(sdk / "bin");
+  for (const char* base : {"LOCALAPPDATA", "ProgramFiles"})
+    for (const auto& version : matching(from_environment(base) / "Force Dimension", "sdk-"))
+      all.folders.push_back(version / "bin");
+  all.suffix = "64.dll";
+  all.names = {"64.dll"};
+#elif defined(__APPLE__)
+  if (!sdk.empty()) all.folders.push_back(sdk / "lib/release" / (std::string("mac-") + mac_machine + "-clang"));
+  if (const auto home = from_environment("HOME"); !home.empty()) all.folders.push_back(home / ".local/lib");
+  all.folders.push_back("/usr/local/lib");
+  all.suffix = ".";
+  all.names = {".3.dylib", ".dylib"};
+#else
+  if (!sdk.empty()) all.folders.push_back(sdk / "lib/release" / (std::string("lin-") + linux_machine + "-gcc"));
+  if (const auto home = from_environment("HOME"); !home.empty()) all.folders.push_back(home / ".local/lib");
+  all.folders.push_back("/usr/local/lib");
+  all.suffix = ".so";
+  all.names = {".so.3", ".so"};
+#endif
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> candidates() {
+#if defined(_WIN32)
+  const std::string stem;
+#else
+  const std::string stem = "lib";
+#endif
+  const Places where = places();
+  std::vector<std::string> all;
+  for (const char* library : {"drd", "dhd"}) {
+    for (const auto& folder : where.folders)
+      for (const auto& file : matching(folder, stem + library + where.suffix)) all.push_back(file.string());
+    for (const auto& name : where.names) all.push_back(stem + library + name);
+  }
+  return all;
+}
+
+}  // namespace punctura::force_dimension
