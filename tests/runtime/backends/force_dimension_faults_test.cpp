@@ -1,0 +1,165 @@
+// Everything that can go wrong with a Force Dimension device, made to happen in the fake library.
+#include <doctest/doctest.h>
+
+#include "fakes/drd/rig.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+void check_without_force(const fake_drd::Report& report) {
+  for (const double component : report.force) CHECK(component == 0);
+}
+
+/// Force ended within 10 ms of what happened, and has not come back.
+void check_ended(const FakeRig& rig) {
+  const auto report = fake().state();
+  CHECK(report.injected > 0);
+  CHECK(report.last_force <= report.injected + 10 * ms);
+  CHECK(report.now >= rig.time());
+  check_without_force(report);
+}
+
+}  // namespace
+
+TEST_CASE("after each fault of the device its force is zero within 10 ms, stays so, and the reason is told") {
+  struct Case {
+    fake_drd::Injected what;
+    Fault fault;
+    const char* words;  ///< of the device; those that the loop finds by itself have none
+    bool ends;          ///< ticks cease
+  };
+  const Case cases[] = {
+      {fake_drd::unplug, Fault::device, "USB cable", true},
+      {fake_drd::press_button, Fault::device, "force button was pressed", false},
+      {fake_drd::let_go, Fault::device, "dead-man", false},
+      {fake_drd::switched_off, Fault::device, "a program switched", false},
+      {fake_drd::lose_zero, Fault::device, "calibration pit", false},
+      {fake_drd::fault_inside, Fault::device, "fault of its controller", false},
+      {fake_drd::failing_read, Fault::device, "cannot be read: the device did not answer", true},
+      {fake_drd::failing_write, Fault::device, "takes no force: the device did not answer", true},
+      {fake_drd::failing_status, Fault::device, "cannot be read", true},
+      {fake_drd::nan_position, Fault::non_finite_input, "", false},
+      {fake_drd::leap, Fault::position_jump, "", false},
+  };
+  for (const double rate : {1600.0, 4000.0}) {
+    for (const Case& c : cases) {
+      CAPTURE(rate);
+      CAPTURE(c.what);
+      FakeRig rig(upright(), rate);
+      rig.push_in();
+      REQUIRE(fake().state().force[2] > 0.2);
+      fake().inject(c.what, rig.time() + 3'300'000);
+      rig.run(1);
+      check_ended(rig);
+      CHECK(rig.loop.latest().fault == c.fault);
+      CHECK(rig.device->finished() == c.ends);
+      const std::string said = rig.device->trouble();
+      CHECK_MESSAGE(said.find(c.words) < said.size() + (*c.words ? 0 : 1), said);
+
+      // Not even after the loop's fault was left, outside and armed.
+      if (c.fault != Fault::device) continue;
+      rig.loop.reset();
+      rig.loop.arm();
+      fake().target(0, 0, 5e-3);
+      rig.run(1);
+      fake().target(0, 0, -4e-3);
+      rig.run(1);
+      check_ended(rig);
+    }
+  }
+}
+
+TEST_CASE("a hand that tears the device along makes it brake, and force stays away") {
+  auto settings = upright();
+  settings.brake_speed = 0.6;
+  FakeRig rig(settings);
+  rig.push_in();
+  fake().target(0, 0.08, 0.03);
+  rig.run(1);
+  check_ended(rig);
+  CHECK(rig.loop.latest().fault == Fault::device);
+  CHECK(rig.device->trouble().find("faster than its own limit") < 200);
+}
+
+TEST_CASE("a computer that stands still for 100 ms: the device's own watchdog ends the force") {
+  FakeRig rig;
+  rig.push_in();
+  const auto before = rig.time();
+  CrankedClock::stall(100 * ms);
+  rig.run(1);
+  const auto report = fake().state();
+  CHECK(report.last_force > before);
+  CHECK(report.last_force <= before + 12 * ms);  // the fake's watchdog, 10 ms, after the last command
+  check_without_force(report);
+  CHECK(rig.loop.latest().fault != Fault::none);
+  CHECK(rig.device->missed() > 100);
+  CHECK(rig.device->trouble().find("watchdog") < 200);
+}
+
+TEST_CASE("readings that are not new any more end the force after the loop's own limit") {
+  FakeRig rig;
+  rig.push_in();
+  fake().inject(fake_drd::freeze, rig.time());
+  rig.run(1);
+  const auto report = fake().state();
+  CHECK(report.last_force <= report.injected + static_cast<std::int64_t>(GateLimits{}.stale * 1e9) + 2 * ms);
+  check_without_force(report);
+  CHECK(rig.loop.latest().fault == Fault::stale_sample);
+}
+
+TEST_CASE("stop leaves zero force, force off, and the device closed; twice does no harm, and it can start again") {
+  FakeRig rig;
+  rig.push_in();
+  rig.stop();
+  const auto stopped = fake().state();
+  for (const double component : stopped.sent) CHECK(component == 0);
+  check_without_force(stopped);
+  CHECK(stopped.force_on == 0);
+  CHECK(stopped.open == 0);
+  CHECK(stopped.touched_safety == 0);
+  const auto ticks = rig.loop.report().ticks;
+  rig.stop();
+  rig.device->stop();
+  CHECK(fake().state().writes == stopped.writes);
+  CHECK(rig.loop.report().ticks == ticks);
+
+  rig.start();
+  rig.run(0.1);
+  CHECK(fake().state().force_on == 1);
+  CHECK(rig.loop.report().ticks > ticks + 100);
+}
+
+TEST_CASE("a device that is let go while it runs stops first") {
+  auto rig = std::make_unique<FakeRig>();
+  rig->push_in();
+  CHECK(fake().state().force[2] > 0.2);
+  CrankedClock::release();
+  rig.reset();
+  const auto left = fake().state();
+  for (const double component : left.sent) CHECK(component == 0);
+  CHECK(left.force_on == 0);
+  CHECK(left.open == 0);
+}
+
+TEST_CASE("why force was off some time before does not matter; that it does not come on does") {
+  auto settings = upright();
+  settings.old_force_off_cause = 4;
+  FakeRig rig(settings);
+  rig.push_in();
+  CHECK(rig.device->trouble() == "");
+  CHECK(fake().state().force[2] > 0.2);
+  rig.stop();
+
+  settings.starts_forces = 0;
+  FakeRig dark(settings);
+  dark.start();
+  dark.run(0.4);
+  CHECK(dark.device->trouble() == "");
+  dark.run(0.2);
+  CHECK(dark.loop.latest().fault == Fault::device);
+  CHECK(dark.device->trouble().find("has not switched its force on") < 100);
+}

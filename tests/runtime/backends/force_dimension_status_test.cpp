@@ -1,0 +1,159 @@
+// What the registry says of Force Dimension's devices, in each state that they can be in.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "fakes/drd/rig.hpp"
+#include "punctura_runtime/backends/force_dimension/library.hpp"
+#include "punctura_runtime/backends/registry.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+using State = BackendStatus::State;
+
+/// PUNCTURA_DRD_LIBRARY for the length of a test.
+class Override {
+ public:
+  explicit Override(const char* value) { set(value); }
+  ~Override() { set(nullptr); }
+  static void set(const char* value, const char* name = "PUNCTURA_DRD_LIBRARY") {
+#ifdef _WIN32
+    _putenv_s(name, value ? value : "");
+#else
+    value ? setenv(name, value, 1) : unsetenv(name);
+#endif
+  }
+};
+
+BackendStatus status() {
+  for (auto& one : enumerate_devices())
+    if (one.backend == "force_dimension") return one;
+  FAIL("the registry does not know of Force Dimension");
+  return {};
+}
+
+BackendStatus status_with(const fake_drd::Settings& settings) {
+  const Override library(PUNCTURA_FAKE_DRD);
+  fake().reset(&settings);
+  return status();
+}
+
+bool says(const BackendStatus& status, const std::string& words) {
+  return status.detail.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a library that is not there: where it was looked for, and what to do") {
+  const Override library("/nowhere/libdrd.so.3");
+  const auto missing = status();
+  CHECK(missing.state == State::library_not_found);
+  CHECK(says(missing, "/nowhere/libdrd.so.3"));
+  CHECK(says(missing, "PUNCTURA_DRD_LIBRARY"));
+}
+
+TEST_CASE("without an override the library is looked for in the SDK, then elsewhere, the robotics library first") {
+  Override::set("/opt/sdk-of-nobody", "FDSDK");
+  const auto names = force_dimension::candidates();
+  Override::set(nullptr, "FDSDK");
+  const auto first = [&](const char* what) {
+    return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.find(what) != std::string::npos; });
+  };
+  CHECK(first("drd") < first("dhd"));
+  CHECK(first("dhd") != names.end());
+}
+
+TEST_CASE("a library that lacks functions: which") {
+  const Override library(PUNCTURA_FAKE_DRD_OLD);
+  const auto old = status();
+  CHECK(old.state == State::symbol_missing);
+  CHECK(says(old, "dhdGetButtonMask, dhdSetForceAndTorqueAndGripperForce"));
+  CHECK(says(old, PUNCTURA_FAKE_DRD_OLD));
+  CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("dhdGetButtonMask"), DeviceError);
+}
+
+TEST_CASE("no device, one that somebody else has, one that needs calibration, and one that can be opened") {
+  fake_drd::Settings settings;
+  settings.devices = 0;
+  const auto none = status_with(settings);
+  CHECK(none.state == State::no_device);
+  CHECK(says(none, "udev"));
+
+  settings.devices = 1;
+  settings.in_use = 1;
+  const auto taken = status_with(settings);
+  CHECK(taken.state == State::in_use);
+  CHECK(says(taken, "Another program"));
+
+  settings.in_use = 0;
+  settings.calibrated = 0;
+  const auto lost = status_with(settings);
+  CHECK(lost.state == State::needs_calibration);
+  CHECK(says(lost, "calibration pit"));
+  CHECK(lost.devices == std::vector<std::string>{"omega.3 12345"});
+
+  settings.calibrated = 1;
+  const auto there = status_with(settings);
+  CHECK(there.state == State::available);
+  CHECK(there.devices == std::vector<std::string>{"omega.3 12345"});
+  CHECK(says(there, PUNCTURA_FAKE_DRD));
+  CHECK(fake().state().open == 0);
+  CHECK(fake().state().writes == 0);
+  CHECK(fake().state().force_on == 0);
+}
+
+TEST_CASE("a device that this program has open is told as that, and is not closed by the look") {
+  const Override library(PUNCTURA_FAKE_DRD);
+  fake_drd::Settings settings;
+  fake().reset(&settings);
+  const auto device = open_device("force_dimension", {2000, "omega.3 12345", ""});
+  CHECK(device->info().rate == 2000);
+  const auto taken = status();
+  CHECK(taken.state == State::in_use);
+  CHECK(says(taken, "This program"));
+  CHECK(fake().state().open == 1);
+  CHECK_THROWS_AS(open_device("force_dimension"), DeviceError);
+}
+
+TEST_CASE("a device is chosen by label, model or serial number; another name is told what there is") {
+  const Override library(PUNCTURA_FAKE_DRD);
+  fake_drd::Settings settings;
+  fake().reset(&settings);
+  for (const char* name : {"", "omega.3 12345", "omega.3", "12345"})
+    CHECK(open_device("force_dimension", {1600, name, ""})->info().serial == "12345");
+  CHECK_THROWS_WITH_AS(open_device("force_dimension", {1600, "sigma.7", ""}), doctest::Contains("omega.3 12345"),
+                       DeviceError);
+}
+
+TEST_CASE("a device without calibration is refused with what to do; it moves by itself only where that was asked for") {
+  fake_drd::Settings settings;
+  settings.calibrated = 0;
+  fake().reset(&settings);
+  force_dimension::Options options;
+  options.library = PUNCTURA_FAKE_DRD;
+  CHECK_THROWS_WITH_AS(force_dimension::ForceDimensionDevice{options}, doctest::Contains("calibration pit"),
+                       DeviceError);
+  CHECK(fake().state().calibrations == 0);
+  CHECK(fake().state().open == 0);
+
+  options.auto_init = true;
+  const force_dimension::ForceDimensionDevice device(options);
+  CHECK(fake().state().calibrations == 1);
+  CHECK(device.info().model == "omega.3");
+}
+
+TEST_CASE("the haptics library alone will do, but for a calibration by itself") {
+  FakeDrd dhd(PUNCTURA_FAKE_DHD);
+  fake_drd::Settings settings;
+  dhd.reset(&settings);
+  force_dimension::Options options;
+  options.library = PUNCTURA_FAKE_DHD;
+  CHECK(force_dimension::ForceDimensionDevice(options).info().model == "omega.3");
+  settings.calibrated = 0;
+  dhd.reset(&settings);
+  options.auto_init = true;
+  CHECK_THROWS_WITH_AS(force_dimension::ForceDimensionDevice{options}, doctest::Contains("libdrd"), DeviceError);
+}
