@@ -51,7 +51,7 @@ EXPORTED void dhdGetSDKVersion(int* major, int* minor, int* release, int* revisi
 EXPORTED int dhdGetDeviceCount() { return Locked()->settings.devices; }
 EXPORTED int dhdGetAvailableCount() {
   const Locked c;
-  return c->settings.in_use || c->is_open ? 0 : c->settings.devices;
+  return c->settings.in_use ? 0 : c->settings.devices - (c->is_open ? 1 : 0);
 }
 EXPORTED int dhdOpenID(char index) { return Locked()->open(index); }
 EXPORTED int dhdOpen() { return Locked()->open(0); }

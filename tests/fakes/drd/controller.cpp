@@ -7,7 +7,7 @@ namespace punctura::fake_drd {
 
 namespace {
 
-constexpr int in_no_use = 20, communication = 2, no_device = 5, timeout = 7, not_ready = 12, invalid = 21;
+constexpr int somebody_has_it = 20, communication = 2, no_device = 5, timeout = 7, not_ready = 12, invalid = 21;
 constexpr std::int64_t first_moment = 1'000'000'000;
 
 std::int64_t steady_ns() {
@@ -150,7 +150,7 @@ int Controller::open(int index) {
   catch_up();
   if (!plugged_) return fail(no_device);
   if (index < 0 || index >= settings.devices) return fail(no_device);
-  if (settings.in_use) return fail(in_no_use);
+  if (settings.in_use || index > 0) return fail(somebody_has_it);
   is_open = true;
   return id;
 }

@@ -27,8 +27,8 @@ enum Injected : int {
 
 /// What it is. Defaults: one omega.3, calibrated, free, that saturates at 12 N.
 struct Settings {
-  int devices = 1;
-  int in_use = 0;  ///< 1: somebody else has it
+  int devices = 1;  ///< those after the first are somebody else's
+  int in_use = 0;   ///< 1: the first is somebody else's, too
   int system_type = 33;
   int wrist = 0;
   int calibrated = 1;

@@ -118,6 +118,18 @@ TEST_CASE("a device that this program has open is told as that, and is not close
   CHECK_THROWS_AS(open_device("force_dimension"), DeviceError);
 }
 
+TEST_CASE("beside a device that this program has open another can be looked for, and the first stays open") {
+  const Override library(PUNCTURA_FAKE_DRD);
+  fake_drd::Settings settings;
+  settings.devices = 2;
+  fake().reset(&settings);
+  const auto device = open_device("force_dimension");
+  CHECK(status().state == State::in_use);
+  CHECK(fake().state().open == 1);
+  CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("open in this program"), DeviceError);
+  CHECK(fake().state().open == 1);
+}
+
 TEST_CASE("a device is chosen by label, model or serial number; another name is told what there is") {
   const Override library(PUNCTURA_FAKE_DRD);
   fake_drd::Settings settings;
