@@ -8,6 +8,7 @@ namespace punctura {
 namespace {
 
 const Backend* const table[] = {
+    &backends::openhaptics,
     &backends::force_dimension,
     &backends::haply,
     &backends::simulated,

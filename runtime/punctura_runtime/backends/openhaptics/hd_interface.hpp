@@ -1,0 +1,100 @@
+// The C interface of the HD library of OpenHaptics, as far as we call it: our own declarations and names. The numbers are facts of that
+// interface, known to hold for its versions 3.0 and 3.4. 64-bit only: there is one calling convention there.
+#pragma once
+
+#include <cstdint>
+
+namespace punctura::hd {
+
+using DeviceHandle = std::uint32_t;
+using OperationHandle = unsigned long;  // 8 bytes on 64-bit Linux and macOS, 4 on Windows: never keep it in fewer
+using Operation = std::uint32_t (*)(void*);
+
+inline constexpr DeviceHandle no_device = 0xFFFFFFFF;
+inline constexpr std::uint32_t done = 0, again = 1;       ///< what an operation returns
+inline constexpr std::uint16_t highest_priority = 65535;  ///< of operations within a scheduler tick
+
+/// Given back by value.
+struct ErrorInfo {
+  std::uint32_t code;
+  int internal;
+  DeviceHandle device;
+};
+static_assert(sizeof(ErrorInfo) == 12);
+
+enum Error : std::uint32_t {
+  success = 0x000,
+  invalid_enum = 0x100,
+  invalid_value = 0x101,
+  invalid_operation = 0x102,
+  invalid_input_type = 0x103,
+  bad_handle = 0x104,
+  warm_motors = 0x200,
+  exceeded_max_force = 0x201,
+  exceeded_max_force_impulse = 0x202,
+  exceeded_max_velocity = 0x203,
+  force_error = 0x204,
+  device_fault = 0x300,
+  device_already_initiated = 0x301,
+  comm_error = 0x302,
+  comm_config_error = 0x303,
+  timer_error = 0x304,
+  illegal_begin = 0x400,
+  illegal_end = 0x401,
+  frame_error = 0x402,
+  invalid_priority = 0x500,
+  scheduler_full = 0x501,
+  invalid_license = 0x600,
+};
+
+enum Quantity : std::uint32_t {
+  current_buttons = 0x2000,               ///< int, bits 0 to 3
+  current_position = 0x2050,              ///< 3 double, mm
+  current_transform = 0x2052,             ///< 16 double, by columns, translation in mm
+  model_type = 0x2501,                    ///< string
+  driver_version = 0x2502,                ///< string
+  vendor = 0x2503,                        ///< string
+  serial_number = 0x2504,                 ///< string
+  input_dof = 0x2553,                     ///< int
+  update_rate = 0x2600,                   ///< int, Hz
+  nominal_max_stiffness = 0x2602,         ///< double, N/mm
+  nominal_max_force = 0x2603,             ///< double, N
+  nominal_max_continuous_force = 0x2604,  ///< double, N
+  motor_temperature = 0x2605,             ///< up to 6 double, 0 to 1
+  current_force = 0x2700,                 ///< 3 double, N; inside a frame only
+};
+
+inline constexpr std::uint32_t force_output = 0x4000;
+
+enum Calibration : std::uint32_t {
+  calibration_ok = 0x5000,
+  calibration_needs_update = 0x5001,
+  calibration_needs_manual_input = 0x5002,
+};
+enum CalibrationStyle : std::uint32_t { encoder_reset = 1, automatic = 2, inkwell = 4 };
+
+/// The functions, found at run time.
+struct Interface {
+  DeviceHandle (*init_device)(const char* name);  ///< nullptr is the default device
+  void (*disable_device)(DeviceHandle);
+  void (*make_current_device)(DeviceHandle);
+  void (*begin_frame)(DeviceHandle);
+  void (*end_frame)(DeviceHandle);
+  ErrorInfo (*get_error)();
+  void (*enable)(std::uint32_t);
+  void (*disable)(std::uint32_t);
+  void (*get_integers)(std::uint32_t, int*);
+  void (*get_doubles)(std::uint32_t, double*);
+  void (*set_doubles)(std::uint32_t, const double*);
+  const char* (*get_string)(std::uint32_t);
+  std::uint32_t (*check_calibration)();
+  std::uint32_t (*check_calibration_style)();
+  void (*update_calibration)(std::uint32_t);
+  void (*start_scheduler)();
+  void (*stop_scheduler)();
+  void (*set_scheduler_rate)(unsigned long hz);
+  OperationHandle (*schedule)(Operation, void*, std::uint16_t priority);
+  void (*unschedule)(OperationHandle);
+};
+
+}  // namespace punctura::hd

@@ -1,0 +1,129 @@
+#include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
+
+namespace punctura::hd {
+
+namespace {
+
+using State = BackendStatus::State;
+
+/// What the scheduler's thread and the one that waits for it share.
+struct Counting {
+  const Session& session;
+  std::int64_t duration_ns;
+  std::int64_t (*now_ns)() noexcept;
+
+  std::int64_t first = 0, last = 0;
+  std::uint64_t ticks = 0;
+  std::uint32_t calibration = calibration_ok;
+  int renewals = 0;
+  ErrorInfo error{success, 0, no_device};
+  Warnings warnings{};
+  std::atomic<bool> over{false};
+
+  bool tick() noexcept {
+    const Interface& hd = session.hd();
+    last = now_ns();
+    if (ticks++ == 0) first = last;
+    hd.begin_frame(session.handle());
+    // A calibration may take a while to show: looked at now and then, and renewed a few times at most.
+    if (ticks % 32 == 1 && session.tells_calibration()) {
+      calibration = hd.check_calibration();
+      if (calibration == calibration_needs_update && renewals < 4) {
+        ++renewals;
+        hd.update_calibration(hd.check_calibration_style());
+      }
+    }
+    hd.end_frame(session.handle());  // no force was set in it: zero goes out
+    error = take_errors(hd, warnings);
+    return error.code == success && last - first < duration_ns;
+  }
+};
+
+std::uint32_t count_tick(void* counting) {
+  auto* c = static_cast<Counting*>(counting);
+  if (c->over.load(std::memory_order_relaxed)) return done;
+  if (c->tick()) return again;
+  c->over.store(true, std::memory_order_release);
+  return done;
+}
+
+std::string hertz(double rate) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g Hz", rate);
+  return text;
+}
+
+double run_once(std::unique_ptr<Counting>& counting, double patience) {
+  Counting& c = *counting;
+  const Interface& hd = c.session.hd();
+  const OperationHandle operation = hd.schedule(&count_tick, &c, highest_priority);
+  hd.start_scheduler();
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+  while (!c.over.load(std::memory_order_acquire) && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const bool over = c.over.exchange(true);
+  hd.stop_scheduler();
+  hd.unschedule(operation);
+  const ErrorInfo after = take_errors(hd);
+  if (!over) {
+    counting.release();  // should the scheduler wake up one day, it finds what it was given
+    const std::string why = after.code != success && after.code != bad_handle ? " " + describe(after) + "." : "";
+    throw Refused(State::fault, "The HD scheduler does not call: check the device's power and cable." + why);
+  }
+  if (c.error.code != success) throw Refused(State::fault, "The device does not run. " + describe(c.error) + ".");
+  return static_cast<double>(c.ticks - 1) * 1e9 / static_cast<double>(c.last - c.first);
+}
+
+/// Asks for the rate; where the library refuses it, 1000 Hz, the one that every device has.
+void set_rate(const Interface& hd, double wanted, Trial& trial) {
+  trial.set = static_cast<unsigned long>(std::lround(std::fmin(wanted, 1e5)));
+  hd.set_scheduler_rate(trial.set);
+  if (take_errors(hd).code == success) return trial.told.push_back("rate: asked for " + hertz(wanted));
+  trial.set = 1000;
+  hd.set_scheduler_rate(trial.set);
+  take_errors(hd);
+  trial.told.push_back("rate: asked for " + hertz(wanted) + ", refused by this device, so 1000 Hz instead");
+}
+
+}  // namespace
+
+void require_calibration(const Interface& hd, std::uint32_t status) {
+  if (status != calibration_needs_manual_input) return;
+  throw Refused(State::needs_calibration, "The device does not know where its stylus is: " +
+                                              how_to_calibrate(hd.check_calibration_style()) + ".");
+}
+
+Trial try_out(const Session& session, double wanted_rate, double duration, std::int64_t (*now_ns)() noexcept) {
+  const Interface& hd = session.hd();
+  Trial trial{};
+  set_rate(hd, wanted_rate, trial);
+  int said = 0;
+  hd.get_integers(update_rate, &said);
+  if (take_errors(hd).code != success) said = 0;
+
+  // Once more where the machine was busy just then: the rate stays for the whole run.
+  int renewals = 0;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    std::unique_ptr<Counting> counting(new Counting{session, static_cast<std::int64_t>(duration * 1e9), now_ns});
+    trial.rate = run_once(counting, duration + 2);
+    require_calibration(hd, counting->calibration);
+    renewals += counting->renewals;
+    if (said > 0 && std::abs(trial.rate - said) < 0.02 * said) break;
+  }
+  if (!(trial.rate >= 100))
+    throw Refused(State::fault, "The HD scheduler calls at " + hertz(trial.rate) + ": too slow for touch.");
+  trial.told.back() += "; the library says " + hertz(said) + ", measured " + hertz(trial.rate);
+  if (renewals > 0) trial.told.push_back("calibration: renewed by the library");
+  return trial;
+}
+
+}  // namespace punctura::hd

@@ -1,0 +1,63 @@
+#include "punctura_runtime/backends/openhaptics/hd_words.hpp"
+
+#include <cstdio>
+
+namespace punctura::hd {
+
+namespace {
+
+struct Words {
+  std::uint32_t code;
+  const char *name, *meaning;
+};
+
+constexpr Words all[] = {
+    {invalid_enum, "INVALID_ENUM",
+     "the library does not know what was asked of it: its version is not one that we know"},
+    {invalid_value, "INVALID_VALUE", "the library does not accept a value"},
+    {invalid_operation, "INVALID_OPERATION", "the library does not allow this now"},
+    {invalid_input_type, "INVALID_INPUT_TYPE", "the library keeps this quantity in another type"},
+    {bad_handle, "BAD_HANDLE", "the device is not open, or has gone: check its cable, power and driver"},
+    {warm_motors, "WARM_MOTORS", "the motors are warm: the device lowers its own force; let them cool"},
+    {exceeded_max_force, "EXCEEDED_MAX_FORCE", "more force than the device can give: it was cut by the device"},
+    {exceeded_max_force_impulse, "EXCEEDED_MAX_FORCE_IMPULSE",
+     "the force rose faster than the device allows: it was cut by the device"},
+    {exceeded_max_velocity, "EXCEEDED_MAX_VELOCITY",
+     "the stylus moved faster than the device allows: force was cut by the device"},
+    {force_error, "FORCE_ERROR", "the device did not accept a force"},
+    {device_fault, "DEVICE_FAULT", "the device reports a fault: check its power and cable, then open it again"},
+    {device_already_initiated, "DEVICE_ALREADY_INITIATED",
+     "the device is already open: end the other program that has it, the maker's diagnosis included, or this one if an earlier "
+     "attempt in it did not close the device"},
+    {comm_error, "COMM_ERROR", "the link to the device broke: check its cable and power, then open it again"},
+    {comm_config_error, "COMM_CONFIG_ERROR",
+     "the link to the device is not set up: run the maker's setup tool, and on Linux check that you may use the serial port"},
+    {timer_error, "TIMER_ERROR", "the library's clock does not keep up: close programs that keep the processor busy"},
+    {illegal_begin, "ILLEGAL_BEGIN", "a frame was begun where the library allows none"},
+    {illegal_end, "ILLEGAL_END", "a frame was ended that had not been begun"},
+    {frame_error, "FRAME_ERROR", "a value was set outside a frame"},
+    {invalid_priority, "INVALID_PRIORITY", "the scheduler refuses the priority"},
+    {scheduler_full, "SCHEDULER_FULL", "the scheduler takes no more work"},
+    {invalid_license, "INVALID_LICENSE",
+     "the maker's licence is missing or has run out: install the developer's licence of OpenHaptics, or ask the maker for one"},
+};
+
+}  // namespace
+
+std::string describe(const ErrorInfo& error) {
+  char number[64];
+  std::snprintf(number, sizeof number, " (0x%03x, internal %d)", error.code, error.internal);
+  for (const Words& words : all)
+    if (words.code == error.code) return words.name + std::string(number) + ": " + words.meaning;
+  return "error" + std::string(number) + ": not one that we know";
+}
+
+std::string how_to_calibrate(std::uint32_t styles) {
+  if (styles & inkwell) return "put the stylus into the inkwell, leave it there, and open the device again";
+  if (styles & encoder_reset)
+    return "hold the arm in the position that the maker calls the reset position, its links at right angles, and open the device "
+           "again";
+  return "move the stylus once through the whole workspace, or run the maker's calibration tool, and open the device again";
+}
+
+}  // namespace punctura::hd

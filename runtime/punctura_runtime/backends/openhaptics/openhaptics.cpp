@@ -1,0 +1,122 @@
+#include "punctura_runtime/backends/openhaptics/openhaptics.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+#include "punctura_runtime/backends/openhaptics/hd_library.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_words.hpp"
+
+namespace punctura {
+
+namespace {
+
+const hd::Interface& loaded(const std::string& library) {
+  const hd::Loaded result = hd::load(library);
+  if (!result.functions) throw hd::Refused(result.state, result.detail);
+  return *result.functions;
+}
+
+/// Waits for the scheduler's thread, on the wall's clock: a dead one must not hold us.
+template <typename Condition>
+bool soon(std::chrono::milliseconds patience, Condition&& condition) noexcept {
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  return true;
+}
+
+constexpr std::chrono::milliseconds first_call{1000}, last_call{250}, leaving{1000};
+
+}  // namespace
+
+OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
+    : options_(options),
+      session_(loaded(options.library), options.device, options.keep_device),
+      hd_(session_.hd()),
+      trial_(hd::try_out(session_, options.rate, options.trial, options.now_ns)),
+      info_(session_.info()) {
+  info_.rate = trial_.rate;
+  begin_ns_ = options.now_ns();
+  sample_.axis = {0, 0, -1};  // where there is no other: away from the user
+}
+
+void OpenHapticsDevice::start(Tick tick) {
+  const std::lock_guard lock(control_);
+  if (running_) return;
+  tick_ = tick;
+  stopping_ = ended_ = inside_ = false;
+  ticks_ = 0;
+  farewells_ = 0;
+  last_call_ = options_.now_ns();
+  ending_ = Ending::none;
+
+  hd_.make_current_device(session_.handle());
+  hd::take_errors(hd_);
+  hd_.enable(hd::force_output);
+  operation_ = hd_.schedule(&OpenHapticsDevice::call, this, hd::highest_priority);
+  hd_.set_scheduler_rate(trial_.set);  // should it have been forgotten since the trial
+  const hd::ErrorInfo refusal = hd::take_errors(hd_);
+  if (refusal.code == hd::success) {
+    hd_.start_scheduler();
+    running_ = true;
+    if (soon(first_call, [&] { return ticks_ != 0; })) return;
+  }
+  halt();
+  throw DeviceError(refusal.code == hd::success
+                        ? "The HD scheduler does not call: check the device's power and cable, then open it again."
+                        : "The device does not start. " + hd::describe(refusal) + ".");
+}
+
+void OpenHapticsDevice::stop() noexcept {
+  if (running_ && ticking_thread_.load() == std::this_thread::get_id() && inside_) {
+    stopping_ = true;  // by the tick itself: the rest is done when another thread stops
+    return;
+  }
+  const std::lock_guard lock(control_);
+  if (running_) halt();
+}
+
+/// Zero force goes out in a frame of the scheduler's own, its last one for us.
+void OpenHapticsDevice::halt() noexcept {
+  stopping_ = true;
+  soon(last_call, [&] { return ended_.load(); });
+  hd_.stop_scheduler();
+  hd_.unschedule(operation_);
+  soon(leaving, [&] { return !inside_; });
+  if (!ended_.exchange(true))
+    zero_frame();  // it had ceased to call; with it stopped, a frame of this thread's is allowed
+  hd_.disable(hd::force_output);
+  hd::take_errors(hd_, warnings_);
+  running_ = false;
+}
+
+std::string OpenHapticsDevice::trouble() const {
+  switch (ending_.load()) {
+    case Ending::none: break;
+    case Ending::error:
+      return "Ticks have ended. " + hd::describe({error_code_, error_internal_, session_.handle()}) + ".";
+    case Ending::calibration:
+      return "Ticks have ended: the device does not know any more where its stylus is. Stop, then calibrate and open it again.";
+  }
+  const double silent = static_cast<double>(options_.now_ns() - last_call_) * 1e-9;
+  if (!running_ || silent < 0.1) return {};
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "The HD scheduler has not called for %.1f s: switch the device off if it pulls, then stop.", silent);
+  return text;
+}
+
+std::vector<std::string> OpenHapticsDevice::statements() const {
+  std::vector<std::string> all{"device: opened as \"" + session_.name() + "\""};
+  all.insert(all.end(), trial_.told.begin(), trial_.told.end());
+  all.push_back("thread: the HD library's own, with the priority that the library gave it");
+  for (std::uint32_t i = 0; i < warnings_.counts.size(); ++i)
+    if (const auto count = warnings_.counts[i].load(); count > 0)
+      all.push_back("warned " + std::to_string(count) + " times: " + hd::describe({hd::warm_motors + i, 0, 0}));
+  all.push_back("this back-end: tested against simulated libraries only");
+  return all;
+}
+
+}  // namespace punctura
