@@ -20,7 +20,7 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
     """A recording as CSV, Parquet or MCAP, also one whose process was killed."""
-    from punctura.record.export import export
+    from punctura.record import export
 
     try:
         with progress_bar("export") as tell:

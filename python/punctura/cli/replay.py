@@ -24,7 +24,7 @@ def command(
 
     Status 0: all ticks are identical. 1: some are not, or could not be computed.
     """
-    from punctura.record.replay import replay
+    from punctura.record import replay
 
     with progress_bar("replay") as tell:
         result = replay(file, out, tell)

@@ -1,10 +1,10 @@
 """Recordings that lose nothing: made, read and run again (docs/recordings.md)."""
 
 from punctura.record.errors import RecordingError
-from punctura.record.export import ExportResult, export
 from punctura.record.recorder import Recorder
 from punctura.record.recording import Recording, open_recording
-from punctura.record.replay import ReplayResult, replay
+from punctura.record.run_again import ReplayResult, replay
+from punctura.record.save_as import ExportResult, export
 from punctura.record.status import RecorderStatus
 
 __all__ = [

@@ -106,11 +106,10 @@ def to_metadata(data: dict[str, Any], schema: pa.Schema) -> dict[bytes, bytes]:
 
 def from_metadata(schema: pa.Schema, path: Path) -> RecordingInfo:
     """Raises RecordingError where a file is no recording, or its description is damaged."""
-    metadata = schema.metadata or {}
-    text = metadata.get(KEY)
+    text = (schema.metadata or {}).get(KEY)
     if text is None:
         raise RecordingError(f"{path} is not a recording of Punctura")
-    if metadata.get(CHECK) != str(_check(text, schema)).encode():
+    if not is_sound(schema):
         raise RecordingError(f"{path} is damaged: the description of the run is not as it was written")
     data = json.loads(text)
     if data.get("format") != FORMAT:
@@ -121,6 +120,16 @@ def from_metadata(schema: pa.Schema, path: Path) -> RecordingInfo:
     return RecordingInfo(data, path)
 
 
+def is_sound(schema: pa.Schema) -> bool:
+    """Whether description and columns are as they were written."""
+    metadata = schema.metadata or {}
+    try:
+        return KEY in metadata and metadata.get(CHECK) == str(_check(metadata[KEY], schema)).encode()
+    except UnicodeDecodeError:  # a column's name
+        return False
+
+
 def _check(text: bytes, schema: pa.Schema) -> int:
-    columns = "\n".join(schema.names)
+    # Parquet has another name for what is in a list.
+    columns = "\n".join(f"{f.name} {f.type}".replace("<element:", "<item:") for f in schema)
     return zlib.crc32(columns.encode(), zlib.crc32(text))

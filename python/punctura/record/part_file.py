@@ -10,7 +10,7 @@ import pyarrow as pa
 from punctura.record.errors import RecordingError
 from punctura.record.header import from_metadata
 from punctura.record.schema import read_schema, worded
-from punctura.record.stream import BROKEN, Decoder
+from punctura.record.stream import BROKEN, END, Decoder
 from punctura.record.survey import Survey
 
 Progress = Callable[[float], None]
@@ -56,11 +56,16 @@ class PartFile:
         if not sound:
             raise RecordingError(f"{self.path} is damaged: its ticks are not in order")
 
+    def _ended(self) -> bool:
+        with self.path.open("rb") as file:
+            file.seek(max(0, self._size - len(END)))
+            return file.read(len(END)) == END
+
     def _note(self, decoder: Decoder) -> None:
         whole = f"whole up to tick {self.survey.last_tick}" if self.survey.rows else "without a tick"
         if decoder.broken:
             self.notes.append(f"the end of the file is cut off or damaged and was left out; the recording is {whole}")
-        elif not decoder.ended:
+        elif not self._ended():
             self.notes.append(f"the recording was not finished; it is {whole}")
         if decoder.damaged:
             self.notes.append(f"{decoder.damaged} damaged parts of the file were left out; their ticks are missing")

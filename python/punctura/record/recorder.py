@@ -52,11 +52,9 @@ class Recorder:
         self._header = describe_run(loop)
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
-        file = self._open()
+        self._file = self._open()
         self._listener = loop.listen(capacity or int(_RING_S * loop.scene.servo.rate))
         self._backlog = Backlog(_BACKLOG_BYTES)
-        self._writer = Writer(file, self._backlog, self._part)
-        self._file = file
         self._next_tick = int(loop.report()["ticks"])  # that none is missing before
         self._width = len(loop.scene.membranes)  # that the present stream has columns for
         self._carried: list[str] = []  # scenes taken in ticks that were lost
@@ -65,7 +63,8 @@ class Recorder:
         self._final: RecorderStatus | None = None
         self._stop = threading.Event()
         self._reader = threading.Thread(target=self._read, name="punctura-recorder-reader", daemon=True)
-        self._batch(self._listener.read(0))  # so that a file that is killed at once can be read, too
+        self._begin()
+        self._writer = Writer(self._file, self._backlog, self._part)
         self._reader.start()
 
     def exchange(self, scene: Scene) -> None:
@@ -127,6 +126,16 @@ class Recorder:
         except OSError as bad:
             raise RecordingError(f"{self._part} cannot be made: {bad.strerror}") from None
 
+    def _begin(self) -> None:
+        """Description and columns are on the disk before the first tick: a file that is killed at once opens, too."""
+        batch = self._batch(self._listener.read(0))
+        try:
+            self._file.write(self._encoder.begin(batch.schema))
+        except OSError as bad:
+            self._file.close()
+            self._part.unlink(missing_ok=True)
+            raise RecordingError(f"{self._part} cannot be written: {bad.strerror}") from None
+
     def _read(self) -> None:
         while not self._stop.wait(INTERVAL_S):
             self._empty_ring()
@@ -165,7 +174,7 @@ class Recorder:
         self._width = max(self._width, membrane_count(snapshots))
         gap = np.diff(snapshots["tick"].astype(np.int64), prepend=self._next_tick - 1) - 1
         batch = raw_batch(flatten(snapshots, self._width), gap.astype(np.uint32), scenes or [])
-        if self._encoder.schema is None or batch.schema.names != self._encoder.schema.names:
+        if self._encoder.schema is not None and batch.schema.names != self._encoder.schema.names:
             self._backlog.put(Piece(self._encoder.begin(batch.schema), 0, -1))
         return batch
 

@@ -13,9 +13,10 @@ import pyarrow as pa
 import pyarrow.ipc
 
 from punctura.record.collected import Collected
-from punctura.record.header import to_metadata
+from punctura.record.header import is_sound, to_metadata
 
 CHECK = b"crc32"
+END = b"\xff\xff\xff\xff\0\0\0\0"  # of a stream that was ended in order
 # What pyarrow raises for bytes that are no stream.
 BROKEN = (pa.ArrowException, OSError, ValueError, KeyError, MemoryError, OverflowError)
 
@@ -40,7 +41,7 @@ class Encoder:
             self._writer.close()
         self.schema = schema.with_metadata(to_metadata(self._header, schema))
         self._writer = pa.ipc.new_stream(self._out, self.schema)
-        return self._out.take()
+        return self.batch(pa.RecordBatch.from_pylist([], self.schema))  # without a batch, nothing would be written yet
 
     def batch(self, batch: pa.RecordBatch) -> bytes:
         assert self._writer is not None and self.schema is not None
@@ -63,20 +64,19 @@ class Decoder:
         self._file, self._size = file, size
         self.damaged = 0
         self.broken = ""
-        self.ended = False  # the last stream was ended in order
         self.schemas: list[pa.Schema] = []
 
     def __iter__(self) -> Iterator[pa.RecordBatch]:
         try:
             while self._file.tell() < self._size:
-                self.ended = False
                 yield from self._stream()
-                self.ended = True
         except BROKEN as bad:
             self.broken = str(bad).splitlines()[0] if str(bad) else type(bad).__name__
 
     def _stream(self) -> Iterator[pa.RecordBatch]:
         reader = pa.ipc.open_stream(self._file)
+        if self.schemas and not is_sound(reader.schema):
+            raise ValueError("the columns are not as they were written")
         self.schemas.append(reader.schema)
         while True:
             try:

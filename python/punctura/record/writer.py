@@ -11,6 +11,7 @@ from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog
 
 RETRY_S = 0.5
+LAST_TRIES_S = 2.0  # for a disk that fails when the recording is to be finished
 _MOST_NOTES = 100
 
 
@@ -41,18 +42,22 @@ class Writer:
             self.notes.append(text)
 
     def _run(self) -> None:
+        give_up: float | None = None
         while (piece := self._backlog.first()) is not None:
-            last_try = self._backlog.closing
             began = time.monotonic()
             try:
                 self._file.write(piece.data)
             except OSError as bad:
                 self._fail(bad, began)
-                if last_try:
-                    return
-                self._backlog.pause(RETRY_S)
+                if self._backlog.closing:
+                    give_up = give_up or began + LAST_TRIES_S
+                    if began >= give_up:
+                        return
+                    time.sleep(RETRY_S)
+                else:
+                    self._backlog.pause(RETRY_S)
                 continue
-            now = time.monotonic()
+            now, give_up = time.monotonic(), None
             self.slowest_s = max(self.slowest_s, now - began)
             self._backlog.done()
             self.rows += piece.rows

@@ -68,6 +68,8 @@ def replay(
                 output.write(worded(computed, recording.schema))
             if not result.complete:
                 break
+    if result.complete and recording.lost:
+        result.notes.append(f"{recording.lost} ticks are missing at the end of the recording")
     return result
 
 

@@ -1,0 +1,69 @@
+"""Runs of the simulated device, recorded."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from punctura import Scene, Strokes, load_scene
+from punctura._core import ForceLimits, GateLimits, Listener, ServoLoop, SimulatedDevice
+from punctura.record import Recorder
+
+STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
+
+
+class Run:
+    """A loop on a device without a clock, its recorder, and a second listener to compare with."""
+
+    def __init__(self, path: Path, ticks: int, scene: str | Scene, capacity: int | None, **more: Any) -> None:
+        self.path = path
+        self.ticks = ticks
+        self.device = SimulatedDevice(STROKES, real_time=False, ticks=ticks, **more.pop("device", {}))
+        gate, limits = more.pop("gate", GateLimits()), more.pop("limits", ForceLimits())
+        self.loop = ServoLoop(self.device, load_scene(scene) if isinstance(scene, str) else scene, gate, limits)
+        self.witness: Listener = self.loop.listen(ticks)
+        self.recorder = Recorder(self.loop, path, capacity or ticks)
+
+    def go(self) -> None:
+        """All ticks, armed."""
+        self.loop.arm()
+        total = self.loop.report()["ticks"] + self.ticks
+        self.loop.start()
+        self.wait(lambda: self.loop.report()["ticks"] == total)
+        self.loop.stop()
+
+    def overflow(self) -> Run:
+        """Ticks that find the ring full, and more when it is empty again: a gap in the middle, perhaps one at the end."""
+        self.go()
+        self.wait(lambda: self.recorder.status().rows > 0)
+        self.go()
+        self.recorder.finish()
+        return self
+
+    def record(self) -> Run:
+        self.go()
+        self.recorder.finish()
+        return self
+
+    @staticmethod
+    def wait(done: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + 120
+        while not done():
+            assert time.monotonic() < deadline, "waited in vain"
+            time.sleep(1e-3)
+
+
+Start = Callable[..., Run]
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Start:
+    """Makes a run that is ready to go."""
+
+    def make(ticks: int = 3000, scene: str | Scene = "k06-fig12", capacity: int | None = None, **more: Any) -> Run:
+        return Run(tmp_path / more.pop("name", "run.parquet"), ticks, scene, capacity, **more)
+
+    return make

@@ -1,0 +1,104 @@
+"""Recordings for other programs."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+import sys
+
+import pyarrow.parquet as pq
+import pytest
+from mcap.reader import make_reader
+from punctura import ConfigurationError, load_scene
+from punctura.cli import main
+from punctura.record import export, open_recording
+
+
+@pytest.fixture
+def killed(start, tmp_path):
+    """A recording as a killed process leaves it, with a scene that came before its first tick."""
+    run = start()
+    run.recorder.exchange(load_scene("k06-fig10"))
+    run.go()
+    run.wait(lambda: run.recorder.status().rows == run.ticks)
+    kept = tmp_path / "killed.part"
+    shutil.copy(run.recorder.status().file, kept)
+    run.recorder.finish()
+    return kept
+
+
+def test_csv_reads_back_as_the_very_same_numbers(killed, tmp_path):
+    result = export(killed, tmp_path / "out.csv")
+    table = open_recording(killed).table()
+    with (tmp_path / "out.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == result.ticks == 3000 and "new_scenes" not in rows[0]
+    for name in ("x_m", "fy_N", "depth_0_m", "proxy_0_y_m", "tip_y_m"):
+        assert [float(row[name]) for row in rows] == table[name].to_pylist()
+    assert [row["phase_0"] for row in rows] == table["phase_0"].to_pylist()
+    assert [int(row["tick"]) for row in rows] == list(range(3000))
+    assert any("no place for the scenes" in note for note in result.notes)
+
+
+def test_parquet_of_a_killed_recording_is_a_finished_one(killed, tmp_path):
+    export(killed, tmp_path / "out.parquet")
+    out = open_recording(tmp_path / "out.parquet")
+    assert out.finished and out.rows == 3000 and out.table().to_pydict() == open_recording(killed).table().to_pydict()
+    assert out.info.scene == load_scene("k06-fig12")
+    assert any("was not finished" in note for note in out.notes)
+    assert pq.read_table(tmp_path / "out.parquet")["phase_0"][0].as_py() == "outside"
+
+
+def test_mcap_holds_every_tick_as_json_and_every_scene(killed, tmp_path):
+    export(killed, tmp_path / "out.mcap")
+    rows = open_recording(killed).table().drop_columns(["new_scenes"]).to_pylist()
+    ticks, scenes, stamps = [], [], []
+    with (tmp_path / "out.mcap").open("rb") as file:
+        reader = make_reader(file)
+        for schema, channel, message in reader.iter_messages(log_time_order=False):
+            assert schema.encoding == "jsonschema" and channel.message_encoding == "json"
+            (ticks if channel.topic == "punctura/tick" else scenes).append(json.loads(message.data))
+            if channel.topic == "punctura/tick":
+                stamps.append(message.log_time)
+        (metadata,) = reader.iter_metadata()
+    assert ticks == rows
+    assert [scene["tick"] for scene in scenes] == [0, 0]
+    assert stamps[1600] - stamps[0] == pytest.approx(1e9, abs=300)
+    assert json.loads(metadata.metadata["json"])["device"]["backend"] == "simulated"
+
+
+def test_without_the_mcap_package_the_error_says_what_to_install(killed, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "mcap.writer", None)
+    with pytest.raises(SystemExit) as end:
+        main(["export", str(killed), "--out", str(tmp_path / "out.mcap")])
+    assert end.value.code == 1 and "pip install 'punctura[mcap]'" in capsys.readouterr().err
+    assert not (tmp_path / "out.mcap").exists()
+
+
+def test_the_command_tells_what_it_wrote(killed, tmp_path, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["export", str(killed), "--out", str(tmp_path / "out.csv"), "--json"])
+    said = capsys.readouterr()
+    assert end.value.code == 0 and json.loads(said.out)["ticks"] == 3000
+    assert "was not finished; it is whole up to tick 2999" in said.err
+
+
+def test_places_that_cannot_be_are_told_all_at_once(killed, tmp_path):
+    with pytest.raises(ConfigurationError) as told:
+        export(killed, tmp_path / "nowhere" / "out.txt")
+    assert len(told.value.problems) == 2
+    with pytest.raises(ConfigurationError, match="is the recording itself"):
+        shutil.copy(killed, tmp_path / "same.parquet")
+        export(tmp_path / "same.parquet", tmp_path / "same.parquet")
+
+
+def test_an_export_that_breaks_off_leaves_nothing(killed, tmp_path):
+    def stop(_share):
+        raise KeyboardInterrupt
+
+    before = sorted(p.name for p in tmp_path.iterdir())
+    for suffix in ("csv", "parquet", "mcap"):
+        with pytest.raises(KeyboardInterrupt):
+            export(killed, tmp_path / f"out.{suffix}", stop)
+    assert sorted(p.name for p in tmp_path.iterdir()) == before

@@ -1,0 +1,93 @@
+"""Finished, killed, cut off and damaged recordings."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from punctura import load_scene
+from punctura.record import RecordingError, open_recording
+
+TOOLS = Path(__file__).parents[3] / "tools"
+
+
+@pytest.fixture
+def growing(start, tmp_path):
+    """A recording of 3000 ticks as a killed process leaves it."""
+    run = start()
+    run.go()
+    run.wait(lambda: run.recorder.status().rows == run.ticks)
+    kept = tmp_path / "killed.part"
+    shutil.copy(run.recorder.status().file, kept)
+    run.recorder.finish()
+    return kept
+
+
+def test_a_killed_recording_has_what_the_finished_one_has(growing, tmp_path):
+    killed, finished = open_recording(growing), open_recording(tmp_path / "run.parquet")
+    assert killed.table().to_pydict() == finished.table().to_pydict()
+    assert killed.info.scene == finished.info.scene == load_scene("k06-fig12")
+    assert not killed.finished and finished.finished
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.2, 0.5, 0.9, 0.999])
+def test_a_file_that_is_cut_off_has_what_was_whole(growing, share):
+    data, all_ticks = growing.read_bytes(), open_recording(growing).rows
+    growing.write_bytes(data[: int(share * len(data))])
+    if share < 0.1:
+        with pytest.raises(RecordingError, match="not a recording of Punctura, or is damaged at its beginning"):
+            open_recording(growing)
+        return
+    recording = open_recording(growing)
+    assert recording.rows <= all_ticks and (recording.column("tick") == np.arange(recording.rows)).all()
+    assert len(recording.notes) == 1
+
+
+def test_a_flipped_bit_costs_its_batch_and_is_told(start, tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
+    run = start()
+    run.go()
+    run.wait(lambda: run.recorder.status().rows == run.ticks)
+    kept = tmp_path / "killed.part"
+    data = bytearray(run.recorder.status().file.read_bytes())
+    run.recorder.finish()
+    value = open_recording(run.path).table()["x_m"][1234].as_py()
+    data[data.index(np.float64(value).tobytes())] ^= 1
+    kept.write_bytes(data)
+    recording = open_recording(kept)
+    assert recording.lost == 500 and recording.rows == 2500
+    assert "1 damaged parts of the file were left out" in " ".join(recording.notes)
+    assert 1234 not in recording.column("tick")
+
+
+def test_other_files_are_told_from_recordings(tmp_path):
+    text = tmp_path / "notes.txt"
+    text.write_text("no recording")
+    for path, reason in [
+        (text, "not a recording"),
+        (tmp_path / "gone.parquet", "there is no such file"),
+        (tmp_path, "is a folder"),
+    ]:
+        with pytest.raises(RecordingError, match=reason):
+            open_recording(path)
+
+
+def test_a_column_that_is_not_there_is_told_with_those_that_are(start):
+    with pytest.raises(RecordingError, match=r"no column 'fx'; it has tick, time_s, x_m.*fx_N"):
+        open_recording(start().record().path).column("fx")
+
+
+def test_spoilt_files_crash_nothing_and_give_no_wrong_number():
+    done = subprocess.run(
+        [sys.executable, TOOLS / "fuzz_recordings.py", "--minutes", "0.05"], capture_output=True, text=True
+    )
+    assert done.returncode == 0 and "no wrong number" in done.stdout, done.stdout + done.stderr
+
+
+def test_killed_at_random_moments_every_file_opens_and_lacks_half_a_second_at_most():
+    done = subprocess.run([sys.executable, TOOLS / "soak_recorder.py", "--kills", "3"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -1,0 +1,165 @@
+"""A recording's forces come out again to the last bit."""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from punctura import load_scene
+from punctura._core import GateLimits
+from punctura.cli import main
+from punctura.record import RecordingError, open_recording, replay
+
+
+def test_a_minute_at_1600_hz_is_identical(start):
+    run = start(ticks=96_000).record()
+    assert run.recorder.status().lost == 0
+    result = replay(run.path)
+    assert (result.ticks, result.identical, result.complete, result.notes) == (96_000, True, True, [])
+    assert np.abs(open_recording(run.path).column("fy_N")).max() > 0.1
+
+
+def test_scenes_commands_and_faults_are_obeyed_again_at_their_ticks(start):
+    run = start(ticks=0, device={}, gate=GateLimits(position_jump=2e-3), capacity=1 << 16)
+    loop, recorder = run.loop, run.recorder
+    first, wider = load_scene("k06-fig12"), load_scene("epidural")
+    recorder.exchange(wider)  # before the first tick: taken by it
+    recorder.exchange(first)
+    loop.arm()
+    loop.start()
+
+    def tick_on(n):
+        from_here = loop.report()["ticks"]
+        run.wait(lambda: loop.report()["ticks"] > from_here + n)
+
+    tick_on(200)
+    recorder.exchange(wider)
+    tick_on(200)
+    loop.pause()
+    tick_on(100)
+    loop.reset()
+    tick_on(10)
+    loop.arm()
+    recorder.exchange(first)
+    tick_on(200)
+    loop.stop()
+    status = recorder.finish()
+    recording = open_recording(run.path)
+    commands = recording.column("commands")
+    assert status.lost == 0 and (commands & 8 != 0).sum() == 3 and np.bitwise_or.reduce(commands) == 15
+    scenes = [row for row in recording.table()["new_scenes"].to_pylist() if row]
+    assert [len(row) for row in scenes] == [2, 1, 1]
+    last = len(wider.membranes) - 1
+    assert recording.table()[f"phase_{last}"].null_count > 0
+    result = replay(run.path)
+    assert result.identical and result.complete and result.ticks == recording.rows
+
+
+def test_a_fault_and_what_follows_it_are_identical(start):
+    run = start(gate=GateLimits(position_jump=2e-5)).record()
+    assert len(open_recording(run.path).faults) == 1
+    assert replay(run.path).identical
+
+
+def test_a_killed_recording_can_be_run_again(start, tmp_path):
+    run = start()
+    run.go()
+    run.wait(lambda: run.recorder.status().rows == run.ticks)
+    shutil.copy(run.recorder.status().file, tmp_path / "killed.part")
+    run.recorder.finish()
+    result = replay(tmp_path / "killed.part")
+    assert result.identical and result.ticks == run.ticks
+
+
+def changed(path, column, tick, change):
+    """The recording with one number changed."""
+    table = pq.read_table(path)
+    values = table[column].to_pylist()
+    values[tick] = change(values[tick])
+    index = table.schema.get_field_index(column)
+    pq.write_table(table.set_column(index, table.field(column), pa.array(values, table.field(column).type)), path)
+    return path
+
+
+@pytest.mark.parametrize("column", ["fy_N", "depth_0_m", "ceiling_N"])
+def test_the_last_bit_of_one_number_is_found(start, column):
+    path = changed(start().record().path, column, 1234, lambda x: np.nextafter(x, 9.0))
+    result = replay(path)
+    assert not result.identical and result.first_difference["tick"] == 1234
+    assert result.first_difference["column"] == column
+
+
+def test_another_input_gives_another_force_from_its_tick_on(start):
+    path = changed(start().record().path, "y_m", 1000, lambda y: y + 1e-6)
+    assert replay(path).first_difference["tick"] == 1000
+
+
+def test_a_replay_ends_where_ticks_are_missing(start):
+    run = start(ticks=30_000, capacity=64).overflow()
+    result = replay(run.path)
+    assert result.identical and not result.complete and 0 < result.ticks < run.ticks
+    assert "are missing before tick" in result.notes[0]
+
+
+def test_ticks_that_are_missing_at_the_end_are_noted(start):
+    result = replay(start(ticks=30_000, capacity=64).record().path)
+    assert result.identical and "ticks are missing at the end" in result.notes[-1]
+
+
+def test_a_scene_that_came_past_the_recorder_is_told(start):
+    run = start()
+    run.loop.exchange(load_scene("k06-fig10"))
+    run.record()
+    result = replay(run.path)
+    assert not result.complete and "did not come through Recorder.exchange" in result.notes[0]
+
+
+def test_the_second_run_of_a_loop_begins_in_a_state_that_is_not_known(start, tmp_path):
+    from punctura.record import Recorder
+
+    run = start().record()
+    run.loop.start()
+    run.loop.stop()
+    with Recorder(run.loop, tmp_path / "second.parquet", 8192) as second:
+        run.loop.start()
+        run.wait(lambda: second.status().rows > 0)
+        run.loop.stop()
+    result = replay(tmp_path / "second.parquet")
+    assert second.status().lost == 0 and result.ticks == 0 and "the recording begins at tick" in result.notes[0]
+
+
+def test_another_build_is_noted(start, monkeypatch):
+    run = start().record()
+    monkeypatch.setattr("punctura.record.run_again.build_id", lambda: "punctura 9.9")
+    result = replay(run.path)
+    assert result.identical and not result.same_build and "another build" in result.notes[0]
+
+
+def test_a_file_without_the_inputs_is_refused(start):
+    path = start().record().path
+    pq.write_table(pq.read_table(path).drop_columns(["sequence"]), path)
+    with pytest.raises(RecordingError):
+        replay(path)
+
+
+def test_the_command_says_identical_and_writes_the_computed_ticks(start, tmp_path, capsys):
+    run = start().record()
+    with pytest.raises(SystemExit) as end:
+        main(["replay", str(run.path), "--out", str(tmp_path / "again.parquet")])
+    assert end.value.code == 0 and "3000 ticks, identical" in capsys.readouterr().out
+    again, first = open_recording(tmp_path / "again.parquet"), open_recording(run.path)
+    assert again.table().to_pydict() == first.table().to_pydict() and again.rows == 3000
+
+
+def test_the_command_says_what_differs(start, capsys):
+    path = changed(start().record().path, "fy_N", 7, lambda x: 1.0)
+    with pytest.raises(SystemExit) as end:
+        main(["replay", str(path)])
+    assert end.value.code == 1 and "differs first at tick 7: fy_N was 1.0" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        main(["replay", str(path), "--json"])
+    assert json.loads(capsys.readouterr().out)["first_difference"]["tick"] == 7
