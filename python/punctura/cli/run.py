@@ -12,7 +12,7 @@ import typer
 
 from punctura._core import DeviceError, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
-from punctura.live import Ended, RunSummary, fit_direction, load_placement, open_for, run_live
+from punctura.live import Ended, RunSummary, fit_conditioning, fit_direction, load_placement, open_for, run_live
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
@@ -34,6 +34,9 @@ def command(
         Path | None,
         typer.Option("--placement", help="Where the device stands: punctura place.", metavar="FILE.toml"),
     ] = None,
+    scene_filter: Annotated[
+        bool, typer.Option("--scene-filter", help="Filter positions as the scene says, not as the device needs.")
+    ] = False,
     record: Annotated[
         Path | None, typer.Option("--record", help="Every tick goes into this file.", metavar="FILE.parquet")
     ] = None,
@@ -52,7 +55,11 @@ def command(
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None
     fitted, note = fit_direction(loaded, opened)
-    if note:
+    notes = [note]
+    if not scene_filter:
+        fitted, note = fit_conditioning(fitted, opened)
+        notes.append(note)
+    for note in filter(None, notes):
         typer.echo(f"punctura: note: {note}", err=True)
     line = StatusLine()
 

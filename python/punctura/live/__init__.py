@@ -1,6 +1,6 @@
 """A scene on a device, now: what `punctura run` does, for programs."""
 
-from punctura.live.choose import fit_direction, open_for
+from punctura.live.choose import fit_conditioning, fit_direction, open_for
 from punctura.live.motion import strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.session import Ended, run_live
@@ -9,6 +9,7 @@ from punctura.live.summary import RunSummary
 __all__ = [
     "Ended",
     "RunSummary",
+    "fit_conditioning",
     "fit_direction",
     "load_placement",
     "open_for",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from punctura import Scene
 from punctura._core import Device, DeviceError, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
@@ -29,3 +31,15 @@ def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:
     if scene.direction == "motion" or device.info.has_orientation:
         return scene, ""
     return scene.replace(direction="motion"), "the device reports no orientation: the needle points where the tip moves"
+
+
+def fit_conditioning(scene: Scene, device: Device) -> tuple[Scene, str]:
+    """The scene with positions conditioned for the device's own encoders (docs/conditioning.md), and a note about that.
+
+    As it is for a device that does not say how far its encoders step.
+    """
+    step = device.info.encoder_step
+    if not math.isfinite(step):
+        return scene, ""
+    servo = scene.servo.replace(conditioning="line_fit", encoder_step=step)
+    return scene.replace(servo=servo), f"positions are conditioned for encoder steps of {step * 1e3:g} mm"

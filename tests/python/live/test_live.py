@@ -11,7 +11,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
-from punctura.live import RunSummary, fit_direction, run_live, strokes_through
+from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, strokes_through
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -147,7 +147,7 @@ def test_an_unknown_device_is_a_usage_error():
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
 def test_a_signal_ends_the_run_with_the_force_off(name):
     heed = lambda: [signal.signal(s, signal.SIG_DFL) for s in (signal.SIGINT, signal.SIGHUP)]  # noqa: E731
-    command = [sys.executable, "-m", "punctura.cli", "run", "--headless"]
+    command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--scene-filter"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed)
     assert process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated; Ctrl-C ends it\n"
     process.send_signal(getattr(signal, name))
@@ -163,6 +163,18 @@ def test_devices_tells_every_back_end_and_its_state():
     assert entries["simulated"]["state"] == "available"
     assert all(entry["state"] == "available" or entry["detail"] for entry in entries.values())
     assert "simulated" in punctura("devices").stdout
+
+
+def test_positions_are_conditioned_for_the_encoders_of_the_device():
+    scene, note = fit_conditioning(SCENE, simulated())
+    assert (scene.servo.conditioning, scene.servo.encoder_step) == ("line_fit", 0.055e-3)
+    assert "0.055 mm" in note
+
+    class Silent:
+        class info:
+            encoder_step = float("nan")
+
+    assert fit_conditioning(SCENE, Silent) == (SCENE, "")
 
 
 def test_a_device_without_orientation_takes_the_direction_from_motion():
