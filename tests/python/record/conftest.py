@@ -36,7 +36,7 @@ class Run:
         self.loop.stop()
 
     def overflow(self) -> Run:
-        """Ticks that find the ring full, and more when it is empty again: a gap in the middle, perhaps one at the end."""
+        """Ticks that find the ring full, and more when it is empty again: there is a gap in the middle."""
         self.go()
         self.wait(lambda: self.recorder.status().rows > 0)
         self.go()
