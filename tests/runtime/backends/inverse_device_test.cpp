@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "core/support/allocations.hpp"
 #include "core/support/paper_scene.hpp"
 #include "punctura/experiment/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -198,25 +197,6 @@ TEST_CASE("a tick of any kind gives the device no more than its limit, by norm, 
   CHECK(forces[0] == zero);
   CHECK(forces[1][0] == doctest::Approx(3));
   CHECK(forces[1][1] == doctest::Approx(4));
-}
-
-TEST_CASE("ticks take no memory") {
-  InverseFake fake;
-  fake.on_message = nullptr;
-  // The fake takes memory too, in the same process: so the device's path is counted with answers made beforehand.
-  inverse::State state;
-  std::array<char, 512> out{};
-  const std::string text =
-      R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":0.1,"y":-0.2,"z":3e-2}},"later":[[{"a":"b"}]]}]})";
-  const auto before = allocations();
-  bool good = true;
-  for (int i = 0; i < 100; ++i) {
-    good = good && inverse::read_state(text, state) && state.find("049D") != nullptr;
-    good = good && inverse::write_force("049D", inverse::ForceKey::vector, {0.1 * i, -1e-300, 1.0 / 3}, out) > 0;
-  }
-  const auto after = allocations();
-  CHECK(good);
-  CHECK(after == before);
 }
 
 namespace {

@@ -2,8 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <thread>
+
+#include "core/support/allocations.hpp"
+#include "punctura_runtime/backends/inverse/handshake.hpp"
 #include "punctura_runtime/backends/inverse/inverse_backend.hpp"
 #include "punctura_runtime/backends/inverse/inverse_device.hpp"
+#include "punctura_runtime/os/os.hpp"
 #include "runtime/support/inverse_fake.hpp"
 
 using namespace punctura;
@@ -150,4 +155,41 @@ TEST_CASE("each state of the back-end is told in words") {
   CHECK(status_at("ws://127.0.0.1:1").state == S::library_not_found);
   CHECK(status_at("ws://127.0.0.1:1").detail.find("ws://127.0.0.1:1") != std::string::npos);
   CHECK(status_at("here").state == S::fault);
+}
+
+TEST_CASE("an exchange with the service takes no memory") {
+  // This service has given all its answers beforehand, so that nothing in this process takes memory but the client.
+  os::Listener listener;
+  const auto soon = [] { return os::now_ns() + 20'000'000'000; };
+  constexpr int answers = 120;
+  std::thread server([&] {
+    listener.accept(soon());  // /version: gone at once
+    os::Socket client = listener.accept(soon());
+    std::string head(4096, '\0');
+    std::size_t n = 0;
+    client.receive(head.data(), head.size(), n, soon());
+    const std::string key = head.substr(head.find("Key: ") + 5, 24);
+    std::string out =
+        "HTTP/1.1 101 x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: " + accept_for(key) +
+        "\r\n\r\n";
+    const std::string state = R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":0.1,"y":-0.2,"z":3e-2},)"
+                              R"("current_cursor_force":{"x":0,"y":0,"z":0.001}}}]})";
+    for (int i = 0; i < answers; ++i)
+      out += std::string("\x89\x01?\x81\x7e\x00", 6) + static_cast<char>(state.size()) + state;
+    client.send(out.data(), out.size(), soon());
+    while (client.receive(head.data(), head.size(), n, soon()) == os::Io::done) {
+    }
+  });
+  Service service;
+  CHECK(service.connect(*parse_url("ws://127.0.0.1:" + std::to_string(listener.port()))) == "");
+  CHECK(service.begin("A") == "");
+  const auto before = allocations();
+  bool good = true;
+  for (int i = 0; i < 100; ++i)
+    good = good && service.exchange({0.1 * i, 1.0 / 3, -1e-300}, 10'000'000'000) == Received::message;
+  const auto after = allocations();
+  CHECK(good);
+  CHECK(after == before);
+  service.leave();
+  server.join();
 }

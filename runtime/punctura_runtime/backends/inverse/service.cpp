@@ -86,7 +86,8 @@ std::string Service::begin(std::string_view device) {
       return {};
     }
   }
-  const std::string form = count == 1 ? "\"" + std::string(name(key_)) + "\"" : "neither \"vector\" nor \"values\"";
+  std::string form = "neither \"vector\" nor \"values\"";
+  if (count == 1) form.assign("\"").append(name(key_)).append("\"");
   const std::string which = version_ ? "version " + version_->text() : "unknown version";
   return "it (" + which + ") did not take a force by " + form + ": current_cursor_force in its answers " +
          (state_.find(device_.view()) && state_.find(device_.view())->force ? "stayed 0" : "is missing") +
