@@ -8,7 +8,8 @@ using fake_hd::Fake;
 namespace {
 
 // Not all of them are used where functions are left out.
-[[maybe_unused]] constexpr std::uint32_t invalid_enum = 0x100, invalid_input_type = 0x103, bad_handle = 0x104, already_initiated = 0x301;
+[[maybe_unused]] constexpr std::uint32_t invalid_enum = 0x100, invalid_input_type = 0x103, bad_handle = 0x104,
+                                         already_initiated = 0x301;
 constexpr std::uint32_t no_device = 0xFFFFFFFF;
 
 Fake& fake() { return Fake::one(); }

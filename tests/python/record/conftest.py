@@ -36,11 +36,7 @@ class Run:
         self.loop.stop()
 
     def overflow(self) -> Run:
-<<<<<<< HEAD
         """Ticks that find the ring full, and more when it is empty again: there is a gap in the middle."""
-=======
-        """Ticks that find the ring full, and more when it is empty again: a gap in the middle, perhaps at the end."""
->>>>>>> f24d889 (A docstring fits the line)
         self.go()
         self.wait(lambda: self.recorder.status().rows > 0)
         self.go()

@@ -33,7 +33,9 @@ void until(const std::function<bool()>& done) {
 
 TEST_CASE("K06 Fig. 10 through the service is the offline experiment to the last bit, with both forms of the command") {
   const std::uint64_t ticks = 5000;
-  for (const auto& [version, key] : {std::pair{"3.5.2", "vector"}, {"3.4.9", "values"}, {"", "values"}}) {
+  const std::pair<const char*, const char*> generations[] = {{"3.5.2", "vector"}, {"3.4.9", "values"}, {"", "values"}};
+  for (const auto& generation : generations) {
+    const char *version = generation.first, *key = generation.second;
     CAPTURE(version);
     FakeSettings settings;
     settings.version = version;
@@ -85,7 +87,9 @@ TEST_CASE("after every mishap the plant's force is zero at once and stays so, an
       {Mishap::no_position, "reports no position"},
       {Mishap::no_power, "its power supply"},
   };
-  for (const auto& [mishap, words] : cases) {
+  for (const auto& mishap_and_words : cases) {
+    const Mishap mishap = mishap_and_words.first;
+    const char* words = mishap_and_words.second;
     CAPTURE(words);
     InverseFake fake;
     InverseOptions options = unhurried(fake);

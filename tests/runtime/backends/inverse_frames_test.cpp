@@ -35,7 +35,7 @@ std::string read(const std::string& bytes, std::size_t piece, std::size_t limit 
 
 std::string all_sizes(const std::string& bytes, std::size_t limit = 1000) {
   const std::string whole = read(bytes, 1 << 20, limit);
-  for (std::size_t piece : {1, 2, 3, 7}) CHECK(read(bytes, piece, limit) == whole);
+  for (std::size_t piece : {1u, 2u, 3u, 7u}) CHECK(read(bytes, piece, limit) == whole);
   return whole;
 }
 
