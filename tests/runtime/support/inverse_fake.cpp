@@ -144,9 +144,9 @@ void InverseFake::speak(os::Socket& client) {
     if (first != 0x81) break;
     on = answer(client, payload);
   }
-  left_ = true;
   // Nobody says anything any more: the device is idle.
   for (int i = 0; i < 100 && begun_; ++i) pass({0, 0, 0});
+  left_ = true;
 }
 
 bool InverseFake::answer(os::Socket& client, const std::string& message) {

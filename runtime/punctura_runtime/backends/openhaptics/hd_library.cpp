@@ -45,12 +45,11 @@ const std::vector<std::string> names{"libHD.so", "libHD.so.3.4", "libHD.so.3.0"}
 /// Version 3.4 for Linux uses functions of this one without naming it.
 void load_what_the_library_forgets() {
 #if !defined(_WIN32) && !defined(__APPLE__)
-  static const auto* io = [] {
+  static const os::Library io = [] {  // for the rest of the process
     std::vector<std::string> places;
     for (const auto& folder : folders()) places.push_back(folder + "libPhantomIOLib42.so");
-    return new os::Library(os::Library::open(places));  // for the rest of the process
+    return os::Library::open(places);
   }();
-  (void)io;
 #endif
 }
 
