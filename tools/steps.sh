@@ -31,6 +31,7 @@ run_steps() {
     if [ $code -eq 0 ]; then
       passed=$((passed + 1))
       printf 'passed %4d s   %s\n' $((SECONDS - start)) "$(closing_line "$log")"
+      sed -n 's/^note: /            /p' "$log"
     else
       failed="$failed $name" count=$((count + 1))
       printf 'FAILED %4d s   the end of %s:\n' $((SECONDS - start)) "$log"
@@ -111,7 +112,7 @@ step_python() {
       echo "Siconos has gone: apt-get install python3-siconos"
       return 1
     fi
-    echo "No archive of this system has python3-siconos: the comparison with Siconos is left out, that with SciPy is made."
+    echo "note: no archive of this system has python3-siconos: the comparison with Siconos is left out, that with SciPy is made."
     but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
   python -m pytest -n 2 ${but[@]+"${but[@]}"}
