@@ -9,7 +9,7 @@ import numpy as np
 import typer
 
 from punctura._core import DeviceError, ServoLoop
-from punctura.live import fit_direction, open_for, placement_from_pose, placement_text
+from punctura.live import fit_direction, open_for, placement_from_pose, placement_text, present_pose
 from punctura.scene import load_scene
 
 IN_FRONT = 20e-3  # m before the first membrane: where the hand is asked to hold the tip
@@ -42,12 +42,13 @@ def command(
             + ("" if note else ", pointing as it shall go straight in")
         )
         typer.prompt("then press Enter", default="", show_default=False, prompt_suffix=" ")
-        pose = loop.latest()
+        position, axis = present_pose(loop)
+    except DeviceError as error:
+        raise typer.BadParameter(str(error), param_hint="--device") from None
     finally:
         loop.stop()
-    axis = inward if note else pose["axis"][0]
     placement = placement_from_pose(
-        pose["position"][0], axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
+        position, inward if note else axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
     )
     out.write_text(placement_text(placement), encoding="utf-8")
     typer.echo(f"{out}: written. Try it: punctura run {scene} --headless --placement {out}")

@@ -3,6 +3,7 @@
 from punctura.live.choose import fit_conditioning, fit_direction, open_for
 from punctura.live.motion import strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
+from punctura.live.pose import present_pose
 from punctura.live.session import Ended, run_live
 from punctura.live.summary import RunSummary
 
@@ -15,6 +16,7 @@ __all__ = [
     "open_for",
     "placement_from_pose",
     "placement_text",
+    "present_pose",
     "run_live",
     "strokes_through",
 ]

@@ -6,8 +6,8 @@ import sys
 import numpy as np
 import punctura as pn
 import pytest
-from punctura._core import Placement, SimulatedDevice
-from punctura.live import load_placement, placement_from_pose, placement_text, run_live
+from punctura._core import DeviceError, Placement, SimulatedDevice
+from punctura.live import load_placement, placement_from_pose, placement_text, present_pose, run_live
 from punctura.live.placement import rotate, shortest_turn
 
 
@@ -72,6 +72,49 @@ def test_a_run_with_a_placement_meets_the_membrane_where_the_placement_puts_it()
 
     assert deepest(Placement()) > 5e-3
     assert deepest(Placement(offset=(0, 0.1, 0))) == 0
+
+
+class LoopWhoseTicksCome:
+    """A loop of which nothing is known before so many waits."""
+
+    def __init__(self, waits, axis=(0.0, -1.0, 0.0)):
+        self.waits = waits
+        self.axis = axis
+        self.device = self
+        self.info = self
+        self.has_orientation = True
+
+    def sleep(self, _seconds):
+        self.waits -= 1
+
+    def report(self):
+        return {"ticks": max(0, 1 - self.waits)}
+
+    def latest(self):
+        known = 1.0 if self.report()["ticks"] else 0.0
+        return {"position": np.array([[known, 2.0, 3.0]]), "axis": np.array([self.axis]) * known}
+
+    def trouble(self):
+        return "unplugged"
+
+
+def test_a_pose_is_read_only_once_a_tick_has_brought_one():
+    loop = LoopWhoseTicksCome(waits=7)
+    position, axis = present_pose(loop, sleep=loop.sleep)
+    assert position.tolist() == [1, 2, 3]
+    assert axis.tolist() == [0, -1, 0]
+
+
+def test_a_device_that_never_ticks_is_told_with_its_reason():
+    loop = LoopWhoseTicksCome(waits=10_000)
+    with pytest.raises(DeviceError, match="has not said in 5 s where it is; unplugged"):
+        present_pose(loop, sleep=loop.sleep)
+
+
+def test_a_device_that_points_nowhere_is_told():
+    loop = LoopWhoseTicksCome(waits=0, axis=(0.0, 0.0, 0.0))
+    with pytest.raises(DeviceError, match="no place at all"):
+        present_pose(loop, sleep=loop.sleep)
 
 
 def test_place_writes_what_run_takes(tmp_path):
