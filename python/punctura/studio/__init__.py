@@ -1,0 +1,1 @@
+"""The studio: a scene on a device, live in a page of the browser."""

@@ -1,0 +1,64 @@
+"""What messages in both directions are made of. SI, as in the core, unless a key ends in another unit."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+# JSON has no NaN and no infinity: numbers that may lack are left out or null.
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Vector = Annotated[list[Finite], Field(min_length=3, max_length=3)]
+Name = Annotated[str, Field(min_length=1, max_length=80)]
+Tables = dict[str, Any]  # a scene file's tables, with its keys and units: docs/scene-file.md
+
+
+class Part(BaseModel):
+    """Anything in a message: unknown keys and wrong types are errors."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class ProblemPart(Part):
+    """One thing wrong with a scene: where, and why. punctura.errors.Problem."""
+
+    path: str
+    value: str
+    reason: str
+
+
+class LawCurve(Part):
+    """Phi_I and Phi_O of one membrane along the depth: K06 (18), (19). Arrays of one length."""
+
+    name: str
+    obliquity: Finite  # rad, between the needle and the inward normal
+    tip_length: Finite  # m, of the slanted face along the needle: X
+    through: Finite  # m of depth from which the whole tip is behind the membrane: X + H / cos(obliquity)
+    depth: list[Finite]  # m
+    lower: list[Finite]  # N, Phi_I
+    upper: list[Finite]  # N, Phi_O
+
+
+class MembraneView(Part):
+    """One membrane as the page draws it, SI."""
+
+    name: str
+    point: Vector  # m
+    inward_normal: Vector  # of length 1
+    thickness: Finite  # m
+
+
+class SceneView(Part):
+    """A scene as the page draws it, SI; `tables` is the same scene as its file has it, for the editor."""
+
+    number: int  # of the scenes of this run, from 0
+    name: str
+    diameter: Finite  # m
+    tip_angle: Finite  # rad
+    direction: str
+    solver: str
+    rate: Finite  # Hz, the device's
+    membranes: list[MembraneView]
+    laws: list[LawCurve]
+    tables: Tables
+    lumen: list[int]  # the two membranes between which blood is; empty for none

@@ -1,0 +1,168 @@
+"""What the server says to its pages."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView
+from punctura.studio.wire.requests import Request, parse_request
+
+PROTOCOL = 1  # counts up when an old page could not read a new server
+
+
+class DevicePart(Part):
+    backend: str
+    model: str
+    simulated: bool  # the page may move its hand
+    has_orientation: bool
+    max_force: Finite | None  # N
+    rate: Finite  # Hz
+
+
+class Choice(Part):
+    """Something to pick from a list."""
+
+    name: str
+    title: str
+
+
+class Hello(Part):
+    """First on every connection."""
+
+    kind: Literal["hello"] = "hello"
+    protocol: int
+    version: str
+    viewer: int
+    device: DevicePart
+    scenes: list[Choice]
+    exercises: list[Choice]
+    notes: list[str]
+
+
+class SceneMessage(Part):
+    """After hello, and whenever the scene changes."""
+
+    kind: Literal["scene"] = "scene"
+    scene: SceneView
+    new_run: bool  # ticks begin at 0 again
+
+
+class LawsMessage(Part):
+    """The laws for another direction of the needle."""
+
+    kind: Literal["laws"] = "laws"
+    laws: list[LawCurve]
+
+
+class Control(Part):
+    kind: Literal["control"] = "control"
+    holder: int | None  # a viewer
+    you: bool
+
+
+class Spread(Part):
+    """A distribution of times, s."""
+
+    p50: Finite
+    p99: Finite
+    p99_9: Finite
+    largest: Finite
+    edges: list[Finite]  # s, of the bins; one more than counts
+    counts: list[int]
+
+
+class Status(Part):
+    """The loop's health, four times a second."""
+
+    kind: Literal["status"] = "status"
+    ticks: int
+    late: int
+    lost: int  # snapshots that never came to the pages
+    period: Spread
+    compute: Spread
+    viewers: int
+    dropped: int  # batches that this page was too slow for
+    armed: bool  # asked for; each tick says what is
+    hand: Literal["target", "strokes", "motion", "device"]
+    compare: bool
+    statements: list[str]
+
+
+class FaultMessage(Part):
+    """A latched fault; cleared when `reason` is empty."""
+
+    kind: Literal["fault"] = "fault"
+    fault: str
+    reason: str
+    trouble: str
+    tick: int | None
+    kept: int  # snapshots before it
+
+
+class MembraneEvent(Part):
+    """Something that happened at a membrane."""
+
+    kind: Literal["event"] = "event"
+    what: Literal["touch", "pop", "out"]  # the tip comes in; is through; has left it
+    membrane: int
+    name: str
+    tick: int
+    time: Finite  # s
+    depth: Finite  # m
+    force_before: Finite  # N, the largest resistance on the way to the pop
+    force_after: Finite  # N, of the shaft alone
+    drop: Finite  # N
+
+
+class RecordingStatus(Part):
+    kind: Literal["recording"] = "recording"
+    name: str  # empty: none is being made
+    rows: int
+    lost: int
+    seconds: Finite
+    trouble: str
+
+
+class ExerciseGoal(Part):
+    text: str
+    state: Literal["open", "met", "missed"]
+
+
+class ExerciseStatus(Part):
+    """How an exercise goes; `running` is false without one and after its end."""
+
+    kind: Literal["exercise"] = "exercise"
+    exercise: str
+    running: bool
+    instruction: str
+    goals: list[ExerciseGoal]
+    result: str  # the name under which the result is kept, once it is over
+
+
+class Reply(Part):
+    """To one request, by its id."""
+
+    kind: Literal["reply"] = "reply"
+    id: int
+    ok: bool
+    text: str = ""
+    problems: list[ProblemPart] = Field(default_factory=list)
+    data: dict[str, Any] = Field(default_factory=dict)
+
+
+class Notice(Part):
+    """A sentence for the person."""
+
+    kind: Literal["notice"] = "notice"
+    text: str
+
+
+Message = Annotated[
+    Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | RecordingStatus | ExerciseStatus
+    | Reply | Notice,
+    Field(discriminator="kind"),
+]  # fmt: skip
+
+__all__ = ["PROTOCOL", "Message", "Request", "parse_request"]

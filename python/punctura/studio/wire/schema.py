@@ -1,0 +1,43 @@
+"""The messages as JSON Schema, from which the page's types are made: python -m punctura.studio.wire.schema."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from pydantic import TypeAdapter
+
+from punctura.studio.wire.messages import Message
+from punctura.studio.wire.requests import Request, Target
+
+
+def wire_schema() -> dict[str, Any]:
+    """JSON Schema (2020-12) with a definition for every message and request; `kind` and `do` tell them apart."""
+    sent = TypeAdapter(Message).json_schema(mode="serialization", ref_template="#/$defs/{model}")
+    asked = TypeAdapter(Request | Target).json_schema(ref_template="#/$defs/{model}")
+    definitions = {**asked.pop("$defs"), **sent.pop("$defs")}
+    for definition in definitions.values():
+        for key, entry in definition.get("properties", {}).items():
+            entry.pop("title", None)  # it only repeats the key
+            if "const" in entry:  # what tells messages apart is always there
+                definition.setdefault("required", []).append(key)
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Wire",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["message", "request"],
+        "properties": {"message": {"title": "Message", **_union(sent)}, "request": {"title": "Request", **_union(asked)}},
+        "$defs": definitions,
+    }
+
+
+def _union(schema: dict[str, Any]) -> dict[str, Any]:
+    parts: list[dict[str, Any]] = []
+    for entry in schema.get("oneOf") or schema["anyOf"]:
+        parts += _union(entry)["oneOf"] if "$ref" not in entry else [entry]
+    return {"oneOf": parts}
+
+
+if __name__ == "__main__":
+    print(json.dumps(wire_schema(), indent=2))

@@ -1,0 +1,46 @@
+import { editorPanel } from "./controls/editor.ts";
+import { exercisesPanel } from "./controls/exercises.ts";
+import { faultBanner } from "./controls/fault_banner.ts";
+import { handPanel } from "./controls/hand.ts";
+import { headerBar } from "./controls/header.ts";
+import { healthPanel } from "./controls/health.ts";
+import { notices } from "./controls/notices.ts";
+import { phasesPanel } from "./controls/phases.ts";
+import { recordingsPanel } from "./controls/recordings.ts";
+import { tabs } from "./controls/tabs.ts";
+import { tour } from "./controls/tour.ts";
+import { element, type Panel } from "./panel.ts";
+import { forceDepthPlot } from "./plots/force_depth.ts";
+import { timePlots } from "./plots/time.ts";
+import { view } from "./scene/view.ts";
+import type { App } from "./state/app.ts";
+
+/** The page: header; the view and the phases to the left; plots in the middle; the tabs to the right. */
+export function layout(root: HTMLElement, app: App): void {
+  const place = (name: string, label: string, panel: Panel): HTMLElement => {
+    const host = element("section", { class: `panel ${name}`, "aria-label": label });
+    panel(host, app);
+    return host;
+  };
+  root.append(
+    place("header", "Run", headerBar),
+    place("fault", "Fault", faultBanner),
+    place("view", "The needle and the membranes", view),
+    place("phases", "Membranes", phasesPanel),
+    place("force-depth", "Force against depth", forceDepthPlot),
+    place("time-plots", "Force and depth against time", timePlots),
+    place(
+      "side",
+      "Controls",
+      tabs([
+        ["hand", "Hand", handPanel],
+        ["scene", "Scene", editorPanel],
+        ["recordings", "Recordings", recordingsPanel],
+        ["exercises", "Exercises", exercisesPanel],
+        ["health", "Loop", healthPanel],
+      ]),
+    ),
+    place("notices", "Messages", notices),
+  );
+  tour(root, app);
+}

@@ -1,0 +1,33 @@
+import type { App } from "./state/app.ts";
+
+/** A part of the page: fills `host`, and from then on follows the app. */
+export type Panel = (host: HTMLElement, app: App) => void;
+
+type Child = Node | string;
+type Attributes = Readonly<Record<string, string | number | boolean | ((event: Event) => void)>>;
+
+/** An element: `on…` attributes are listeners, true is an empty attribute, false none. Text is text, never markup. */
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") made.addEventListener(name.slice(2), value);
+    else if (value !== false) made.setAttribute(name, value === true ? "" : String(value));
+  }
+  made.append(...children);
+  return made;
+}
+
+/** Calls once an animation frame while the page is to be seen; what it returns ends that. */
+export function everyFrame(draw: (now: number) => void): () => void {
+  let handle = 0;
+  const step = (now: number): void => {
+    draw(now);
+    handle = requestAnimationFrame(step);
+  };
+  handle = requestAnimationFrame(step);
+  return () => cancelAnimationFrame(handle);
+}

@@ -1,0 +1,105 @@
+import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
+import type {
+  Control,
+  ExerciseStatus,
+  FaultMessage,
+  Hello,
+  Message,
+  RecordingStatus,
+  Status,
+} from "../wire/messages.ts";
+import type { TickBatch } from "../wire/ticks.ts";
+import { Signal } from "./signal.ts";
+import { Source } from "./source.ts";
+
+const LIVE_TICKS = 1 << 17; // 82 s at 1600 Hz
+
+/** All that the page knows. Panels read it, watch it, and ask through it. */
+export class App {
+  readonly connection = new Signal<Connection>({ state: "connecting", attempt: 1 });
+  readonly hello = new Signal<Hello | null>(null);
+  readonly control = new Signal<Control>({ kind: "control", holder: null, you: false });
+  readonly status = new Signal<Status | null>(null);
+  readonly fault = new Signal<FaultMessage | null>(null);
+  readonly recording = new Signal<RecordingStatus | null>(null);
+  readonly exercise = new Signal<ExerciseStatus | null>(null);
+  /** Sentences for the person, the last first. */
+  readonly notices = new Signal<readonly string[]>([]);
+  readonly live = new Source("live", true, LIVE_TICKS);
+  /** What the panels draw. */
+  readonly source = new Signal<Source>(this.live);
+  /** An earlier run laid over the plots. */
+  readonly overlay = new Signal<Source | null>(null);
+
+  constructor(readonly engine: Engine) {}
+
+  start(): void {
+    this.engine.start({
+      connection: (now) => {
+        this.connection.value = now;
+      },
+      message: (message) => this.take(message),
+      ticks: (batch) => this.takeTicks(batch),
+    });
+  }
+
+  /** Asks, and tells the person where it is refused. */
+  async ask(request: Ask): Promise<Reply | null> {
+    try {
+      const reply = await this.engine.ask(request);
+      if (!reply.ok && reply.problems?.length === 0) this.say(reply.text ?? "refused");
+      return reply;
+    } catch (error) {
+      this.say(error instanceof Error ? error.message : String(error));
+      return null;
+    }
+  }
+
+  say(text: string): void {
+    this.notices.value = [text, ...this.notices.value].slice(0, 50);
+  }
+
+  private takeTicks(batch: TickBatch): void {
+    this.live.history.push(batch);
+  }
+
+  private take(message: Exclude<Message, Reply>): void {
+    switch (message.kind) {
+      case "hello":
+        this.hello.value = message;
+        break;
+      case "scene":
+        if (message.new_run) {
+          this.live.history.clear(message.scene.membranes.length);
+          this.live.events.value = [];
+        }
+        this.live.scene.value = message.scene;
+        this.live.laws.value = message.scene.laws;
+        break;
+      case "laws":
+        this.live.laws.value = message.laws;
+        break;
+      case "control":
+        this.control.value = message;
+        break;
+      case "status":
+        this.status.value = message;
+        break;
+      case "fault":
+        this.fault.value = message.reason ? message : null;
+        break;
+      case "event":
+        this.live.events.value = [...this.live.events.value, message].slice(-500);
+        break;
+      case "recording":
+        this.recording.value = message.name ? message : null;
+        break;
+      case "exercise":
+        this.exercise.value = message;
+        break;
+      case "notice":
+        this.say(message.text);
+        break;
+    }
+  }
+}
