@@ -1,0 +1,27 @@
+"""Exercises: files that say what to do in a scene and by what it is judged, attempts, results (docs/exercises.md)."""
+
+from punctura.exercise.attempt import Attempt
+from punctura.exercise.exercise import Exercise
+from punctura.exercise.load import exercise_names, exercises, load_exercise
+from punctura.exercise.result import GoalState, Metrics, Overshoot, Result, Status
+from punctura.exercise.results import ResultsError, ResultStore, default_folder
+from punctura.exercise.schema import exercise_json_schema
+from punctura.exercise.score import score
+
+__all__ = [
+    "Attempt",
+    "Exercise",
+    "GoalState",
+    "Metrics",
+    "Overshoot",
+    "Result",
+    "ResultStore",
+    "ResultsError",
+    "Status",
+    "default_folder",
+    "exercise_json_schema",
+    "exercise_names",
+    "exercises",
+    "load_exercise",
+    "score",
+]

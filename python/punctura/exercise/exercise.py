@@ -1,0 +1,75 @@
+"""An exercise that was read and checked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from punctura import Scene
+from punctura.exercise.schema import AnyGoal, ExerciseFile
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """What `load_exercise` gives. SI."""
+
+    name: str  # the file's, without its ending
+    path: Path
+    file: ExerciseFile
+    scene: Scene  # as its file has it; a device may run it at another rate
+    scene_name: str  # a ready scene's name, or a path: load_scene takes it
+
+    @property
+    def title(self) -> str:
+        return self.file.title
+
+    @property
+    def description(self) -> str:
+        return self.file.description
+
+    @property
+    def instruction(self) -> str:
+        return self.file.instruction
+
+    @property
+    def goals(self) -> list[AnyGoal]:
+        return list(self.file.goal)
+
+    @property
+    def space(self) -> tuple[int, int]:
+        """The two membranes, by their place in the scene, between which the space is."""
+        return self.membrane(self.file.space.behind), self.membrane(self.file.space.in_front_of)
+
+    def membrane(self, name: str) -> int:
+        """A membrane's place in the scene."""
+        return [placed.name for placed in self.scene.membranes].index(name)
+
+    @property
+    def start_position(self) -> Triple:
+        """Where the tip waits, m."""
+        x, y, z = (v * 1e-3 for v in self.file.start.position_mm)
+        return x, y, z
+
+    @property
+    def start_axis(self) -> Triple:
+        """Where the needle points, of length 1: at `angle_deg` to the surface of the first membrane."""
+        return start_axis(self.scene, self.file.start.angle_deg, self.file.start.heading)
+
+
+def start_axis(scene: Scene, angle_deg: float, heading: list[float]) -> Triple:
+    """Raises ValueError where the heading has no direction along the surface, and the angle asks for one."""
+    normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
+    normal = normal / np.linalg.norm(normal)
+    angle = math.radians(angle_deg)
+    along = np.asarray(heading, dtype=np.float64)
+    along = along - (along @ normal) * normal
+    length = float(np.linalg.norm(along))
+    if length < 1e-9 and angle_deg < 90:
+        raise ValueError("must not be parallel to the first membrane's normal")
+    axis = normal * math.sin(angle) + (along / length * math.cos(angle) if angle_deg < 90 else 0)
+    return float(axis[0]), float(axis[1]), float(axis[2])

@@ -1,0 +1,76 @@
+"""What came out of an attempt at an exercise."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from punctura.events import Event
+
+FORMAT = 1
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class GoalState(_Part):
+    """A goal in words. At the end a limit that was kept is met; what was not decided is open."""
+
+    text: str
+    state: Literal["open", "met", "missed"]
+
+
+class Status(_Part):
+    """How an attempt stands."""
+
+    instruction: str  # what to do now
+    goals: list[GoalState]
+
+
+class Overshoot(_Part):
+    """How far the tip ran on behind a membrane in the 0.3 s after its pop."""
+
+    membrane: int
+    name: str
+    time: Finite  # s, of the pop
+    distance: Finite  # m along the needle
+
+
+class Metrics(_Part):
+    """Of the attempt up to its decision, SI. None: there was none."""
+
+    attempts: int  # entries into the first membrane
+    peak_force: Finite  # N, of the model, all membranes together
+    overshoot: list[Overshoot]
+    dwell: Finite  # s that the point was in the space, in all
+    longest_stay: Finite  # s, at a time
+    path_length: Finite | None  # m of the tip, from the last entry to the space, else to the deepest point
+    net_distance: Finite | None  # m, straight from the one to the other
+    straightness: Finite | None  # path_length / net_distance: 1 is straight
+    lateral_deviation: Finite | None  # m, the largest distance from the line of entry
+    entry_angle: Finite | None  # rad, between the needle and the first surface at the last entry
+    time_to_target: Finite | None  # s from the first touch to the first arrival in the space
+    total_time: Finite  # s from the first touch to the decision
+    lost_ticks: int  # that never came
+
+
+class Result(_Part):
+    """To be kept: punctura.exercise.results. `name` is under which it is kept, and empty before."""
+
+    format: int = FORMAT
+    name: str = ""
+    exercise: str
+    title: str
+    scene: str
+    person: str = ""
+    recording: str = ""
+    date: str  # ISO 8601, UTC
+    version: str  # of Punctura
+    passed: bool
+    reasons: list[str]  # sentences for the student
+    goals: list[GoalState]
+    metrics: Metrics
+    events: list[Event]

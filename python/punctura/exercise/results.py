@@ -1,0 +1,162 @@
+"""Results, kept as JSON files in one folder."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+import secrets
+import unicodedata
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from punctura.exercise.result import Result
+
+_NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
+_LARGEST = 20_000_000  # bytes; a result has some kilobytes
+
+# A row of the table: its column's name, and where it stands in a result. Units for people, as in `punctura simulate`.
+COLUMNS = (
+    "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "reasons", "attempts",
+    "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
+    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
+)  # fmt: skip
+
+
+class ResultsError(ValueError):
+    """A result that is not there or cannot be read, a name that is none."""
+
+
+def default_folder() -> Path:
+    """Where the operating system wants a person's data of this program."""
+    import platformdirs
+
+    return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "results"
+
+
+class ResultStore:
+    """A folder of results. Nothing is read or written outside it; what is in it and is no result is left alone."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        """The folder is made with the first result."""
+        self.folder = Path(folder)
+
+    def save(self, result: Result) -> Result:
+        """Keeps a result under a new name, and gives it with that name. Raises OSError."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        stem = "-".join(filter(None, (_slug(result.date[:19]), _slug(result.exercise)[:40], _slug(result.person)[:40])))
+        while True:
+            kept = result.model_copy(update={"name": f"{stem}-{secrets.token_hex(3)}"})
+            path = self._path(kept.name)
+            if not path.exists():
+                break
+        temporary = path.with_suffix(".part")
+        try:
+            temporary.write_text(kept.model_dump_json(indent=1), encoding="utf-8")
+            temporary.replace(path)
+        finally:
+            temporary.unlink(missing_ok=True)
+        return kept
+
+    def load(self, name: str) -> Result:
+        """Raises ResultsError."""
+        return self._read(self._path(name), name)
+
+    def all(self, person: str | None = None) -> list[Result]:
+        """All results, of one person or of all, the latest first; files that are no result are passed over."""
+        results = []
+        for path in self.folder.glob("*.json") if self.folder.is_dir() else ():
+            try:
+                result = self._read(path, path.stem)
+            except ResultsError:
+                continue
+            if person is None or result.person == person:
+                results.append(result)
+        return sorted(results, key=lambda result: (result.date, result.name), reverse=True)
+
+    def people(self) -> list[str]:
+        """Everybody who has a result, by name."""
+        return sorted({result.person for result in self.all()} - {""}, key=str.casefold)
+
+    def delete(self, name: str) -> None:
+        """Raises ResultsError."""
+        try:
+            self._path(name).unlink()
+        except FileNotFoundError:
+            raise ResultsError(f"there is no result {name!r}") from None
+
+    def _path(self, name: str) -> Path:
+        if not _NAME.fullmatch(name):
+            raise ResultsError(f"{name!r} is no name of a result")
+        return self.folder / f"{name}.json"
+
+    def _read(self, path: Path, name: str) -> Result:
+        try:
+            if path.is_symlink() or not path.is_file():
+                raise ResultsError(f"there is no result {name!r}")
+            if path.stat().st_size > _LARGEST:
+                raise ResultsError(f"{name}: is too large for a result")
+            result = Result.model_validate_json(path.read_bytes())
+        except (OSError, ValidationError) as bad:
+            raise ResultsError(f"{name} cannot be read as a result: {bad}") from None
+        return result.model_copy(update={"name": path.stem})
+
+
+def to_csv(results: Iterable[Result]) -> str:
+    """One row a result. A cell that a spreadsheet would take for a formula begins with an apostrophe."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    for result in results:
+        writer.writerow({name: _cell(value) for name, value in _row(result).items()})
+    return text.getvalue()
+
+
+def to_json(results: Iterable[Result]) -> str:
+    """All that is in them, as a list."""
+    return "[" + ",\n".join(result.model_dump_json(indent=1) for result in results) + "]\n"
+
+
+def _row(result: Result) -> dict[str, Any]:
+    m = result.metrics
+    largest = max((one.distance for one in m.overshoot), default=None)
+    row = {name: getattr(result, name) for name in COLUMNS[:9]}
+    return row | {
+        "reasons": " ".join(result.reasons),
+        "attempts": m.attempts,
+        "peak_force_N": m.peak_force,
+        "largest_overshoot_mm": _times(largest, 1e3),
+        "dwell_s": m.dwell,
+        "longest_stay_s": m.longest_stay,
+        "path_length_mm": _times(m.path_length, 1e3),
+        "net_distance_mm": _times(m.net_distance, 1e3),
+        "straightness": m.straightness,
+        "lateral_deviation_mm": _times(m.lateral_deviation, 1e3),
+        "entry_angle_deg": _times(m.entry_angle, 57.29577951308232),
+        "time_to_target_s": m.time_to_target,
+        "total_time_s": m.total_time,
+        "lost_ticks": m.lost_ticks,
+    }
+
+
+def _times(value: float | None, factor: float) -> float | None:
+    return None if value is None else value * factor
+
+
+def _cell(value: object) -> object:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
+        return "'" + value
+    return value
+
+
+def _slug(text: str) -> str:
+    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
+    return re.sub(r"[^a-z0-9]+", "-", plain).strip("-")

@@ -1,0 +1,113 @@
+"""The exercise file, described once (docs/exercises.md). A number's unit stands in its key."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Text = Annotated[str, Field(min_length=1, max_length=2000)]
+Word = Annotated[str, Field(min_length=1, max_length=200)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Above0 = Annotated[float, Field(allow_inf_nan=False, gt=0)]
+Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class Start(_Table):
+    """Where the needle waits, and where it points."""
+
+    position_mm: Vector
+    angle_deg: Annotated[float, Field(gt=10, le=90)] = 90.0  # between the needle and the first membrane's surface
+    heading: Vector = [1.0, 0.0, 0.0]  # where a slanted needle points, seen from in front of the surface
+
+
+class Space(_Table):
+    """The space to reach: behind one membrane, in front of another."""
+
+    name: Word  # as sentences have it: "the vein"
+    behind: Word  # names of membranes of the scene
+    in_front_of: Word
+    sign: Word | None = None  # by which one knows: "the flash-back"
+
+
+class _Goal(_Table):
+    text: Word | None = None  # in place of the sentence that is made from the goal
+
+
+class Reach(_Goal):
+    """The needle's point comes into the space; with whole_tip its slanted face, too."""
+
+    kind: Literal["reach"]
+    whole_tip: bool = False
+
+
+class Stay(_Goal):
+    """... and stays there."""
+
+    kind: Literal["stay"]
+    seconds: Above0
+    whole_tip: bool = False
+
+
+class NeverPass(_Goal):
+    """The point never comes out behind a membrane; with whole_tip: the slanted face."""
+
+    kind: Literal["never_pass"]
+    membrane: Word
+    whole_tip: bool = False
+
+
+class StopAfterPop(_Goal):
+    """After a pop the tip runs on by no more than this."""
+
+    kind: Literal["stop_after_pop"]
+    membrane: Word
+    within_mm: Above0
+    seconds: Above0 = 0.3  # after the pop
+
+
+class TimeLimit(_Goal):
+    """Everything is done in this time from the first touch on."""
+
+    kind: Literal["time_limit"]
+    seconds: Above0
+
+
+class PeakForce(_Goal):
+    """The model's force, all membranes together, stays below."""
+
+    kind: Literal["peak_force"]
+    at_most_N: Above0
+
+
+class Attempts(_Goal):
+    """The first membrane is entered no more often."""
+
+    kind: Literal["attempts"]
+    at_most: Annotated[int, Field(ge=1)]
+
+
+AnyGoal = Annotated[
+    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Attempts, Field(discriminator="kind")
+]
+
+
+class ExerciseFile(_Table):
+    """An exercise: a scene, what to do in it, and by what it is judged."""
+
+    title: Word
+    description: Text
+    instruction: Text
+    scene: Word  # a ready scene's name, or a scene file beside this one
+    start: Start
+    space: Space
+    goal: Annotated[list[AnyGoal], Field(min_length=1)]
+
+
+def exercise_json_schema() -> dict[str, Any]:
+    """JSON Schema of exercise files."""
+    return ExerciseFile.model_json_schema()

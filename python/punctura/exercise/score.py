@@ -1,0 +1,27 @@
+"""Judges a recording that exists."""
+
+from __future__ import annotations
+
+import os
+from datetime import datetime, timezone
+from pathlib import Path
+
+from punctura.events.recorded import recorded_ticks
+from punctura.exercise.attempt import Attempt
+from punctura.exercise.exercise import Exercise
+from punctura.exercise.load import load_exercise
+from punctura.exercise.result import Result
+from punctura.record import open_recording
+
+
+def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: str = "") -> Result:
+    """The result that the attempt had, or would have had, live. Raises RecordingError, ConfigurationError."""
+    opened = open_recording(recording)
+    wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
+    attempt = Attempt(wanted, opened.info.scene)
+    for columns, _ in recorded_ticks(opened):
+        attempt.add(columns)
+        if attempt.over:
+            break
+    date = datetime.fromtimestamp(opened.info.began_ns / 1e9, timezone.utc)
+    return attempt.finish(person, Path(recording).stem, date)

@@ -1,0 +1,119 @@
+"""Where the tip is among the membranes, tick by tick."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura import Scene, ThickLaw
+from punctura._core import Phase
+from punctura.events.crossing import STEEPEST
+
+Columns = dict[str, NDArray[Any]]
+Numbers = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_INSIDE = (Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value)
+_COMMAND_SCENE = 8
+
+
+@dataclass
+class Ticks:
+    """n ticks, m membranes. Depths are those of the model: a wall that gives way is not yet pierced."""
+
+    tick: NDArray[np.int64]
+    time: Numbers  # s
+    tip: Numbers  # (n, 3), m
+    held: Numbers  # (n, 3), the needle's direction: that held by the first membrane, else the stylus's
+    force: Numbers  # N, the norm of the model's force
+    fault: NDArray[np.int64]
+    new_scene: Flags
+    inside: Flags  # (n, m), held by the membrane: the model lets it in
+    depth: Numbers  # (n, m), of the point along the needle while inside, else along the normal, m
+    below: Numbers  # (n, m), of the point along the normal, m
+    run_on: Numbers  # (n, m), how far the slanted face is past the membrane along the needle, m; below 0 before that
+    point_behind: Flags  # (n, m), the point is out behind the membrane
+    tip_behind: Flags  # (n, m), the slanted face is, too
+    in_front: Flags  # (n, m), the point is in front of the membrane, or just at it
+
+    def __len__(self) -> int:
+        return len(self.tick)
+
+    def part(self, rows: slice) -> Ticks:
+        return Ticks(*(getattr(self, field.name)[rows] for field in fields(self)))
+
+
+class Geometry:
+    """A scene's membranes, for judging a tip."""
+
+    def __init__(self, scene: Scene) -> None:
+        normals = np.array([placed.inward_normal for placed in scene.membranes], dtype=np.float64)
+        self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        self.thickness = np.array([placed.membrane.thickness for placed in scene.membranes], dtype=np.float64)
+        self.tip_length = np.array([ThickLaw(scene.needle, placed.membrane).X for placed in scene.membranes])
+        self._period = 1 / scene.servo.rate
+
+    def ticks(self, columns: Columns, first: int = 0) -> Ticks:
+        """A batch of snapshots. first: the number of its first tick, where it does not tell."""
+        m = len(self.thickness)
+        depth = _wide(columns["depth"], m, np.nan)
+        n = len(depth)
+        finite = np.isfinite(depth)
+        inside = np.isin(_wide(columns["phase"], m, 255), _INSIDE) & finite
+        axis = _rows(columns.get("axis"), n)
+        cosine = self._cosine(columns, axis, inside)
+        below = np.where(inside, depth * cosine, depth)
+        tick = columns["tick"].astype(np.int64) if "tick" in columns else np.arange(first, first + n)
+        force = columns["model_force"] if "model_force" in columns else columns["force"]
+        zeros = np.zeros(n, dtype=np.int64)
+        time = np.asarray(columns["time"] if "time" in columns else tick * self._period, dtype=np.float64)
+        return Ticks(
+            tick=tick,
+            time=time,
+            tip=columns["tip"],
+            held=self._held(columns, axis, inside),
+            force=np.nan_to_num(np.linalg.norm(force, axis=1)),
+            fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
+            new_scene=(columns.get("commands", zeros).astype(np.int64) & _COMMAND_SCENE) != 0,
+            inside=inside,
+            depth=depth,
+            below=below,
+            run_on=np.where(inside, depth - self.tip_length - self.thickness / cosine, -np.inf),
+            point_behind=finite & (below > self.thickness),
+            tip_behind=finite & (below >= self.thickness + self.tip_length * cosine - 1e-12),
+            in_front=finite & (below <= 0),
+        )
+
+    def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:
+        held = axis
+        if "direction" in columns and columns["direction"].shape[1]:
+            b = columns["direction"][:, 0]
+            held = np.where(inside[:, :1] & np.isfinite(b).all(axis=1, keepdims=True), b, axis)
+        length = np.linalg.norm(held, axis=1, keepdims=True)
+        good = np.isfinite(length) & (length > 0)
+        return np.where(good, held / np.where(good, length, 1.0), self.normals[0])
+
+    def _cosine(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:
+        """n.b: by the direction held since entry; where the tip is not inside, by the stylus."""
+        cosine = axis @ self.normals.T
+        if "direction" in columns:
+            m = len(self.thickness)
+            held = np.einsum("nmk,mk->nm", _wide(columns["direction"], m, np.nan), self.normals)
+            cosine = np.where(inside & np.isfinite(held), held, cosine)
+        return np.clip(np.where(np.isfinite(cosine), cosine, 1.0), STEEPEST, 1.0)
+
+
+def _rows(column: NDArray[Any] | None, n: int) -> Numbers:
+    return np.full((n, 3), np.nan) if column is None else np.asarray(column, dtype=np.float64)
+
+
+def _wide(column: NDArray[Any], m: int, none: float) -> NDArray[Any]:
+    """For m membranes: more are left out, missing ones are none."""
+    has = column.shape[1]
+    if has >= m:
+        return column[:, :m]
+    shape = (column.shape[0], m - has, *column.shape[2:])
+    return np.concatenate([column, np.full(shape, none, dtype=column.dtype)], axis=1)
