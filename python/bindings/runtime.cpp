@@ -3,6 +3,8 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/variant.h>
 
+#include <limits>
+
 #include "bindings.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -110,6 +112,12 @@ void bind_runtime(nb::module_& m) {
             d.point(plain(unit(axis, "axis")), buttons);
           },
           nb::arg("axis"), nb::arg("buttons") = 0, "Where the stylus points, and the buttons that are held (bits).")
+      .def(
+          "trip",
+          [](SimulatedDevice& d) {
+            d.spoil([](DeviceSample& s) { s.position.fill(std::numeric_limits<double>::quiet_NaN()); });
+          },
+          "The next reading's position is no number: what an encoder that fails looks like to the loop.")
       .def_prop_ro("finished", &SimulatedDevice::finished, "All ticks asked for have been.")
       .def_prop_ro("missed", &SimulatedDevice::missed, "Ticks left out since their time had passed.")
       .def_prop_ro("last_force", &SimulatedDevice::last_force, "What the plant was given last, N.");

@@ -1,7 +1,7 @@
 """A scene on a device, now: what `punctura run` does, for programs."""
 
 from punctura.live.choose import fit_conditioning, fit_direction, open_for
-from punctura.live.motion import strokes_through
+from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
 from punctura.live.session import Ended, run_live
@@ -18,5 +18,6 @@ __all__ = [
     "placement_text",
     "present_pose",
     "run_live",
+    "stroke_ends",
     "strokes_through",
 ]

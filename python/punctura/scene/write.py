@@ -9,8 +9,10 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
+
 from punctura._core import Scene
-from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, ServoTable
+from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
 from punctura.scene.units import from_si, split_key
 
 _SKIPPED = ("gauge", "tip_angle_deg")  # the other ways to say what diameter_mm and tip_angle_rad say
@@ -26,6 +28,16 @@ def scene_text(scene: Scene) -> str:
     for placed in scene.membranes:
         values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable)
         lines += _table("[[membrane]]", MembraneTable, values)
+    return "\n".join(lines) + "\n"
+
+
+def file_text(file: SceneFile) -> str:
+    """TOML of a scene file's tables, each number as it was given, in its own key and unit."""
+    lines = [f"name = {_string(file.name)}"]
+    for head, table in (("[needle]", file.needle), ("[coupling]", file.coupling), ("[servo]", file.servo)):
+        lines += ["", head, *_given(table)]
+    for membrane in file.membrane:
+        lines += ["", "[[membrane]]", *_given(membrane)]
     return "\n".join(lines) + "\n"
 
 
@@ -61,6 +73,18 @@ def _value(value: Any, unit: Any) -> str:
     if isinstance(value, (float, int)):
         return _number(from_si(float(value), unit))
     return "[" + ", ".join(_value(float(v), unit) for v in value) + "]"
+
+
+def _given(table: BaseModel) -> list[str]:
+    return [f"{key} = {_as_given(value)}" for key, value in table if value is not None]
+
+
+def _as_given(value: Any) -> str:
+    if isinstance(value, str):
+        return _string(value)
+    if isinstance(value, tuple):
+        return "[" + ", ".join(_number(v) for v in value) + "]"
+    return str(value) if isinstance(value, int) else _number(value)
 
 
 def _number(value: Decimal) -> str:

@@ -45,9 +45,9 @@ class SimulatedDevice : public Device {
   bool finished() const noexcept { return finished_; }  ///< all ticks asked for have been
   std::uint64_t missed() const noexcept { return missed_; }
 
-  /// Test aids: the next reading is spoilt by this, once.
+  /// The next reading is spoilt by this, once: to try what a fault is like.
   void spoil(void (*how)(DeviceSample&)) noexcept { spoiler_.store(how); }
-  /// The force that the plant was given last, N.
+  /// Test aid: the force that the plant was given last, N.
   std::array<double, 3> last_force() noexcept { return last_force_.read(); }
 
  private:

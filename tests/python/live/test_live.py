@@ -131,10 +131,16 @@ def test_a_recording_that_cannot_be_written_is_told_before_anything_moves(tmp_pa
     assert "must end in .parquet" in done.stderr
 
 
-def test_without_headless_it_says_what_to_add():
-    done = punctura("run")
+def test_without_a_page_the_studio_says_how_to_build_it(tmp_path):
+    done = punctura("run", "--page", str(tmp_path))
+    assert done.returncode == 1
+    assert "npm run build" in done.stderr
+
+
+def test_what_needs_headless_says_so(tmp_path):
+    done = punctura("run", "--json")
     assert done.returncode == 2
-    assert "add --headless" in done.stderr
+    assert "needs --headless" in done.stderr
 
 
 def test_an_unknown_device_is_a_usage_error():

@@ -27,7 +27,10 @@ def wire_schema() -> dict[str, Any]:
         "type": "object",
         "additionalProperties": False,
         "required": ["message", "request"],
-        "properties": {"message": {"title": "Message", **_union(sent)}, "request": {"title": "Request", **_union(asked)}},
+        "properties": {
+            "message": {"title": "Message", **_union(sent)},
+            "request": {"title": "Request", **_union(asked)},
+        },
         "$defs": definitions,
     }
 

@@ -1,0 +1,104 @@
+"""The studio's addresses. What each gives: docs/studio.md."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.websockets import WebSocket
+
+from punctura.scene import scene_json_schema
+from punctura.studio.catalog import ready_scenes
+from punctura.studio.hub import Hub
+from punctura.studio.live import serve_viewer
+from punctura.studio.security import PROTOCOL, TOKEN_REFUSED, Guard, socket_token
+from punctura.studio.session import Session
+from punctura.studio.wire.messages import PROTOCOL as NUMBER
+from punctura.studio.wire.messages import DevicePart, Hello
+
+NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."
+
+
+class Studio:
+    """What the routes share."""
+
+    def __init__(self, session: Session, hub: Hub, page: Path, figures: Path | None = None) -> None:
+        self.session, self.hub, self.page, self.figures = session, hub, page, figures
+
+    def hello(self, viewer: int) -> Hello:
+        info = self.session.bench.device.info
+        return Hello(
+            protocol=NUMBER,
+            version=version("punctura"),
+            viewer=viewer,
+            device=DevicePart(
+                backend=info.backend,
+                model=info.model,
+                simulated=self.session.bench.simulated,
+                has_orientation=info.has_orientation,
+                max_force=info.max_force if math.isfinite(info.max_force) else None,
+                rate=info.rate,
+            ),
+            scenes=ready_scenes(),
+            exercises=[],
+            notes=self.session.run.notes,
+        )
+
+    async def index(self, request: Request) -> Response:
+        index = self.page / "index.html"
+        return FileResponse(index) if index.is_file() else PlainTextResponse(NO_PAGE + "\n", 503)
+
+    async def schema(self, request: Request) -> Response:
+        return JSONResponse(scene_json_schema())
+
+    async def scene(self, request: Request) -> Response:
+        text = self.session.run.loaded.text()
+        headers = {"content-disposition": 'attachment; filename="scene.toml"'}
+        return Response(text, media_type="application/toml; charset=utf-8", headers=headers)
+
+    async def socket(self, socket: WebSocket) -> None:
+        guard: Guard = socket.scope["punctura.guard"]
+        if PROTOCOL not in socket.scope.get("subprotocols", []):
+            await socket.close(1002, f"The socket speaks {PROTOCOL}.")
+            return
+        await socket.accept(PROTOCOL)
+        if not guard.is_token(socket_token(socket.scope)):
+            await socket.close(
+                TOKEN_REFUSED, "This is not the token of this run: open the address that the studio printed."
+            )
+            return
+        await serve_viewer(socket, self.hub, self.session, self.hello)
+
+    def routes(self) -> list[BaseRoute]:
+        routes: list[BaseRoute] = [
+            Route("/", self.index),
+            Route("/api/schema", self.schema),
+            Route("/api/scene.toml", self.scene),
+            WebSocketRoute("/ws", self.socket),
+        ]
+        if self.figures and self.figures.is_dir():
+            routes.append(Mount("/figures", StaticFiles(directory=self.figures, html=True)))
+        if self.page.is_dir():
+            routes.append(Mount("/", StaticFiles(directory=self.page)))
+        return routes
+
+
+def build_app(studio: Studio, port: int, token: str) -> Guard:
+    """The application, behind its guard."""
+
+    @asynccontextmanager
+    async def life(app: Any) -> AsyncIterator[None]:
+        studio.hub.attach(asyncio.get_running_loop())
+        yield
+
+    return Guard(Starlette(routes=studio.routes(), lifespan=life), port, token)

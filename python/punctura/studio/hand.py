@@ -1,0 +1,111 @@
+"""The simulated hand: a target from the page, strokes, or a recorded motion. Called by the worker's thread alone."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura import Scene
+from punctura._core import Device, SimulatedDevice
+from punctura.live import stroke_ends
+
+Mode = Literal["target", "strokes", "motion", "device"]
+Triple = tuple[float, float, float]
+Array = npt.NDArray[np.float64]
+
+SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the device's Target smooths them
+REST_SHARE = 0.15  # of a stroke's period, that the hand rests at each end
+FARTHEST = 0.5  # m from the origin: nothing at a desk is farther
+
+
+def resting_pose(scene: Scene) -> tuple[Triple, Triple]:
+    """Where a hand begins: in front of all membranes, pointing into the first. Position (m) and axis."""
+    inward = np.array(scene.membranes[0].inward_normal)
+    return stroke_ends(scene)[0], _triple(inward / np.linalg.norm(inward))
+
+
+class Hand:
+    """Moves a simulated device; of any other device it does nothing, and `mode` says so."""
+
+    def __init__(self) -> None:
+        self._device: SimulatedDevice | None = None
+        self.mode: Mode = "device"
+        self._axis: Triple = (0.0, -1.0, 0.0)
+        self._began = 0.0
+        self._next = math.inf
+        self._strokes: tuple[Array, Array, float] | None = None
+        self._motion: tuple[Array, Array, Array] | None = None  # time, position, axis
+
+    def take(self, device: Device, scene: Scene) -> None:
+        """A new run's device, at rest."""
+        self._device = device if isinstance(device, SimulatedDevice) else None
+        self.mode = "target" if self._device else "device"
+        self._axis = resting_pose(scene)[1]
+        self._next = math.inf
+
+    def target(self, position: list[float], axis: list[float], buttons: int = 0) -> None:
+        """Where the hand shall go, m, and point. Raises ValueError where that is no place or no direction."""
+        if self._device is None:
+            return
+        place, direction = np.array(position, float), np.array(axis, float)
+        length = float(np.linalg.norm(direction))
+        if not (np.isfinite(place).all() and float(np.linalg.norm(place)) <= FARTHEST and 1e-6 < length < 1e6):
+            raise ValueError("a target needs a position within half a metre and an axis of some length")
+        self.mode, self._next = "target", math.inf
+        self._go(place, direction / length, buttons)
+
+    def strokes(self, scene: Scene, period: float, now: float) -> None:
+        """To and fro through all membranes, along the first one's normal; period: s, in and out."""
+        start, end = stroke_ends(scene)
+        self._strokes = (np.array(start), np.array(end), period)
+        self._axis = resting_pose(scene)[1]
+        self.mode, self._began, self._next = "strokes", now, now
+
+    def motion(self, time: Array, position: Array, axis: Array, now: float) -> None:
+        """Follows samples: time (n,) from 0 on, s; position (n, 3), m; axis (n, 3)."""
+        self._motion = (time, position, axis)
+        self.mode, self._began, self._next = "motion", now, now
+
+    @property
+    def next_at(self) -> float:
+        """When `drive` is due, on the clock of its `now`; infinity while nothing is scripted."""
+        return self._next
+
+    def drive(self, now: float) -> None:
+        """Sets the target of a script, if one is due."""
+        if now < self._next or self._device is None:
+            return
+        self._next = now + SCRIPT_PERIOD_S
+        since = now - self._began
+        if self.mode == "strokes" and self._strokes:
+            start, end, period = self._strokes
+            self._go(start + _there_and_back(since / period) * (end - start), np.array(self._axis))
+        elif self.mode == "motion" and self._motion:
+            time, position, axis = self._motion
+            at = np.array([np.interp(since, time, position[:, i]) for i in range(3)])
+            way = np.array([np.interp(since, time, axis[:, i]) for i in range(3)])
+            length = float(np.linalg.norm(way))
+            self._go(at, way / length if length > 1e-6 else np.array(self._axis))
+            if since >= time[-1]:
+                self.mode, self._next = "target", math.inf
+
+    def _go(self, place: Array, direction: Array, buttons: int = 0) -> None:
+        assert self._device is not None
+        self._axis = _triple(direction)
+        self._device.move_to(_triple(place))
+        self._device.point(self._axis, buttons)
+
+
+def _there_and_back(turns: float) -> float:
+    """0 at rest, 1 at the end: minimum-jerk ways (Flash and Hogan 1985) with a rest at both ends; one turn a stroke."""
+    u = turns % 1.0
+    u = 2 * u if u < 0.5 else 2 - 2 * u
+    u = min(1.0, max(0.0, (u - REST_SHARE) / (1 - 2 * REST_SHARE)))
+    return u * u * u * (10 + u * (-15 + 6 * u))
+
+
+def _triple(v: Array) -> Triple:
+    return float(v[0]), float(v[1]), float(v[2])

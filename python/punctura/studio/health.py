@@ -1,0 +1,52 @@
+"""The loop's health in numbers for the page."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from punctura.studio.wire.messages import Spread, Status
+
+if TYPE_CHECKING:
+    from punctura.studio.session import Session
+
+
+def status_of(session: Session) -> Status:
+    """How the present run is doing; `viewers` and `dropped` are each page's own, and filled in for it."""
+    report = session.run.loop.report()
+    return Status(
+        ticks=report["ticks"],
+        late=report["late"],
+        lost=session.pump.lost,
+        period=spread(report["period"]),
+        compute=spread(report["compute"]),
+        viewers=0,
+        dropped=0,
+        armed=session.armed,
+        hand=session.hand.mode,
+        compare=session.compare,
+        statements=session.run.loop.device.statements(),
+    )
+
+
+def spread(times: dict[str, Any]) -> Spread:
+    """Quantiles, and the bins between the first and the last that hold anything."""
+    counts = np.asarray(times["counts"])
+    filled = np.flatnonzero(counts)
+    first, end = (int(filled[0]), int(filled[-1]) + 1) if len(filled) else (0, 0)
+    return Spread(
+        p50=times["p50"],
+        p99=times["p99"],
+        p99_9=times["p99_9"],
+        largest=times["largest"],
+        edges=[edge(i) for i in range(first, end + 1)],
+        counts=[int(c) for c in counts[first:end]],
+    )
+
+
+@cache
+def edge(bin: int) -> float:
+    """The shortest time in a bin, s: one bin for each ns below 8, then eight to an octave (loop/histogram.hpp)."""
+    return (bin if bin < 8 else (8 + (bin - 8) % 8) << ((bin - 8) // 8)) * 1e-9

@@ -1,0 +1,70 @@
+"""A scene together with the tables of its file: the page's editor shows the file, the loop runs the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from punctura import Scene
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.scene import scene_path
+from punctura.scene.build import build_scene
+from punctura.scene.check import check_tables
+from punctura.scene.parse import parse_toml, read_text
+from punctura.scene.schema import SceneFile
+from punctura.scene.write import file_text
+from punctura.studio.wire.common import ProblemPart
+
+# What a table could hold that Decimal, float and str cannot say is told by the schema; these are Python's own limits.
+_TOO_MUCH = (RecursionError, OverflowError)
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A sound scene file, and its scene in SI."""
+
+    file: SceneFile
+    scene: Scene
+
+    def tables(self) -> dict[str, Any]:
+        """As JSON has them, with the file's keys; defaults are filled in."""
+        return self.file.model_dump(mode="json", exclude_none=True)
+
+    def text(self) -> str:
+        """As a scene file."""
+        return file_text(self.file)
+
+
+def from_tables(tables: dict[str, Any], source: str = "") -> Loaded:
+    """Raises ConfigurationError with every problem, in the file's own keys."""
+    try:
+        file, problems = check_tables(tables)
+    except _TOO_MUCH:
+        raise ConfigurationError([Problem("", MISSING, "is no scene: it is nested too deeply")], source) from None
+    if file is None:
+        raise ConfigurationError(problems, source)
+    return Loaded(file, build_scene(file))
+
+
+def from_text(text: str, source: str = "the file") -> Loaded:
+    """From a scene file's text. Raises ConfigurationError."""
+    try:
+        tables = parse_toml(text, Path(source))
+    except _TOO_MUCH:
+        raise ConfigurationError([Problem("", MISSING, "is no scene: it is nested too deeply")], source) from None
+    return from_tables(tables, source)
+
+
+def from_name(path_or_name: str) -> Loaded:
+    """A ready scene or a file, as load_scene takes them. Raises ConfigurationError."""
+    path = scene_path(path_or_name)
+    return from_text(read_text(path), str(path))
+
+
+def problem_parts(error: ConfigurationError) -> list[ProblemPart]:
+    """What is wrong, for the page."""
+    return [
+        ProblemPart(path=p.path, value="" if p.value is MISSING else repr(p.value)[:200], reason=p.reason)
+        for p in error.problems
+    ]

@@ -1,0 +1,109 @@
+"""One run: a scene on a device from tick 0 on, with its ring of snapshots and, if wanted, its recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from punctura import Scene, Target
+from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop, SimulatedDevice
+from punctura.live import fit_conditioning, fit_direction, open_for
+from punctura.record import Recorder
+from punctura.studio.hand import resting_pose
+from punctura.studio.loaded import Loaded
+
+RING_S = 8.0  # s of snapshots that wait for a worker who is late
+# Nobody holds a simulated device: a computer that hangs for a moment is no reason to stop.
+SIMULATED_GATE = GateLimits(stale=1.0, deadline=1.0)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the command line has asked for. device: as `punctura devices` names it; empty is the best there is."""
+
+    device: str = ""
+    placement: Placement = Placement()
+    scene_filter: bool = False  # positions are filtered as the scene says, not as the device needs
+    limits: ForceLimits = ForceLimits()
+
+
+class Bench:
+    """The device that runs are made on. A simulated one is new with every run, a real one stays open."""
+
+    def __init__(self, settings: Settings, scene: Scene) -> None:
+        """Raises DeviceError."""
+        self.settings = settings
+        self._device = open_for(scene, settings.device)
+
+    @property
+    def simulated(self) -> bool:
+        return isinstance(self._device, SimulatedDevice)
+
+    @property
+    def device(self) -> Device:
+        return self._device
+
+    def fresh(self, scene: Scene) -> Device:
+        """For a new run."""
+        if self.simulated:
+            place, axis = resting_pose(scene)
+            self._device = SimulatedDevice(Target(place), rate=scene.servo.rate, axis=axis)
+        return self._device
+
+    def fit(self, scene: Scene) -> tuple[Scene, list[str]]:
+        """The scene as the device can run it, and what was done to it."""
+        fitted, note = fit_direction(scene, self._device)
+        notes = [note]
+        if not self.settings.scene_filter:
+            fitted, note = fit_conditioning(fitted, self._device)
+            notes.append(note)
+        return fitted, [n for n in notes if n]
+
+
+class Run:
+    """A loop that ticks from `start` to `stop`. Of one thread."""
+
+    def __init__(self, number: int, bench: Bench, loaded: Loaded, recording: Path | None = None) -> None:
+        """Raises ConfigurationError, DeviceError, RecordingError."""
+        self.number = number
+        self.loaded = loaded
+        self.scenes = 0  # that have been exchanged
+        self._bench = bench
+        device = bench.fresh(loaded.scene)
+        scene, self.notes = bench.fit(loaded.scene)
+        gate = SIMULATED_GATE if bench.simulated else GateLimits()
+        self.loop = ServoLoop(device, scene, gate, bench.settings.limits, bench.settings.placement)
+        self._listener = self.loop.listen(int(RING_S * device.info.rate))
+        self.recorder = Recorder(self.loop, recording) if recording else None
+
+    def start(self) -> None:
+        """Ticks come, and force once the tip is outside tissue."""
+        self.loop.arm()
+        self.loop.start()
+
+    def stop(self) -> None:
+        """Zero force, no tick any more; a recording's file is left to `finish`."""
+        self.loop.stop()
+
+    def exchange(self, loaded: Loaded) -> None:
+        """Another scene between two ticks. Raises ConfigurationError; then nothing has changed."""
+        scene, _ = self._bench.fit(loaded.scene)
+        take: Callable[[Scene], None] = self.recorder.exchange if self.recorder else self.loop.exchange
+        take(scene)
+        self.loaded = loaded
+        self.scenes += 1
+
+    def read(self) -> dict[str, Any]:
+        """All ticks since the last read, as columns."""
+        return self._listener.read()
+
+    @property
+    def lost(self) -> int:
+        """Snapshots that found no room in the ring."""
+        return int(self._listener.lost)
+
+    @property
+    def rate(self) -> float:
+        return float(self.loop.device.info.rate)

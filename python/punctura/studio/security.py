@@ -1,0 +1,182 @@
+"""Who may talk to the studio: this computer, from the studio's own page, with the token of this run.
+
+Pure ASGI, around everything else. Every refusal is a status and a sentence. What each check is for: docs/studio.md.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import secrets
+from collections.abc import Iterable
+from urllib.parse import parse_qs
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from punctura.studio.limits import HTTP_A_SECOND, HTTP_AT_ONCE, MOST_BODY, Bucket
+
+PROTOCOL = "punctura.v1"
+TOKEN_PROTOCOL = "token."
+TOKEN_REFUSED = 4401  # of a websocket, as its close code: a page can read that, but not a status
+FREE = ("/assets/", "/figures/")  # folders without a secret
+FREE_FILES = ("/icon.svg", "/favicon.ico")
+
+_COMMON = {
+    "cache-control": "no-store",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "x-frame-options": "DENY",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+}
+_PAGE_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; "
+    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+# The page of `punctura reproduce` carries its style and its drawings in itself, and no script.
+_FIGURES_POLICY = (
+    "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'"
+)
+
+
+class Refused(Exception):
+    """A request that is not let in."""
+
+    def __init__(self, status: int, sentence: str) -> None:
+        super().__init__(sentence)
+        self.status, self.sentence = status, sentence
+
+
+class TooLarge(Exception):
+    """A body that grew beyond its limit while it was read."""
+
+
+class Guard:
+    """ASGI middleware. port: the one that is served; token: of this run."""
+
+    def __init__(self, app: ASGIApp, port: int, token: str) -> None:
+        self._app, self._token = app, token
+        names = ["127.0.0.1", "localhost", "[::1]"]
+        self._hosts = {f"{name}:{port}" for name in names} | (set(names) if port == 80 else set())
+        self._bucket = Bucket(HTTP_A_SECOND, HTTP_AT_ONCE)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        headers = Headers(scope=scope)
+        try:
+            self._check(scope, headers)
+        except Refused as no:
+            await _refuse(scope, receive, send, no)
+            return
+        if scope["type"] == "websocket":
+            await self._app({**scope, "punctura.guard": self}, receive, send)
+            return
+        await self._serve(scope, receive, send)
+
+    def _check(self, scope: Scope, headers: Headers) -> None:
+        client = scope.get("client")
+        if not client or not _is_loopback(client[0]):
+            raise Refused(403, "The studio serves this computer only.")
+        if not self._bucket.take():
+            raise Refused(429, "Too many requests; wait a second.")
+        if len(headers.getlist("host")) != 1 or headers["host"].lower() not in self._hosts:
+            raise Refused(421, "The studio does not go by this name; use the address that it printed.")
+        origins = headers.getlist("origin")
+        own = f"http://{headers['host'].lower()}"
+        if any(origin.lower() != own for origin in origins) or len(origins) > 1:
+            raise Refused(403, "Only the studio's own page may ask.")
+        if scope["type"] == "websocket":
+            if not origins:
+                raise Refused(403, "A socket needs the studio's own page behind it.")
+            return  # its token is looked at where a page can be told (app.py)
+        if scope["method"] not in ("GET", "HEAD", "DELETE"):
+            raise Refused(405, "The studio knows GET, HEAD and DELETE.")
+        path = scope["path"]
+        if path.startswith(FREE) or path in FREE_FILES:
+            return
+        if not self.is_token(_tokens(scope, headers)):
+            raise Refused(401, "This needs the token of this run: open the address that the studio printed.")
+
+    def is_token(self, candidates: Iterable[str]) -> bool:
+        return any(secrets.compare_digest(c.encode(), self._token.encode()) for c in candidates)
+
+    async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        size = 0
+        begun = False
+
+        async def counted() -> Message:
+            nonlocal size
+            message = await receive()
+            size += len(message.get("body", b""))
+            if size > MOST_BODY:
+                raise TooLarge
+            return message
+
+        async def dressed(message: Message) -> None:
+            nonlocal begun
+            if message["type"] == "http.response.start":
+                begun = True
+                _dress(message, scope["path"])
+            await send(message)
+
+        try:
+            length = Headers(scope=scope).get("content-length", "0")
+            if not length.isdigit() or int(length[:20]) > MOST_BODY:
+                raise TooLarge
+            await self._app(scope, counted, dressed)
+        except TooLarge:
+            if not begun:
+                await _refuse(scope, receive, send, Refused(413, "The request is too large."))
+
+
+def socket_token(scope: Scope) -> list[str]:
+    """The tokens that a websocket's subprotocols carry."""
+    return [p.removeprefix(TOKEN_PROTOCOL) for p in scope.get("subprotocols", []) if p.startswith(TOKEN_PROTOCOL)]
+
+
+def _tokens(scope: Scope, headers: Headers) -> list[str]:
+    """From the header; or from the address, which a person opens and a download needs."""
+    found = []
+    scheme, _, value = headers.get("authorization", "").partition(" ")
+    if scheme.lower() == "bearer":
+        found.append(value.strip())
+    try:
+        query = parse_qs(scope.get("query_string", b"").decode("latin-1"), max_num_fields=20)
+    except ValueError:
+        query = {}
+    return found + query.get("token", [])
+
+
+def _is_loopback(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def _dress(message: Message, path: str) -> None:
+    headers = MutableHeaders(scope=message)
+    for name, value in _COMMON.items():
+        headers[name] = value
+    headers["content-security-policy"] = _FIGURES_POLICY if path.startswith("/figures/") else _PAGE_POLICY
+
+
+async def _refuse(scope: Scope, receive: Receive, send: Send, no: Refused) -> None:
+    body = (no.sentence + "\n").encode()
+    kind = "http.response"
+    if scope["type"] == "websocket":
+        if "websocket.http.response" not in scope.get("extensions", {}):
+            await send({"type": "websocket.close", "code": 1008, "reason": no.sentence})
+            return
+        kind = "websocket.http.response"
+    start: Message = {
+        "type": f"{kind}.start",
+        "status": no.status,
+        "headers": [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(body)).encode())],
+    }
+    _dress(start, "")
+    await send(start)
+    await send({"type": f"{kind}.body", "body": body})

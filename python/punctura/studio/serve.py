@@ -1,0 +1,155 @@
+"""Runs the studio: the worker, and the server on loopback, until a signal or the end of the time that was asked for."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import socket
+import sys
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvicorn
+
+from punctura.live.session import ends_on_signals
+from punctura.studio.app import NO_PAGE, Studio, build_app
+from punctura.studio.hub import Hub
+from punctura.studio.limits import MOST_SCENE_TEXT
+from punctura.studio.loaded import Loaded
+from punctura.studio.run import Settings
+from punctura.studio.session import Session
+
+PAGE = Path(__file__).parent / "page"
+TOKEN_VARIABLE = "PUNCTURA_STUDIO_TOKEN"
+POLL_S = 0.1
+
+
+class StudioError(OSError):
+    """The studio cannot be served; the text says what to do."""
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where the studio is. port: 0 is any that is free."""
+
+    port: int
+    token: str
+
+    @property
+    def url(self) -> str:
+        return f"http://127.0.0.1:{self.port}/?token={self.token}"
+
+
+class StudioServer:
+    """The studio in threads of its own, for the command line and for tests: `start`, `stop`."""
+
+    def __init__(self, loaded: Loaded, settings: Settings, port: int = 0, token: str = "", page: Path = PAGE) -> None:
+        """Raises StudioError where the port is taken, DeviceError where there is no device, ConfigurationError."""
+        self._socket = _listening(port)
+        try:
+            self.hub = Hub()
+            self.session = Session(loaded, settings, self.hub)
+        except BaseException:
+            self._socket.close()
+            raise
+        self.address = Address(self._socket.getsockname()[1], token or secrets.token_urlsafe(24))
+        self.studio = Studio(self.session, self.hub, page)
+        config = uvicorn.Config(
+            build_app(self.studio, self.address.port, self.address.token),
+            ws="websockets-sansio",
+            ws_max_size=MOST_SCENE_TEXT,
+            ws_per_message_deflate=False,
+            ws_ping_interval=None,
+            log_config=None,
+            access_log=False,
+            server_header=False,
+            proxy_headers=False,
+            timeout_graceful_shutdown=2,
+        )
+        self._server = uvicorn.Server(config)
+        self._thread = threading.Thread(
+            target=self._server.run, kwargs={"sockets": [self._socket]}, name="punctura-server", daemon=True
+        )
+
+    def start(self) -> None:
+        """Returns when the page can be asked for, and ticks come."""
+        self._thread.start()
+        while not self._server.started:
+            if not self._thread.is_alive():
+                raise StudioError("the server did not start")
+            time.sleep(0.01)
+        self.session.start()
+
+    @property
+    def running(self) -> bool:
+        return self._thread.is_alive() and self.session.running
+
+    def stop(self) -> None:
+        """The force first, then the pages."""
+        self.session.stop()
+        self._server.should_exit = True
+        if self._thread.is_alive():
+            self._thread.join()
+        self._socket.close()
+
+
+def run_studio(
+    make: Callable[[], StudioServer],
+    browser: bool = True,
+    duration: float | None = None,
+    tell: Callable[[str], None] = print,
+) -> None:
+    """Serves until a signal, which raises Ended after the force is off, or for `duration` (s). Raises StudioError."""
+    with ends_on_signals():
+        server = make()
+        try:
+            server.start()
+            tell(server.address.url)
+            if browser:
+                open_page(server.address.url)
+            began = time.monotonic()
+            while server.running and (duration is None or time.monotonic() - began < duration):
+                time.sleep(POLL_S)
+        finally:
+            server.stop()
+    if server.session.failure:
+        raise StudioError(f"the run has ended by a defect, please report it: {server.session.failure!r}")
+
+
+def need_page(page: Path) -> None:
+    """Raises StudioError where there is none."""
+    if not (page / "index.html").is_file():
+        raise StudioError(NO_PAGE)
+
+
+def token_from_environment() -> str:
+    """A token that was chosen beforehand, so that a page finds a studio again that was started anew; else empty."""
+    token = os.environ.get(TOKEN_VARIABLE, "")
+    if token and (len(token) < 16 or not token.replace("-", "").replace("_", "").isalnum()):
+        raise StudioError(f"{TOKEN_VARIABLE} must have 16 or more letters, digits, - or _")
+    return token
+
+
+def open_page(url: str) -> None:
+    """In a browser with a window, if there is one; a text browser would take the terminal."""
+    windows = sys.platform in ("win32", "darwin") or any(os.environ.get(v) for v in ("DISPLAY", "WAYLAND_DISPLAY"))
+    if windows:
+        webbrowser.open(url)
+
+
+def _listening(port: int) -> socket.socket:
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        if sys.platform != "win32":  # there it would let another program take the port, too
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.bind(("127.0.0.1", port))
+        listening.listen(128)
+    except (OSError, OverflowError) as error:
+        listening.close()
+        why = getattr(error, "strerror", None) or str(error)
+        raise StudioError(f"port {port} cannot be had ({why}); without --port a free one is taken") from None
+    return listening

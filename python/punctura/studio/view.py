@@ -1,0 +1,42 @@
+"""A scene as the page draws it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from punctura.studio.laws import law_curves, obliquities
+from punctura.studio.loaded import Loaded
+from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
+
+
+def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | None = None) -> SceneView:
+    """number: of the scenes of this run. rate: Hz, the device's. laws: without them, those of an upright needle."""
+    scene = loaded.scene
+    if laws is None:
+        laws = law_curves(scene, obliquities(scene, np.array(scene.membranes[0].inward_normal)))
+    return SceneView(
+        number=number,
+        name=scene.name,
+        diameter=scene.needle.diameter,
+        tip_angle=scene.needle.tip_angle,
+        direction=scene.direction,
+        solver=scene.servo.solver,
+        rate=rate,
+        membranes=[
+            MembraneView(
+                name=placed.name,
+                point=[float(x) for x in placed.point],
+                inward_normal=(np.array(placed.inward_normal) / np.linalg.norm(placed.inward_normal)).tolist(),
+                thickness=placed.membrane.thickness,
+            )
+            for placed in scene.membranes
+        ],
+        laws=laws,
+        tables=loaded.tables(),
+        lumen=lumen_of(loaded),
+    )
+
+
+def lumen_of(loaded: Loaded) -> list[int]:
+    """The two membranes between which blood is; none without."""
+    return []
