@@ -31,7 +31,8 @@ def obey(session: Session, request: Any) -> Reply:
 
 
 def _do(session: Session, request: Any) -> tuple[str, dict[str, Any]]:
-    text, data = "", {}
+    text = ""
+    data: dict[str, Any] = {}
     match request:
         case ask.Arm():
             session.arm()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -60,7 +61,7 @@ def _depths(breaks: list[float]) -> Vector:
     """Both sides of each break are there, so that a drop is drawn as one."""
     span = breaks[-1]
     parts = [np.array([-BEFORE * span, (1 + BEHIND) * span])]
-    for a, b in zip(breaks, breaks[1:], strict=False):
+    for a, b in itertools.pairwise(breaks):
         parts.append(np.linspace(a, b, POINTS))
     for b in breaks:
         parts.append(np.array([np.nextafter(b, -1.0), b, np.nextafter(b, 1.0)]))

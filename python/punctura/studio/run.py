@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,9 +24,9 @@ class Settings:
     """What the command line has asked for. device: as `punctura devices` names it; empty is the best there is."""
 
     device: str = ""
-    placement: Placement = Placement()
+    placement: Placement = field(default_factory=Placement)
     scene_filter: bool = False  # positions are filtered as the scene says, not as the device needs
-    limits: ForceLimits = ForceLimits()
+    limits: ForceLimits = field(default_factory=ForceLimits)
 
 
 class Bench:

@@ -83,7 +83,7 @@ class Session:
     # What follows belongs to the worker's thread.
 
     def begin(self, loaded: Loaded) -> None:
-        """A new run. Where it cannot be, the present one goes on, or as it was is begun again, and the error is raised."""
+        """A new run. Where it cannot be, the present scene is begun again, and the error raised."""
         self._end_run()
         try:
             self.run = Run(self.run.number + 1, self.bench, loaded)
@@ -153,9 +153,7 @@ class Session:
                 self.hand.drive(now)
                 if now >= pump_at:
                     self._guarded(self.pump.turn)
-                    pump_at = max(
-                        pump_at + PUMP_S, now
-                    )  # what was missed is not made up for: a turn takes all there is
+                    pump_at = max(pump_at + PUMP_S, now)  # a turn takes all there is
                 if now >= status_at:
                     status_at = now + STATUS_S
                     self._guarded(lambda: self.out.say(status_of(self)))

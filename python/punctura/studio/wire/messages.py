@@ -160,8 +160,8 @@ class Notice(Part):
 
 
 Message = Annotated[
-    Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | RecordingStatus | ExerciseStatus
-    | Reply | Notice,
+    Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | RecordingStatus
+    | ExerciseStatus | Reply | Notice,
     Field(discriminator="kind"),
 ]  # fmt: skip
 

@@ -118,8 +118,8 @@ class TripFault(_Request):
 
 
 Request = Annotated[
-    TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare | StartRecording
-    | StopRecording | StartExercise | EndExercise | TripFault,
+    TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
+    | StartRecording | StopRecording | StartExercise | EndExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
 
