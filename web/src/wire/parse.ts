@@ -1,0 +1,30 @@
+import type { Message } from "./messages.ts";
+
+const KINDS: Readonly<Record<Message["kind"], true>> = {
+  hello: true,
+  scene: true,
+  laws: true,
+  control: true,
+  status: true,
+  fault: true,
+  event: true,
+  recording: true,
+  exercise: true,
+  reply: true,
+  notice: true,
+};
+
+/** A message of the server's, or a sentence saying why it is none. The server holds the types; the page looks at the kind. */
+export function parseMessage(text: string): Message | string {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return "a message that is no JSON";
+  }
+  if (typeof value !== "object" || value === null || !("kind" in value)) return "a message without a kind";
+  if (typeof value.kind !== "string" || !Object.hasOwn(KINDS, value.kind)) {
+    return `a message of an unknown kind, ${JSON.stringify(value.kind)}`;
+  }
+  return value as Message;
+}
