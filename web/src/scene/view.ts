@@ -1,3 +1,92 @@
-import type { Panel } from "../panel.ts";
+import { viewKeys } from "../controls/hand_keys.ts";
+import { handOf } from "../controls/hand_model.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import type { SceneView } from "../wire/messages.ts";
+import { OrbitCamera, type Preset } from "./camera.ts";
+import { gestures } from "./gestures.ts";
+import { Labels } from "./labels.ts";
+import { needleGrip } from "./needle_grip.ts";
+import { presets } from "./presets.ts";
+import { scaleBar } from "./scale_bar.ts";
+import { spoken } from "./spoken.ts";
+import { Stage } from "./stage.ts";
+import { Theme } from "./theme.ts";
+import { followInWords } from "./words_only.ts";
+import { World } from "./world.ts";
 
-export const view: Panel = (_host, _app) => {};
+const GESTURES =
+  "Drag moves the needle. Right-drag, Shift-drag or two fingers go round. Wheel or arrow up and down: along the needle. Ctrl-wheel: zoom.";
+
+/** The needle and the membranes, in three dimensions. Draws only what has changed, at most once a frame. */
+export const view: Panel = (host, app) => {
+  const canvas = element("canvas", {
+    tabindex: 0, role: "application", "aria-label": "The needle and the membranes, in three dimensions",
+    "aria-describedby": "view-help",
+  }); // biome-ignore format: short
+  const help = element("p", { class: "view-help", id: "view-help" }, GESTURES);
+  host.append(canvas, help);
+  const theme = new Theme(host);
+  const orbit = new OrbitCamera();
+  const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });
+  host.append(trouble);
+  const tell = (words: string): void => {
+    trouble.textContent = words;
+    trouble.hidden = words === "";
+  };
+  let stage: Stage;
+  try {
+    stage = new Stage(
+      canvas,
+      host,
+      theme,
+      () => orbit.resize(host.clientWidth, host.clientHeight),
+      (gone) => tell(gone ? "The graphics card has gone; the picture comes back with it. The run goes on." : ""),
+    );
+  } catch {
+    canvas.hidden = true;
+    help.hidden = true;
+    tell(
+      "This browser gives the page no WebGL, so there is no picture here. Plots, phases and all controls work without it.",
+    );
+    const speak = spoken(host);
+    followInWords(app, speak);
+    return;
+  }
+  const labels = new Labels(host);
+  const world = new World(stage, labels, theme);
+  const hand = handOf(app);
+  const drawScale = scaleBar(host);
+  const speak = spoken(host);
+  const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
+  presets(host, look, (factor) => orbit.zoom(factor));
+  gestures(canvas, needleGrip(hand, orbit, world, stage));
+  viewKeys(canvas, hand, orbit);
+
+  let built: SceneView | null = null;
+  const build = (scene: SceneView): void => {
+    built = scene;
+    if (!world.build(scene) || !world.extent) return;
+    orbit.frame(world.extent.centre, world.extent.radius);
+    look("oblique");
+    orbit.settle();
+    stage.stale = true;
+  };
+
+  let before = performance.now();
+  everyFrame((now) => {
+    const elapsed = Math.min(100, now - before);
+    before = now;
+    const source = app.source.value;
+    const scene = source.scene.value;
+    if (!scene || stage.lost) return;
+    if (scene !== built) build(scene);
+    const turned = orbit.step(elapsed);
+    const changed = world.lay(source, hand.target.value, orbit.camera, elapsed);
+    if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
+    if (!turned && !changed && !stage.stale) return;
+    stage.draw(orbit.camera);
+    world.name(orbit.camera);
+    drawScale(orbit.mmPerPixel(world.moment.tip, stage.height));
+    speak(world.moment, scene, now);
+  });
+};

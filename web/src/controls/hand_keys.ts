@@ -1,0 +1,45 @@
+import type { OrbitCamera } from "../scene/camera.ts";
+import type { Hand } from "./hand_model.ts";
+import { scaled } from "./vectors.ts";
+
+const STEP = 0.25e-3; // m
+const LONG = 4;
+const TURN = Math.PI / 90;
+
+/** For the page's list of keys. */
+export const KEYS: readonly (readonly [keys: string, what: string])[] = [
+  ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
+  ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
+  ["Q E", "tilt by 2°"],
+  ["Home", "back in front of the first membrane"],
+  ["+ −", "nearer, farther"],
+  ["A D W S", "go round the scene"],
+];
+
+/** Keys while the view has the focus. */
+export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = STEP * (event.shiftKey ? LONG : 1);
+    const actions: Readonly<Record<string, () => void>> = {
+      ArrowDown: () => hand.push(step),
+      ArrowUp: () => hand.push(-step),
+      ArrowLeft: () => hand.moveBy(scaled(hand.side(), -step)),
+      ArrowRight: () => hand.moveBy(scaled(hand.side(), step)),
+      q: () => hand.setTilt(hand.tilt() - TURN),
+      e: () => hand.setTilt(hand.tilt() + TURN),
+      Home: () => hand.home(),
+      "+": () => orbit.zoom(1.15),
+      "=": () => orbit.zoom(1.15),
+      "-": () => orbit.zoom(1 / 1.15),
+      a: () => orbit.orbit(-12, 0),
+      d: () => orbit.orbit(12, 0),
+      w: () => orbit.orbit(0, 12),
+      s: () => orbit.orbit(0, -12),
+    };
+    const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+}

@@ -1,0 +1,133 @@
+import type { Triple } from "../engine/engine.ts";
+import type { App } from "../state/app.ts";
+import { Signal } from "../state/signal.ts";
+import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
+
+const FARTHEST = 0.25; // m from the scene's origin: nobody means more
+const STEEPEST = 1.3; // rad from the normal: the model takes no flatter entry than 80 degrees
+
+export interface Pose {
+  readonly position: Triple;
+  readonly axis: Triple;
+}
+
+/** The simulated hand, as the page moves it: where it shall go, m, and where the needle points. */
+export class Hand {
+  /** Where this page wants the hand; null while something else leads it. */
+  readonly target = new Signal<Pose | null>(null);
+  /** Why it cannot be moved from here, in words; null where it can. */
+  readonly barred = new Signal<string | null>("The studio is not connected yet.");
+
+  constructor(private readonly app: App) {
+    const look = (): void => {
+      this.barred.value = this.reason();
+      if (this.barred.value) this.target.value = null;
+    };
+    app.hello.watch(look);
+    app.control.watch(look);
+    app.connection.watch(look);
+    app.source.watch(look);
+    let run = -1;
+    app.live.scene.watch((scene) => {
+      // A new run begins where the server puts the hand, not where it was.
+      if (scene && scene.number === 0 && app.live.history.generation !== run) this.target.value = null;
+      run = app.live.history.generation;
+    });
+    app.status.watch((status) => {
+      if (status && (status.hand === "strokes" || status.hand === "motion") && !this.fresh) this.target.value = null;
+    });
+  }
+  private touched = Number.NEGATIVE_INFINITY;
+  /** A status that was on its way when the hand was taken must not take it back. */
+  private get fresh(): boolean {
+    return performance.now() - this.touched < 600;
+  }
+
+  private reason(): string | null {
+    const { connection, hello, control, source } = this.app;
+    if (connection.value.state !== "open" || !hello.value) return "The studio is not connected.";
+    if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
+    if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
+    if (!control.value.you) return "Another page has control.";
+    return null;
+  }
+
+  /** Where the hand is led to now, or else where the needle is. */
+  pose(): Pose | null {
+    if (this.target.value) return this.target.value;
+    const { history } = this.app.live;
+    if (history.length === 0) return null;
+    const tick = history.end - 1;
+    const [x = 0, y = 0, z = 0] = history.row("position", tick);
+    const axis = history.row("axis", tick);
+    return { position: [x, y, z], axis: unit([axis[0] ?? 0, axis[1] ?? -1, axis[2] ?? 0]) };
+  }
+
+  moveTo(position: Triple, axis?: Triple): void {
+    const now = this.pose();
+    if (this.barred.value || !now || !position.every(Number.isFinite)) return;
+    const away = length(position);
+    const to: Pose = {
+      position: away > FARTHEST ? scaled(position, FARTHEST / away) : position,
+      axis: axis ?? now.axis,
+    };
+    this.touched = performance.now();
+    this.target.value = to;
+    this.app.engine.target(to.position, to.axis);
+  }
+
+  /** Along the needle, m; positive goes in. */
+  push(depth: number): void {
+    const now = this.pose();
+    if (now) this.moveTo(add(now.position, scaled(now.axis, depth)));
+  }
+
+  moveBy(step: Triple): void {
+    const now = this.pose();
+    if (now) this.moveTo(add(now.position, step));
+  }
+
+  /** rad between the needle and the first membrane's inward normal, leaning along +x. */
+  tilt(): number {
+    const now = this.pose();
+    return now ? tiltOf(now.axis, this.normal()) : 0;
+  }
+  setTilt(angle: number): void {
+    const now = this.pose();
+    if (now) this.moveTo(now.position, tilted(Math.max(-STEEPEST, Math.min(STEEPEST, angle)), this.normal()));
+  }
+
+  /** Back to in front of the first membrane, m away from it. */
+  home(distance = 0.01): void {
+    const now = this.pose();
+    const first = this.app.live.scene.value?.membranes[0];
+    if (now && first) this.moveTo(add(first.point, scaled(now.axis, -distance)));
+  }
+
+  normal(): Triple {
+    return this.app.live.scene.value?.membranes[0]?.inward_normal ?? [0, -1, 0];
+  }
+  /** In the face of the first membrane: the way that the needle leans. */
+  side(): Triple {
+    return alongSkin(this.normal());
+  }
+  /** How far the needle is behind the hand, m. */
+  lag(): number {
+    const { history } = this.app.live;
+    if (!this.target.value || history.length === 0) return 0;
+    const [x = 0, y = 0, z = 0] = history.row("tip", history.end - 1);
+    return length(sub(this.target.value.position, [x, y, z]));
+  }
+}
+
+const hands = new WeakMap<App, Hand>();
+
+/** The one hand of this page. */
+export function handOf(app: App): Hand {
+  let hand = hands.get(app);
+  if (!hand) {
+    hand = new Hand(app);
+    hands.set(app, hand);
+  }
+  return hand;
+}

@@ -1,0 +1,38 @@
+import { Vector3 } from "three";
+import type { SceneView } from "../wire/messages.ts";
+import { MM } from "./moment.ts";
+import { tipLength } from "./needle_shape.ts";
+
+/** How large the things of a scene are drawn, mm, where the scene does not say. */
+export interface Extent {
+  /** From the first front face to the last back face. */
+  readonly deep: number;
+  /** Half the side of a slab. */
+  readonly size: number;
+  /** Of the needle up to its hub. */
+  readonly length: number;
+  readonly centre: Vector3;
+  readonly radius: number;
+  /** Of the force arrow: the largest resistance of all laws is a good part of the view. */
+  readonly mmPerNewton: number;
+}
+
+export function extentOf(scene: SceneView): Extent {
+  const first = scene.membranes[0];
+  const origin = new Vector3(...(first?.point ?? [0, 0, 0])).multiplyScalar(MM);
+  const normal = new Vector3(...(first?.inward_normal ?? [0, -1, 0]));
+  let deep = 0;
+  for (const { point, thickness } of scene.membranes) {
+    const front = new Vector3(...point).multiplyScalar(MM).sub(origin).dot(normal);
+    deep = Math.max(deep, front + thickness * MM);
+  }
+  const tip = tipLength(scene.diameter * MM, scene.tip_angle);
+  const size = Math.min(24, Math.max(8 + 0.9 * deep, 2.2 * tip));
+  const length = deep + 2 * tip + 12;
+  const above = Math.min(14, 6 + 0.35 * deep);
+  const below = deep + tip;
+  const radius = Math.max((above + below) / 2, 0.82 * size);
+  const centre = origin.clone().addScaledVector(normal, (below - above) / 2);
+  const strongest = Math.max(0.2, ...scene.laws.flatMap((law) => law.lower.map(Math.abs)));
+  return { deep, size, length, centre, radius, mmPerNewton: (0.5 * radius) / strongest };
+}

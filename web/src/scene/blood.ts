@@ -1,0 +1,53 @@
+import { FrontSide, MeshStandardMaterial, type Vector3 } from "three";
+import type { Membranes, Placed } from "./membranes.ts";
+import type { Moment } from "./moment.ts";
+import { OUTSIDE } from "./moment.ts";
+import { type FaceState, Slab } from "./slab.ts";
+import type { Theme } from "./theme.ts";
+
+/** The lumen: blood between two membranes, which give way and carry its surfaces along. */
+export class Blood {
+  private readonly material = new MeshStandardMaterial({
+    transparent: true, opacity: 0.5, roughness: 0.2, depthWrite: false, side: FrontSide,
+  }); // biome-ignore format: short
+  readonly slab = new Slab(this.material);
+  private walls: readonly [number, number] | null = null;
+
+  constructor(theme: Theme) {
+    this.slab.mesh.visible = false;
+    theme.watch(() => {
+      this.material.color.copy(theme.color("blood"));
+      this.material.opacity = theme.dark ? 0.55 : 0.45;
+    });
+  }
+
+  build(lumen: readonly number[]): void {
+    this.walls = lumen.length === 2 ? [lumen[0]!, lumen[1]!] : null;
+    this.slab.mesh.visible = this.walls !== null;
+  }
+
+  lay(membranes: Membranes, axis: Vector3): boolean {
+    const [front, back] = this.placed(membranes);
+    if (!front || !back) return false;
+    const top = front.point.clone().addScaledVector(front.normal, front.thickness);
+    const deep = back.point.clone().sub(top).dot(front.normal);
+    const faces: [FaceState, FaceState] = [front.faces[1], back.faces[0]];
+    return this.slab.lay(top, front.normal, deep, 0.985 * membranes.size, faces, 3, axis);
+  }
+
+  /** Whether the tip has come through the front wall and not into the back one. */
+  holdsTip(membranes: Membranes, moment: Moment): boolean {
+    const [front, back] = this.placed(membranes);
+    const walls = this.walls;
+    if (!front || !back || !walls) return false;
+    const state = moment.membranes[walls[0]];
+    const behind = moment.membranes[walls[1]];
+    if (!state || state.phase === OUTSIDE || (behind && behind.phase !== OUTSIDE)) return false;
+    const slope = Math.max(0.1, state.direction.dot(front.normal));
+    return state.depth > front.thickness / slope;
+  }
+
+  private placed({ placed }: Membranes): [Placed | undefined, Placed | undefined] {
+    return this.walls ? [placed[this.walls[0]], placed[this.walls[1]]] : [undefined, undefined];
+  }
+}

@@ -1,0 +1,139 @@
+import { MathUtils, PerspectiveCamera, Plane, Ray, Vector2, Vector3 } from "three";
+
+export type Preset = "oblique" | "side" | "top" | "needle";
+
+const SETTLE_MS = 90;
+const CLOSEST_MM = 4;
+const FARTHEST_MM = 900;
+const STEEPEST = MathUtils.degToRad(89.5);
+
+interface Pose {
+  azimuth: number;
+  elevation: number;
+  distance: number;
+  readonly target: Vector3;
+}
+
+/** A camera that goes round a point. Moves are goals that it glides to; a drag is followed at once. */
+export class OrbitCamera {
+  /** A long lens: lines that are parallel look so, and the scale bar holds well beside the tip too. */
+  readonly camera = new PerspectiveCamera(20, 1, 1, 4000);
+  private readonly now: Pose = { azimuth: 0.4, elevation: 0.25, distance: 100, target: new Vector3() };
+  private readonly goal: Pose = { azimuth: 0.4, elevation: 0.25, distance: 100, target: new Vector3() };
+  private home = { centre: new Vector3(), radius: 20 };
+  private moved = true;
+  private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+  resize(width: number, height: number): void {
+    this.camera.aspect = width / Math.max(1, height);
+    this.camera.updateProjectionMatrix();
+    this.moved = true;
+  }
+
+  /** What the presets show: a ball, mm. */
+  frame(centre: Vector3, radius: number): void {
+    this.home = { centre: centre.clone(), radius };
+  }
+
+  preset(preset: Preset, axis: Vector3, tip: Vector3): void {
+    const { goal, home } = this;
+    goal.target.copy(home.centre);
+    const half = MathUtils.degToRad(this.camera.fov / 2);
+    goal.distance = home.radius / Math.sin(Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect)));
+    goal.azimuth = 0;
+    goal.elevation = 0;
+    if (preset === "oblique") {
+      goal.azimuth = MathUtils.degToRad(24);
+      goal.elevation = MathUtils.degToRad(20);
+    } else if (preset === "top") {
+      goal.elevation = STEEPEST;
+    } else if (preset === "needle") {
+      // From behind the hub and a little above it, or the needle would hide what it goes to.
+      goal.azimuth = Math.abs(axis.y) > 0.98 ? 0 : Math.atan2(-axis.x, -axis.z);
+      goal.elevation = MathUtils.clamp(Math.asin(-axis.y) + (axis.y < -0.8 ? -0.22 : 0.16), -STEEPEST, STEEPEST);
+      goal.target.copy(tip);
+    }
+    // The short way round.
+    this.now.azimuth =
+      goal.azimuth + MathUtils.euclideanModulo(this.now.azimuth - goal.azimuth + Math.PI, 2 * Math.PI) - Math.PI;
+  }
+
+  orbit(dx: number, dy: number): void {
+    this.goal.azimuth = this.now.azimuth -= dx * 0.007;
+    this.goal.elevation = this.now.elevation = MathUtils.clamp(this.now.elevation + dy * 0.007, -STEEPEST, STEEPEST);
+    this.moved = true;
+  }
+
+  /** In pixels of a view `height` high. */
+  pan(dx: number, dy: number, height: number): void {
+    const scale = this.mmPerPixel(this.now.target, height);
+    const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
+    this.now.target.addScaledVector(right, -dx * scale).addScaledVector(up, dy * scale);
+    this.goal.target.copy(this.now.target);
+    this.moved = true;
+  }
+
+  /** factor > 1 comes nearer. */
+  zoom(factor: number): void {
+    this.goal.distance = MathUtils.clamp(this.goal.distance / factor, CLOSEST_MM, FARTHEST_MM);
+  }
+
+  /** Goes on towards its goal; true where the picture changes. */
+  step(elapsedMs: number): boolean {
+    const { now, goal } = this;
+    const left =
+      Math.abs(goal.azimuth - now.azimuth) +
+      Math.abs(goal.elevation - now.elevation) +
+      Math.abs(goal.distance / now.distance - 1) +
+      goal.target.distanceTo(now.target) / now.distance;
+    if (left > 1e-5) {
+      const part = left < 1e-3 || this.calm.matches ? 1 : 1 - Math.exp(-elapsedMs / SETTLE_MS);
+      now.azimuth += part * (goal.azimuth - now.azimuth);
+      now.elevation += part * (goal.elevation - now.elevation);
+      now.distance *= (goal.distance / now.distance) ** part;
+      now.target.lerp(goal.target, part);
+      this.moved = true;
+    }
+    if (!this.moved) return false;
+    this.moved = false;
+    const flat = Math.cos(now.elevation);
+    this.camera.position
+      .set(flat * Math.sin(now.azimuth), Math.sin(now.elevation), flat * Math.cos(now.azimuth))
+      .multiplyScalar(now.distance)
+      .add(now.target);
+    this.camera.near = now.distance * 0.05;
+    this.camera.far = now.distance + 800;
+    this.camera.updateProjectionMatrix();
+    this.camera.lookAt(now.target);
+    this.camera.updateMatrixWorld();
+    return true;
+  }
+
+  /** Ends every glide where it would go: for pictures, and for people who do not like motion. */
+  settle(): void {
+    Object.assign(this.now, {
+      azimuth: this.goal.azimuth,
+      elevation: this.goal.elevation,
+      distance: this.goal.distance,
+    });
+    this.now.target.copy(this.goal.target);
+    this.moved = true;
+  }
+
+  /** mm that a pixel spans at `point`, in a view `height` pixels high. */
+  mmPerPixel(point: Vector3, height: number): number {
+    const forward = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
+    const away = new Vector3().subVectors(this.camera.position, point).dot(forward);
+    return (2 * away * Math.tan(MathUtils.degToRad(this.camera.fov / 2))) / Math.max(1, height);
+  }
+
+  /** Where the pixel lies in the plane of the view through `point`. */
+  inPlaneOf(point: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
+    const at = new Vector2((2 * x) / width - 1, 1 - (2 * y) / height);
+    const ray = new Ray(this.camera.position.clone());
+    ray.direction.set(at.x, at.y, 0.5).unproject(this.camera).sub(ray.origin).normalize();
+    const forward = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
+    return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(forward, point), new Vector3());
+  }
+}

@@ -1,0 +1,88 @@
+/** What a pointer over the view does. Pixels are those of the page, from the view's upper left corner. */
+export interface GestureHandler {
+  /** False where the needle cannot be taken: then the gesture goes round the scene. */
+  grab(x: number, y: number): boolean;
+  drag(x: number, y: number): void;
+  release(): void;
+  orbit(dx: number, dy: number): void;
+  pan(dx: number, dy: number): void;
+  zoom(factor: number): void;
+  /** Along the needle, mm; positive goes in. False where it cannot be moved. */
+  push(depth: number): boolean;
+}
+
+type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
+const MM_PER_WHEEL_PIXEL = 0.004;
+
+/**
+ * One finger or the left button is the needle's; the right button, Shift, or two fingers are the camera's. Thus no gesture means
+ * two things.
+ */
+export function gestures(canvas: HTMLElement, handler: GestureHandler): void {
+  const pointers = new Map<number, { x: number; y: number }>();
+  let mode: Mode = "none";
+
+  const at = (event: PointerEvent): { x: number; y: number } => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  const enter = (next: Mode): void => {
+    if (mode === "needle" && next !== "needle") handler.release();
+    mode = next;
+    canvas.dataset.gesture = next;
+  };
+
+  canvas.addEventListener("pointerdown", (event) => {
+    const point = at(event);
+    pointers.set(event.pointerId, point);
+    canvas.setPointerCapture(event.pointerId);
+    canvas.focus({ preventScroll: true });
+    if (pointers.size === 2) enter("pinch");
+    else if (pointers.size > 2) enter("none");
+    else if (event.button === 1) enter("pan");
+    else if (event.button === 2 || event.shiftKey) enter("orbit");
+    else enter(handler.grab(point.x, point.y) ? "needle" : "orbit");
+    if (event.button === 1) event.preventDefault();
+  });
+
+  canvas.addEventListener("pointermove", (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before) return;
+    const point = at(event);
+    const dx = point.x - before.x;
+    const dy = point.y - before.y;
+    if (mode === "needle") handler.drag(point.x, point.y);
+    else if (mode === "orbit") handler.orbit(dx, dy);
+    else if (mode === "pan") handler.pan(dx, dy);
+    else if (mode === "pinch") {
+      const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
+      if (other) {
+        const apart = Math.hypot(point.x - other.x, point.y - other.y);
+        const was = Math.hypot(before.x - other.x, before.y - other.y);
+        if (was > 10 && apart > 10) handler.zoom(apart / was);
+        handler.orbit(dx / 2, dy / 2);
+      }
+    }
+    pointers.set(event.pointerId, point);
+  });
+
+  const up = (event: PointerEvent): void => {
+    if (!pointers.delete(event.pointerId)) return;
+    // After two fingers the last one must not take the needle.
+    enter(pointers.size === 1 ? "orbit" : "none");
+  };
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const pixels = event.deltaMode === 1 ? event.deltaY * 18 : event.deltaY;
+      if (event.ctrlKey || event.metaKey || !handler.push(pixels * MM_PER_WHEEL_PIXEL)) {
+        handler.zoom(Math.exp(-pixels * (event.ctrlKey ? 0.006 : 0.0012)));
+      }
+    },
+    { passive: false },
+  );
+}

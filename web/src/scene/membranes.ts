@@ -1,0 +1,129 @@
+import { FrontSide, Group, MeshStandardMaterial, Vector3 } from "three";
+import type { SceneView } from "../wire/messages.ts";
+import { bevelSide } from "./bevel.ts";
+import type { Hole, Holes } from "./holes.ts";
+import { BARRED, type MembraneMoment, MM, type Moment, OUTSIDE } from "./moment.ts";
+import { Scars } from "./scars.ts";
+import { type FaceState, Slab, untouched } from "./slab.ts";
+import type { Theme } from "./theme.ts";
+
+/** A membrane of the scene as it lies, mm. */
+export interface Placed {
+  readonly name: string;
+  readonly point: Vector3;
+  readonly normal: Vector3;
+  readonly thickness: number;
+  readonly faces: readonly [FaceState, FaceState];
+  readonly slab: Slab;
+  readonly material: MeshStandardMaterial;
+  readonly scars: Scars;
+}
+
+/** The membranes: translucent slabs that the needle carries along by what it is ahead of its proxy, K06 (21). */
+export class Membranes {
+  readonly group = new Group();
+  placed: Placed[] = [];
+  size = 10;
+  private diameter = 1;
+  private tipAngle = 0.3;
+
+  constructor(private readonly theme: Theme) {
+    theme.watch(() => this.paint());
+  }
+
+  build(scene: SceneView, size: number): void {
+    for (const { slab, scars } of this.placed) {
+      slab.mesh.geometry.dispose();
+      scars.dispose();
+    }
+    this.group.clear();
+    this.size = size;
+    this.diameter = scene.diameter * MM;
+    this.tipAngle = scene.tip_angle;
+    this.placed = scene.membranes.map((membrane) => {
+      const material = new MeshStandardMaterial({
+        transparent: true, roughness: 0.55, depthWrite: false, side: FrontSide,
+      }); // biome-ignore format: short
+      const slab = new Slab(material);
+      const scars = new Scars();
+      this.group.add(slab.mesh, scars.mesh);
+      return {
+        name: membrane.name,
+        point: new Vector3(...membrane.point).multiplyScalar(MM),
+        normal: new Vector3(...membrane.inward_normal),
+        thickness: membrane.thickness * MM,
+        faces: [untouched(), untouched()],
+        slab,
+        material,
+        scars,
+      };
+    });
+    this.paint();
+  }
+
+  private paint(): void {
+    this.placed.forEach(({ material, scars }, i) => {
+      material.color.copy(this.theme.membrane(i)).lerp(this.theme.color("panel"), 0.25);
+      material.opacity = this.theme.dark ? 0.36 : 0.34;
+      scars.paint(this.theme);
+    });
+  }
+
+  /** Lays all slabs for the moment; true where one differs. */
+  lay(moment: Moment, holes: Holes): boolean {
+    let changed = false;
+    this.placed.forEach((membrane, i) => {
+      const state = moment.membranes[i];
+      if (!state) return;
+      const old = holes.of(i, moment.tick);
+      this.shape(membrane, state, moment, old.at(-1));
+      // Far from the needle the infinite membrane of the model must still be there to be seen.
+      const away = membrane.faces[0].centre.distanceTo(membrane.point);
+      if (away > 0.75 * this.size) this.size = away / 0.6;
+      const width = dimple(this.diameter, membrane.thickness);
+      const { point, normal, thickness, faces, slab, scars } = membrane;
+      const needle = state.phase === OUTSIDE ? (old.at(-1)?.direction ?? normal) : moment.axis;
+      if (slab.lay(point, normal, thickness, this.size, faces, width, needle)) changed = true;
+      if (scars.lay(membrane, old, state.phase === OUTSIDE ? faces[0].centre : null, this.diameter)) changed = true;
+    });
+    return changed;
+  }
+
+  private shape(membrane: Placed, state: MembraneMoment, moment: Moment, last: Hole | undefined): void {
+    const [front, back] = membrane.faces;
+    front.shift.set(0, 0, 0);
+    back.shift.set(0, 0, 0);
+    front.hole = 0;
+    back.hole = 0;
+    const inside = state.phase !== OUTSIDE && state.phase !== BARRED && state.direction.lengthSq() > 0.5;
+    const direction = inside ? state.direction : last?.direction;
+    if (!direction) return;
+    const slope = direction.dot(membrane.normal);
+    const path = membrane.thickness / Math.max(0.1, slope);
+    const side = bevelSide(direction);
+    if (!inside) {
+      front.hole = back.hole = 0.42 * this.diameter;
+      front.centre.copy(last!.front).addScaledVector(side, this.diameter / 2);
+      back.centre.copy(front.centre).addScaledVector(direction, path);
+      return;
+    }
+    const depth = state.proxy.clone().sub(membrane.point).dot(membrane.normal) / Math.max(0.1, slope);
+    const lead = new Vector3().subVectors(moment.tip, state.proxy);
+    const turn = new Vector3().subVectors(moment.axis, direction);
+    const half = (at: number): number => Math.min(this.diameter, Math.max(0, at) * Math.tan(this.tipAngle)) / 2;
+    front.hole = half(depth);
+    front.centre.copy(state.proxy).addScaledVector(direction, -depth).addScaledVector(side, front.hole);
+    // The hole goes where the drawn needle is, also when it has been turned since it came in.
+    front.shift.copy(lead).addScaledVector(turn, -depth);
+    back.hole = half(depth - path);
+    back.centre
+      .copy(state.proxy)
+      .addScaledVector(direction, path - depth)
+      .addScaledVector(side, back.hole);
+    if (depth > path) back.shift.copy(lead).addScaledVector(turn, path - depth);
+    else back.shift.copy(lead).multiplyScalar(Math.exp((depth - path) / dimple(this.diameter, membrane.thickness)));
+  }
+}
+
+/** How wide a dimple is: some diameters, and wider in what is thick. mm */
+const dimple = (diameter: number, thickness: number): number => 1.6 * diameter + 0.35 * Math.min(thickness, 6);

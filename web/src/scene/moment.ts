@@ -1,0 +1,66 @@
+import { Vector3 } from "three";
+import type { Source } from "../state/source.ts";
+
+/** The view is drawn in mm: numbers of the size that a graphics card likes. */
+export const MM = 1000;
+export const OUTSIDE = 0;
+export const BARRED = 4;
+
+export interface MembraneMoment {
+  phase: number;
+  /** mm along the needle behind the front face. */
+  depth: number;
+  /** Where the tip would be if the tissue had not given way, mm. */
+  readonly proxy: Vector3;
+  /** Entry direction b; (0, 0, 0) outside. */
+  readonly direction: Vector3;
+}
+
+/** What there is to draw of one tick. Lengths in mm, forces in N. */
+export class Moment {
+  tick = -1;
+  time = 0;
+  state = 0;
+  readonly tip = new Vector3();
+  readonly axis = new Vector3(0, -1, 0);
+  readonly force = new Vector3();
+  readonly modelForce = new Vector3();
+  membranes: MembraneMoment[] = [];
+
+  /** False before the first tick of the source. */
+  read(source: Source): boolean {
+    const tick = source.shown();
+    if (tick === null) return false;
+    const { history } = source;
+    this.tick = tick;
+    this.time = history.timeOf(tick);
+    this.state = history.byteRow("state", tick)[0] ?? 0;
+    this.tip.fromArray(history.row("tip", tick)).multiplyScalar(MM);
+    this.axis.fromArray(history.row("axis", tick));
+    if (this.axis.lengthSq() < 0.5 || Number.isNaN(this.axis.x)) this.axis.set(0, -1, 0);
+    this.axis.normalize();
+    this.force.fromArray(history.row("force", tick));
+    this.modelForce.fromArray(history.row("model_force", tick));
+    this.readMembranes(source, tick);
+    return Number.isFinite(this.tip.x + this.tip.y + this.tip.z);
+  }
+
+  private readMembranes({ history }: Source, tick: number): void {
+    const count = history.membranes;
+    while (this.membranes.length < count) {
+      this.membranes.push({ phase: OUTSIDE, depth: 0, proxy: new Vector3(), direction: new Vector3() });
+    }
+    this.membranes.length = count;
+    const phase = history.byteRow("phase", tick);
+    const depth = history.row("depth", tick);
+    const proxy = history.row("proxy", tick);
+    const direction = history.row("direction", tick);
+    this.membranes.forEach((membrane, i) => {
+      membrane.phase = phase[i] ?? OUTSIDE;
+      membrane.depth = (depth[i] ?? 0) * MM || 0;
+      membrane.proxy.fromArray(proxy, 3 * i).multiplyScalar(MM);
+      membrane.direction.fromArray(direction, 3 * i);
+      if (!Number.isFinite(membrane.direction.x)) membrane.direction.set(0, 0, 0);
+    });
+  }
+}

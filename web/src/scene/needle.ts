@@ -1,0 +1,44 @@
+import { Color, Group, Mesh, MeshStandardMaterial, type Vector3 } from "three";
+import { placeNeedle } from "./bevel.ts";
+import { Hub } from "./hub.ts";
+import { faceShape, shaftShape } from "./needle_shape.ts";
+import type { Theme } from "./theme.ts";
+
+const EMPTY = new Color(0x23272d);
+
+/** The needle of the scene: its true diameter and tip angle; its length is the view's choice. mm, rad. */
+export class Needle {
+  readonly group = new Group();
+  private hub: Hub | null = null;
+  private readonly steel = new MeshStandardMaterial({ color: 0xc9d0d8, metalness: 0.85, roughness: 0.32 });
+  private readonly ground = new MeshStandardMaterial({ color: 0xe3e8ee, metalness: 0.8, roughness: 0.22 });
+  private readonly bore = new MeshStandardMaterial({ roughness: 0.9 });
+
+  constructor(private readonly theme: Theme) {
+    this.group.matrixAutoUpdate = false;
+  }
+
+  build(diameter: number, tipAngle: number, length: number): void {
+    for (const child of this.group.children) if (child instanceof Mesh) child.geometry.dispose();
+    this.group.clear();
+    this.hub = new Hub(diameter, this.theme);
+    this.hub.group.position.set(diameter / 2, 0, length);
+    this.group.add(
+      new Mesh(shaftShape(diameter, tipAngle, length), this.steel),
+      new Mesh(faceShape(diameter, tipAngle, false), this.ground),
+      new Mesh(faceShape(diameter, tipAngle, true), this.bore),
+      this.hub.group,
+    );
+  }
+
+  place(tip: Vector3, axis: Vector3): void {
+    placeNeedle(tip, axis, this.group.matrix);
+    this.group.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Blood at the bore's mouth and in the hub; true where the picture changes. */
+  step(inLumen: boolean, elapsedMs: number): boolean {
+    this.bore.color.copy(inLumen ? this.theme.color("blood") : EMPTY);
+    return this.hub?.step(inLumen, elapsedMs) ?? false;
+  }
+}

@@ -1,0 +1,39 @@
+import { Vector3 } from "three";
+import type { Hand } from "../controls/hand_model.ts";
+import type { OrbitCamera } from "./camera.ts";
+import type { GestureHandler } from "./gestures.ts";
+import { MM } from "./moment.ts";
+import type { Stage } from "./stage.ts";
+import type { World } from "./world.ts";
+
+/** Gestures as moves of the hand and of the camera. The hand keeps the distance to the pointer at which it was taken. */
+export function needleGrip(hand: Hand, orbit: OrbitCamera, world: World, stage: Stage): GestureHandler {
+  const plane = new Vector3();
+  const offset = new Vector3();
+  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(plane, x, y, stage.width, stage.height);
+  return {
+    grab(x, y) {
+      const pose = hand.barred.value ? null : hand.pose();
+      if (!pose) return false;
+      plane.set(...pose.position).multiplyScalar(MM);
+      const pointer = at(x, y);
+      if (!pointer) return false;
+      offset.subVectors(plane, pointer);
+      hand.moveTo(pose.position);
+      return true;
+    },
+    drag(x, y) {
+      const to = at(x, y)?.add(offset).divideScalar(MM);
+      if (to) hand.moveTo([to.x, to.y, to.z]);
+    },
+    release() {},
+    orbit: (dx, dy) => orbit.orbit(dx, dy),
+    pan: (dx, dy) => orbit.pan(dx, dy, stage.height),
+    zoom: (factor) => orbit.zoom(factor),
+    push(depth) {
+      if (hand.barred.value || !world.extent) return false;
+      hand.push(depth / MM);
+      return true;
+    },
+  };
+}

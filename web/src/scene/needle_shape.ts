@@ -1,0 +1,59 @@
+import { BufferAttribute, BufferGeometry } from "three";
+
+const AROUND = 48;
+const BORE = 0.62;
+
+/** Length of the slanted face along the needle: X of K06 (5). */
+export const tipLength = (diameter: number, tipAngle: number): number => diameter / Math.tan(tipAngle);
+
+function geometry(positions: number[], normals: number[], index: number[]): BufferGeometry {
+  const made = new BufferGeometry();
+  made.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+  made.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
+  made.setIndex(index);
+  return made;
+}
+
+/**
+ * The shaft: a cylinder along +z that one slanted plane cuts so that its lowest point, the tip, is at 0 (K06 Fig. 1).
+ * All lengths in mm.
+ */
+export function shaftShape(diameter: number, tipAngle: number, length: number): BufferGeometry {
+  const r = diameter / 2;
+  const slope = tipLength(diameter, tipAngle) / diameter;
+  const positions: number[] = [];
+  const normals: number[] = [];
+  const index: number[] = [];
+  for (let i = 0; i <= AROUND; i++) {
+    const c = Math.cos((2 * Math.PI * i) / AROUND);
+    const s = Math.sin((2 * Math.PI * i) / AROUND);
+    const x = r + r * c;
+    positions.push(x, r * s, slope * x, x, r * s, length);
+    normals.push(c, s, 0, c, s, 0);
+    if (i < AROUND) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  }
+  return geometry(positions, normals, index);
+}
+
+/** The slanted face, a ring round the bore; with `bore` true the bore's mouth within it. */
+export function faceShape(diameter: number, tipAngle: number, bore: boolean): BufferGeometry {
+  const r = diameter / 2;
+  const slope = tipLength(diameter, tipAngle) / diameter;
+  const size = Math.hypot(slope, 1);
+  const normal = [slope / size, 0, -1 / size] as const;
+  const [inner, outer] = bore ? [0, BORE] : [BORE, 1];
+  const positions: number[] = [];
+  const normals: number[] = [];
+  const index: number[] = [];
+  for (let i = 0; i <= AROUND; i++) {
+    const c = Math.cos((2 * Math.PI * i) / AROUND);
+    const s = Math.sin((2 * Math.PI * i) / AROUND);
+    for (const part of [inner, outer]) {
+      const x = r + r * part * c;
+      positions.push(x, r * part * s, slope * x);
+      normals.push(...normal);
+    }
+    if (i < AROUND) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  }
+  return geometry(positions, normals, index);
+}

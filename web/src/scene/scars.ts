@@ -1,0 +1,70 @@
+import { CircleGeometry, DoubleSide, InstancedMesh, Matrix4, MeshBasicMaterial, Vector3 } from "three";
+import type { Hole } from "./holes.ts";
+import type { Theme } from "./theme.ts";
+
+const MOST = 40;
+
+/** Holes in which there is no needle now: dark spots on both faces. */
+export class Scars {
+  readonly mesh: InstancedMesh;
+  private readonly material = new MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.55,
+    side: DoubleSide,
+    depthWrite: false,
+  });
+  private last = "";
+
+  constructor() {
+    this.mesh = new InstancedMesh(new CircleGeometry(0.5, 24), this.material, 2 * MOST);
+    this.mesh.count = 0;
+    this.mesh.frustumCulled = false;
+    this.mesh.renderOrder = 1;
+  }
+
+  paint(theme: Theme): void {
+    this.material.color.copy(theme.color("blood")).multiplyScalar(0.6);
+  }
+
+  /** open: the front of the hole that the slab itself shows, if any. */
+  lay(
+    membrane: { normal: Vector3; thickness: number },
+    holes: readonly Hole[],
+    open: Vector3 | null,
+    diameter: number,
+  ): boolean {
+    // biome-ignore format: one line of arguments
+    const shown = open ? holes.slice(0, -1) : holes;
+    const key = `${shown.length} ${shown.at(-1)?.tick} ${diameter}`;
+    if (key === this.last) return false;
+    this.last = key;
+    const { normal, thickness } = membrane;
+    let at = 0;
+    for (const { front, direction } of shown.slice(-MOST)) {
+      const slope = Math.max(0.1, direction.dot(normal));
+      const back = front.clone().addScaledVector(direction, thickness / slope);
+      const across = new Vector3().copy(direction).addScaledVector(normal, -slope);
+      const x = across.lengthSq() > 1e-6 ? across.normalize() : new Vector3(1, 0, 0).cross(normal).normalize();
+      const y = new Vector3().crossVectors(normal, x);
+      for (const [place, side] of [
+        [front, -0.03],
+        [back, 0.03],
+      ] as const) {
+        const to = place.clone().addScaledVector(normal, side);
+        const spot = new Matrix4().makeBasis(
+          x.clone().multiplyScalar((0.8 * diameter) / slope), y.clone().multiplyScalar(0.8 * diameter), normal,
+        ); // biome-ignore format: one line of arguments
+        this.mesh.setMatrixAt(at++, spot.setPosition(to));
+      }
+    }
+    this.mesh.count = at;
+    this.mesh.instanceMatrix.needsUpdate = true;
+    return true;
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.material.dispose();
+    this.mesh.dispose();
+  }
+}

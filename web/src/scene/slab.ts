@@ -1,0 +1,152 @@
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, type Material, Mesh, Vector3 } from "three";
+
+const AROUND = 72;
+const RINGS = 22;
+const CORNERS = 5; // of the rounded square: 2 is a circle
+
+/** What a needle does to one face of a slab. mm, in the slab's own plane where there are two numbers. */
+export interface FaceState {
+  /** Where the tissue's own points meet the needle, before it gave way. */
+  readonly centre: Vector3;
+  /** Radius of the hole; 0 is none. */
+  hole: number;
+  /** How far the tissue at the needle is carried along. */
+  readonly shift: Vector3;
+}
+
+export const untouched = (): FaceState => ({ centre: new Vector3(), hole: 0, shift: new Vector3() });
+
+/**
+ * A slab of tissue: two faces of rings round the needle, fine at it and coarse at the border, a rim, and the wall of the hole.
+ * A face gives way as a half-space does under a point: 1 / (1 + (r / width)^2)^(3/2), and is held at the border.
+ */
+export class Slab {
+  readonly mesh: Mesh;
+  private readonly positions: Float32Array;
+  private readonly attribute: BufferAttribute;
+  private readonly t1 = new Vector3();
+  private readonly t2 = new Vector3();
+  private last = "";
+
+  constructor(material: Material) {
+    const perFace = (RINGS + 1) * (AROUND + 1);
+    const vertices = 2 * perFace + 4 * (AROUND + 1);
+    const geometry = new BufferGeometry();
+    this.positions = new Float32Array(3 * vertices);
+    this.attribute = new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage);
+    geometry.setAttribute("position", this.attribute);
+    geometry.setIndex(this.indices(perFace));
+    this.mesh = new Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+  }
+
+  private indices(perFace: number): number[] {
+    const index: number[] = [];
+    const row = AROUND + 1;
+    const quad = (a: number, b: number, c: number, d: number): void => void index.push(a, b, c, c, b, d);
+    for (let ring = 0; ring < RINGS; ring++) {
+      for (let i = 0; i < AROUND; i++) {
+        const a = ring * row + i;
+        quad(a, a + 1, a + row, a + row + 1); // seen from in front
+        quad(perFace + a, perFace + a + row, perFace + a + 1, perFace + a + row + 1);
+      }
+    }
+    for (let wall = 0; wall < 2; wall++) {
+      const start = 2 * perFace + 2 * wall * row;
+      for (let i = 0; i < AROUND; i++) {
+        const a = start + i;
+        if (wall === 0) quad(a, a + 1, a + row, a + row + 1);
+        else quad(a, a + row, a + 1, a + row + 1);
+      }
+    }
+    return index;
+  }
+
+  /**
+   * Lays the slab anew; false where nothing differs from the last time.
+   * middle: of the front face; normal: inward, of length 1; size: half the side; needle: its direction, for a slanted hole.
+   */
+  lay(
+    middle: Vector3,
+    normal: Vector3,
+    thickness: number,
+    size: number,
+    faces: readonly [FaceState, FaceState],
+    width: number,
+    needle: Vector3,
+  ): boolean {
+    // biome-ignore format: two lines of arguments
+    const key = this.key(faces, size, width, thickness, needle);
+    if (key === this.last) return false;
+    this.last = key;
+    tangents(normal, this.t1, this.t2);
+    const perFace = 3 * (RINGS + 1) * (AROUND + 1);
+    const row = 3 * (AROUND + 1);
+    faces.forEach((face, side) => {
+      const origin = middle.clone().addScaledVector(normal, side * thickness);
+      this.layFace(side * perFace, origin, normal, face, size, width, needle);
+    });
+    // Rim and hole have points of their own, so that edges stay sharp.
+    const { positions } = this;
+    faces.forEach((_, side) => {
+      const face = side * perFace;
+      positions.copyWithin(2 * perFace + side * row, face + RINGS * row, face + (RINGS + 1) * row);
+      positions.copyWithin(2 * perFace + (2 + side) * row, face, face + row);
+    });
+    this.attribute.needsUpdate = true;
+    this.mesh.geometry.computeVertexNormals();
+    return true;
+  }
+
+  private layFace(
+    at: number,
+    origin: Vector3,
+    normal: Vector3,
+    face: FaceState,
+    size: number,
+    width: number,
+    needle: Vector3,
+  ): void {
+    // biome-ignore format: one line of arguments
+    const { t1, t2, positions } = this;
+    const from = new Vector3().subVectors(face.centre, origin);
+    const cx = from.dot(t1);
+    const cy = from.dot(t2);
+    const slant = [needle.dot(t1), needle.dot(t2)] as const;
+    let out = at;
+    for (let ring = 0; ring <= RINGS; ring++) {
+      const part = (ring / RINGS) ** 2.4;
+      for (let i = 0; i <= AROUND; i++) {
+        const c = Math.cos((2 * Math.PI * i) / AROUND);
+        const s = Math.sin((2 * Math.PI * i) / AROUND);
+        // A cylinder that meets the face at a slant cuts an ellipse.
+        const hole = face.hole / Math.sqrt(Math.max(0.05, 1 - (c * slant[0] + s * slant[1]) ** 2));
+        const border = size / (Math.abs(c) ** CORNERS + Math.abs(s) ** CORNERS) ** (1 / CORNERS);
+        const x = (cx + hole * c) * (1 - part) + border * c * part;
+        const y = (cy + hole * s) * (1 - part) + border * s * part;
+        const r = Math.max(0, Math.hypot(x - cx, y - cy) - hole);
+        const carried = (1 - part) * (1 + (r / width) ** 2) ** -1.5;
+        positions[out++] = origin.x + x * t1.x + y * t2.x + carried * face.shift.x;
+        positions[out++] = origin.y + x * t1.y + y * t2.y + carried * face.shift.y;
+        positions[out++] = origin.z + x * t1.z + y * t2.z + carried * face.shift.z;
+      }
+    }
+    void normal;
+  }
+
+  private key(faces: readonly FaceState[], size: number, width: number, thickness: number, needle: Vector3): string {
+    const parts = [size, width, thickness];
+    for (const { centre, hole, shift } of faces) {
+      parts.push(centre.x, centre.y, centre.z, hole, shift.x, shift.y, shift.z);
+      if (hole > 0) parts.push(needle.x, needle.y, needle.z);
+    }
+    return parts.map((value) => value.toFixed(3)).join(" ");
+  }
+}
+
+/** Two directions in the face: as far as possible the first to the right. */
+export function tangents(normal: Vector3, t1: Vector3, t2: Vector3): void {
+  const along = Math.abs(normal.x) > 0.9 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
+  t1.copy(along).addScaledVector(normal, -normal.dot(along)).normalize();
+  t2.crossVectors(normal, t1);
+}

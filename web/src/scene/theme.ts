@@ -1,0 +1,52 @@
+import { Color } from "three";
+
+/** The colours of styles/tokens.css, as the page has them now. */
+export class Theme {
+  dark = false;
+  private readonly probe: HTMLElement;
+  private readonly known = new Map<string, Color>();
+  private readonly listeners = new Set<() => void>();
+
+  constructor(host: HTMLElement) {
+    this.probe = document.createElement("span");
+    this.probe.hidden = true;
+    host.append(this.probe);
+    this.read();
+    const again = (): void => {
+      this.read();
+      for (const listener of this.listeners) listener();
+    };
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
+    new MutationObserver(again).observe(document.documentElement, {
+      attributes: true,
+      attributeFilter: ["style", "class"],
+    });
+  }
+
+  /** The token's colour: theme.color("data-1"). */
+  color(token: string): Color {
+    let color = this.known.get(token);
+    if (!color) {
+      this.probe.style.color = `var(--${token})`;
+      color = new Color(getComputedStyle(this.probe).color);
+      this.known.set(token, color);
+    }
+    return color;
+  }
+
+  /** Each membrane's own, as the plots have it. */
+  membrane(index: number): Color {
+    return this.color(`data-${(index % 5) + 1}`);
+  }
+
+  watch(listener: () => void): void {
+    this.listeners.add(listener);
+    listener();
+  }
+
+  private read(): void {
+    this.known.clear();
+    const text = this.color("text");
+    this.dark = text.r + text.g + text.b > 1.5;
+  }
+}

@@ -1,0 +1,180 @@
+import { type Camera, Vector3 } from "three";
+import type { Pose } from "../controls/hand_model.ts";
+import { newton } from "../format.ts";
+import type { Source } from "../state/source.ts";
+import type { SceneView } from "../wire/messages.ts";
+import { type Extent, extentOf } from "./anatomy.ts";
+import { ForceArrow } from "./arrow.ts";
+import { Blood } from "./blood.ts";
+import { FatLine } from "./fat_line.ts";
+import { Ghost } from "./ghost.ts";
+import { Holes } from "./holes.ts";
+import type { Labels } from "./labels.ts";
+import { Membranes } from "./membranes.ts";
+import { MM, Moment, OUTSIDE } from "./moment.ts";
+import { Needle } from "./needle.ts";
+import type { Stage } from "./stage.ts";
+import type { Theme } from "./theme.ts";
+import { Trail } from "./trail.ts";
+
+const ACTIVE = 2;
+
+/** All that stands on the stage, laid for a moment of a source. */
+export class World {
+  readonly moment = new Moment();
+  extent: Extent | null = null;
+  private scene: SceneView | null = null;
+  private readonly needle: Needle;
+  private readonly membranes: Membranes;
+  private readonly blood: Blood;
+  private readonly arrow: ForceArrow;
+  private readonly trail: Trail;
+  private readonly ghost: Ghost;
+  private readonly entry = new FatLine(1.5, 0.85, 0.8);
+  private readonly holes = new Holes();
+  private drawn = "";
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly labels: Labels,
+    theme: Theme,
+  ) {
+    this.needle = new Needle(theme);
+    this.membranes = new Membranes(theme);
+    this.blood = new Blood(theme);
+    this.arrow = new ForceArrow(theme);
+    this.trail = new Trail(theme);
+    this.ghost = new Ghost(theme);
+    theme.watch(() => this.entry.paint(theme.color("data-4")));
+    stage.scene.add(
+      this.needle.group, this.membranes.group, this.blood.slab.mesh, this.arrow.group, this.trail.line,
+      this.ghost.group, this.entry.line,
+    ); // biome-ignore format: a list
+  }
+
+  /** True where the scene has another shape than before. */
+  build(scene: SceneView): boolean {
+    const before = this.scene && shapeOf(this.scene);
+    this.scene = scene;
+    if (before === shapeOf(scene)) return false;
+    this.extent = extentOf(scene);
+    const { length, size } = this.extent;
+    this.needle.build(scene.diameter * MM, scene.tip_angle, length);
+    this.ghost.build(scene.diameter * MM, scene.tip_angle, length);
+    this.membranes.build(scene, size);
+    this.blood.build(scene.lumen);
+    this.labels.clear();
+    this.drawn = "";
+    return true;
+  }
+
+  /** Lays all for what the source shows now; true where the picture changes. */
+  lay(source: Source, target: Pose | null, camera: Camera, elapsedMs: number): boolean {
+    const { moment, scene, extent } = this;
+    if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
+    this.holes.read(source, scene.membranes);
+    let changed = this.membranes.lay(moment, this.holes);
+    changed = this.blood.lay(this.membranes, moment.axis) || changed;
+    changed = this.needle.step(this.blood.holdsTip(this.membranes, moment), elapsedMs) || changed;
+    const key = this.key(target);
+    if (key === this.drawn && !changed) return false;
+    this.drawn = key;
+    this.needle.place(moment.tip, moment.axis);
+    this.trail.lay(source, moment.tick, scene.rate);
+    this.placeArrow(camera, extent, scene);
+    this.placeEntry(scene);
+    const to = target && {
+      position: new Vector3(...target.position).multiplyScalar(MM),
+      axis: new Vector3(...target.axis).normalize(),
+    };
+    this.ghost.place(source.live ? to : null, moment.tip);
+    return true;
+  }
+
+  /** Beside the needle, on the side where no slanted face is, and always in the plane that is looked at. */
+  placeArrow(camera: Camera, extent: Extent, scene: SceneView): void {
+    const { moment } = this;
+    const real = moment.state === ACTIVE;
+    const left = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).negate();
+    const from = moment.tip.clone().addScaledVector(left, 1.4 * scene.diameter * MM + 0.05 * extent.radius);
+    const force = real ? moment.force : moment.modelForce;
+    this.arrow.place(from, force, extent.mmPerNewton, 0.011 * extent.radius, real);
+  }
+
+  private placeEntry(scene: SceneView): void {
+    const last = this.moment.membranes.findLastIndex(
+      ({ phase, direction }) => phase !== OUTSIDE && direction.lengthSq() > 0.5,
+    );
+    const state = this.moment.membranes[last];
+    const extent = this.extent;
+    if (!state || !extent) {
+      this.entry.between(null);
+      return;
+    }
+    const ahead = Math.max(4, 0.4 * extent.deep);
+    const side = scene.diameter * MM;
+    this.entry.between([
+      state.proxy.clone().addScaledVector(state.direction, 0.4 * side),
+      state.proxy.clone().addScaledVector(state.direction, ahead),
+    ]);
+    this.entryEnd.copy(state.proxy).addScaledVector(state.direction, ahead);
+  }
+  private readonly entryEnd = new Vector3();
+
+  name(camera: Camera): void {
+    const { labels, moment, stage } = this;
+    const size = [stage.width, stage.height] as const;
+    labels.begin();
+    this.membranes.placed.forEach((membrane, i) => {
+      const at = this.rightmost(i, camera);
+      labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, true);
+    });
+    if (this.arrow.group.visible) {
+      const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not given)"}`;
+      labels.put("force", words, "force", this.arrow.head, camera, size);
+    }
+    if (this.entry.line.visible) labels.put("entry", "b", "entry", this.entryEnd, camera, size);
+    labels.end();
+  }
+
+  /** The corner of a slab that lies farthest to the right on the screen. */
+  private rightmost(index: number, camera: Camera): Vector3 {
+    const { point, normal, thickness } = this.membranes.placed[index]!;
+    const middle = point.clone().addScaledVector(normal, thickness / 2);
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const along = right.addScaledVector(normal, -right.dot(normal));
+    if (along.lengthSq() < 1e-4) return middle;
+    return middle.addScaledVector(along.normalize(), this.membranes.size);
+  }
+
+  private key(target: Pose | null): string {
+    const { tip, axis, force, modelForce, state } = this.moment;
+    const at = [
+      tip.x,
+      tip.y,
+      tip.z,
+      axis.x,
+      axis.y,
+      axis.z,
+      force.x,
+      force.y,
+      force.z,
+      modelForce.x,
+      modelForce.y,
+      modelForce.z,
+    ];
+    const pose = target ? [...target.position, ...target.axis].map((value) => value.toFixed(6)) : [];
+    return [state, ...at.map((value) => value.toFixed(3)), ...pose].join(" ");
+  }
+}
+
+/** All of a scene that the view builds anew for; sliders of friction change nothing here. */
+function shapeOf(scene: SceneView): string {
+  const { diameter, tip_angle, membranes, lumen } = scene;
+  return JSON.stringify([
+    diameter,
+    tip_angle,
+    lumen,
+    membranes.map((m) => [m.name, m.point, m.inward_normal, m.thickness]),
+  ]);
+}
