@@ -1,3 +1,168 @@
-import type { Panel } from "../panel.ts";
+import { mm, newton } from "../format.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import { difference } from "./difference.ts";
+import { type Area, ForceDepthDrawing, type ForceDepthPicture } from "./force_depth_drawing.ts";
+import { keyTick } from "./keys.ts";
+import { plotsOf } from "./shared.ts";
+import { type Box, Surface } from "./surface.ts";
+import { type Theme, watchTheme } from "./theme.ts";
+import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
 
-export const forceDepthPlot: Panel = (_host, _app) => {};
+const REACH = 60; // px from the pointer to the point that it reads
+
+/** Force against depth: every tick there is, on the friction band of each membrane. */
+export const forceDepthPlot: Panel = (host, app) => {
+  const plots = plotsOf(app);
+  const drawing = new ForceDepthDrawing();
+  let theme: Theme | null = null;
+  let chosen: number | null = null;
+  let zoom: Area | null = null;
+  let pointed: { tick: number; membrane: number } | null = null;
+  let changes = 0;
+
+  const setZoom = (area: Area | null): void => {
+    zoom = area;
+    reset.disabled = area === null;
+    changes++;
+  };
+  const which = choice("Membrane", [["all", "all membranes"]], "all", (value) => {
+    chosen = value === "all" ? null : Number(value);
+    setZoom(null);
+  });
+  const reset = button("Whole", "Reset the zoom (0, or double click)", () => setZoom(null));
+  reset.disabled = true;
+  const picture = (): ForceDepthPicture => ({
+    source: plots.source,
+    window: plots.window,
+    shown: plots.zoom.value ? null : plots.source.shown(),
+    chosen,
+    overlay: app.overlay.value,
+    zoom,
+    pointed,
+  });
+  const readout = element("output", { class: "plot-readout" });
+  const compared = element("output", { class: "plot-compared" });
+  const body = element("div", { class: "plot-body" });
+  host.append(
+    element(
+      "div",
+      { class: "plot-bar" },
+      element("h2", {}, "Force against depth"),
+      which.select,
+      element("span", { class: "plot-gap" }),
+      freezeButton(plots),
+      reset,
+      saveMenu({
+        name: "force-depth",
+        plots,
+        theme: () => theme!,
+        membranes: () => chosen,
+        size: () => [surface.width, surface.height],
+        draw: (pen) => drawing.draw(pen, picture(), theme!),
+      }),
+    ),
+    body,
+    element("div", { class: "plot-foot" }, readout, compared),
+  );
+
+  const surface = new Surface(
+    body,
+    "Force against depth. Arrow keys read values along the motion, 0 resets the zoom.",
+    {
+      boxed: ({ x1, y1, x2, y2 }: Box) => {
+        const { x, y } = drawing.pane;
+        const across = [x.value(Math.min(x1, x2)), x.value(Math.max(x1, x2))] as const;
+        const up = [y.value(Math.max(y1, y2)), y.value(Math.min(y1, y2))] as const;
+        if (Math.abs(x2 - x1) > 4 && Math.abs(y2 - y1) > 4) setZoom({ x: across, y: up });
+      },
+      doubled: () => setZoom(null),
+      key: (event) => {
+        if (event.key === "0") setZoom(null);
+        else return keyTick(event, plots);
+        return true;
+      },
+    },
+  );
+  watchTheme((now) => {
+    theme = now;
+    changes++;
+  });
+  const name = (i: number): string => plots.source.scene.value?.membranes[i]?.name ?? `membrane ${i + 1}`;
+  const offer = (): void => {
+    const { membranes } = plots.source.history;
+    const names = plots.source.scene.value?.membranes.map((m) => m.name) ?? [];
+    const entries = Array.from(
+      { length: Math.max(membranes, names.length) },
+      (_, i) => [String(i), `${i + 1} ${name(i)}`] as const,
+    );
+    if (chosen !== null && chosen >= entries.length) chosen = null;
+    which.offer([["all", "all membranes"], ...entries], chosen === null ? "all" : String(chosen));
+    changes++;
+  };
+  app.source.watch((source) => source.scene.watch(offer));
+  plots.frozen.watch(offer);
+
+  const point = (now: ForceDepthPicture): void => {
+    if (surface.pointer) {
+      pointed = drawing.nearest(now, surface.pointer.x, surface.pointer.y, REACH);
+      plots.pointed.value = pointed?.tick ?? null;
+      plots.pointedBy = "depth";
+    } else {
+      if (plots.pointedBy === "depth" && document.activeElement !== surface.canvas) plots.pointed.value = null;
+      const tick = plots.pointed.value;
+      pointed = tick === null ? null : { tick, membrane: chosen ?? busiest(now, tick) };
+    }
+  };
+  const read = (): void => {
+    const { history } = plots.source;
+    const tick = pointed?.tick ?? plots.source.shown();
+    const m = pointed?.membrane ?? chosen;
+    if (tick === null || m === null || tick < history.first || tick >= history.end) {
+      readout.value = "";
+      return;
+    }
+    const depth = history.row("depth", tick)[m]!;
+    const force = -history.row("axial_force", tick)[m]!;
+    const at = `${m + 1} ${name(m)}: ${mm(depth, 3)}, ${newton(force, 3)} at ${history.timeOf(tick).toFixed(4)} s`;
+    readout.value = at.replaceAll("-", "−");
+  };
+  let seen = "";
+  let told = 0;
+  everyFrame((time) => {
+    if (!theme || surface.width < 40) return;
+    const window = plots.update();
+    const { source } = plots;
+    const { history } = source;
+    const state = `${changes} ${surface.changes} ${history.generation} ${history.end} ${window.first} ${window.end} ${source.shown()} ${plots.pointed.value} ${source.laws.value.length}`;
+    if (state === seen && app.overlay.value === null) return;
+    seen = state;
+    let now = picture();
+    drawing.arrange(now, surface.width, surface.height, time / 1e3);
+    point(now);
+    now = picture();
+    const pen = surface.begin();
+    drawing.draw(pen, now, theme);
+    if (surface.box) {
+      const { x1, y1, x2, y2 } = surface.box;
+      pen.box(Math.min(x1, x2), Math.min(y1, y2), Math.abs(x2 - x1), Math.abs(y2 - y1), theme.accent, 0.2);
+    }
+    read();
+    if (time - told > 250) {
+      told = time;
+      const apart = difference(history, window.first, window.end);
+      compared.value = apart
+        ? `solvers differ by ${newton(apart.rms, 4)} rms, ${newton(apart.largest, 3)} at most`
+        : "";
+    }
+  });
+};
+
+/** The membrane that pushes most at a tick. */
+function busiest({ source }: ForceDepthPicture, tick: number): number {
+  const { history } = source;
+  if (tick < history.first || tick >= history.end) return 0;
+  const force = history.row("axial_force", tick);
+  let best = 0;
+  for (let i = 1; i < force.length; i++) if (Math.abs(force[i]!) > Math.abs(force[best]!)) best = i;
+  return best;
+}

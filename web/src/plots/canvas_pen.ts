@@ -1,0 +1,101 @@
+import { FONT, type Lettering, type Pen, type Stroke } from "./pen.ts";
+import type { Polyline } from "./polyline.ts";
+
+const SOLID: number[] = [];
+
+/** Draws on a canvas that is `ratio` device pixels to a CSS pixel. */
+export class CanvasPen implements Pen {
+  constructor(private readonly context: CanvasRenderingContext2D) {}
+
+  begin(width: number, height: number, ratio: number): void {
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.context.clearRect(0, 0, width, height);
+    this.context.lineJoin = "bevel"; // a mitre would draw a spike beyond its value
+  }
+
+  line(points: Polyline, stroke: Stroke): void {
+    this.trace(points);
+    this.stroke(stroke);
+  }
+
+  area(points: Polyline, colour: string, alpha: number): void {
+    this.trace(points);
+    this.context.globalAlpha = alpha;
+    this.context.fillStyle = colour;
+    this.context.fill();
+    this.context.globalAlpha = 1;
+  }
+
+  segment(x1: number, y1: number, x2: number, y2: number, stroke: Stroke): void {
+    this.context.beginPath();
+    this.context.moveTo(x1, y1);
+    this.context.lineTo(x2, y2);
+    this.stroke(stroke);
+  }
+
+  box(x: number, y: number, width: number, height: number, colour: string, alpha: number): void {
+    this.context.globalAlpha = alpha;
+    this.context.fillStyle = colour;
+    this.context.fillRect(x, y, width, height);
+    this.context.globalAlpha = 1;
+  }
+
+  dot(x: number, y: number, radius: number, fill: string, rim: string): void {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    this.context.fillStyle = fill;
+    this.context.fill();
+    this.stroke({ colour: rim, width: 1.5 });
+  }
+
+  text(x: number, y: number, text: string, { colour, size = 11, anchor = "start", bold, halo }: Lettering): void {
+    const c = this.context;
+    c.font = `${bold ? "600 " : ""}${size}px ${FONT}`;
+    c.textBaseline = "middle";
+    c.textAlign = anchor === "middle" ? "center" : anchor;
+    if (halo) {
+      c.strokeStyle = halo;
+      c.lineWidth = 3;
+      c.setLineDash(SOLID);
+      c.strokeText(text, x, y);
+    }
+    c.fillStyle = colour;
+    c.fillText(text, x, y);
+  }
+
+  within(x: number, y: number, width: number, height: number, draw: () => void): void {
+    this.context.save();
+    this.context.beginPath();
+    this.context.rect(x, y, width, height);
+    this.context.clip();
+    draw();
+    this.context.restore();
+  }
+
+  private trace({ xs, ys, count }: Polyline): void {
+    const c = this.context;
+    c.beginPath();
+    let down = false;
+    for (let i = 0; i < count; i++) {
+      const x = xs[i]!;
+      const y = ys[i]!;
+      if (Number.isNaN(y)) down = false;
+      else if (down) c.lineTo(x, y);
+      else {
+        c.moveTo(x, y);
+        if (i + 1 === count || Number.isNaN(ys[i + 1])) c.lineTo(x + 1, y); // a lone point is to be seen
+        down = true;
+      }
+    }
+  }
+
+  private stroke({ colour, width, alpha = 1, dash }: Stroke): void {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.globalAlpha = alpha;
+    c.setLineDash((dash as number[] | undefined) ?? SOLID);
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+}

@@ -1,0 +1,44 @@
+import type { Polyline } from "./polyline.ts";
+
+/**
+ * A line through `xs`, `ys` (pixels) with at most four points for every stay in a pixel column: the first, the lowest, the
+ * highest and the last, in the order in which they came. To the pixel the picture of all points, so that a spike of one
+ * tick is drawn at its full height; nothing is skipped by a stride. NaN is a gap.
+ */
+export function throughColumns(xs: Float32Array, ys: Float32Array, from: number, to: number, out: Polyline): void {
+  let first = -1;
+  let last = -1;
+  let low = -1;
+  let high = -1;
+  let column = 0;
+  const flush = (): void => {
+    if (first < 0) return;
+    out.add(xs[first]!, ys[first]!);
+    const earlier = Math.min(low, high);
+    const later = Math.max(low, high);
+    if (earlier > first && earlier < last) out.add(xs[earlier]!, ys[earlier]!);
+    if (later > earlier && later > first && later < last) out.add(xs[later]!, ys[later]!);
+    if (last > first) out.add(xs[last]!, ys[last]!);
+    first = -1;
+  };
+  for (let i = from; i < to; i++) {
+    const x = xs[i]!;
+    const y = ys[i]!;
+    if (Number.isNaN(x) || Number.isNaN(y)) {
+      flush();
+      out.gap();
+      continue;
+    }
+    const here = Math.floor(x);
+    if (first >= 0 && here === column) {
+      last = i;
+      if (y < ys[low]!) low = i;
+      if (y > ys[high]!) high = i;
+      continue;
+    }
+    flush();
+    first = last = low = high = i;
+    column = here;
+  }
+  flush();
+}

@@ -1,0 +1,137 @@
+import type { History } from "../state/history.ts";
+import type { FloatColumn } from "../wire/ticks.ts";
+
+type Column = Exclude<FloatColumn, "time">;
+
+/** Calls with stretches of ticks whose rows follow one another in the rings: two at most. */
+function stretches(
+  history: History,
+  first: number,
+  end: number,
+  use: (slot: number, n: number, at: number) => void,
+): void {
+  for (let at = 0; first + at < end; ) {
+    const slot = history.slot(first + at);
+    const n = Math.min(end - first - at, history.capacity - slot);
+    use(slot, n, at);
+    at += n;
+  }
+}
+
+/** out[i] = bias + gain * the number `offset` of the column's row, for the ticks from `first` to before `end`. */
+export function gather(
+  history: History,
+  first: number,
+  end: number,
+  column: Column,
+  offset: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  const values = history.column(column);
+  const width = history.width(column);
+  stretches(history, first, end, (slot, n, at) => {
+    for (let i = 0, from = slot * width + offset; i < n; i++, from += width) out[at + i] = bias + gain * values[from]!;
+  });
+}
+
+/** The same of the time, s. */
+export function gatherTime(
+  history: History,
+  first: number,
+  end: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  stretches(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) out[at + i] = bias + gain * history.time[slot + i]!;
+  });
+}
+
+/**
+ * The axial force of a membrane as the other solver would have it, N: where the tip is in that membrane, this solver's plus
+ * the difference of the two whole forces along b. With one membrane at the needle that is the other's axial force itself.
+ */
+export function gatherOther(
+  history: History,
+  first: number,
+  end: number,
+  membrane: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  const m = history.membranes;
+  const axial = history.column("axial_force");
+  const other = history.column("other_force");
+  const model = history.column("model_force");
+  const b = history.column("direction");
+  const phase = history.byteColumn("phase");
+  stretches(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) {
+      const row = slot + i;
+      const cell = row * m + membrane;
+      if (phase[cell] === 0) {
+        out[at + i] = Number.NaN;
+        continue;
+      }
+      let along = axial[cell]!;
+      for (let k = 0; k < 3; k++) along += b[3 * cell + k]! * (other[3 * row + k]! - model[3 * row + k]!);
+      out[at + i] = bias + gain * along;
+    }
+  });
+}
+
+/** What goes to the hand, against the needle's axis, N: the force of the device after all limits. */
+export function gatherSent(
+  history: History,
+  first: number,
+  end: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  const force = history.column("force");
+  const axis = history.column("axis");
+  stretches(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) {
+      const from = 3 * (slot + i);
+      const [x, y, z] = [force[from]!, force[from + 1]!, force[from + 2]!];
+      const against = -(x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!);
+      out[at + i] = bias + gain * (Number.isNaN(against) ? Math.hypot(x, y, z) : against);
+    }
+  });
+}
+
+/** Lowest and highest number, gaps left out; low > high where there is none. */
+export class Extent {
+  low = Number.POSITIVE_INFINITY;
+  high = Number.NEGATIVE_INFINITY;
+
+  forget(): void {
+    this.low = Number.POSITIVE_INFINITY;
+    this.high = Number.NEGATIVE_INFINITY;
+  }
+  take(value: number): void {
+    if (value < this.low) this.low = value;
+    if (value > this.high) this.high = value;
+  }
+  takeColumn(history: History, first: number, end: number, column: Column, offset: number, gain: number): void {
+    const values = history.column(column);
+    const width = history.width(column);
+    let low = Number.POSITIVE_INFINITY;
+    let high = Number.NEGATIVE_INFINITY;
+    stretches(history, first, end, (slot, n) => {
+      for (let i = 0, from = slot * width + offset; i < n; i++, from += width) {
+        const value = values[from]!;
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+    });
+    if (low > high) return;
+    this.take(gain * low);
+    this.take(gain * high);
+  }
+}

@@ -1,0 +1,61 @@
+import { CanvasPen } from "./canvas_pen.ts";
+import { csv } from "./csv.ts";
+import type { Pen } from "./pen.ts";
+import type { Plots } from "./shared.ts";
+import { SvgPen } from "./svg_pen.ts";
+import type { Theme } from "./theme.ts";
+
+/** What a plot gives to be saved. */
+export interface Saving {
+  readonly name: string;
+  readonly plots: Plots;
+  theme(): Theme;
+  /** The membrane that is shown, or null for all. */
+  membranes(): number | null;
+  size(): readonly [width: number, height: number];
+  draw(pen: Pen): void;
+}
+
+const PNG_RATIO = 2; // device pixels to a pixel of the plot, so that a picture can be printed
+
+/** Hands a file to the person. */
+export function download(name: string, parts: BlobPart[], type: string): void {
+  const url = URL.createObjectURL(new Blob(parts, { type }));
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promise<void> {
+  const { plots } = saving;
+  const { source, window } = plots;
+  const scene = source.scene.value;
+  const [width, height] = saving.size();
+  const span = `${window.from.toFixed(3)} s to ${window.to.toFixed(3)} s`;
+  const title = `${scene?.name ?? "Punctura"}, ${span}`;
+  const file = `${saving.name}-${window.from.toFixed(2)}s.${format}`;
+  if (format === "csv") {
+    const names = scene?.membranes.map((m) => m.name) ?? [];
+    download(file, csv(source.history, window.first, window.end, names, saving.membranes()), "text/csv");
+    return;
+  }
+  const theme = saving.theme();
+  if (format === "svg") {
+    const pen = new SvgPen();
+    saving.draw(pen);
+    const words = `${scene?.membranes.length ?? 0} membranes, solver ${scene?.solver ?? "unknown"}`;
+    download(file, [pen.file(width, height, theme.panel, title, words)], "image/svg+xml");
+    return;
+  }
+  const canvas = document.createElement("canvas");
+  canvas.width = width * PNG_RATIO;
+  canvas.height = height * PNG_RATIO;
+  const pen = new CanvasPen(canvas.getContext("2d")!);
+  pen.begin(width, height, PNG_RATIO);
+  pen.box(0, 0, width, height, theme.panel, 1);
+  saving.draw(pen);
+  const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, "image/png"));
+  if (blob) download(file, [blob], "image/png");
+}

@@ -1,0 +1,99 @@
+import { element } from "../panel.ts";
+import { CanvasPen } from "./canvas_pen.ts";
+
+export interface Box {
+  readonly x1: number;
+  readonly y1: number;
+  readonly x2: number;
+  readonly y2: number;
+}
+
+const DRAG = 6; // px from which on a press is a drag
+
+/** A canvas that fills its host, with a pointer that can point at a place or draw a box. CSS pixels. */
+export class Surface {
+  readonly canvas: HTMLCanvasElement;
+  readonly pen: CanvasPen;
+  width = 0;
+  height = 0;
+  /** Where the pointer is; null while it is elsewhere. */
+  pointer: { readonly x: number; readonly y: number } | null = null;
+  /** The box that is being drawn. */
+  box: Box | null = null;
+  /** Counts what happened here that asks for another drawing. */
+  changes = 0;
+  private ratio = 1;
+
+  constructor(
+    host: HTMLElement,
+    label: string,
+    private readonly acts: {
+      boxed(box: Box): void;
+      doubled(): void;
+      /** Whether the key was one. */
+      key(event: KeyboardEvent): boolean;
+    },
+  ) {
+    this.canvas = element("canvas", { class: "plot-canvas", tabindex: 0, role: "application", "aria-label": label });
+    host.append(this.canvas);
+    this.pen = new CanvasPen(this.canvas.getContext("2d")!);
+    new ResizeObserver(() => this.fit(host)).observe(host);
+    this.fit(host);
+    this.listen();
+  }
+
+  /** Clears for a drawing. */
+  begin(): CanvasPen {
+    if (this.ratio !== devicePixelRatio) this.fit(this.canvas.parentElement!);
+    this.pen.begin(this.width, this.height, this.ratio);
+    return this.pen;
+  }
+
+  private fit(host: HTMLElement): void {
+    const { clientWidth, clientHeight } = host;
+    this.width = clientWidth;
+    this.height = clientHeight;
+    this.ratio = devicePixelRatio;
+    this.canvas.width = Math.max(1, Math.round(clientWidth * this.ratio));
+    this.canvas.height = Math.max(1, Math.round(clientHeight * this.ratio));
+    this.changes++;
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    const at = (event: PointerEvent): { x: number; y: number } => ({ x: event.offsetX, y: event.offsetY });
+    let pressed: { x: number; y: number } | null = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      canvas.setPointerCapture(event.pointerId);
+      pressed = at(event);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      this.pointer = at(event);
+      this.changes++;
+      if (!pressed) return;
+      const { x, y } = this.pointer;
+      const far = Math.hypot(x - pressed.x, y - pressed.y) >= DRAG;
+      if (this.box || far) this.box = { x1: pressed.x, y1: pressed.y, x2: x, y2: y };
+    });
+    const letGo = (take: boolean): void => {
+      const { box } = this;
+      pressed = null;
+      this.box = null;
+      this.changes++;
+      if (take && box) this.acts.boxed(box);
+    };
+    canvas.addEventListener("pointerup", () => letGo(true));
+    canvas.addEventListener("pointercancel", () => letGo(false));
+    canvas.addEventListener("pointerleave", () => {
+      this.pointer = null;
+      this.changes++;
+    });
+    canvas.addEventListener("dblclick", () => this.acts.doubled());
+    canvas.addEventListener("keydown", (event) => {
+      if (event.altKey || event.ctrlKey || event.metaKey) return;
+      if (this.acts.key(event)) event.preventDefault();
+      this.changes++;
+    });
+  }
+}

@@ -1,0 +1,53 @@
+import { element } from "../panel.ts";
+import { type Saving, save } from "./save.ts";
+import type { Plots } from "./shared.ts";
+
+export function button(text: string, title: string, act: () => void): HTMLButtonElement {
+  return element("button", { type: "button", title, "aria-label": title, onclick: act }, text);
+}
+
+/** A list to choose from, whose entries may change. */
+export function choice(
+  label: string,
+  entries: ReadonlyArray<readonly [value: string, text: string]>,
+  value: string,
+  chosen: (value: string) => void,
+): { select: HTMLSelectElement; offer(entries: ReadonlyArray<readonly [string, string]>, value: string): void } {
+  const select = element("select", { "aria-label": label, title: label, onchange: () => chosen(select.value) });
+  const offer = (offered: ReadonlyArray<readonly [string, string]>, now: string): void => {
+    select.replaceChildren(...offered.map(([key, text]) => element("option", { value: key }, text)));
+    select.value = now;
+  };
+  offer(entries, value);
+  return { select, offer };
+}
+
+/** Holds all plots still, or lets them go on; the run does not notice. */
+export function freezeButton(plots: Plots): HTMLButtonElement {
+  const made = button("Freeze", "Hold the plots still; the run goes on (space)", () =>
+    plots.frozen.value ? plots.thaw() : plots.freeze(),
+  );
+  made.classList.add("plot-freeze");
+  plots.frozen.watch((frozen) => made.setAttribute("aria-pressed", String(frozen !== null)));
+  return made;
+}
+
+/** Saves what is shown. */
+export function saveMenu(saving: Saving): HTMLElement {
+  const menu = element("details", { class: "plot-save" }, element("summary", { title: "Save what is shown" }, "Save"));
+  const entry = (format: "png" | "svg" | "csv", text: string): HTMLButtonElement =>
+    button(text, `Save as ${text}`, () => {
+      menu.open = false;
+      void save(saving, format);
+    });
+  menu.append(
+    element("div", {}, entry("png", "PNG picture"), entry("svg", "SVG drawing"), entry("csv", "CSV, every tick")),
+  );
+  menu.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") menu.open = false;
+  });
+  menu.addEventListener("focusout", (event) => {
+    if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false;
+  });
+  return menu;
+}

@@ -1,0 +1,55 @@
+import type { History } from "../state/history.ts";
+
+/** The first tick at or after `time` (s); `end` where there is none. */
+export function tickAt(history: History, time: number): number {
+  let low = history.first;
+  let high = history.end;
+  while (low < high) {
+    const middle = Math.floor((low + high) / 2);
+    if (history.timeOf(middle) < time) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The tick nearest to `time` (s), or null where there is none. */
+export function nearestTick(history: History, time: number): number | null {
+  if (history.end === history.first) return null;
+  const after = Math.min(tickAt(history, time), history.end - 1);
+  const before = Math.max(after - 1, history.first);
+  return time - history.timeOf(before) < history.timeOf(after) - time ? before : after;
+}
+
+/** A span of time, s, and the ticks in it. */
+export class Window {
+  from = 0;
+  to = 1;
+  first = 0;
+  end = 0;
+
+  /**
+   * The last `seconds` up to the tick that is shown. A run shorter than that fills the window from the left; a recording
+   * shows a little of what comes after, too.
+   */
+  follow(history: History, shown: number | null, seconds: number, live: boolean): void {
+    const now = shown === null ? 0 : history.timeOf(shown);
+    const begin = history.end > history.first ? history.timeOf(history.first) : 0;
+    const last = history.end > history.first ? history.timeOf(history.end - 1) : 0;
+    const to = live ? now : Math.min(last, now + seconds / 4);
+    this.from = Math.max(to - seconds, begin);
+    this.to = this.from + seconds;
+    this.find(history);
+  }
+
+  set(history: History, from: number, to: number): void {
+    this.from = from;
+    this.to = to;
+    this.find(history);
+  }
+
+  private find(history: History): void {
+    // One tick more to either side, so that a line goes on to the edge.
+    this.first = Math.max(history.first, tickAt(history, this.from) - 1);
+    this.end = Math.min(history.end, tickAt(history, this.to) + 1);
+  }
+}
