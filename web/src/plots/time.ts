@@ -1,3 +1,118 @@
-import type { Panel } from "../panel.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import { keyTick } from "./keys.ts";
+import { reading } from "./reading.ts";
+import { plotsOf, SPANS, type Span } from "./shared.ts";
+import { Surface } from "./surface.ts";
+import { type Theme, watchTheme } from "./theme.ts";
+import { TimeDrawing, type TimePicture } from "./time_drawing.ts";
+import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
+import { nearestTick } from "./window.ts";
 
-export const timePlots: Panel = (_host, _app) => {};
+/** Force and depth against time, one above the other. */
+export const timePlots: Panel = (host, app) => {
+  const plots = plotsOf(app);
+  const drawing = new TimeDrawing();
+  let theme: Theme | null = null;
+  let changes = 0;
+
+  const spans = choice(
+    "Time shown",
+    SPANS.map((span) => [String(span), `${span} s`] as const),
+    String(plots.span.value),
+    (value) => {
+      plots.resetZoom();
+      plots.span.value = Number(value) as Span;
+    },
+  );
+  const whole = button("Whole", "Reset the zoom (0, or double click)", () => plots.resetZoom());
+  plots.zoom.watch((zoom) => {
+    whole.disabled = zoom === null;
+    changes++;
+  });
+  const picture = (): TimePicture => ({
+    source: plots.source,
+    window: plots.window,
+    pointed: plots.pointed.value,
+    cursor: plots.source.cursor.value,
+  });
+  const body = element("div", { class: "plot-body" });
+  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
+  host.append(
+    element(
+      "div",
+      { class: "plot-bar" },
+      element("h2", {}, "Against time"),
+      spans.select,
+      element("span", { class: "plot-gap" }),
+      freezeButton(plots),
+      whole,
+      saveMenu({
+        name: "force-and-depth",
+        plots,
+        theme: () => theme!,
+        membranes: () => null,
+        size: () => [surface.width, surface.height],
+        draw: (pen) => drawing.draw(pen, picture(), theme!),
+      }),
+    ),
+    body,
+    spoken,
+  );
+  const surface = new Surface(
+    body,
+    "Force and depth against time. Arrow keys move the cursor, with shift tick by tick; plus and minus zoom, 0 resets, space freezes.",
+    {
+      boxed: ({ x1, x2 }) => {
+        const { x } = drawing.force;
+        const [from, to] = [x.value(Math.min(x1, x2)), x.value(Math.max(x1, x2))];
+        if (to - from > 2e-3) plots.zoomTo(from, to);
+      },
+      doubled: () => plots.resetZoom(),
+      key: (event) => {
+        if (event.key === "0") {
+          plots.resetZoom();
+          return true;
+        }
+        const taken = keyTick(event, plots);
+        const tick = plots.pointed.value;
+        if (taken && tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
+        return taken;
+      },
+    },
+  );
+  watchTheme((now) => {
+    theme = now;
+    changes++;
+  });
+
+  const point = (): void => {
+    const { pointer } = surface;
+    const { x, left, width } = drawing.force;
+    if (pointer && pointer.x >= left && pointer.x <= left + width) {
+      plots.pointedBy = "time";
+      plots.pointed.value = nearestTick(plots.source.history, x.value(pointer.x));
+    } else if (plots.pointedBy === "time") plots.pointed.value = null;
+  };
+
+  let seen = "";
+  everyFrame((time) => {
+    if (!theme || surface.width < 40) return;
+    const { from, to, first, end } = plots.update();
+    const { source } = plots;
+    const { history } = source;
+    const state = `${changes} ${surface.changes} ${history.generation} ${from} ${to} ${first} ${end} ${source.cursor.value} ${plots.pointed.value} ${source.events.value.length}`;
+    if (state === seen) return;
+    seen = state;
+    const now = picture();
+    drawing.arrange(now, surface.width, surface.height, time / 1e3);
+    point();
+    const pen = surface.begin();
+    drawing.draw(pen, picture(), theme);
+    if (surface.box) {
+      const { x1, x2 } = surface.box;
+      const { top } = drawing.force;
+      const height = drawing.depth.top + drawing.depth.height - top;
+      pen.box(Math.min(x1, x2), top, Math.abs(x2 - x1), height, theme.accent, 0.2);
+    }
+  });
+};

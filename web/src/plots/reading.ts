@@ -1,0 +1,48 @@
+import type { Source } from "../state/source.ts";
+import type { Pane } from "./axes.ts";
+import { drawBadge } from "./badge.ts";
+import type { Pen } from "./pen.ts";
+import { STATE_WORDS, stateOf } from "./states.ts";
+import type { Theme } from "./theme.ts";
+
+const WIDTH = 158;
+const ROW = 16;
+
+const minus = (text: string): string => text.replace("-", "−");
+
+/** The numbers of a tick in words, for a screen reader. */
+export function reading(source: Source, tick: number): string {
+  const { history } = source;
+  const names = source.scene.value?.membranes ?? [];
+  const parts = Array.from({ length: history.membranes }, (_, i) => {
+    const depth = (history.row("depth", tick)[i]! * 1e3).toFixed(3);
+    const force = (-history.row("axial_force", tick)[i]!).toFixed(3);
+    return `${names[i]?.name ?? `membrane ${i + 1}`} ${depth} mm, ${force} N`;
+  });
+  return `${history.timeOf(tick).toFixed(4)} s, ${STATE_WORDS[stateOf(history, tick)]}: ${parts.join("; ")}`;
+}
+
+/** A small table beside the cursor: time, and depth and force of every membrane. */
+export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme): void {
+  const { history } = source;
+  const x = pane.x.px(history.timeOf(tick));
+  const left = x + WIDTH + 14 < pane.left + pane.width ? x + 10 : x - WIDTH - 10;
+  const { top } = pane;
+  pen.box(left, top + 2, WIDTH, ROW * (history.membranes + 1) + 6, theme.panel, 0.92);
+  const edge = { colour: theme.line, width: 1 };
+  const bottom = top + ROW * (history.membranes + 1) + 8;
+  pen.segment(left, top + 2, left + WIDTH, top + 2, edge);
+  pen.segment(left, bottom, left + WIDTH, bottom, edge);
+  pen.segment(left, top + 2, left, bottom, edge);
+  pen.segment(left + WIDTH, top + 2, left + WIDTH, bottom, edge);
+  const words = `${history.timeOf(tick).toFixed(4)} s  ${STATE_WORDS[stateOf(history, tick)]}`;
+  pen.text(left + 8, top + 13, words, { colour: theme.text, bold: true });
+  for (let i = 0; i < history.membranes; i++) {
+    const y = top + 13 + ROW * (i + 1);
+    drawBadge(pen, left + 14, y, i, theme);
+    const depth = minus((history.row("depth", tick)[i]! * 1e3).toFixed(3));
+    const force = minus((-history.row("axial_force", tick)[i]!).toFixed(3));
+    pen.text(left + 92, y, `${depth} mm`, { colour: theme.text, anchor: "end" });
+    pen.text(left + WIDTH - 8, y, `${force} N`, { colour: theme.text, anchor: "end" });
+  }
+}

@@ -1,0 +1,204 @@
+import type { History } from "../state/history.ts";
+import type { Source } from "../state/source.ts";
+import { drawAxes, MARGIN, Pane } from "./axes.ts";
+import { drawBadge } from "./badge.ts";
+import { CalmRange } from "./calm_range.ts";
+import { throughColumns } from "./decimate.ts";
+import { Extent, gather, gatherOther, gatherSent, gatherTime } from "./gather.ts";
+import { popLabel, rowsOf } from "./marks.ts";
+import type { Pen } from "./pen.ts";
+import { Polyline } from "./polyline.ts";
+import { drawReading } from "./reading.ts";
+import type { Scale } from "./scale.ts";
+import { eachState, STATE_WORDS, type State } from "./states.ts";
+import { colourOf, type Theme } from "./theme.ts";
+import type { Window } from "./window.ts";
+
+const MM = 1e3;
+const ROW = 13; // px
+const FORCE_SHARE = 0.58;
+
+/** What is to be drawn: the ticks of a window. Depths in mm, forces in N, positive where they push the needle out. */
+export interface TimePicture {
+  readonly source: Source;
+  readonly window: Window;
+  readonly pointed: number | null;
+  /** Where the scrubber of a recording stands. */
+  readonly cursor: number | null;
+}
+
+/** Draws force and depth against one time axis. Keeps its memory from frame to frame. */
+export class TimeDrawing {
+  readonly force = new Pane();
+  readonly depth = new Pane();
+  private readonly rangeForce = new CalmRange();
+  private readonly rangeDepth = new CalmRange();
+  private readonly extent = new Extent();
+  private readonly path = new Polyline();
+  private xs = new Float32Array(0);
+  private ys = new Float32Array(0);
+
+  /** Lays the axes out; now in s. */
+  arrange({ source, window }: TimePicture, width: number, height: number, now: number): void {
+    const { force, depth, extent } = this;
+    const across = width - MARGIN.left - MARGIN.right;
+    const room = height - 2 * MARGIN.top - MARGIN.bottom;
+    const upper = Math.round(FORCE_SHARE * room);
+    force.place(MARGIN.left, MARGIN.top, across, upper);
+    depth.place(MARGIN.left, 2 * MARGIN.top + upper, across, room - upper);
+    const { history } = source;
+    extent.forget();
+    extent.take(-0.1);
+    extent.take(0.1);
+    for (let i = 0; i < history.membranes; i++)
+      extent.takeColumn(history, window.first, window.end, "axial_force", i, -1);
+    this.rangeForce.follow(extent.low, extent.high, now);
+    extent.forget();
+    extent.take(-1);
+    extent.take(1);
+    for (let i = 0; i < history.membranes; i++) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
+    // A hand far away from the tissue must not press what happens inside into a line.
+    this.rangeDepth.follow(Math.max(extent.low, -Math.max(5, extent.high)), extent.high, now);
+    for (const pane of [force, depth]) pane.rangeX(window.from, window.to);
+    force.rangeY(this.rangeForce.min, this.rangeForce.max);
+    depth.rangeY(this.rangeDepth.min, this.rangeDepth.max);
+  }
+
+  draw(pen: Pen, picture: TimePicture, theme: Theme): void {
+    const { source, window } = picture;
+    const { history } = source;
+    const { force, depth } = this;
+    this.drawStates(pen, history, window, theme);
+    drawAxes(pen, force, theme, { y: "force on the hand (N)" });
+    drawAxes(pen, depth, theme, { x: "time (s)", y: "depth (mm)" });
+    this.drawMarks(pen, picture, theme);
+    const n = window.end - window.first;
+    if (n < 1) return;
+    if (this.xs.length < n) {
+      this.xs = new Float32Array(2 * n);
+      this.ys = new Float32Array(2 * n);
+    }
+    const slope = slopeOf(force.x);
+    gatherTime(history, window.first, window.end, slope, force.x.from - slope * force.x.min, this.xs);
+    pen.within(force.left, force.top, force.width, force.height, () => this.drawForces(pen, history, window, theme));
+    pen.within(depth.left, depth.top, depth.width, depth.height, () => {
+      for (let i = 0; i < history.membranes; i++) {
+        gather(history, window.first, window.end, "depth", i, MM * slopeOf(depth.y), depth.y.px(0), this.ys);
+        this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
+      }
+    });
+    this.drawNow(pen, picture, theme);
+  }
+
+  private drawForces(pen: Pen, history: History, { first, end }: Window, theme: Theme): void {
+    const { y } = this.force;
+    const gain = slopeOf(y);
+    const n = end - first;
+    gatherSent(history, first, end, gain, y.px(0), this.ys);
+    this.drawLine(pen, n, theme.text, 1, 0.5);
+    for (let i = 0; i < history.membranes; i++) {
+      gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
+      this.drawLine(pen, n, theme.text, 1, 0.6);
+      gather(history, first, end, "axial_force", i, -gain, y.px(0), this.ys);
+      this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
+    }
+  }
+
+  private drawLine(pen: Pen, n: number, colour: string, width: number, alpha: number): void {
+    this.path.clear();
+    throughColumns(this.xs, this.ys, 0, n, this.path);
+    if (this.path.count) pen.line(this.path, { colour, width, alpha });
+  }
+
+  private drawStates(pen: Pen, history: History, window: Window, theme: Theme): void {
+    const { x, left, top, width } = this.force;
+    const bottom = this.depth.top + this.depth.height;
+    const looks: Readonly<Record<State, readonly [colour: string, alpha: number]>> = {
+      disarmed: [theme.quiet, 0.14],
+      waiting: [theme.quiet, 0.07],
+      active: ["", 0],
+      faulted: [theme.danger, 0.2],
+    };
+    pen.within(left, top, width, bottom - top, () =>
+      eachState(history, window.first, window.end, (state, first, end) => {
+        const [colour, alpha] = looks[state];
+        if (!alpha) return;
+        const from = Math.max(left, x.px(history.timeOf(first)));
+        const to = x.px(end < history.end ? history.timeOf(end) : history.timeOf(end - 1));
+        pen.box(from, top, to - from, bottom - top, colour, alpha);
+        if (to - from > 48) {
+          const ink = state === "faulted" ? theme.danger : theme.quiet;
+          pen.text(from + 4, bottom - 8, STATE_WORDS[state], { colour: ink, size: 10 });
+        }
+      }),
+    );
+  }
+
+  /** Pops with what the force lost; touch and out as a notch below. */
+  private drawMarks(pen: Pen, { source, window }: TimePicture, theme: Theme): void {
+    const { force, depth } = this;
+    const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
+    const at = (tick: number): number => force.x.px(source.history.timeOf(tick));
+    const pops = inside.filter((event) => event.what === "pop");
+    const labels = pops.map((event) => ({ x: at(event.tick) + 3, text: popLabel(event) }));
+    const rows = rowsOf(labels, Math.max(1, Math.floor(force.height / (4 * ROW))));
+    const bottom = depth.top + depth.height;
+    pen.within(force.left, force.top, force.width, bottom - force.top, () => {
+      for (const event of inside) {
+        if (event.what === "pop") continue;
+        const [x, y] = [at(event.tick), force.y.px(0)];
+        const colour = colourOf(theme, event.membrane);
+        pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
+      }
+      pops.forEach((event, i) => {
+        const colour = colourOf(theme, event.membrane);
+        const x = at(event.tick);
+        pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.55, dash: [2, 2] });
+        if (rows[i]! < 0) return;
+        const y = force.top + ROW * (rows[i]! + 0.6);
+        pen.text(labels[i]!.x, y, labels[i]!.text, { colour: theme.text, size: 10.5, halo: theme.panel });
+      });
+    });
+  }
+
+  private drawNow(pen: Pen, picture: TimePicture, theme: Theme): void {
+    const { source, window, pointed, cursor } = picture;
+    const { history } = source;
+    const { force, depth } = this;
+    const bottom = depth.top + depth.height;
+    const inside = (tick: number | null): tick is number =>
+      tick !== null &&
+      tick >= window.first &&
+      tick < window.end &&
+      force.holds(force.x.px(history.timeOf(tick)), force.top);
+    if (inside(cursor)) {
+      const x = force.x.px(history.timeOf(cursor));
+      pen.segment(x, force.top, x, bottom, { colour: theme.accent, width: 1.5 });
+    }
+    const last = window.end - 1;
+    if (inside(last)) {
+      const x = force.x.px(history.timeOf(last));
+      for (let i = history.membranes - 1; i >= 0; i--) {
+        const y = depth.y.px(history.row("depth", last)[i]! * MM);
+        if (depth.holds(x, y)) drawBadge(pen, Math.min(x, depth.left + depth.width - 8), y, i, theme);
+      }
+    }
+    if (inside(pointed)) {
+      const x = force.x.px(history.timeOf(pointed));
+      pen.segment(x, force.top, x, bottom, { colour: theme.text, width: 1, alpha: 0.6, dash: [3, 3] });
+      for (let i = 0; i < history.membranes; i++) {
+        const places = [
+          [force, -history.row("axial_force", pointed)[i]!],
+          [depth, history.row("depth", pointed)[i]! * MM],
+        ] as const;
+        for (const [pane, value] of places) {
+          const y = pane.y.px(value);
+          if (pane.holds(x, y)) pen.dot(x, y, 3, theme.panel, colourOf(theme, i));
+        }
+      }
+      drawReading(pen, force, source, pointed, theme);
+    }
+  }
+}
+
+const slopeOf = ({ min, max, from, to }: Scale): number => (to - from) / (max - min);
