@@ -1,4 +1,5 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
+import { Api } from "../wire/api.ts";
 import type {
   Control,
   ExerciseStatus,
@@ -31,7 +32,11 @@ export class App {
   /** An earlier run laid over the plots. */
   readonly overlay = new Signal<Source | null>(null);
 
-  constructor(readonly engine: Engine) {}
+  constructor(
+    readonly engine: Engine,
+    /** Files: scenes, recordings, results. */
+    readonly api: Api = new Api({ search: globalThis.location?.search ?? "" }),
+  ) {}
 
   start(): void {
     this.engine.start({

@@ -1,0 +1,61 @@
+/** The studio's files over HTTP: scenes, recordings, results. Every request carries the page's token. */
+
+export class ApiError extends Error {}
+
+export type Fetch = (input: string, init?: RequestInit) => Promise<Response>;
+
+export class Api {
+  private readonly token: string;
+
+  /** page: where the page came from; its `?token=` opens the files too. */
+  constructor(
+    page: Pick<Location, "search">,
+    private readonly fetcher: Fetch = (input, init) => fetch(input, init),
+  ) {
+    this.token = new URLSearchParams(page.search).get("token") ?? "";
+  }
+
+  /** Throws ApiError, in words, where there is no answer or a refusal. */
+  async get(path: string, init: RequestInit = {}): Promise<Response> {
+    let response: Response;
+    try {
+      const headers = { Authorization: `Bearer ${this.token}` };
+      response = await this.fetcher(path, { ...init, headers });
+    } catch (error) {
+      if (error instanceof DOMException && error.name === "AbortError") throw error;
+      throw new ApiError("The studio does not answer.");
+    }
+    if (!response.ok) throw new ApiError(await reasonOf(response));
+    return response;
+  }
+
+  async json<T>(path: string): Promise<T> {
+    return (await (await this.get(path)).json()) as T;
+  }
+
+  async remove(path: string): Promise<void> {
+    await this.get(path, { method: "DELETE" });
+  }
+
+  async exists(path: string): Promise<boolean> {
+    try {
+      await this.get(path, { method: "HEAD" });
+      return true;
+    } catch {
+      return false;
+    }
+  }
+
+  /** Where a link leads that the browser itself opens or saves. */
+  address(path: string): string {
+    return `${path}${path.includes("?") ? "&" : "?"}token=${encodeURIComponent(this.token)}`;
+  }
+}
+
+async function reasonOf(response: Response): Promise<string> {
+  const text = await response.text().catch(() => "");
+  const said = text.startsWith("{") ? (JSON.parse(text) as { text?: string; error?: string }) : { text };
+  const words = said.text ?? said.error ?? "";
+  if (words && words.length < 300 && !words.startsWith("<")) return words;
+  return response.status === 404 ? "There is no such file any more." : `The studio answers ${response.status}.`;
+}
