@@ -15,7 +15,8 @@ _TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable":
 
 
 def scene_json_schema() -> dict[str, Any]:
-    """JSON Schema (2020-12) of a scene file. `x-unit` and `x-symbol` say a number's unit and its letter in K06."""
+    """JSON Schema (2020-12) of a scene file. `x-unit` and `x-symbol` say a number's unit and its letter in K06;
+    `x-diameters-mm`, in the order of `enum`, what the gauges are."""
     schema = SceneFile.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     fields = {field["path"]: field for field in _core.fields()}
@@ -25,6 +26,7 @@ def scene_json_schema() -> dict[str, Any]:
             _complete(entry, key, fields.get(f"{table}.{split_key(key)[0]}"))
     needle = schema["$defs"]["NeedleTable"]
     needle["properties"]["gauge"]["enum"] = list(GAUGE_DIAMETER_MM)
+    needle["properties"]["gauge"]["x-diameters-mm"] = [float(mm) for mm in GAUGE_DIAMETER_MM.values()]
     needle["allOf"] = [{"oneOf": [{"required": [key]} for key in pair]} for pair in ALTERNATIVES]
     schema["properties"]["membrane"]["minItems"] = 1
     return schema

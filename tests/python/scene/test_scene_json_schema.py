@@ -74,3 +74,8 @@ def test_units_and_symbols_are_named():
     membrane = properties("MembraneTable")
     assert (membrane["stiffness_N_per_mm"]["x-unit"], membrane["stiffness_N_per_mm"]["x-symbol"]) == ("N/mm", "kappa")
     assert membrane["friction"]["x-symbol"] == "mu" and "x-unit" not in membrane["friction"]
+
+
+def test_a_gauge_says_what_it_is_in_mm():
+    gauge = properties("NeedleTable")["gauge"]
+    assert dict(zip(gauge["enum"], gauge["x-diameters-mm"], strict=True))[21] == 0.8
