@@ -42,6 +42,7 @@ class Attempt:
         self._decision: Moment | None = None
         self._passed = False
         self._spoilt = ""  # why it cannot be judged
+        self._too_deep = False  # in the last tick
 
     @property
     def over(self) -> bool:
@@ -57,7 +58,7 @@ class Attempt:
         self._rows += len(ticks)
         if not self._begun:
             # Where a membrane is not known, its depth says nothing.
-            ready = (ticks.in_front | ~np.isfinite(ticks.depth)).all(axis=1) & np.isfinite(ticks.depth).any(axis=1)
+            ready = ~(ticks.below > 0).any(axis=1) & np.isfinite(ticks.below).any(axis=1)
             if not ready.any():
                 return
             self._begun = True
@@ -71,6 +72,7 @@ class Attempt:
             events = [event for event in events if event.tick <= self._decision.tick]
         self._events += events
         self._measures.add(ticks, events)
+        self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.in_front_of])
 
     def _decide(self, ticks: Ticks) -> None:
         failures = [judge.missed for judge in self._judges if judge.missed is not None]
@@ -106,6 +108,9 @@ class Attempt:
             return " ".join(self._reasons())
         if self._measures.attempts == 0:
             return self.exercise.instruction
+        if self._too_deep:
+            wall = self.scene.membranes[self._space.in_front_of].name
+            return f"You press against the {wall}: draw back a little."
         for judge in self._judges:
             if judge.achievement and judge.met is None:
                 return (

@@ -80,10 +80,12 @@ class StayJudge(Judge):
         super().__init__(goal.text or f"Stay in {space.name} for {goal.seconds:g} s")
         self.seconds = goal.seconds
         self.since: float | None = None  # s; when the tip came into the space where it is now
-        self._goal, self._space = goal, space
+        self.longest = 0.0  # s
+        self.whole_tip = goal.whole_tip
+        self._space = space
 
     def add(self, ticks: Ticks, events: list[Event]) -> None:
-        inside = self._space.holds(ticks, self._goal.whole_tip)
+        inside = self._space.holds(ticks, self.whole_tip)
         edges = [0, *(np.flatnonzero(np.diff(inside)) + 1).tolist(), len(inside)]
         for start, end in itertools.pairwise(edges):
             if not inside[start]:
@@ -91,8 +93,9 @@ class StayJudge(Judge):
                 continue
             if self.since is None:
                 self.since = float(ticks.time[start])
-            part = ticks.part(slice(start, end))
-            self._meet(part, part.time - self.since >= self.seconds)
+            stay = ticks.time[start:end] - self.since
+            self.longest = max(self.longest, float(stay[-1]))
+            self._meet(ticks.part(slice(start, end)), stay >= self.seconds)
 
 
 class NeverPassJudge(Judge):

@@ -18,11 +18,16 @@ class TargetSpace:
     sign: str  # by which one knows that one is there; may be empty
     behind: int
     in_front_of: int
+    press: float  # m that the point may be in the latter
 
     def holds(self, ticks: Ticks, whole_tip: bool) -> Flags:
         """In which ticks the point, or all of the tip, is in it. A needle that the front wall does not hold is not."""
         behind = ticks.tip_behind if whole_tip else ticks.point_behind
-        return behind[:, self.behind] & ticks.inside[:, self.behind] & ticks.in_front[:, self.in_front_of]
+        return behind[:, self.behind] & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
+
+    def too_deep(self, ticks: Ticks) -> Flags:
+        """In which ticks the point is in the membrane at the space's end; also where that is not known."""
+        return ~(ticks.below[:, self.in_front_of] <= self.press)
 
     @property
     def arrival(self) -> str:
@@ -43,4 +48,5 @@ def place_of(scene: Scene, name: str) -> int:
 def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
     """Raises ConfigurationError."""
     space = file.space
-    return TargetSpace(space.name, space.sign or "", place_of(scene, space.behind), place_of(scene, space.in_front_of))
+    behind, in_front_of = place_of(scene, space.behind), place_of(scene, space.in_front_of)
+    return TargetSpace(space.name, space.sign or "", behind, in_front_of, space.press_mm * 1e-3)

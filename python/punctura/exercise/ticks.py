@@ -37,7 +37,6 @@ class Ticks:
     run_on: Numbers  # (n, m), how far the slanted face is past the membrane along the needle, m; below 0 before that
     point_behind: Flags  # (n, m), the point is out behind the membrane
     tip_behind: Flags  # (n, m), the slanted face is, too
-    in_front: Flags  # (n, m), the point is in front of the membrane, or just at it
 
     def __len__(self) -> int:
         return len(self.tick)
@@ -84,7 +83,6 @@ class Geometry:
             run_on=np.where(inside, depth - self.tip_length - self.thickness / cosine, -np.inf),
             point_behind=finite & (below > self.thickness),
             tip_behind=finite & (below >= self.thickness + self.tip_length * cosine - 1e-12),
-            in_front=finite & (below <= 0),
         )
 
     def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:

@@ -42,8 +42,10 @@ def open_still(judge: Judge, measures: Measures, space: TargetSpace, first: str)
         return f"You did not touch the {first}."
     if measures.arrival is None:
         return f"You did not reach {space.name}."
+    if isinstance(judge, StayJudge) and judge.longest == 0 and judge.whole_tip:
+        return f"The whole tip never came into {space.name}."
     if isinstance(judge, StayJudge):
-        return f"You stayed in {space.name} for {measures.longest_stay:.1f} s at a time; {judge.seconds:g} s are asked."
+        return f"You stayed in {space.name} for {judge.longest:.1f} s at a time; {judge.seconds:g} s are asked."
     return f"Not done: {judge.text}."
 
 
