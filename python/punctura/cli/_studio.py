@@ -23,7 +23,7 @@ def run_page(wishes: Wishes, port: int, browser: bool, recordings: Path | None, 
     token = serve.token_from_environment()
 
     def make() -> serve.StudioServer:
-        server = serve.StudioServer(loaded, settings, port, token, folder)
+        server = serve.StudioServer(loaded, settings, port, token, folder, recordings)
         for note in server.session.run.notes:
             typer.echo(f"punctura: note: {note}", err=True)
         typer.echo(

@@ -83,6 +83,12 @@ class RecordingInfo:
         return cast(str, self._need("build", str))
 
     @property
+    def about(self) -> dict[str, Any]:
+        """What else its maker had to say; empty if nothing."""
+        about = self.data.get("about", {})
+        return about if isinstance(about, dict) else {}
+
+    @property
     def began_ns(self) -> int:
         """Of the clock on the wall, ns since 1970."""
         return cast(int, self._need("began_ns", int))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -42,14 +43,19 @@ class Recorder:
         print(recorder.status())
     """
 
-    def __init__(self, loop: ServoLoop, path: str | Path, capacity: int | None = None) -> None:
-        """Before loop.start(). capacity: snapshots in the ring. Raises RecordingError where nothing can be written."""
+    def __init__(
+        self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: dict[str, Any] | None = None
+    ) -> None:
+        """Before loop.start(). capacity: snapshots in the ring. about: what else the file shall say, as JSON.
+
+        Raises RecordingError where nothing can be written.
+        """
         self.path = Path(path)
         self._part = part_path(self.path)
         if loop.running:
             raise RecordingError("a recording begins before its loop does: make the Recorder before loop.start()")
         self._loop = loop
-        self._header = describe_run(loop)
+        self._header = describe_run(loop) | ({"about": about} if about else {})
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
         self._file = self._open()

@@ -18,7 +18,8 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
 
 from punctura.scene import scene_json_schema
-from punctura.studio.catalog import ready_scenes
+from punctura.studio.api import Api
+from punctura.studio.catalog import exercise_choices, ready_scenes
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
 from punctura.studio.security import PROTOCOL, TOKEN_REFUSED, Guard, socket_token
@@ -50,7 +51,7 @@ class Studio:
                 rate=info.rate,
             ),
             scenes=ready_scenes(),
-            exercises=[],
+            exercises=exercise_choices(),
             notes=self.session.run.notes,
         )
 
@@ -84,6 +85,7 @@ class Studio:
             Route("/", self.index),
             Route("/api/schema", self.schema),
             Route("/api/scene.toml", self.scene),
+            *Api(self.session).routes(),
             WebSocketRoute("/ws", self.socket),
         ]
         if self.figures and self.figures.is_dir():

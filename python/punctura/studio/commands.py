@@ -1,66 +1,151 @@
-"""What each request of a page does. In the worker's thread."""
+"""What each request of a page does: first, in any thread, what takes time; then the rest, in the worker's."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from concurrent.futures import Future
 from typing import Any
 
 from punctura.errors import ConfigurationError
+from punctura.exercise import load_exercise
+from punctura.record import RecorderStatus
 from punctura.scene import scene_names
 from punctura.studio.loaded import from_name, from_tables, from_text, problem_parts
+from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
+from punctura.studio.shelf import Shelf
 from punctura.studio.wire import requests as ask
 from punctura.studio.wire.messages import Reply
+
+Done = tuple[str, dict[str, Any]]  # a reply's text and data
+Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
 class NotNow(ValueError):
     """Something that cannot be done as things are; the text says why."""
 
 
-def obey(session: Session, request: Any) -> Reply:
-    """Does it. What is refused is a reply that says why; nothing is raised for a reason of the page's."""
-    try:
-        text, data = _do(session, request)
-    except ConfigurationError as error:
-        count = len(error.problems)
-        words = f"{count} problem{'s' if count != 1 else ''}"
-        return Reply(id=request.id, ok=False, text=words, problems=problem_parts(error))
-    except (ValueError, RuntimeError, OSError) as error:  # DeviceError and RecordingError are of these
-        return Reply(id=request.id, ok=False, text=str(error))
-    return Reply(id=request.id, ok=True, text=text, data=data)
-
-
-def _do(session: Session, request: Any) -> tuple[str, dict[str, Any]]:
-    text = ""
-    data: dict[str, Any] = {}
+def prepare(request: Any, shelf: Shelf) -> Job:
+    """What the worker shall do. Raises what `refusal` knows, with nothing done."""
     match request:
         case ask.Arm():
-            session.arm()
+            return lambda session: session.arm()
         case ask.Pause():
-            session.pause()
+            return lambda session: session.pause()
         case ask.Reset():
-            session.reset()
-        case ask.Strokes():
-            _needs_simulated(session)
-            session.hand.strokes(session.run.loaded.scene, request.period, time.monotonic())
-        case ask.Edit():
-            session.edit(from_tables(request.tables))
-        case ask.Load():
-            if request.scene not in scene_names():
-                raise NotNow(f"there is no ready scene {request.scene!r}")
-            session.begin(from_name(request.scene))
-        case ask.LoadText():
-            session.begin(from_text(request.toml))
+            return lambda session: session.reset()
         case ask.Compare():
-            session.set_compare(request.on)
+            return lambda session: session.set_compare(request.on)
+        case ask.Strokes():
+            return lambda session: _strokes(session, request.period)
+        case ask.PlayMotion():
+            motion = motion_of(shelf.open(request.recording))
+            return lambda session: _needs_simulated(session, lambda: session.hand.motion(*motion, time.monotonic()))
         case ask.TripFault():
-            _needs_simulated(session).trip()
-        case _:
-            raise NotNow("this studio cannot do that")
-    return text, data
+            return lambda session: _needs_simulated(session, lambda: session.bench.simulated_device.trip())
+        case ask.Edit() | ask.Load() | ask.LoadText():
+            return _prepare_scene(request)
+        case ask.StartRecording() | ask.StopRecording() | ask.StartExercise() | ask.EndExercise():
+            return _prepare_take(request)
+    raise NotNow("this studio cannot do that")
 
 
-def _needs_simulated(session: Session) -> Any:
+def refusal(number: int, error: Exception) -> Reply | None:
+    """The reply that says why not; None for a defect."""
+    if isinstance(error, ConfigurationError):
+        count = len(error.problems)
+        words = f"{count} problem{'s' if count != 1 else ''}"
+        return Reply(id=number, ok=False, text=words, problems=problem_parts(error))
+    if isinstance(error, ValueError | RuntimeError | OSError):  # DeviceError, RecordingError, BadName are of these
+        return Reply(id=number, ok=False, text=str(error))
+    return None
+
+
+def _prepare_scene(request: Any) -> Job:
+    if isinstance(request, ask.Edit):
+        loaded = from_tables(request.tables)
+        return lambda session: _edit(session, loaded)
+    if isinstance(request, ask.LoadText):
+        loaded = from_text(request.toml)
+    elif request.scene in scene_names():
+        loaded = from_name(request.scene)
+    else:
+        raise NotNow(f"there is no ready scene {request.scene!r}")
+    return lambda session: session.begin(loaded)
+
+
+def _edit(session: Session, loaded: Any) -> Done:
+    if session.practice:
+        raise NotNow("end the exercise before you change its scene")
+    session.edit(loaded)
+    if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
+        return "the new rate is that of the next run", {}
+    return "", {}
+
+
+def _strokes(session: Session, period: float) -> None:
+    scene = session.run.loaded.scene
+    _needs_simulated(session, lambda: session.hand.strokes(scene, period, time.monotonic()))
+
+
+def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     if not session.bench.simulated:
         raise NotNow("only a simulated device has a hand that can be moved from here")
-    return session.bench.device
+    do()
+
+
+def _prepare_take(request: Any) -> Job:
+    match request:
+        case ask.StartRecording():
+            return lambda session: _start_recording(session, request.name)
+        case ask.StopRecording():
+            return _stop_recording
+        case ask.StartExercise():
+            exercise = load_exercise(_ready(request.exercise))
+            loaded = from_name(exercise.scene_name)
+            return lambda session: _start_exercise(session, exercise, loaded, request.person)
+        case _:
+            return _end_exercise
+
+
+def _ready(name: str) -> str:
+    from punctura.exercise import exercise_names
+
+    if name not in exercise_names():
+        raise NotNow(f"there is no exercise {name!r}")
+    return name
+
+
+def _start_recording(session: Session, wish: str | None) -> Done:
+    if session.recording:
+        raise NotNow(f"{session.recording} is being recorded; stop it first")
+    loaded = session.run.loaded
+    name = session.shelf.new_name(wish, loaded.scene.name)
+    session.begin(loaded, session.run.pose, name, {"title": name, "scene": loaded.tables()})
+    return "", {"recording": name}
+
+
+def _stop_recording(session: Session) -> Future[Done]:
+    if not session.recording:
+        raise NotNow("nothing is being recorded")
+    if session.practice:
+        raise NotNow("the exercise is recorded until it ends")
+    done: Future[Done] = Future()
+
+    def tell(name: str, status: RecorderStatus) -> None:
+        done.set_result((status.trouble, {"recording": name, "rows": status.rows, "lost": status.lost}))
+
+    session.end_run(tell)
+    session.begin_again()
+    return done
+
+
+def _start_exercise(session: Session, exercise: Any, loaded: Any, person: str) -> Done:
+    return "", {"recording": session.practise(exercise, loaded, person)}
+
+
+def _end_exercise(session: Session) -> None:
+    if not session.practice:
+        raise NotNow("there is no exercise to end")
+    session.begin_again()

@@ -14,15 +14,17 @@ from punctura.live import stroke_ends
 
 Mode = Literal["target", "strokes", "motion", "device"]
 Triple = tuple[float, float, float]
+Pose = tuple[Triple, Triple]  # position, m, and axis
 Array = npt.NDArray[np.float64]
 
 SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the device's Target smooths them
 REST_SHARE = 0.15  # of a stroke's period, that the hand rests at each end
+LEAD_S = 1.0  # from where the hand is to where a motion begins
 FARTHEST = 0.5  # m from the origin: nothing at a desk is farther
 
 
-def resting_pose(scene: Scene) -> tuple[Triple, Triple]:
-    """Where a hand begins: in front of all membranes, pointing into the first. Position (m) and axis."""
+def resting_pose(scene: Scene) -> Pose:
+    """Where a hand begins: in front of all membranes, pointing into the first."""
     inward = np.array(scene.membranes[0].inward_normal)
     return stroke_ends(scene)[0], _triple(inward / np.linalg.norm(inward))
 
@@ -34,16 +36,17 @@ class Hand:
         self._device: SimulatedDevice | None = None
         self.mode: Mode = "device"
         self._axis: Triple = (0.0, -1.0, 0.0)
+        self._here: Array = np.zeros(3)
         self._began = 0.0
         self._next = math.inf
         self._strokes: tuple[Array, Array, float] | None = None
         self._motion: tuple[Array, Array, Array] | None = None  # time, position, axis
 
-    def take(self, device: Device, scene: Scene) -> None:
-        """A new run's device, at rest."""
+    def take(self, device: Device, pose: Pose) -> None:
+        """A new run's device, at rest in this pose."""
         self._device = device if isinstance(device, SimulatedDevice) else None
         self.mode = "target" if self._device else "device"
-        self._axis = resting_pose(scene)[1]
+        self._here, self._axis = np.array(pose[0]), pose[1]
         self._next = math.inf
 
     def target(self, position: list[float], axis: list[float], buttons: int = 0) -> None:
@@ -66,7 +69,13 @@ class Hand:
 
     def motion(self, time: Array, position: Array, axis: Array, now: float) -> None:
         """Follows samples: time (n,) from 0 on, s; position (n, 3), m; axis (n, 3)."""
-        self._motion = (time, position, axis)
+        lead = np.linspace(0.0, LEAD_S, 50)
+        way = self._here + _eased(lead / LEAD_S)[:, None] * (position[0] - self._here)
+        self._motion = (
+            np.concatenate((lead[:-1], LEAD_S + time)),
+            np.concatenate((way[:-1], position)),
+            np.concatenate((np.repeat(axis[:1], len(lead) - 1, axis=0), axis)),
+        )
         self.mode, self._began, self._next = "motion", now, now
 
     @property
@@ -94,17 +103,23 @@ class Hand:
 
     def _go(self, place: Array, direction: Array, buttons: int = 0) -> None:
         assert self._device is not None
-        self._axis = _triple(direction)
+        self._here, self._axis = place, _triple(direction)
         self._device.move_to(_triple(place))
         self._device.point(self._axis, buttons)
 
 
 def _there_and_back(turns: float) -> float:
-    """0 at rest, 1 at the end: minimum-jerk ways (Flash and Hogan 1985) with a rest at both ends; one turn a stroke."""
+    """0 at rest, 1 at the end, in minimum-jerk ways (Flash and Hogan 1985) with a rest at both; one turn a stroke."""
     u = turns % 1.0
     u = 2 * u if u < 0.5 else 2 - 2 * u
-    u = min(1.0, max(0.0, (u - REST_SHARE) / (1 - 2 * REST_SHARE)))
-    return u * u * u * (10 + u * (-15 + 6 * u))
+    return float(_eased(np.array((u - REST_SHARE) / (1 - 2 * REST_SHARE))))
+
+
+def _eased(u: Array) -> Array:
+    """A minimum-jerk way from 0 to 1; at rest before and after."""
+    u = np.clip(u, 0.0, 1.0)
+    eased: Array = u * u * u * (10 + u * (-15 + 6 * u))
+    return eased
 
 
 def _triple(v: Array) -> Triple:

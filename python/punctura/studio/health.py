@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from punctura.studio.wire.messages import Spread, Status
+from punctura.studio.wire.messages import RecordingStatus, Spread, Status
 
 if TYPE_CHECKING:
+    from punctura.studio.run import Run
     from punctura.studio.session import Session
 
 
@@ -50,3 +51,20 @@ def spread(times: dict[str, Any]) -> Spread:
 def edge(bin: int) -> float:
     """The shortest time in a bin, s: one bin for each ns below 8, then eight to an octave (loop/histogram.hpp)."""
     return (bin if bin < 8 else (8 + (bin - 8) % 8) << ((bin - 8) // 8)) * 1e-9
+
+
+def recording_status(name: str, run: Run) -> RecordingStatus:
+    """How the recording of a run is doing."""
+    assert run.recorder is not None
+    status = run.recorder.status()
+    return RecordingStatus(
+        name=name,
+        rows=status.rows,
+        lost=status.lost,
+        seconds=(status.last_tick + 1) / run.rate,
+        trouble=status.trouble,
+    )
+
+
+def no_recording() -> RecordingStatus:
+    return RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble="")

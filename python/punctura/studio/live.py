@@ -6,12 +6,13 @@ import asyncio
 import contextlib
 import json
 from collections.abc import Callable
+from concurrent.futures import Future
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from punctura.studio.commands import obey
+from punctura.studio.commands import Done, prepare, refusal
 from punctura.studio.hub import Hub, Viewer
 from punctura.studio.limits import MOST_TEXT, REQUESTS_A_SECOND, REQUESTS_AT_ONCE, Bucket
 from punctura.studio.session import Session
@@ -97,7 +98,20 @@ async def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Repl
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:
         return Reply(id=request.id, ok=False, text="the run has ended")
-    return await asyncio.wrap_future(session.call(lambda: obey(session, request)))
+    try:
+        text, data = await _do(request, session)
+    except Exception as error:
+        reply = refusal(request.id, error)
+        return reply or Reply(id=request.id, ok=False, text=f"a defect, please report it: {error!r}")
+    return Reply(id=request.id, ok=True, text=text, data=data)
+
+
+async def _do(request: Any, session: Session) -> Done:
+    job = await asyncio.to_thread(prepare, request, session.shelf)
+    done = await asyncio.wrap_future(session.call(lambda: job(session)))
+    if isinstance(done, Future):  # a recording's file takes its time
+        done = await asyncio.wrap_future(done)
+    return done or ("", {})
 
 
 def _not_understood(text: str, error: ValidationError) -> Reply:

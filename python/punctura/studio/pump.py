@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Protocol
+from collections.abc import Callable, Iterator
+from typing import Protocol
 
 import numpy as np
 from pydantic import BaseModel
 
+from punctura import Scene
 from punctura._core import Fault, describe
+from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
-from punctura.studio.laws import TURN, law_curves, obliquities
+from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
+from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import Columns, encode_ticks
-from punctura.studio.wire.messages import FaultMessage, LawsMessage
+from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent
 
 COMMAND_SCENE = 8
 MOST_TICKS = 4096  # in a frame
@@ -30,43 +33,64 @@ class Publisher(Protocol):
 
 
 class Pump:
-    """Of one run. Owns nothing but what it has to remember from batch to batch."""
+    """Of one run. Holds what it has to remember from batch to batch."""
 
     def __init__(self, run: Run, out: Publisher) -> None:
         self._run, self._out = run, out
         self._next_tick = 0
         self._gaps = 0  # ticks whose snapshot never came
-        self._membranes = len(run.loop.scene.membranes)
         self._fault = 0
-        self._angles = np.full(self._membranes, np.nan)
-        self._laws_at = -1.0
+        self._finder = EventFinder(run.loop.scene, run.rate)
         self._other: OtherSolver | None = None
+        self._tell_scene: Callable[[], None] | None = None  # as soon as a tick has taken the new one
+        self._axis: Vector = np.array(run.pose[1])
+        self._entered: Vector | None = None
+        self._angles = np.full(len(run.loop.scene.membranes), np.nan)
+        self._laws_at = 0.0  # s of the run: when the laws may be drawn anew
 
     @property
     def lost(self) -> int:
         return self._gaps
 
-    def turn(self) -> None:
-        """Everything that the ring holds goes out."""
+    def turn(self) -> Columns | None:
+        """Everything that the ring holds goes out; it is also returned, if there is any."""
         columns = self._run.read()
         if len(columns["tick"]) == 0:
-            return
-        for part in _parts(columns, self._next_tick):
+            return None
+        for part in _parts(columns):
+            if int(part["commands"][0]) & COMMAND_SCENE:
+                self._scene_is_taken()
             self._send(part)
         self._watch_fault(columns)
         self._watch_axis(columns)
+        for event in self._finder.add(columns):
+            self._out.say(MembraneEvent(**event.model_dump()))
+        return columns
 
-    def scene_changed(self) -> None:
-        """After an exchange: what comes from the next turn on is of the new scene."""
-        self._membranes = len(self._run.loop.scene.membranes)
-        self._angles = np.full(self._membranes, np.nan)
-        self._laws_at = -1.0
-        if self._other:
-            self._other.take(self._run.loop.scene)
+    def change(self, scene: Scene, tell: Callable[[], None]) -> Columns | None:
+        """Right after an exchange: `tell` is called between the ticks of the scene before and those of this one."""
+        self._finder.change(scene)
+        self._tell_scene = tell
+        columns = self.turn()
+        self._scene_is_taken()  # also where no tick comes any more
+        return columns
 
     def compare(self, on: bool) -> None:
         """Whether the other solver runs beside."""
         self._other = OtherSolver(self._run.loop.scene) if on else None
+
+    def laws(self) -> list[LawCurve]:
+        """Of the present scene, for the present direction of the needle."""
+        scene = self._run.loop.scene
+        self._angles = obliquities(scene, self._axis, self._entered)
+        return law_curves(scene, self._angles)
+
+    def _scene_is_taken(self) -> None:
+        tell, self._tell_scene = self._tell_scene, None
+        if tell is not None:
+            tell()
+            if self._other:
+                self._other.take(self._run.loop.scene)
 
     def _send(self, part: Columns) -> None:
         first = int(part["tick"][0])
@@ -96,29 +120,29 @@ class Pump:
         )
 
     def _watch_axis(self, columns: Columns) -> None:
-        now = float(columns["time"][-1])
-        if now < self._laws_at or columns["direction"].shape[1] != self._membranes:
-            return
-        axis = columns["axis"][-1]
-        if not np.isfinite(axis).all():
-            return
+        now, axis, entered = float(columns["time"][-1]), columns["axis"][-1], columns["direction"][-1]
+        if np.isfinite(axis).all():
+            self._axis, self._entered = axis, entered
         scene = self._run.loop.scene
-        angles = obliquities(scene, axis, columns["direction"][-1])
-        if np.isnan(self._angles).any() or np.abs(angles - self._angles).max() > TURN:
-            self._angles, self._laws_at = angles, now + LAWS_EVERY_S
-            self._out.say(LawsMessage(laws=law_curves(scene, angles)))
+        if now < self._laws_at or len(self._angles) != len(scene.membranes):
+            return
+        angles = obliquities(scene, self._axis, self._entered)
+        if not np.abs(angles - self._angles).max() <= TURN:  # NaN: nothing was drawn yet
+            self._laws_at = now + LAWS_EVERY_S
+            self._out.say(LawsMessage(laws=self.laws()))
 
 
 def no_fault() -> FaultMessage:
     return FaultMessage(fault="none", reason="", trouble="", tick=None, kept=0)
 
 
-def _parts(columns: dict[str, Any], next_tick: int) -> Iterator[Columns]:
+def _parts(columns: Columns) -> Iterator[Columns]:
     """The batch in pieces without a gap, of one scene each, and none too long."""
     tick = columns["tick"].astype(np.int64)
     n = len(tick)
-    breaks = set(np.flatnonzero(np.diff(tick) != 1) + 1) | set(np.flatnonzero(columns["commands"] & COMMAND_SCENE))
-    starts = sorted({0} | {int(b) for b in breaks})
+    breaks = {int(b) + 1 for b in np.flatnonzero(np.diff(tick) != 1)}
+    breaks |= {int(b) for b in np.flatnonzero(columns["commands"] & COMMAND_SCENE)}
+    starts = sorted({0} | breaks)
     for start, end in zip(starts, [*starts[1:], n], strict=True):
         for at in range(start, end, MOST_TICKS):
             piece = {name: column[at : min(end, at + MOST_TICKS)] for name, column in columns.items()}
@@ -126,9 +150,8 @@ def _parts(columns: dict[str, Any], next_tick: int) -> Iterator[Columns]:
 
 
 def _without_absent(piece: Columns) -> Columns:
-    """Without the columns of membranes that the scene of this piece does not have."""
-    there = ~np.isnan(piece["depth"][0])
-    count = int(there.sum()) if not there.all() else len(there)
-    if count == len(there) or there[count:].any():
+    """Without the columns of membranes that the scene of this piece does not have: they stand last."""
+    count = int((~np.isnan(piece["depth"][0])).sum())
+    if count == piece["depth"].shape[1]:
         return piece
     return {name: column[:, :count] if name in PER_MEMBRANE else column for name, column in piece.items()}

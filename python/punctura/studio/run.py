@@ -11,7 +11,7 @@ from punctura import Scene, Target
 from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop, SimulatedDevice
 from punctura.live import fit_conditioning, fit_direction, open_for
 from punctura.record import Recorder
-from punctura.studio.hand import resting_pose
+from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
 
 RING_S = 8.0  # s of snapshots that wait for a worker who is late
@@ -45,11 +45,16 @@ class Bench:
     def device(self) -> Device:
         return self._device
 
-    def fresh(self, scene: Scene) -> Device:
-        """For a new run."""
+    @property
+    def simulated_device(self) -> SimulatedDevice:
+        """Only where `simulated`."""
+        assert isinstance(self._device, SimulatedDevice)
+        return self._device
+
+    def fresh(self, scene: Scene, pose: Pose) -> Device:
+        """For a new run; a simulated hand holds it in this pose."""
         if self.simulated:
-            place, axis = resting_pose(scene)
-            self._device = SimulatedDevice(Target(place), rate=scene.servo.rate, axis=axis)
+            self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1])
         return self._device
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:
@@ -65,18 +70,27 @@ class Bench:
 class Run:
     """A loop that ticks from `start` to `stop`. Of one thread."""
 
-    def __init__(self, number: int, bench: Bench, loaded: Loaded, recording: Path | None = None) -> None:
-        """Raises ConfigurationError, DeviceError, RecordingError."""
+    def __init__(
+        self,
+        number: int,
+        bench: Bench,
+        loaded: Loaded,
+        recording: Path | None = None,
+        about: dict[str, Any] | None = None,
+        pose: Pose | None = None,
+    ) -> None:
+        """about: of the recording. pose: of the hand. Raises ConfigurationError, DeviceError, RecordingError."""
         self.number = number
         self.loaded = loaded
+        self.pose = pose or resting_pose(loaded.scene)
         self.scenes = 0  # that have been exchanged
         self._bench = bench
-        device = bench.fresh(loaded.scene)
+        device = bench.fresh(loaded.scene, self.pose)
         scene, self.notes = bench.fit(loaded.scene)
         gate = SIMULATED_GATE if bench.simulated else GateLimits()
         self.loop = ServoLoop(device, scene, gate, bench.settings.limits, bench.settings.placement)
         self._listener = self.loop.listen(int(RING_S * device.info.rate))
-        self.recorder = Recorder(self.loop, recording) if recording else None
+        self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 
     def start(self) -> None:
         """Ticks come, and force once the tip is outside tissue."""

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import uvicorn
 
+from punctura.exercise import ResultStore
 from punctura.live.session import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.hub import Hub
@@ -22,6 +23,7 @@ from punctura.studio.limits import MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
 from punctura.studio.run import Settings
 from punctura.studio.session import Session
+from punctura.studio.shelf import Shelf, default_folder
 
 PAGE = Path(__file__).parent / "page"
 TOKEN_VARIABLE = "PUNCTURA_STUDIO_TOKEN"
@@ -47,12 +49,22 @@ class Address:
 class StudioServer:
     """The studio in threads of its own, for the command line and for tests: `start`, `stop`."""
 
-    def __init__(self, loaded: Loaded, settings: Settings, port: int = 0, token: str = "", page: Path = PAGE) -> None:
+    def __init__(
+        self,
+        loaded: Loaded,
+        settings: Settings,
+        port: int = 0,
+        token: str = "",
+        page: Path = PAGE,
+        folder: Path | None = None,
+    ) -> None:
         """Raises StudioError where the port is taken, DeviceError where there is no device, ConfigurationError."""
         self._socket = _listening(port)
         try:
             self.hub = Hub()
-            self.session = Session(loaded, settings, self.hub)
+            shelf = Shelf(folder or default_folder())
+            results = ResultStore(shelf.folder / "results" if folder else shelf.folder.parent / "results")
+            self.session = Session(loaded, settings, self.hub, shelf, results)
         except BaseException:
             self._socket.close()
             raise

@@ -12,16 +12,22 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
-from punctura.studio.hand import Hand
-from punctura.studio.health import status_of
+from punctura.exercise import Exercise, ResultStore
+from punctura.record import RecorderStatus
+from punctura.studio.hand import Hand, Pose
+from punctura.studio.health import no_recording, recording_status, status_of
 from punctura.studio.loaded import Loaded
+from punctura.studio.practice import Practice, no_exercise
 from punctura.studio.pump import Publisher, Pump, no_fault
 from punctura.studio.run import Bench, Run, Settings
+from punctura.studio.shelf import Shelf
+from punctura.studio.takes import Takes
 from punctura.studio.view import scene_view
 from punctura.studio.wire.messages import Notice, SceneMessage
 from punctura.studio.wire.requests import Target
 
 T = TypeVar("T")
+Then = Callable[[str, RecorderStatus], None]  # name of a recording, and how it ended
 
 PUMP_S = 1 / 60
 STATUS_S = 0.25
@@ -30,26 +36,30 @@ STATUS_S = 0.25
 class Session:
     """`start`, then `call` whatever the worker shall do; `stop` leaves no force on every way out."""
 
-    def __init__(self, loaded: Loaded, settings: Settings, out: Publisher) -> None:
+    def __init__(self, loaded: Loaded, settings: Settings, out: Publisher, shelf: Shelf, results: ResultStore) -> None:
         """Raises DeviceError, ConfigurationError: nothing runs then."""
-        self.out = out
+        self.out, self.shelf, self.results = out, shelf, results
         self.bench = Bench(settings, loaded.scene)
         self.hand = Hand()
         self.run = Run(0, self.bench, loaded)
         self.pump = Pump(self.run, out)
+        self.practice: Practice | None = None
+        self.recording = ""  # the name of the one that is being made
         self.armed = False
         self.compare = False
+        self._result_comes = False  # of an exercise that has ended, once its recording is finished
+        self.failure: BaseException | None = None
+        self._takes = Takes()
         self._jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._target: Target | None = None
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
-        self.failure: BaseException | None = None
 
     def start(self) -> None:
         self._thread.start()
 
     def stop(self) -> None:
-        """Zero force; returns when the device is still."""
+        """Zero force; returns when the device is still, and a recording whole."""
         self._stopping.set()
         self._jobs.put(lambda: None)
         if self._thread.is_alive():
@@ -82,24 +92,27 @@ class Session:
 
     # What follows belongs to the worker's thread.
 
-    def begin(self, loaded: Loaded) -> None:
-        """A new run. Where it cannot be, the present scene is begun again, and the error raised."""
-        self._end_run()
+    def begin(
+        self, loaded: Loaded, pose: Pose | None = None, record: str | None = None, about: dict[str, Any] | None = None
+    ) -> None:
+        """A new run; `record` is the name of its recording. Where it cannot be, the present scene is begun again, and
+        the error raised."""
+        path = self.shelf.file(record) if record else None
+        self.end_run()
         try:
-            self.run = Run(self.run.number + 1, self.bench, loaded)
+            self.run = Run(self.run.number + 1, self.bench, loaded, path, about, pose)
+            self.recording = record or ""
         except Exception:
-            self.run = Run(self.run.number + 1, self.bench, self.run.loaded)
+            self.run = Run(self.run.number + 1, self.bench, self.run.loaded, pose=self.run.pose)
             self._start_run()
             raise
         self._start_run()
 
     def edit(self, loaded: Loaded) -> None:
         """Another scene while it runs. Raises ConfigurationError; then nothing has changed."""
-        self.pump.turn()
+        self._turn()
         self.run.exchange(loaded)
-        self.pump.turn()
-        self.pump.scene_changed()
-        self._say_scene(new_run=False)
+        self._follow(self.pump.change(self.run.loop.scene, lambda: self._say_scene(new_run=False)))
 
     def arm(self) -> None:
         self.run.loop.arm()
@@ -117,21 +130,66 @@ class Session:
         self.compare = on
         self.pump.compare(on)
 
+    def practise(self, exercise: Exercise, loaded: Loaded, person: str) -> str:
+        """A new run with the exercise's scene, recorded. Gives the recording's name."""
+        name = self.shelf.new_name(None, exercise.title)
+        about = {"title": exercise.title, "exercise": exercise.name, "scene": loaded.tables()}
+        self.begin(loaded, (exercise.start_position, exercise.start_axis), name, about)
+        self.practice = Practice(exercise, self.run.loop.scene, person, name)
+        return name
+
+    def end_run(self, then: Then | None = None) -> None:
+        """No tick any more. What was recorded is finished beside; `then` is told how, in a thread of its own."""
+        self.run.stop()
+        self._turn()
+        practice, self.practice = self.practice, None
+        name, self.recording = self.recording, ""
+        recorder, self.run.recorder = self.run.recorder, None
+        if recorder is None:
+            return
+        self.out.say(no_recording())
+        self._result_comes = practice is not None
+
+        def tell(status: RecorderStatus) -> None:
+            if status.trouble:
+                self.out.say(Notice(text=f"Recording {name}: {status.trouble}"))
+            if practice:
+                self._guarded(lambda: self._keep(practice))
+            if then:
+                then(name, status)
+
+        self._takes.finish(recorder, tell)
+
+    def _keep(self, practice: Practice) -> None:
+        """In the thread that has finished the recording: with it, the result is whole."""
+        status = practice.keep(self.results, worthless=True)
+
+        def tell() -> None:
+            self._result_comes = False
+            if self.practice is None:
+                self.out.say(status)
+            elif status.result:
+                self.out.say(Notice(text=f"The result of the exercise before is kept as {status.result}."))
+
+        self._jobs.put(tell)
+
+    def begin_again(self) -> None:
+        """The present scene as a new run, without a recording, from where the hand began."""
+        self.begin(self.run.loaded, self.run.pose)
+
     def _start_run(self) -> None:
         self.pump = Pump(self.run, self.out)
         self.pump.compare(self.compare)
-        self.hand.take(self.run.loop.device, self.run.loaded.scene)
+        self.hand.take(self.run.loop.device, self.run.pose)
         self.armed = True
         self.out.say(no_fault())
+        if not self._result_comes:
+            self.out.say(no_exercise())
         self._say_scene(new_run=True)
         self.run.start()
 
-    def _end_run(self) -> None:
-        self.run.stop()
-        self.pump.turn()
-
     def _say_scene(self, new_run: bool) -> None:
-        view = scene_view(self.run.loaded, self.run.scenes, self.run.rate)
+        view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())
         self.out.say(SceneMessage(scene=view, new_run=new_run))
 
     def _take_target(self) -> None:
@@ -142,26 +200,43 @@ class Session:
             except ValueError as error:
                 self.out.say(Notice(text=str(error)))
 
+    def _turn(self) -> None:
+        self._follow(self.pump.turn())
+
+    def _follow(self, columns: dict[str, Any] | None) -> None:
+        if self.practice and columns:
+            status = self.practice.add(columns, time.monotonic())
+            if status:
+                self.out.say(status)
+
     def _work(self) -> None:
         try:
             self._start_run()
             pump_at = status_at = time.monotonic()
             while not self._stopping.is_set():
-                now = time.monotonic()
-                self._wait(min(pump_at, self.hand.next_at) - now)
+                self._wait(min(pump_at, self.hand.next_at) - time.monotonic())
                 now = time.monotonic()
                 self.hand.drive(now)
                 if now >= pump_at:
-                    self._guarded(self.pump.turn)
+                    self._guarded(self._turn)
                     pump_at = max(pump_at + PUMP_S, now)  # a turn takes all there is
+                if self.practice and self.practice.end_at and now >= self.practice.end_at:
+                    self._guarded(self.begin_again)
                 if now >= status_at:
                     status_at = now + STATUS_S
-                    self._guarded(lambda: self.out.say(status_of(self)))
+                    self._guarded(self._tell_status)
         except BaseException as error:
             self.failure = error
             raise
         finally:
             self.run.stop()
+            self._guarded(self.end_run)
+            self._takes.wait()
+
+    def _tell_status(self) -> None:
+        self.out.say(status_of(self))
+        if self.run.recorder and self.recording:
+            self.out.say(recording_status(self.recording, self.run))
 
     def _wait(self, seconds: float) -> None:
         try:

@@ -1,0 +1,149 @@
+"""The addresses under /api that read and keep things: recordings, exercises, results. The table is in docs/studio.md.
+
+Each runs in a thread of the server's pool, so that a long file holds up neither a page nor the worker.
+"""
+
+from __future__ import annotations
+
+import itertools
+import tempfile
+import threading
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from starlette.background import BackgroundTask
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response, StreamingResponse
+from starlette.routing import Route
+
+from punctura.exercise import Result, ResultsError
+from punctura.exercise.results import to_csv, to_json
+from punctura.record import RecordingError, export
+from punctura.studio.catalog import exercise_overviews
+from punctura.studio.names import BadName
+from punctura.studio.recorded import overview, tick_frames
+from punctura.studio.session import Session
+from punctura.studio.shelf import SUFFIX, Missing
+
+FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}
+RESULT_FORMATS: dict[str, tuple[str, Callable[[list[Result]], str]]] = {
+    "json": ("application/json", to_json),
+    "csv": ("text/csv; charset=utf-8", to_csv),
+}
+_STATUS: dict[type[Exception], int] = {BadName: 400, Missing: 404, ResultsError: 404, RecordingError: 422, OSError: 500}
+
+
+class Api:
+    """What the routes work on."""
+
+    def __init__(self, session: Session) -> None:
+        self._session, self._shelf, self._results = session, session.shelf, session.results
+        self._exporting = threading.BoundedSemaphore(2)  # an export keeps a core busy
+
+    def routes(self) -> list[Route]:
+        one = "/api/recordings/{name}"
+        return [
+            Route("/api/recordings", _told(self.recordings)),
+            Route(one, _told(self.recording), methods=["GET"]),
+            Route(one, _told(self.delete), methods=["DELETE"]),
+            Route(one + "/ticks", _told(self.ticks)),
+            Route(one + "/download", _told(self.download)),
+            Route("/api/exercises", _told(self.exercises)),
+            Route("/api/results", _told(self.results)),
+            Route("/api/results/{name}", _told(self.result), methods=["GET"]),
+            Route("/api/results/{name}", _told(self.delete_result), methods=["DELETE"]),
+            Route("/api/results/{name}/download", _told(self.download_result)),
+        ]
+
+    def recordings(self, request: Request) -> Response:
+        return JSONResponse([asdict(entry) for entry in self._shelf.entries(but=self._session.recording)])
+
+    def recording(self, request: Request) -> Response:
+        return JSONResponse(overview(self._shelf.open(_name(request))))
+
+    def ticks(self, request: Request) -> Response:
+        frames = tick_frames(self._shelf.open(_name(request)))
+        first = list(itertools.islice(frames, 1))  # what is wrong with the file shows before the answer begins
+        return StreamingResponse(itertools.chain(first, frames), media_type="application/octet-stream")
+
+    def delete(self, request: Request) -> Response:
+        name = _name(request)
+        if name == self._session.recording:
+            return _sentence(409, "It is being recorded; stop it first.")
+        self._shelf.delete(name)
+        return Response(status_code=204)
+
+    def download(self, request: Request) -> Response:
+        name, kind = _name(request), request.query_params.get("format", "parquet")
+        if kind not in FORMATS:
+            return _sentence(400, f"There is {', '.join(FORMATS)}.")
+        path = self._shelf.find(name)
+        if kind == "parquet" and path.suffix == SUFFIX:
+            return FileResponse(path, media_type=FORMATS[kind], filename=path.name)
+        if not self._exporting.acquire(blocking=False):
+            return _sentence(503, "Two other files are being written; try again when they are done.")
+        try:
+            return self._exported(path, name, kind)
+        finally:
+            self._exporting.release()
+
+    def _exported(self, path: Path, name: str, kind: str) -> Response:
+        folder = tempfile.TemporaryDirectory(prefix=".export-", dir=self._shelf.folder)
+        try:
+            out = Path(folder.name) / f"out.{kind}"
+            export(path, out)
+        except BaseException as error:
+            folder.cleanup()
+            if isinstance(error, ModuleNotFoundError):
+                return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
+            raise
+        done = BackgroundTask(folder.cleanup)
+        return FileResponse(out, media_type=FORMATS[kind], filename=f"{name}.{kind}", background=done)
+
+    def exercises(self, request: Request) -> Response:
+        return JSONResponse(exercise_overviews())
+
+    def results(self, request: Request) -> Response:
+        person = request.query_params.get("person")
+        return JSONResponse([result.model_dump(mode="json") for result in self._results.all(person)])
+
+    def result(self, request: Request) -> Response:
+        return JSONResponse(self._results.load(_name(request)).model_dump(mode="json"))
+
+    def delete_result(self, request: Request) -> Response:
+        self._results.delete(_name(request))
+        return Response(status_code=204)
+
+    def download_result(self, request: Request) -> Response:
+        kind = request.query_params.get("format", "json")
+        if kind not in RESULT_FORMATS:
+            return _sentence(400, f"There is {', '.join(RESULT_FORMATS)}.")
+        result = self._results.load(_name(request))
+        media, write = RESULT_FORMATS[kind]
+        headers = {"content-disposition": f'attachment; filename="{result.name}.{kind}"'}
+        return Response(write([result]), media_type=media, headers=headers)
+
+
+def _name(request: Request) -> str:
+    name: str = request.path_params["name"]
+    return name
+
+
+def _sentence(status: int, text: str) -> Response:
+    return PlainTextResponse(text + "\n", status)
+
+
+def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Any]:
+    """What goes wrong becomes a status and a sentence."""
+
+    def told(request: Request) -> Response:
+        try:
+            return endpoint(request)
+        except tuple(_STATUS) as error:
+            status = next(code for kind, code in _STATUS.items() if isinstance(error, kind))
+            text = str(error)
+            return _sentence(status, text[:1].upper() + text[1:] + ("" if text.endswith(".") else "."))
+
+    return told

@@ -1,0 +1,28 @@
+"""Names that people give, as names of files: on every system, and never outside a folder."""
+
+from __future__ import annotations
+
+import unicodedata
+
+LONGEST = 80  # characters
+MOST_BYTES = 200  # of UTF-8; with an ending a name stays below what file systems take
+_FORBIDDEN = set('/\\:*?"<>|')
+_RESERVED = {"con", "prn", "aux", "nul", *(f"{word}{i}" for word in ("com", "lpt") for i in range(10))}
+
+
+class BadName(ValueError):
+    """A name that cannot be one; the text says why."""
+
+
+def safe_name(name: str) -> str:
+    """The name as it is kept, in Unicode's composed form. Raises BadName."""
+    name = unicodedata.normalize("NFC", name)
+    if not name or len(name) > LONGEST or len(name.encode("utf-8", "replace")) > MOST_BYTES:
+        raise BadName(f"a name has 1 to {LONGEST} characters")
+    if any(c in _FORBIDDEN or unicodedata.category(c)[0] == "C" for c in name):
+        raise BadName('a name has no / \\ : * ? " < > | and no control characters')
+    if name != name.strip() or name.strip(".") != name:
+        raise BadName("a name begins and ends with neither a space nor a full stop")
+    if name.split(".")[0].lower() in _RESERVED:
+        raise BadName(f"{name} is a name of the operating system")
+    return name

@@ -1,0 +1,101 @@
+"""A recording as the page looks at it: its scene, its events, its ticks as the frames that a live run sends."""
+
+from __future__ import annotations
+
+import itertools
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura.errors import ConfigurationError
+from punctura.events import find_events, snapshot_columns
+from punctura.record import Recording
+from punctura.studio.loaded import Loaded, from_tables, from_text
+from punctura.studio.pump import MOST_TICKS
+from punctura.studio.view import scene_view
+from punctura.studio.wire.frames import Columns, encode_ticks
+
+NO_PHASE = 255
+MOTION_HZ = 250.0  # of a recorded motion that the hand follows; Target smooths what is between
+Array = npt.NDArray[np.float64]
+
+
+def loaded_of(recording: Recording) -> Loaded:
+    """The scene that it began with; with the file's own keys where the recording has them. Raises RecordingError."""
+    info = recording.info
+    tables = info.about.get("scene")
+    if isinstance(tables, dict):
+        try:
+            return from_tables(tables)
+        except ConfigurationError:
+            pass  # of another version; the scene itself is always there
+    try:
+        return from_text(info.data["scene"])
+    except (ConfigurationError, KeyError, TypeError):
+        return from_text(_text_of(recording))
+
+
+def _text_of(recording: Recording) -> str:
+    from punctura.scene import scene_text
+
+    return scene_text(recording.info.scene)
+
+
+def overview(recording: Recording) -> dict[str, Any]:
+    """What the page needs before the ticks, as JSON. Goes through the whole recording, for its events."""
+    info = recording.info
+    view = scene_view(loaded_of(recording), 0, info.scene.servo.rate)
+    events = [{"kind": "event", **event.model_dump()} for event in find_events(recording)]
+    data = {key: value for key, value in info.data.items() if key not in ("scene", "about")}
+    return {
+        "info": data | {"about": info.about, "notes": list(recording.notes), "finished": recording.finished},
+        "scene": view.model_dump(mode="json"),
+        "events": events,
+        "ticks": recording.rows,
+        "first_tick": int(recording.summary.get("first_tick", 0)),
+    }
+
+
+def tick_frames(recording: Recording) -> Iterator[bytes]:
+    """All ticks: a u32 of a frame's length, the frame, and zeros until the next length stands at a multiple of 4."""
+    lost, expected = 0, 0
+    for batch in recording.batches():
+        for start in range(0, len(batch), MOST_TICKS):
+            columns = snapshot_columns(batch.slice(start, MOST_TICKS))
+            columns["phase"] = np.where(columns["phase"] == NO_PHASE, np.uint8(0), columns["phase"])
+            for piece in _whole(columns):
+                first = int(piece["tick"][0])
+                lost += max(0, first - expected)
+                expected = int(piece["tick"][-1]) + 1
+                frame = encode_ticks(piece, 0, lost)
+                yield struct.pack("<I", len(frame)) + frame + bytes(-len(frame) % 4)
+
+
+def _whole(columns: Columns) -> Iterator[Columns]:
+    """In pieces whose ticks follow one another."""
+    breaks = np.flatnonzero(np.diff(columns["tick"].astype(np.int64)) != 1) + 1
+    edges = [0, *(int(b) for b in breaks), len(columns["tick"])]
+    for start, end in itertools.pairwise(edges):
+        yield {name: column[start:end] for name, column in columns.items()}
+
+
+def motion_of(recording: Recording) -> tuple[Array, Array, Array]:
+    """Time from 0 on (s), tip (m) and axis, as often as a hand needs them. Raises ValueError where there is none."""
+    step = max(1, round(recording.info.scene.servo.rate / MOTION_HZ))
+    parts: list[list[Array]] = [[], [], []]
+    at = 0
+    for batch in recording.batches():
+        columns = snapshot_columns(batch)
+        first = -at % step
+        for part, name in zip(parts, ("time", "tip", "axis"), strict=True):
+            part.append(columns[name][first::step].astype(np.float64))
+        at += len(batch)
+    time, tip, axis = (np.concatenate(part) if part else np.empty(0) for part in parts)
+    good = np.isfinite(time) & np.isfinite(tip).all(axis=-1) if len(time) else np.zeros(0, bool)
+    if not good.any():
+        raise ValueError("the recording has no motion")
+    time, tip, axis = time[good], tip[good], axis[good]
+    return time - time[0], tip, axis

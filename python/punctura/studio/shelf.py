@@ -1,0 +1,147 @@
+"""The folder of recordings: what is in it, and nothing outside it."""
+
+from __future__ import annotations
+
+import datetime
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from punctura.record import Recording, RecordingError, open_recording
+from punctura.studio.names import LONGEST, BadName, safe_name
+
+SUFFIX = ".parquet"
+PART = ".part"
+
+
+class Missing(ValueError):
+    """There is no such recording."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A recording as the list has it."""
+
+    name: str
+    title: str
+    started: str  # ISO 8601, UTC
+    seconds: float
+    ticks: int
+    lost: int
+    scene: str
+    exercise: str
+    finished: bool
+
+
+def default_folder() -> Path:
+    """Where the operating system wants a person's data of this program."""
+    import platformdirs
+
+    return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "recordings"
+
+
+class Shelf:
+    """From any thread. Links are not followed: a name is a file of this folder, or nothing."""
+
+    def __init__(self, folder: Path) -> None:
+        """The folder is made with the first recording."""
+        self.folder = folder
+        self._known: dict[Path, tuple[tuple[int, int], Entry]] = {}  # by size and time of change
+
+    def new_name(self, wish: str | None, scene: str) -> str:
+        """Of a new recording; without a wish, date and scene. Raises BadName."""
+        if wish is not None:
+            name = safe_name(wish)
+            if self._there(name):
+                raise BadName(f"there is a recording {name} already")
+            return name
+        stem = self._stem(scene)
+        name = stem
+        for i in range(2, 1000):
+            if not self._there(name):
+                break
+            name = f"{stem} ({i})"
+        return name
+
+    def file(self, name: str) -> Path:
+        """Of a new recording. Makes the folder. Raises BadName, OSError."""
+        path = self._file(safe_name(name))
+        self.folder.mkdir(parents=True, exist_ok=True)
+        return path
+
+    def find(self, name: str) -> Path:
+        """Its file, finished or not. Raises BadName, Missing."""
+        path = self._file(safe_name(name))
+        for candidate in (path, path.with_name(path.name + PART)):
+            if candidate.is_file() and not candidate.is_symlink():
+                return candidate
+        raise Missing(f"there is no recording {name}")
+
+    def open(self, name: str) -> Recording:
+        """Raises BadName, Missing, RecordingError."""
+        return open_recording(self.find(name))
+
+    def delete(self, name: str) -> None:
+        """Raises BadName, Missing, OSError."""
+        self.find(name).unlink()
+
+    def entries(self, but: str = "") -> list[Entry]:
+        """All that can be read, the latest first. but: one that is being made."""
+        found = []
+        for path in sorted(self.folder.iterdir()) if self.folder.is_dir() else ():
+            name = path.name.removesuffix(PART).removesuffix(SUFFIX)
+            if name == but or not path.name.endswith((SUFFIX, SUFFIX + PART)) or name.startswith("."):
+                continue
+            entry = self._entry(name, path)
+            if entry:
+                found.append(entry)
+        return sorted(found, key=lambda e: (e.started, e.name), reverse=True)
+
+    def _entry(self, name: str, path: Path) -> Entry | None:
+        try:
+            if safe_name(name) != name or path.is_symlink() or not path.is_file():
+                return None
+            stat = path.stat()
+            state = (stat.st_size, stat.st_mtime_ns)
+            known = self._known.get(path)
+            if known is None or known[0] != state:
+                known = (state, entry_of(name, open_recording(path)))
+                self._known[path] = known
+            return known[1]
+        except (BadName, RecordingError, OSError):
+            return None
+
+    def _there(self, name: str) -> bool:
+        path = self._file(name)
+        return os.path.lexists(path) or os.path.lexists(path.with_name(path.name + PART))
+
+    def _file(self, name: str) -> Path:
+        return self.folder / (name + SUFFIX)
+
+    @staticmethod
+    def _stem(scene: str) -> str:
+        now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
+        try:
+            return safe_name(f"{now} {scene}"[: LONGEST - 6].strip(" ."))
+        except BadName:
+            return now
+
+
+def entry_of(name: str, recording: Recording) -> Entry:
+    """Raises RecordingError."""
+    info = recording.info
+    data: dict[str, Any] = info.data
+    about = info.about
+    ticks = recording.summary.get("last_tick", -1) - recording.summary.get("first_tick", 0) + 1
+    return Entry(
+        name=name,
+        title=str(about.get("title") or name),
+        started=str(data.get("began", "")),
+        seconds=max(0, ticks) * float(data.get("period_s", 0.0)),
+        ticks=recording.rows,
+        lost=recording.lost,
+        scene=info.scene.name,
+        exercise=str(about.get("exercise", "")),
+        finished=recording.finished,
+    )
