@@ -16,7 +16,7 @@ from punctura.scene.units import split_key, to_si
 _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
-    "precompression": 0.0, "friction": 1e-6, "thickness": 0.0, "point": [0.0, 0.0, 0.0],
+    "behind": "tissue", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0, "point": [0.0, 0.0, 0.0],
     "inward_normal": [0.0, -1.0, 0.0],
 }  # fmt: skip
 

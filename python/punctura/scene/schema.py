@@ -95,6 +95,13 @@ class MembraneTable(_Table):
     thickness_mm: Number = _field("Thickness", "0 is an infinitely thin membrane.", "H")
     point_mm: Vector = _field("Point", "Any point of the surface at which the needle enters.", "a")
     inward_normal: Vector = _field("Inward normal", "Direction into the membrane, of any length but 0.", "n")
+    behind: Literal["tissue", "blood"] = _field(
+        "Behind",
+        "What is between this membrane and the next. Blood shows in the needle's hub when the tip is in it; neither "
+        "grips the needle.",
+        "",
+        "tissue",
+    )
 
 
 class SceneFile(_Table):

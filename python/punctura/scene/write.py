@@ -61,8 +61,8 @@ def _attributes(struct: object, model: type[Any]) -> dict[str, Any]:
 def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:
     lines = ["", head]
     for key in model.model_fields:
-        if key not in _SKIPPED:
-            name, unit = split_key(key)
+        name, unit = split_key(key)
+        if key not in _SKIPPED and name in values:  # what is only told to people is not in a Scene
             lines.append(f"{key} = {_value(values[name], unit)}")
     return lines
 

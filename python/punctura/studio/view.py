@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from punctura.scene.lumen import lumen
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
 from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
@@ -39,4 +40,5 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
 
 def lumen_of(loaded: Loaded) -> list[int]:
     """The two membranes between which blood is; none without."""
-    return []
+    found = lumen(loaded.scene.membranes, [table.behind for table in loaded.file.membrane])
+    return list(found) if found else []
