@@ -76,6 +76,18 @@ export class Hand {
     this.app.engine.target(to.position, to.axis);
   }
 
+  /** Something else leads the hand from now on. */
+  release(): void {
+    this.touched = Number.NEGATIVE_INFINITY;
+    this.target.value = null;
+  }
+  /** Stays where the needle is now. */
+  hold(): void {
+    this.release();
+    const now = this.pose();
+    if (now) this.moveTo(now.position, now.axis);
+  }
+
   /** Along the needle, m; positive goes in. */
   push(depth: number): void {
     const now = this.pose();

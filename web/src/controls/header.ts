@@ -1,3 +1,34 @@
-import type { Panel } from "../panel.ts";
+import { element, type Panel } from "../panel.ts";
+import { connectionLine } from "./connection_line.ts";
+import { controlLine } from "./control_line.ts";
+import { scenePicker } from "./scene_picker.ts";
+import { stateButton } from "./state_button.ts";
+import { themeSwitch } from "./theme_switch.ts";
 
-export const headerBar: Panel = (_host, _app) => {};
+/** What runs, on what, whether with force, and who holds it. */
+export const headerBar: Panel = (host, app) => {
+  const device = element("span", { class: "device" });
+  app.hello.watch((hello) => {
+    const info = hello?.device;
+    device.textContent = info ? info.model : "";
+    device.title = info
+      ? `${info.backend}${info.max_force === null ? "" : `, up to ${info.max_force} N`}, ${info.rate} Hz`
+      : "";
+  });
+  host.append(
+    element(
+      "h1",
+      { class: "brand" },
+      element("img", { src: "./icon.svg", alt: "", width: 20, height: 20 }),
+      "Punctura",
+    ),
+    scenePicker(app),
+    device,
+    element("span", { class: "gap" }),
+    stateButton(app),
+    element("span", { class: "gap" }),
+    controlLine(app),
+    connectionLine(app),
+    themeSwitch(),
+  );
+};

@@ -1,0 +1,36 @@
+import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
+import { connectionWords } from "./words.ts";
+
+const SILENT_MS = 2000;
+const LOOK_MS = 250;
+
+/** A line that says how the page stands with the studio; also when the studio has gone silent. */
+export function connectionLine(app: App): HTMLElement {
+  const dot = element("span", { class: "dot", "aria-hidden": true });
+  const words = element("span", { class: "connection-words", role: "status" });
+  const line = element("span", { class: "connection" }, dot, words);
+  let since = performance.now();
+  let end = -1;
+  let lastTick = performance.now();
+  const show = (): void => {
+    const now = app.connection.value;
+    const { history } = app.live;
+    if (history.end !== end) {
+      end = history.end;
+      lastTick = performance.now();
+    }
+    const silent = now.state === "open" && performance.now() - Math.max(lastTick, since) > SILENT_MS;
+    const left = now.state === "lost" ? now.retryInMs - (performance.now() - since) : 0;
+    const text = connectionWords(now, silent, left);
+    if (words.textContent !== text) words.textContent = text;
+    line.dataset.state = silent ? "lost" : now.state;
+    line.title = now.state === "lost" ? now.reason : "";
+  };
+  app.connection.watch(() => {
+    since = performance.now();
+    show();
+  });
+  setInterval(show, LOOK_MS);
+  return line;
+}

@@ -1,0 +1,31 @@
+import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
+
+/** Who has control, and the button that takes it. */
+export function controlLine(app: App): HTMLElement {
+  const words = element("span", { role: "status", class: "control-words" });
+  const take = takeControl(app);
+  app.control.watch(({ holder, you }) => {
+    words.textContent = you
+      ? "You have control"
+      : holder === null
+        ? "Nobody has control"
+        : `Page ${holder} has control`;
+  });
+  return element("span", { class: "control" }, words, take);
+}
+
+/** Hidden while this page has control. */
+export function takeControl(app: App): HTMLButtonElement {
+  const button = element(
+    "button",
+    { type: "button", class: "button", onclick: () => void app.ask({ do: "take_control" }) },
+    "Take control",
+  );
+  const show = (): void => {
+    button.hidden = app.control.value.you || app.connection.value.state !== "open";
+  };
+  app.control.watch(show);
+  app.connection.watch(show);
+  return button;
+}

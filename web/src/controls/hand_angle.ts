@@ -1,0 +1,35 @@
+import { element } from "../panel.ts";
+import type { Hand } from "./hand_model.ts";
+
+const MOST_DEGREES = 75;
+
+/** The angle of the needle to the first membrane's normal. */
+export function angleRow(hand: Hand): HTMLElement {
+  const slider = element("input", {
+    type: "range",
+    id: "hand-angle",
+    min: -MOST_DEGREES,
+    max: MOST_DEGREES,
+    step: 1,
+    value: 0,
+  });
+  const figure = element("output", { class: "figure", for: "hand-angle" }, "0°");
+  const show = (): void => {
+    const degrees = Math.round((hand.tilt() * 180) / Math.PI);
+    slider.value = String(degrees);
+    figure.textContent = `${degrees}°`;
+    slider.setAttribute("aria-valuetext", `${degrees} degrees from upright, ${90 - Math.abs(degrees)} to the skin`);
+    figure.title = `${90 - Math.abs(degrees)}° to the skin`;
+  };
+  slider.addEventListener("input", () => {
+    hand.setTilt((Number(slider.value) * Math.PI) / 180);
+    show();
+  });
+  hand.target.watch(show);
+  return element(
+    "section",
+    { class: "rows" },
+    element("h3", {}, element("label", { for: "hand-angle" }, "Angle, from upright")),
+    element("div", { class: "row" }, slider, figure),
+  );
+}

@@ -1,0 +1,33 @@
+import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
+
+const OWN = "";
+
+/** The ready scenes; one that was edited, or came from a file, is named first. */
+export function scenePicker(app: App): HTMLElement {
+  const select = element("select", { "aria-label": "Scene", class: "scene-picker" });
+  const show = (): void => {
+    const hello = app.hello.value;
+    const scene = app.live.scene.value;
+    if (!hello) return;
+    const ready = hello.scenes.find(({ name, title }) => title === scene?.name || name === scene?.name);
+    const options = hello.scenes.map(({ name, title }) => element("option", { value: name }, title));
+    if (scene && !ready) options.unshift(element("option", { value: OWN }, scene.name));
+    select.replaceChildren(...options);
+    select.value = ready?.name ?? OWN;
+  };
+  app.hello.watch(show);
+  app.live.scene.watch(show);
+  const enable = (): void => {
+    select.disabled = !app.control.value.you || app.connection.value.state !== "open";
+  };
+  app.control.watch(enable);
+  app.connection.watch(enable);
+  select.addEventListener("change", () => {
+    if (select.value === OWN) return;
+    void app.ask({ do: "load", scene: select.value }).then((reply) => {
+      if (!reply?.ok) show();
+    });
+  });
+  return select;
+}

@@ -1,0 +1,32 @@
+import { element } from "../panel.ts";
+
+const KEY = "punctura.theme";
+const CHOICES = [
+  ["light dark", "◐", "as the system has it"],
+  ["light", "☀", "light"],
+  ["dark", "☾", "dark"],
+] as const;
+
+/** Light, dark, or as the system has it; kept in this browser. */
+export function themeSwitch(): HTMLElement {
+  let index = Math.max(
+    0,
+    CHOICES.findIndex(([scheme]) => scheme === localStorage.getItem(KEY)),
+  );
+  const button = element("button", { type: "button", class: "quiet-button" });
+  const show = (): void => {
+    const [scheme, mark, words] = CHOICES[index]!;
+    if (scheme === "light dark") document.documentElement.style.removeProperty("color-scheme");
+    else document.documentElement.style.colorScheme = scheme;
+    button.textContent = mark;
+    button.title = `Colours: ${words}`;
+    button.setAttribute("aria-label", button.title);
+  };
+  button.addEventListener("click", () => {
+    index = (index + 1) % CHOICES.length;
+    localStorage.setItem(KEY, CHOICES[index]![0]);
+    show();
+  });
+  show();
+  return button;
+}
