@@ -7,6 +7,7 @@ export default defineConfig({
     outDir: "../python/punctura/studio/page",
     emptyOutDir: true,
     target: "es2022",
+    cssTarget: ["chrome123", "firefox120", "safari17.5"], // the first that know light-dark(), which is left as it is
     chunkSizeWarningLimit: 1500,
     assetsInlineLimit: 0, // nothing inline: the page's content policy forbids it
     modulePreload: { polyfill: false },

@@ -27,11 +27,11 @@ export function extentOf(scene: SceneView): Extent {
     deep = Math.max(deep, front + thickness * MM);
   }
   const tip = tipLength(scene.diameter * MM, scene.tip_angle);
-  const size = Math.min(24, Math.max(8 + 0.9 * deep, 2.2 * tip));
+  const size = Math.min(24, Math.max(6 + 0.9 * deep, 1.9 * tip));
   const length = deep + 2 * tip + 12;
-  const above = Math.min(14, 6 + 0.35 * deep);
-  const below = deep + tip;
-  const radius = Math.max((above + below) / 2, 0.82 * size);
+  const above = Math.min(14, 7 + 0.4 * deep);
+  const below = deep + 0.5 * tip;
+  const radius = Math.max((above + below) / 2, 1.12 * size);
   const centre = origin.clone().addScaledVector(normal, (below - above) / 2);
   const strongest = Math.max(0.2, ...scene.laws.flatMap((law) => law.lower.map(Math.abs)));
   return { deep, size, length, centre, radius, mmPerNewton: (0.5 * radius) / strongest };

@@ -17,6 +17,8 @@ export class Blood {
     this.slab.mesh.visible = false;
     theme.watch(() => {
       this.material.color.copy(theme.color("blood"));
+      this.slab.edgeMaterial.color.copy(theme.color("blood"));
+      this.slab.edgeMaterial.opacity = 0.25;
       this.material.opacity = theme.dark ? 0.55 : 0.45;
     });
   }

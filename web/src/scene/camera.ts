@@ -5,6 +5,8 @@ export type Preset = "oblique" | "side" | "top" | "needle";
 const SETTLE_MS = 90;
 const CLOSEST_MM = 4;
 const FARTHEST_MM = 900;
+/** Sine of the angle between view and needle, below which the needle is seen end on. */
+const SIDEWAYS = 0.35;
 const STEEPEST = MathUtils.degToRad(89.5);
 
 interface Pose {
@@ -128,12 +130,17 @@ export class OrbitCamera {
     return (2 * away * Math.tan(MathUtils.degToRad(this.camera.fov / 2))) / Math.max(1, height);
   }
 
-  /** Where the pixel lies in the plane of the view through `point`. */
-  inPlaneOf(point: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
+  /**
+   * Where the pixel lies in a plane through `point`: the one that holds `axis` and faces the view as far as that allows, so that
+   * a drag along the needle on the screen is one along the needle in the scene. Along the needle it is the view's own plane.
+   */
+  inPlaneOf(point: Vector3, axis: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
     const at = new Vector2((2 * x) / width - 1, 1 - (2 * y) / height);
     const ray = new Ray(this.camera.position.clone());
     ray.direction.set(at.x, at.y, 0.5).unproject(this.camera).sub(ray.origin).normalize();
-    const forward = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
-    return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(forward, point), new Vector3());
+    const facing = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
+    const across = facing.clone().addScaledVector(axis, -facing.dot(axis));
+    if (across.length() > SIDEWAYS) facing.copy(across.normalize());
+    return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(facing, point), new Vector3());
   }
 }

@@ -36,7 +36,6 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): void {
     const point = at(event);
     pointers.set(event.pointerId, point);
     canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
     if (pointers.size === 2) enter("pinch");
     else if (pointers.size > 2) enter("none");
     else if (event.button === 1) enter("pan");

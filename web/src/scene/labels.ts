@@ -17,7 +17,7 @@ export class Labels {
     this.placed.length = 0;
   }
 
-  /** column: one of a list beside the slabs, which are moved apart. at: mm. */
+  /** column: one of a list beside the slabs, which are moved apart; left: to the left of `at`, mm. */
   put(
     id: string,
     text: string,
@@ -25,7 +25,7 @@ export class Labels {
     at: Vector3,
     camera: Camera,
     size: readonly [number, number],
-    column = false,
+    how: "right" | "left" | "column" = "right",
   ): void {
     const on = at.clone().project(camera);
     if (on.z > 1) return;
@@ -40,8 +40,9 @@ export class Labels {
       label.node.textContent = text;
       label.width = label.node.offsetWidth;
     }
-    const x = Math.min(((on.x + 1) / 2) * size[0] + 8, size[0] - label.width - 8);
-    this.placed.push({ id, x: Math.max(8, x), y: ((1 - on.y) / 2) * size[1], column });
+    const beside = how === "left" ? -label.width - 10 : 8;
+    const x = Math.min(((on.x + 1) / 2) * size[0] + beside, size[0] - label.width - 8);
+    this.placed.push({ id, x: Math.max(8, x), y: ((1 - on.y) / 2) * size[1], column: how === "column" });
   }
 
   end(): void {

@@ -1,6 +1,7 @@
 import { FrontSide, Group, MeshStandardMaterial, Vector3 } from "three";
 import type { SceneView } from "../wire/messages.ts";
 import { bevelSide } from "./bevel.ts";
+import { Grid } from "./grid.ts";
 import type { Hole, Holes } from "./holes.ts";
 import { BARRED, type MembraneMoment, MM, type Moment, OUTSIDE } from "./moment.ts";
 import { Scars } from "./scars.ts";
@@ -17,6 +18,7 @@ export interface Placed {
   readonly slab: Slab;
   readonly material: MeshStandardMaterial;
   readonly scars: Scars;
+  readonly grid: Grid;
 }
 
 /** The membranes: translucent slabs that the needle carries along by what it is ahead of its proxy, K06 (21). */
@@ -46,7 +48,8 @@ export class Membranes {
       }); // biome-ignore format: short
       const slab = new Slab(material);
       const scars = new Scars();
-      this.group.add(slab.mesh, scars.mesh);
+      const grid = new Grid();
+      this.group.add(slab.mesh, scars.mesh, grid.lines);
       return {
         name: membrane.name,
         point: new Vector3(...membrane.point).multiplyScalar(MM),
@@ -56,16 +59,21 @@ export class Membranes {
         slab,
         material,
         scars,
+        grid,
       };
     });
     this.paint();
   }
 
   private paint(): void {
-    this.placed.forEach(({ material, scars }, i) => {
-      material.color.copy(this.theme.membrane(i)).lerp(this.theme.color("panel"), 0.25);
-      material.opacity = this.theme.dark ? 0.36 : 0.34;
-      scars.paint(this.theme);
+    const { theme } = this;
+    this.placed.forEach(({ material, slab, grid, scars }, i) => {
+      material.color.copy(theme.membrane(i)).lerp(theme.color("panel"), 0.2);
+      material.opacity = theme.dark ? 0.3 : 0.36;
+      slab.edgeMaterial.color.copy(theme.membrane(i)).lerp(theme.color("text"), 0.15);
+      grid.material.color.copy(theme.membrane(i)).lerp(theme.color("text"), 0.25);
+      grid.material.opacity = theme.dark ? 0.22 : 0.26;
+      scars.paint(theme);
     });
   }
 
@@ -81,9 +89,12 @@ export class Membranes {
       const away = membrane.faces[0].centre.distanceTo(membrane.point);
       if (away > 0.75 * this.size) this.size = away / 0.6;
       const width = dimple(this.diameter, membrane.thickness);
-      const { point, normal, thickness, faces, slab, scars } = membrane;
+      const { point, normal, thickness, faces, slab, scars, grid } = membrane;
       const needle = state.phase === OUTSIDE ? (old.at(-1)?.direction ?? normal) : moment.axis;
-      if (slab.lay(point, normal, thickness, this.size, faces, width, needle)) changed = true;
+      if (slab.lay(point, normal, thickness, this.size, faces, width, needle)) {
+        grid.lay(point, slab.t1, slab.t2, faces[0], this.size, width);
+        changed = true;
+      }
       if (scars.lay(membrane, old, state.phase === OUTSIDE ? faces[0].centre : null, this.diameter)) changed = true;
     });
     return changed;

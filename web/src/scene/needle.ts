@@ -10,8 +10,8 @@ const EMPTY = new Color(0x23272d);
 export class Needle {
   readonly group = new Group();
   private hub: Hub | null = null;
-  private readonly steel = new MeshStandardMaterial({ color: 0xc9d0d8, metalness: 0.85, roughness: 0.32 });
-  private readonly ground = new MeshStandardMaterial({ color: 0xe3e8ee, metalness: 0.8, roughness: 0.22 });
+  private readonly steel = new MeshStandardMaterial({ color: 0xc9d0d8, metalness: 0.55, roughness: 0.34 });
+  private readonly ground = new MeshStandardMaterial({ color: 0xe3e8ee, metalness: 0.4, roughness: 0.25 });
   private readonly bore = new MeshStandardMaterial({ roughness: 0.9 });
 
   constructor(private readonly theme: Theme) {

@@ -10,12 +10,14 @@ import type { World } from "./world.ts";
 export function needleGrip(hand: Hand, orbit: OrbitCamera, world: World, stage: Stage): GestureHandler {
   const plane = new Vector3();
   const offset = new Vector3();
-  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(plane, x, y, stage.width, stage.height);
+  const axis = new Vector3();
+  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(plane, axis, x, y, stage.width, stage.height);
   return {
     grab(x, y) {
       const pose = hand.barred.value ? null : hand.pose();
       if (!pose) return false;
       plane.set(...pose.position).multiplyScalar(MM);
+      axis.set(...pose.axis).normalize();
       const pointer = at(x, y);
       if (!pointer) return false;
       offset.subVectors(plane, pointer);

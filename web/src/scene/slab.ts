@@ -1,8 +1,14 @@
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, type Material, Mesh, Vector3 } from "three";
-
-const AROUND = 72;
-const RINGS = 22;
-const CORNERS = 5; // of the rounded square: 2 is a circle
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  LineBasicMaterial,
+  LineSegments,
+  type Material,
+  Mesh,
+  Vector3,
+} from "three";
+import { AROUND, CORNERS, carried, RINGS, slabEdges, slabTriangles, tangents } from "./slab_shape.ts";
 
 /** What a needle does to one face of a slab. mm, in the slab's own plane where there are two numbers. */
 export interface FaceState {
@@ -18,14 +24,16 @@ export const untouched = (): FaceState => ({ centre: new Vector3(), hole: 0, shi
 
 /**
  * A slab of tissue: two faces of rings round the needle, fine at it and coarse at the border, a rim, and the wall of the hole.
- * A face gives way as a half-space does under a point: 1 / (1 + (r / width)^2)^(3/2), and is held at the border.
+ * A face gives way as a half-space does under a point, and is held at the border.
  */
 export class Slab {
   readonly mesh: Mesh;
+  readonly edgeMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.55, depthWrite: false });
+  private readonly edges: LineSegments;
   private readonly positions: Float32Array;
   private readonly attribute: BufferAttribute;
-  private readonly t1 = new Vector3();
-  private readonly t2 = new Vector3();
+  readonly t1 = new Vector3();
+  readonly t2 = new Vector3();
   private last = "";
 
   constructor(material: Material) {
@@ -35,31 +43,14 @@ export class Slab {
     this.positions = new Float32Array(3 * vertices);
     this.attribute = new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage);
     geometry.setAttribute("position", this.attribute);
-    geometry.setIndex(this.indices(perFace));
+    geometry.setIndex(slabTriangles());
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
-  }
-
-  private indices(perFace: number): number[] {
-    const index: number[] = [];
-    const row = AROUND + 1;
-    const quad = (a: number, b: number, c: number, d: number): void => void index.push(a, b, c, c, b, d);
-    for (let ring = 0; ring < RINGS; ring++) {
-      for (let i = 0; i < AROUND; i++) {
-        const a = ring * row + i;
-        quad(a, a + 1, a + row, a + row + 1); // seen from in front
-        quad(perFace + a, perFace + a + row, perFace + a + 1, perFace + a + row + 1);
-      }
-    }
-    for (let wall = 0; wall < 2; wall++) {
-      const start = 2 * perFace + 2 * wall * row;
-      for (let i = 0; i < AROUND; i++) {
-        const a = start + i;
-        if (wall === 0) quad(a, a + 1, a + row, a + row + 1);
-        else quad(a, a + row, a + 1, a + row + 1);
-      }
-    }
-    return index;
+    const edges = new BufferGeometry().setAttribute("position", this.attribute).setIndex(slabEdges());
+    this.edges = new LineSegments(edges, this.edgeMaterial);
+    this.edges.frustumCulled = false;
+    this.edges.renderOrder = 2;
+    this.mesh.add(this.edges);
   }
 
   /**
@@ -84,7 +75,7 @@ export class Slab {
     const row = 3 * (AROUND + 1);
     faces.forEach((face, side) => {
       const origin = middle.clone().addScaledVector(normal, side * thickness);
-      this.layFace(side * perFace, origin, normal, face, size, width, needle);
+      this.layFace(side * perFace, origin, face, size, width, needle);
     });
     // Rim and hole have points of their own, so that edges stay sharp.
     const { positions } = this;
@@ -98,15 +89,7 @@ export class Slab {
     return true;
   }
 
-  private layFace(
-    at: number,
-    origin: Vector3,
-    normal: Vector3,
-    face: FaceState,
-    size: number,
-    width: number,
-    needle: Vector3,
-  ): void {
+  private layFace(at: number, origin: Vector3, face: FaceState, size: number, width: number, needle: Vector3): void {
     // biome-ignore format: one line of arguments
     const { t1, t2, positions } = this;
     const from = new Vector3().subVectors(face.centre, origin);
@@ -124,14 +107,12 @@ export class Slab {
         const border = size / (Math.abs(c) ** CORNERS + Math.abs(s) ** CORNERS) ** (1 / CORNERS);
         const x = (cx + hole * c) * (1 - part) + border * c * part;
         const y = (cy + hole * s) * (1 - part) + border * s * part;
-        const r = Math.max(0, Math.hypot(x - cx, y - cy) - hole);
-        const carried = (1 - part) * (1 + (r / width) ** 2) ** -1.5;
-        positions[out++] = origin.x + x * t1.x + y * t2.x + carried * face.shift.x;
-        positions[out++] = origin.y + x * t1.y + y * t2.y + carried * face.shift.y;
-        positions[out++] = origin.z + x * t1.z + y * t2.z + carried * face.shift.z;
+        const along = (1 - part) * carried(Math.hypot(x - cx, y - cy) - hole, width);
+        positions[out++] = origin.x + x * t1.x + y * t2.x + along * face.shift.x;
+        positions[out++] = origin.y + x * t1.y + y * t2.y + along * face.shift.y;
+        positions[out++] = origin.z + x * t1.z + y * t2.z + along * face.shift.z;
       }
     }
-    void normal;
   }
 
   private key(faces: readonly FaceState[], size: number, width: number, thickness: number, needle: Vector3): string {
@@ -142,11 +123,4 @@ export class Slab {
     }
     return parts.map((value) => value.toFixed(3)).join(" ");
   }
-}
-
-/** Two directions in the face: as far as possible the first to the right. */
-export function tangents(normal: Vector3, t1: Vector3, t2: Vector3): void {
-  const along = Math.abs(normal.x) > 0.9 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
-  t1.copy(along).addScaledVector(normal, -normal.dot(along)).normalize();
-  t2.crossVectors(normal, t1);
 }

@@ -7,10 +7,10 @@ export class Theme {
   private readonly known = new Map<string, Color>();
   private readonly listeners = new Set<() => void>();
 
-  constructor(host: HTMLElement) {
+  constructor() {
     this.probe = document.createElement("span");
     this.probe.hidden = true;
-    host.append(this.probe);
+    document.body.append(this.probe); // a panel is not yet in the page when it is made
     this.read();
     const again = (): void => {
       this.read();

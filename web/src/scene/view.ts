@@ -15,7 +15,7 @@ import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
 
 const GESTURES =
-  "Drag moves the needle. Right-drag, Shift-drag or two fingers go round. Wheel or arrow up and down: along the needle. Ctrl-wheel: zoom.";
+  "Drag: the needle · right-drag, Shift-drag or two fingers: go round · wheel, ↓ ↑: along the needle · Ctrl-wheel: zoom";
 
 /** The needle and the membranes, in three dimensions. Draws only what has changed, at most once a frame. */
 export const view: Panel = (host, app) => {
@@ -25,7 +25,7 @@ export const view: Panel = (host, app) => {
   }); // biome-ignore format: short
   const help = element("p", { class: "view-help", id: "view-help" }, GESTURES);
   host.append(canvas, help);
-  const theme = new Theme(host);
+  const theme = new Theme();
   const orbit = new OrbitCamera();
   const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });
   host.append(trouble);

@@ -127,11 +127,11 @@ export class World {
     labels.begin();
     this.membranes.placed.forEach((membrane, i) => {
       const at = this.rightmost(i, camera);
-      labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, true);
+      labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, "column");
     });
     if (this.arrow.group.visible) {
       const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not given)"}`;
-      labels.put("force", words, "force", this.arrow.head, camera, size);
+      labels.put("force", words, "force", this.arrow.head, camera, size, "left");
     }
     if (this.entry.line.visible) labels.put("entry", "b", "entry", this.entryEnd, camera, size);
     labels.end();
