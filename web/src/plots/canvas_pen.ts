@@ -2,6 +2,8 @@ import { FONT, type Lettering, type Pen, type Stroke } from "./pen.ts";
 import type { Polyline } from "./polyline.ts";
 
 const SOLID: number[] = [];
+// Without a GPU a long line that crosses itself costs more than its parts: 14 ms instead of 4 for 2000 points of chatter.
+const CHUNK = 32;
 
 /** Draws on a canvas that is `ratio` device pixels to a CSS pixel. */
 export class CanvasPen implements Pen {
@@ -13,17 +15,46 @@ export class CanvasPen implements Pen {
     this.context.lineJoin = "bevel"; // a mitre would draw a spike beyond its value
   }
 
-  line(points: Polyline, stroke: Stroke): void {
-    this.trace(points);
-    this.stroke(stroke);
+  /** Another canvas of the same ratio, from the top left. */
+  picture(canvas: HTMLCanvasElement, width: number, height: number): void {
+    this.context.drawImage(canvas, 0, 0, width, height);
   }
 
-  area(points: Polyline, colour: string, alpha: number): void {
-    this.trace(points);
-    this.context.globalAlpha = alpha;
-    this.context.fillStyle = colour;
-    this.context.fill();
-    this.context.globalAlpha = 1;
+  line({ xs, ys, count }: Polyline, stroke: Stroke): void {
+    const c = this.context;
+    this.style(stroke);
+    c.beginPath();
+    let down = false;
+    let drawn = 0;
+    for (let i = 0; i < count; i++) {
+      const x = xs[i]!;
+      const y = ys[i]!;
+      if (Number.isNaN(y)) down = false;
+      else if (!down) {
+        c.moveTo(x, y);
+        if (i + 1 === count || Number.isNaN(ys[i + 1])) c.lineTo(x + 1, y); // a lone point is to be seen
+        down = true;
+      } else {
+        c.lineTo(x, y);
+        if (++drawn < CHUNK) continue;
+        c.stroke();
+        c.beginPath();
+        c.moveTo(x, y);
+        drawn = 0;
+      }
+    }
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  area({ xs, ys, count }: Polyline, colour: string, alpha: number): void {
+    const c = this.context;
+    c.beginPath();
+    for (let i = 0; i < count; i++) c.lineTo(xs[i]!, ys[i]!);
+    c.globalAlpha = alpha;
+    c.fillStyle = colour;
+    c.fill();
+    c.globalAlpha = 1;
   }
 
   segment(x1: number, y1: number, x2: number, y2: number, stroke: Stroke): void {
@@ -72,30 +103,17 @@ export class CanvasPen implements Pen {
     this.context.restore();
   }
 
-  private trace({ xs, ys, count }: Polyline): void {
-    const c = this.context;
-    c.beginPath();
-    let down = false;
-    for (let i = 0; i < count; i++) {
-      const x = xs[i]!;
-      const y = ys[i]!;
-      if (Number.isNaN(y)) down = false;
-      else if (down) c.lineTo(x, y);
-      else {
-        c.moveTo(x, y);
-        if (i + 1 === count || Number.isNaN(ys[i + 1])) c.lineTo(x + 1, y); // a lone point is to be seen
-        down = true;
-      }
-    }
+  private stroke(stroke: Stroke): void {
+    this.style(stroke);
+    this.context.stroke();
+    this.context.globalAlpha = 1;
   }
 
-  private stroke({ colour, width, alpha = 1, dash }: Stroke): void {
+  private style({ colour, width, alpha = 1, dash }: Stroke): void {
     const c = this.context;
     c.strokeStyle = colour;
     c.lineWidth = width;
     c.globalAlpha = alpha;
     c.setLineDash((dash as number[] | undefined) ?? SOLID);
-    c.stroke();
-    c.globalAlpha = 1;
   }
 }

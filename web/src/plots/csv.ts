@@ -1,4 +1,5 @@
 import type { History } from "../state/history.ts";
+import { isCompared } from "./gather.ts";
 
 const ROWS_A_PART = 4096;
 const STATES = ["disarmed", "waiting", "active", "faulted"];
@@ -51,7 +52,7 @@ export function csv(
     .map((name, i) => ({ name, i }))
     .filter(({ i }) => membrane === null || i === membrane);
   const vector = (name: string, unit: string): string[] => ["x", "y", "z"].map((axis) => `${name}_${axis}_${unit}`);
-  const compared = otherIsThere(history, first, end);
+  const compared = isCompared(history, first, end);
   const head = [
     "tick", "time_s", "state", ...vector("position", "m"), ...vector("force", "N"), ...vector("model_force", "N"),
     ...(compared ? vector("other_solver_force", "N") : []),
@@ -86,10 +87,4 @@ export function csv(
     }
   }
   return parts;
-}
-
-function otherIsThere(history: History, first: number, end: number): boolean {
-  const other = history.column("other_force");
-  for (let tick = first; tick < end; tick++) if (!Number.isNaN(other[3 * history.slot(tick)]!)) return true;
-  return false;
 }

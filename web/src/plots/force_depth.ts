@@ -1,5 +1,6 @@
 import { mm, newton } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
+import type { Source } from "../state/source.ts";
 import { difference } from "./difference.ts";
 import { type Area, ForceDepthDrawing, type ForceDepthPicture } from "./force_depth_drawing.ts";
 import { keyTick } from "./keys.ts";
@@ -8,6 +9,7 @@ import { type Box, Surface } from "./surface.ts";
 import { type Theme, watchTheme } from "./theme.ts";
 import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
 
+const STEP = 250; // ms
 const REACH = 60; // px from the pointer to the point that it reads
 
 /** Force against depth: every tick there is, on the friction band of each membrane. */
@@ -19,6 +21,7 @@ export const forceDepthPlot: Panel = (host, app) => {
   let zoom: Area | null = null;
   let pointed: { tick: number; membrane: number } | null = null;
   let changes = 0;
+  let laws = 0;
 
   const setZoom = (area: Area | null): void => {
     zoom = area;
@@ -99,8 +102,13 @@ export const forceDepthPlot: Panel = (host, app) => {
     which.offer([["all", "all membranes"], ...entries], chosen === null ? "all" : String(chosen));
     changes++;
   };
-  app.source.watch((source) => source.scene.watch(offer));
+  const follow = (source: Source): void => {
+    source.scene.watch(offer);
+    source.laws.watch(() => laws++);
+  };
+  app.source.watch(follow);
   plots.frozen.watch(offer);
+  app.overlay.watch(() => changes++);
 
   const point = (now: ForceDepthPicture): void => {
     if (surface.pointer) {
@@ -128,20 +136,33 @@ export const forceDepthPlot: Panel = (host, app) => {
   };
   let seen = "";
   let told = 0;
+  let back = "";
+  let backEnd = 0;
+  let backAt = 0;
+  let patience = 0;
   everyFrame((time) => {
     if (!theme || surface.width < 40) return;
     const window = plots.update();
     const { source } = plots;
     const { history } = source;
-    const state = `${changes} ${surface.changes} ${history.generation} ${history.end} ${window.first} ${window.end} ${source.shown()} ${plots.pointed.value} ${source.laws.value.length}`;
-    if (state === seen && app.overlay.value === null) return;
+    const still = `${changes} ${surface.sizes} ${history.generation} ${laws} ${source.title} ${plots.zoom.value?.from} ${plots.zoom.value?.to} ${plots.span.value} ${source.live ? "" : source.cursor.value}`;
+    const state = `${still} ${surface.changes} ${history.end} ${plots.pointed.value}`;
+    if (state === seen) return;
     seen = state;
-    let now = picture();
-    drawing.arrange(now, surface.width, surface.height, time / 1e3);
+    const now = picture();
+    // The past fades step by step: it is drawn anew only now and then, and the seldomer the longer that takes.
+    if (still !== back || (history.end !== backEnd && time - backAt > patience)) {
+      const began = performance.now();
+      back = still;
+      backEnd = history.end;
+      backAt = time;
+      drawing.arrange(now, surface.width, surface.height, time / 1e3);
+      drawing.drawBack(surface.beginBack(), now, theme);
+      patience = Math.max(STEP, 10 * (performance.now() - began));
+    }
     point(now);
-    now = picture();
     const pen = surface.begin();
-    drawing.draw(pen, now, theme);
+    drawing.drawFront(pen, picture(), backEnd, theme);
     if (surface.box) {
       const { x1, y1, x2, y2 } = surface.box;
       pen.box(Math.min(x1, x2), Math.min(y1, y2), Math.abs(x2 - x1), Math.abs(y2 - y1), theme.accent, 0.2);

@@ -4,14 +4,16 @@ import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
 import { CalmRange } from "./calm_range.ts";
 import { throughColumns } from "./decimate.ts";
-import { Extent, gather, gatherOther } from "./gather.ts";
-import type { Pen } from "./pen.ts";
+import { Extent, gather, gatherOther, isCompared } from "./gather.ts";
+import { Painted } from "./painted.ts";
+import type { Pen, Stroke } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
 import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
 const AGES = 8; // steps in which the hand's history fades
+const WIDTH = 1.6; // px
 const OUTSIDE = 0.35; // share of the depth inside that is shown before the surface
 
 export interface Area {
@@ -40,6 +42,8 @@ export class ForceDepthDrawing {
   private readonly extentX = new Extent();
   private readonly extentY = new Extent();
   private readonly path = new Polyline();
+  private readonly fresh = new Polyline();
+  private readonly painted = new Painted();
   private xs = new Float32Array(0);
   private ys = new Float32Array(0);
 
@@ -83,18 +87,47 @@ export class ForceDepthDrawing {
     pane.rangeY(this.rangeY.min, this.rangeY.max);
   }
 
+  /** All of it. */
   draw(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {
-    const { pane } = this;
-    const { source } = picture;
-    pen.within(pane.left, pane.top, pane.width, pane.height, () => {
+    this.drawBack(pen, picture, theme);
+    this.drawFront(pen, picture, this.end(picture), theme);
+  }
+
+  /** Bands, axes and the ticks so far. */
+  drawBack(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {
+    const { left, top, width, height } = this.pane;
+    const { source, window, overlay } = picture;
+    const end = this.end(picture);
+    const membranes = Array.from({ length: source.history.membranes }, (_, i) => i).filter((i) =>
+      ForceDepthDrawing.draws(picture, i),
+    );
+    pen.within(left, top, width, height, () => {
       source.laws.value.forEach((law, i) => {
         if (ForceDepthDrawing.draws(picture, i)) this.drawBand(pen, law, colourOf(theme, i));
       });
     });
-    drawAxes(pen, pane, theme, { x: "depth (mm)", y: "force on the hand (N)" });
-    pen.within(pane.left, pane.top, pane.width, pane.height, () => {
-      for (let i = 0; i < source.history.membranes; i++) {
-        if (ForceDepthDrawing.draws(picture, i)) this.drawMembrane(pen, picture, i, theme);
+    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force on the hand (N)" });
+    pen.within(left, top, width, height, () => {
+      for (const i of membranes) if (overlay) this.drawOverlay(pen, overlay, i, theme);
+      this.drawOther(pen, source, window.first, end, membranes, theme);
+      for (const i of membranes) this.drawHistory(pen, source, window, end, i, theme);
+    });
+  }
+
+  /** The ticks from `from` on, which came since, the present and what is pointed at. */
+  drawFront(pen: Pen, picture: ForceDepthPicture, from: number, theme: Theme): void {
+    const { left, top, width, height } = this.pane;
+    const { source, window } = picture;
+    const first = Math.max(window.first, from - 1);
+    const end = this.end(picture);
+    pen.within(left, top, width, height, () => {
+      for (let i = 0; i < source.history.membranes && end - first > 1; i++) {
+        if (!ForceDepthDrawing.draws(picture, i)) continue;
+        this.drawOther(pen, source, first, end, [i], theme);
+        const n = this.pixels(source, first, end, i);
+        this.path.clear();
+        throughColumns(this.xs, this.ys, 0, n, this.path);
+        pen.line(this.path, { colour: colourOf(theme, i), width: WIDTH });
       }
       this.drawPresent(pen, picture, theme);
     });
@@ -158,39 +191,52 @@ export class ForceDepthDrawing {
     pen.line(path, { colour, width: 1, alpha: 0.35 });
   }
 
-  private drawMembrane(pen: Pen, picture: ForceDepthPicture, membrane: number, theme: Theme): void {
-    const { source, window, overlay } = picture;
-    const { path } = this;
-    if (overlay && membrane < overlay.history.membranes) {
-      const { first, end } = overlay.history;
-      const n = this.pixels(overlay, first, end, membrane);
-      path.clear();
-      throughColumns(this.xs, this.ys, 0, n, path);
-      pen.line(path, { colour: theme.quiet, width: 1.5, alpha: 0.75 });
-    }
-    const end = this.end(picture);
-    this.drawOther(pen, source, window.first, end, membrane, theme);
+  private drawOverlay(pen: Pen, overlay: Source, membrane: number, theme: Theme): void {
+    if (membrane >= overlay.history.membranes) return;
+    const { first, end } = overlay.history;
+    const n = this.pixels(overlay, first, end, membrane);
+    this.drawNew(pen, 0, n, { colour: theme.quiet, width: WIDTH, alpha: 0.8 }, true);
+  }
+
+  /** The hand's way, the older the fainter. */
+  private drawHistory(pen: Pen, source: Source, window: Window, end: number, membrane: number, theme: Theme): void {
     const n = this.pixels(source, window.first, end, membrane);
     const colour = colourOf(theme, membrane);
-    // Ages begin at multiples of their length, so that points keep their step while time goes on.
     const age = Math.max(1, Math.ceil((window.end - window.first) / AGES));
-    for (let from = 0; from < n; ) {
-      const to = Math.min(n, from + age - ((window.first + from) % age));
-      path.clear();
-      throughColumns(this.xs, this.ys, Math.max(0, from - 1), to, path);
-      const young = 1 - (n - to) / (AGES * age);
-      pen.line(path, { colour, width: 1.6, alpha: 0.2 + 0.8 * young ** 2 });
-      from = to;
+    // The newest first: what lies under it need not be drawn.
+    for (let to = n, young = 1; to > 0; to -= age, young -= 1 / AGES) {
+      const stroke = { colour, width: WIDTH, alpha: 0.2 + 0.8 * Math.max(0, young) ** 2 };
+      this.drawNew(pen, Math.max(0, to - age - 1), to, stroke, to === n);
     }
   }
 
-  private drawOther(pen: Pen, source: Source, first: number, end: number, membrane: number, theme: Theme): void {
-    const { path, pane } = this;
-    const n = this.pixels(source, first, end, membrane);
-    gatherOther(source.history, first, end, membrane, -slope(pane.y), pane.y.px(0), this.ys);
-    path.clear();
-    throughColumns(this.xs, this.ys, 0, n, path);
-    if (path.count) pen.line(path, { colour: theme.text, width: 1.2, alpha: 0.6 });
+  private drawOther(
+    pen: Pen,
+    source: Source,
+    first: number,
+    end: number,
+    membranes: readonly number[],
+    theme: Theme,
+  ): void {
+    const { history } = source;
+    if (!isCompared(history, first, end)) return;
+    const { y } = this.pane;
+    for (const i of membranes) {
+      const n = this.pixels(source, first, end, i);
+      gatherOther(history, first, end, i, -slope(y), y.px(0), this.ys);
+      this.drawNew(pen, 0, n, { colour: theme.text, width: 1, alpha: 0.6 }, true);
+    }
+  }
+
+  /** Draws the gathered pixels where there is no ink yet; `clean` forgets the ink. */
+  private drawNew(pen: Pen, from: number, to: number, stroke: Stroke, clean: boolean): void {
+    const { left, top, width, height } = this.pane;
+    if (clean) this.painted.begin(left, top, width, height);
+    this.path.clear();
+    this.fresh.clear();
+    throughColumns(this.xs, this.ys, from, to, this.path);
+    this.painted.addNew(this.path, this.fresh);
+    if (this.fresh.count) pen.line(this.fresh, stroke);
   }
 
   private drawPresent(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {

@@ -50,6 +50,13 @@ export function gatherTime(
   });
 }
 
+/** Whether the other solver ran in any of the ticks. */
+export function isCompared(history: History, first: number, end: number): boolean {
+  const other = history.column("other_force");
+  for (let tick = first; tick < end; tick++) if (!Number.isNaN(other[3 * history.slot(tick)]!)) return true;
+  return false;
+}
+
 /**
  * The axial force of a membrane as the other solver would have it, N: where the tip is in that membrane, this solver's plus
  * the difference of the two whole forces along b. With one membrane at the needle that is the other's axial force itself.
@@ -98,7 +105,9 @@ export function gatherSent(
   stretches(history, first, end, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
       const from = 3 * (slot + i);
-      const [x, y, z] = [force[from]!, force[from + 1]!, force[from + 2]!];
+      const x = force[from]!;
+      const y = force[from + 1]!;
+      const z = force[from + 2]!;
       const against = -(x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!);
       out[at + i] = bias + gain * (Number.isNaN(against) ? Math.hypot(x, y, z) : against);
     }
@@ -117,6 +126,9 @@ export class Extent {
   take(value: number): void {
     if (value < this.low) this.low = value;
     if (value > this.high) this.high = value;
+  }
+  takeNumbers(values: Float32Array, count: number): void {
+    for (let i = 0; i < count; i++) this.take(values[i]!);
   }
   takeColumn(history: History, first: number, end: number, column: Column, offset: number, gain: number): void {
     const values = history.column(column);

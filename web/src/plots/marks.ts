@@ -6,19 +6,24 @@ const AIR = 6;
 /** What a pop's mark says: how much the force fell. */
 export const popLabel = (event: MembraneEvent): string => `pop −${Math.abs(event.drop).toFixed(2)} N`;
 
-/**
- * The row in which each label is set so that none lies on another; -1 where there is no room. The last label comes first:
- * the newest is never left out. `xs` are left edges, rising, px.
- */
-export function rowsOf(labels: ReadonlyArray<{ readonly x: number; readonly text: string }>, rows: number): number[] {
-  const free = new Array<number>(rows).fill(Number.POSITIVE_INFINITY); // left edge of what stands in the row already
-  const placed = new Array<number>(labels.length).fill(-1);
-  for (let i = labels.length - 1; i >= 0; i--) {
+export interface Label {
+  /** Left edge, px. */
+  readonly x: number;
+  readonly text: string;
+  readonly weight: number;
+}
+
+/** Which labels fit into a row from `left` to `right` (px) so that none lies on another: the weightiest are never left out. */
+export function labelsThatFit(labels: readonly Label[], left: number, right: number): boolean[] {
+  const taken: Array<readonly [from: number, to: number]> = [];
+  const fit = new Array<boolean>(labels.length).fill(false);
+  const order = labels.map((_, i) => i).sort((a, b) => labels[b]!.weight - labels[a]!.weight);
+  for (const i of order) {
     const { x, text } = labels[i]!;
-    const right = x + text.length * CHARACTER + AIR;
-    const row = free.findIndex((edge) => right <= edge);
-    placed[i] = row;
-    if (row >= 0) free[row] = x;
+    const end = x + text.length * CHARACTER + AIR;
+    if (x < left || end > right || taken.some(([from, to]) => x < to && end > from)) continue;
+    taken.push([x, end]);
+    fit[i] = true;
   }
-  return placed;
+  return fit;
 }

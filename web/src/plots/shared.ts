@@ -19,6 +19,8 @@ export class Plots {
   /** Who points: it lets go when the pointer leaves it. */
   pointedBy: "depth" | "time" | "keys" | null = null;
   readonly window = new Window();
+  /** Width of the time plot, px. */
+  width = 400;
   private frozenByZoom = false;
 
   constructor(private readonly app: App) {
@@ -34,7 +36,14 @@ export class Plots {
     const { source, window } = this;
     const zoom = this.zoom.value;
     if (zoom) window.set(source.history, zoom.from, zoom.to);
-    else window.follow(source.history, source.shown(), this.span.value, source.live || this.frozen.value !== null);
+    else
+      window.follow(
+        source.history,
+        source.shown(),
+        this.span.value,
+        source.live || this.frozen.value !== null,
+        this.span.value / this.width,
+      );
     return window;
   }
 

@@ -13,7 +13,7 @@ const DRAG = 6; // px from which on a press is a drag
 /** A canvas that fills its host, with a pointer that can point at a place or draw a box. CSS pixels. */
 export class Surface {
   readonly canvas: HTMLCanvasElement;
-  readonly pen: CanvasPen;
+  private readonly pen: CanvasPen;
   width = 0;
   height = 0;
   /** Where the pointer is; null while it is elsewhere. */
@@ -22,7 +22,11 @@ export class Surface {
   box: Box | null = null;
   /** Counts what happened here that asks for another drawing. */
   changes = 0;
+  /** Counts the sizes that this has had. */
+  sizes = 0;
   private ratio = 1;
+  private readonly back = document.createElement("canvas");
+  private readonly backPen: CanvasPen;
 
   constructor(
     host: HTMLElement,
@@ -37,15 +41,23 @@ export class Surface {
     this.canvas = element("canvas", { class: "plot-canvas", tabindex: 0, role: "application", "aria-label": label });
     host.append(this.canvas);
     this.pen = new CanvasPen(this.canvas.getContext("2d")!);
+    this.backPen = new CanvasPen(this.back.getContext("2d")!);
     new ResizeObserver(() => this.fit(host)).observe(host);
+    window.addEventListener("resize", () => this.fit(host)); // a zoom of the page changes only the ratio
     this.fit(host);
     this.listen();
   }
 
-  /** Clears for a drawing. */
+  /** Clears the background, which is drawn seldom. */
+  beginBack(): CanvasPen {
+    this.backPen.begin(this.width, this.height, this.ratio);
+    return this.backPen;
+  }
+
+  /** Shows the background, for the foreground to be drawn on it. */
   begin(): CanvasPen {
-    if (this.ratio !== devicePixelRatio) this.fit(this.canvas.parentElement!);
     this.pen.begin(this.width, this.height, this.ratio);
+    this.pen.picture(this.back, this.width, this.height);
     return this.pen;
   }
 
@@ -54,9 +66,11 @@ export class Surface {
     this.width = clientWidth;
     this.height = clientHeight;
     this.ratio = devicePixelRatio;
-    this.canvas.width = Math.max(1, Math.round(clientWidth * this.ratio));
-    this.canvas.height = Math.max(1, Math.round(clientHeight * this.ratio));
-    this.changes++;
+    for (const canvas of [this.canvas, this.back]) {
+      canvas.width = Math.max(1, Math.round(clientWidth * this.ratio));
+      canvas.height = Math.max(1, Math.round(clientHeight * this.ratio));
+    }
+    this.sizes++;
   }
 
   private listen(): void {

@@ -1,4 +1,5 @@
 import { element, everyFrame, type Panel } from "../panel.ts";
+import { MARGIN } from "./axes.ts";
 import { keyTick } from "./keys.ts";
 import { reading } from "./reading.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
@@ -95,19 +96,27 @@ export const timePlots: Panel = (host, app) => {
   };
 
   let seen = "";
+  let back = "";
+  let backEnd = 0;
   everyFrame((time) => {
     if (!theme || surface.width < 40) return;
+    plots.width = surface.width - MARGIN.left - MARGIN.right;
     const { from, to, first, end } = plots.update();
     const { source } = plots;
     const { history } = source;
-    const state = `${changes} ${surface.changes} ${history.generation} ${from} ${to} ${first} ${end} ${source.cursor.value} ${plots.pointed.value} ${source.events.value.length}`;
+    const still = `${changes} ${surface.sizes} ${history.generation} ${from} ${to} ${source.events.value.length} ${source.live}`;
+    const state = `${still} ${surface.changes} ${first} ${end} ${source.cursor.value} ${plots.pointed.value}`;
     if (state === seen) return;
     seen = state;
-    const now = picture();
-    drawing.arrange(now, surface.width, surface.height, time / 1e3);
+    if (still !== back) {
+      back = still;
+      backEnd = end;
+      drawing.arrange(picture(), surface.width, surface.height, time / 1e3);
+      drawing.drawBack(surface.beginBack(), picture(), theme);
+    }
     point();
     const pen = surface.begin();
-    drawing.draw(pen, picture(), theme);
+    drawing.drawFront(pen, picture(), backEnd, theme);
     if (surface.box) {
       const { x1, x2 } = surface.box;
       const { top } = drawing.force;

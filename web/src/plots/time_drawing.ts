@@ -1,11 +1,12 @@
 import type { History } from "../state/history.ts";
 import type { Source } from "../state/source.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
 import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
 import { CalmRange } from "./calm_range.ts";
 import { throughColumns } from "./decimate.ts";
-import { Extent, gather, gatherOther, gatherSent, gatherTime } from "./gather.ts";
-import { popLabel, rowsOf } from "./marks.ts";
+import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "./gather.ts";
+import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
 import { drawReading } from "./reading.ts";
@@ -15,7 +16,7 @@ import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
-const ROW = 13; // px
+const NAME = 62; // px that the name of the upper axis takes
 const FORCE_SHARE = 0.58;
 
 /** What is to be drawn: the ticks of a window. Depths in mm, forces in N, positive where they push the needle out. */
@@ -52,6 +53,9 @@ export class TimeDrawing {
     extent.take(0.1);
     for (let i = 0; i < history.membranes; i++)
       extent.takeColumn(history, window.first, window.end, "axial_force", i, -1);
+    this.room(window.end - window.first);
+    gatherSent(history, window.first, window.end, 1, 0, this.ys);
+    extent.takeNumbers(this.ys, window.end - window.first);
     this.rangeForce.follow(extent.low, extent.high, now);
     extent.forget();
     extent.take(-1);
@@ -64,41 +68,65 @@ export class TimeDrawing {
     depth.rangeY(this.rangeDepth.min, this.rangeDepth.max);
   }
 
+  /** All of it. */
   draw(pen: Pen, picture: TimePicture, theme: Theme): void {
+    this.drawBack(pen, picture, theme);
+    this.drawFront(pen, picture, picture.window.end, theme);
+  }
+
+  /** What stays while the window does. */
+  drawBack(pen: Pen, picture: TimePicture, theme: Theme): void {
     const { source, window } = picture;
-    const { history } = source;
-    const { force, depth } = this;
-    this.drawStates(pen, history, window, theme);
-    drawAxes(pen, force, theme, { y: "force on the hand (N)" });
-    drawAxes(pen, depth, theme, { x: "time (s)", y: "depth (mm)" });
+    this.drawStates(pen, source.history, window, theme);
+    drawAxes(pen, this.force, theme, { y: "force (N)" });
+    drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     this.drawMarks(pen, picture, theme);
-    const n = window.end - window.first;
-    if (n < 1) return;
-    if (this.xs.length < n) {
-      this.xs = new Float32Array(2 * n);
-      this.ys = new Float32Array(2 * n);
-    }
-    const slope = slopeOf(force.x);
-    gatherTime(history, window.first, window.end, slope, force.x.from - slope * force.x.min, this.xs);
-    pen.within(force.left, force.top, force.width, force.height, () => this.drawForces(pen, history, window, theme));
-    pen.within(depth.left, depth.top, depth.width, depth.height, () => {
-      for (let i = 0; i < history.membranes; i++) {
-        gather(history, window.first, window.end, "depth", i, MM * slopeOf(depth.y), depth.y.px(0), this.ys);
-        this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
-      }
-    });
+    this.drawLines(pen, source.history, window.first, window.end, theme);
+  }
+
+  /** The ticks from `from` on, which came since, the present and what is pointed at. */
+  drawFront(pen: Pen, picture: TimePicture, from: number, theme: Theme): void {
+    const { source, window } = picture;
+    this.drawLines(pen, source.history, Math.max(window.first, from - 1), window.end, theme);
     this.drawNow(pen, picture, theme);
   }
 
-  private drawForces(pen: Pen, history: History, { first, end }: Window, theme: Theme): void {
+  private drawLines(pen: Pen, history: History, first: number, end: number, theme: Theme): void {
+    const n = end - first;
+    if (n < 2) return;
+    this.room(n);
+    const { force, depth } = this;
+    const slope = slopeOf(force.x);
+    gatherTime(history, first, end, slope, force.x.from - slope * force.x.min, this.xs);
+    pen.within(force.left, force.top, force.width, force.height, () =>
+      this.drawForces(pen, history, first, end, theme),
+    );
+    pen.within(depth.left, depth.top, depth.width, depth.height, () => {
+      for (let i = 0; i < history.membranes; i++) {
+        gather(history, first, end, "depth", i, MM * slopeOf(depth.y), depth.y.px(0), this.ys);
+        this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
+      }
+    });
+  }
+
+  private room(n: number): void {
+    if (this.xs.length >= n) return;
+    this.xs = new Float32Array(2 * n);
+    this.ys = new Float32Array(2 * n);
+  }
+
+  private drawForces(pen: Pen, history: History, first: number, end: number, theme: Theme): void {
     const { y } = this.force;
     const gain = slopeOf(y);
     const n = end - first;
     gatherSent(history, first, end, gain, y.px(0), this.ys);
     this.drawLine(pen, n, theme.text, 1, 0.5);
+    const compared = isCompared(history, first, end);
     for (let i = 0; i < history.membranes; i++) {
-      gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
-      this.drawLine(pen, n, theme.text, 1, 0.6);
+      if (compared) {
+        gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
+        this.drawLine(pen, n, theme.text, 1, 0.6);
+      }
       gather(history, first, end, "axial_force", i, -gain, y.px(0), this.ys);
       this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
     }
@@ -134,30 +162,27 @@ export class TimeDrawing {
     );
   }
 
-  /** Pops with what the force lost; touch and out as a notch below. */
+  /** Pops with what the force lost; touch and out as a notch on the line of zero. */
   private drawMarks(pen: Pen, { source, window }: TimePicture, theme: Theme): void {
     const { force, depth } = this;
     const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
-    const at = (tick: number): number => force.x.px(source.history.timeOf(tick));
-    const pops = inside.filter((event) => event.what === "pop");
-    const labels = pops.map((event) => ({ x: at(event.tick) + 3, text: popLabel(event) }));
-    const rows = rowsOf(labels, Math.max(1, Math.floor(force.height / (4 * ROW))));
+    const at = (event: MembraneEvent): number => force.x.px(source.history.timeOf(event.tick));
+    const right = force.left + force.width;
     const bottom = depth.top + depth.height;
     pen.within(force.left, force.top, force.width, bottom - force.top, () => {
       for (const event of inside) {
-        if (event.what === "pop") continue;
-        const [x, y] = [at(event.tick), force.y.px(0)];
+        const x = at(event);
         const colour = colourOf(theme, event.membrane);
-        pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
+        const y = force.y.px(0);
+        if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.6, dash: [2, 2] });
+        else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
       }
-      pops.forEach((event, i) => {
-        const colour = colourOf(theme, event.membrane);
-        const x = at(event.tick);
-        pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.55, dash: [2, 2] });
-        if (rows[i]! < 0) return;
-        const y = force.top + ROW * (rows[i]! + 0.6);
-        pen.text(labels[i]!.x, y, labels[i]!.text, { colour: theme.text, size: 10.5, halo: theme.panel });
-      });
+    });
+    const pops = inside.filter((event) => event.what === "pop");
+    const labels = pops.map((event) => ({ x: at(event) - 2, text: popLabel(event), weight: Math.abs(event.drop) }));
+    labelsThatFit(labels, force.left + NAME, right + MARGIN.right).forEach((fits, i) => {
+      const { x, text } = labels[i]!;
+      if (fits) pen.text(x, force.top - 9, text, { colour: theme.text, size: 10.5 });
     });
   }
 

@@ -29,14 +29,15 @@ export class Window {
 
   /**
    * The last `seconds` up to the tick that is shown. A run shorter than that fills the window from the left; a recording
-   * shows a little of what comes after, too.
+   * shows a little of what comes after, too. The window goes on in steps of `pixel` seconds: within a step, what is drawn
+   * already may stay where it is.
    */
-  follow(history: History, shown: number | null, seconds: number, live: boolean): void {
+  follow(history: History, shown: number | null, seconds: number, live: boolean, pixel: number): void {
     const now = shown === null ? 0 : history.timeOf(shown);
     const begin = history.end > history.first ? history.timeOf(history.first) : 0;
     const last = history.end > history.first ? history.timeOf(history.end - 1) : 0;
     const to = live ? now : Math.min(last, now + seconds / 4);
-    this.from = Math.max(to - seconds, begin);
+    this.from = Math.max(Math.ceil(to / pixel) * pixel - seconds, begin);
     this.to = this.from + seconds;
     this.find(history);
   }

@@ -1,0 +1,64 @@
+import type { Polyline } from "./polyline.ts";
+
+const SHORT = 2; // px: a longer piece is always drawn
+
+/** Which pixels of a box carry ink already, so that ten strokes along one line are not drawn ten times. */
+export class Painted {
+  private cells = new Uint8Array(0);
+  private left = 0;
+  private top = 0;
+  private width = 0;
+  private height = 0;
+
+  /** Forgets, for another drawing in this box. */
+  begin(left: number, top: number, width: number, height: number): void {
+    this.left = Math.floor(left);
+    this.top = Math.floor(top);
+    this.width = Math.ceil(width) + 1;
+    this.height = Math.ceil(height) + 1;
+    const size = this.width * this.height;
+    if (this.cells.length < size) this.cells = new Uint8Array(size);
+    else this.cells.fill(0, 0, size);
+  }
+
+  /** Adds to `out` those pieces of `path` that go where there is no ink yet, and inks them. */
+  addNew(path: Polyline, out: Polyline): void {
+    const { xs, ys, count } = path;
+    let inkBefore = false;
+    let drawing = false; // whether `out` ends at the point before
+    for (let i = 0; i < count; i++) {
+      const x = xs[i]!;
+      const y = ys[i]!;
+      if (Number.isNaN(y)) {
+        out.gap();
+        drawing = false;
+        continue;
+      }
+      const first = i === 0 || Number.isNaN(ys[i - 1]!);
+      const ink = this.ink(x, y);
+      const short = !first && Math.abs(x - xs[i - 1]!) <= SHORT && Math.abs(y - ys[i - 1]!) <= SHORT;
+      if (first && ink) drawing = false;
+      else if (!first && ink && inkBefore && short) {
+        out.gap();
+        drawing = false;
+      } else {
+        if (!first && !drawing) out.add(xs[i - 1]!, ys[i - 1]!);
+        out.add(x, y);
+        drawing = true;
+      }
+      inkBefore = ink;
+    }
+    out.gap();
+  }
+
+  /** Inks a pixel; whether it was. What lies outside is as good as inked: nobody sees it. */
+  private ink(x: number, y: number): boolean {
+    const column = Math.floor(x) - this.left;
+    const row = Math.floor(y) - this.top;
+    if (column < 0 || row < 0 || column >= this.width || row >= this.height) return true;
+    const cell = row * this.width + column;
+    const was = this.cells[cell] === 1;
+    this.cells[cell] = 1;
+    return was;
+  }
+}
