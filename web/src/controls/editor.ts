@@ -1,3 +1,161 @@
-import type { Panel } from "../panel.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
+import { blockLine, watchBlock } from "./blocked.ts";
+import { Draft } from "./editor/draft.ts";
+import { type SceneForm, sceneForm, type Table } from "./editor/fields.ts";
+import { sceneTools } from "./editor/files.ts";
+import { group, type Inputs, showAll } from "./editor/group.ts";
+import { helpLine } from "./editor/help_line.ts";
+import { lawDrawing } from "./editor/laws.ts";
+import { MembraneList } from "./editor/membranes.ts";
+import { sortProblems } from "./editor/problems.ts";
+import { type ReportLine, report } from "./editor/report.ts";
+import { solverControl } from "./editor/solver.ts";
+import { duplicated, membranes, withMembranes } from "./editor/tables.ts";
+import { figuresLink } from "./figures_link.ts";
 
-export const editorPanel: Panel = (_host, _app) => {};
+/** The scene as forms, made from its schema; what one changes takes effect while the loop runs. */
+export const editorPanel: Panel = (host, app) => {
+  host.classList.add("editor");
+  const wait = element("p", { class: "quiet pad" }, "The scene’s form comes with the connection.");
+  host.append(wait);
+  let asked = false;
+  app.connection.watch(async (now) => {
+    if (now.state !== "open" || asked) return;
+    asked = true;
+    try {
+      const form = sceneForm(await app.api.json("/api/schema"));
+      wait.remove();
+      build(host, app, form);
+    } catch (error) {
+      asked = false;
+      wait.textContent = `The scene’s form cannot be had: ${error instanceof Error ? error.message : String(error)}`;
+    }
+  });
+};
+
+function build(host: HTMLElement, app: App, form: SceneForm): void {
+  const draft = new Draft(app);
+  const told = report();
+  const membraneTable = form.tables.find((table) => table.list);
+  const single = form.tables.filter((table) => !table.list);
+  if (!membraneTable) throw new Error("the schema has no list of membranes");
+
+  const list = new MembraneList(membraneTable, draft);
+  const add = element(
+    "button",
+    { type: "button", class: "small", onclick: () => addMembrane(draft, list) },
+    "Add a membrane",
+  );
+  const top = group({ fields: form.fields, pairs: [] }, [], draft);
+  const parts = single.map((table) => ({ table, ...group(table, [table.key], draft, ["solver"]) }));
+  const inputs = (): Inputs => new Map([...top.inputs, ...parts.flatMap((part) => [...part.inputs]), ...list.inputs]);
+
+  const [needle, ...others] = parts;
+  const fields = element(
+    "fieldset",
+    { class: "fields" },
+    solverControl(app, draft),
+    top.root,
+    element("h3", {}, membraneTable.title.replace(/e?s?$/, "es")),
+    list.root,
+    element("div", { class: "tools" }, add),
+    ...(needle ? [section(needle.table, needle.root, true)] : []),
+    ...others.map(({ table, root }) => section(table, root, table.key !== "servo")),
+  );
+  const drawing = lawDrawing();
+  const tools = element(
+    "fieldset",
+    { class: "bare" },
+    sceneTools(app, draft, (lines) => told.show(lines.map((text) => ({ text })))),
+  );
+  host.append(
+    element("div", { class: "editor-top" }, blockLine(app, "Changes take effect at once, also inside tissue."), tools),
+    told.root,
+    element(
+      "div",
+      { class: "law-place" },
+      drawing.root,
+      helpLine(
+        fields,
+        "The friction band of the open membrane. Dashed: before the last change. A dot: the needle’s tip.",
+      ),
+    ),
+    fields,
+    figuresLink(app),
+  );
+
+  watchBlock(app, (block) => {
+    fields.disabled = block !== null;
+    tools.disabled = block !== null;
+  });
+  draft.tables.watch((tables) => {
+    list.show(tables);
+    showAll(top.inputs, tables);
+    for (const part of parts) showAll(part.inputs, tables);
+  });
+  draft.problems.watch((problems) => tellProblems(problems));
+  list.selected.watch(() => tellProblems(draft.problems.value));
+  host.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || fields.disabled) return;
+    event.preventDefault();
+    if (event.shiftKey) draft.redo();
+    else draft.undo();
+  });
+
+  function tellProblems(problems: typeof draft.problems.value): void {
+    const shown = inputs();
+    const sorted = sortProblems(problems, new Set(shown.keys()));
+    for (const [path, input] of shown) input.complain(sorted.fields.get(path) ?? "");
+    const lines: ReportLine[] = sorted.others.map((text) => ({ text }));
+    const wrong = new Set<number>();
+    for (const [path, reason] of sorted.fields) {
+      const index = /^membrane\[(\d+)\]/.exec(path)?.[1];
+      if (index === undefined) continue;
+      wrong.add(Number(index));
+      if (Number(index) !== list.selected.value)
+        lines.push({
+          text: `${String(draft.at(["membrane", Number(index), "name"]))}: ${reason}`,
+          go: () => list.focus(Number(index), path),
+        });
+    }
+    list.mark(wrong);
+    told.show(lines);
+  }
+
+  const showLaw = (): void => {
+    const at = list.selected.value;
+    drawing.show(app.live.laws.value[at] ?? null, draft.before.value[at] ?? null);
+  };
+  app.live.laws.watch(showLaw);
+  draft.before.watch(showLaw);
+  list.selected.watch(showLaw);
+  everyFrame(() => {
+    if (host.hidden || !app.source.value.live) return;
+    const tick = app.live.shown();
+    const at = list.selected.value;
+    if (tick === null || at >= app.live.history.membranes) return drawing.mark(null, 0);
+    const inside = (app.live.history.byteRow("phase", tick)[at] ?? 0) !== 0;
+    drawing.mark(
+      inside ? app.live.history.row("depth", tick)[at]! : null,
+      app.live.history.row("axial_force", tick)[at]!,
+    );
+  });
+}
+
+function section(table: Table, content: HTMLElement, open: boolean): HTMLElement {
+  return element(
+    "details",
+    { class: "section", open },
+    element("summary", {}, table.title),
+    element("p", { class: "quiet" }, table.help),
+    content,
+  );
+}
+
+function addMembrane(draft: Draft, list: MembraneList): void {
+  const all = membranes(draft.tables.value);
+  const next = duplicated(all, all.length - 1);
+  draft.change(withMembranes(draft.tables.value, next));
+  list.focus(next.length - 1);
+}

@@ -1,0 +1,134 @@
+/** The scene file's JSON Schema as the fields of a form. Only what the schema says; the wording is its own. */
+
+export type FieldKind = "number" | "integer" | "text" | "choice" | "vector";
+
+export interface Bound {
+  readonly value: number;
+  /** Whether the bound itself is outside. */
+  readonly open: boolean;
+}
+
+/** One key of a table. */
+export interface Field {
+  readonly key: string;
+  readonly title: string;
+  readonly help: string;
+  readonly symbol: string;
+  readonly unit: string;
+  readonly kind: FieldKind;
+  readonly least: Bound | null;
+  readonly most: Bound | null;
+  /** Why the bounds are what they are. */
+  readonly reason: string;
+  readonly options: readonly (string | number)[];
+  /** What each option is in the unit of the key beside it: a gauge in mm. */
+  readonly sizes: readonly number[];
+  readonly required: boolean;
+  readonly standard: unknown;
+}
+
+/** One table of the file; `list` where it comes as often as one likes. */
+export interface Table {
+  readonly key: string;
+  readonly title: string;
+  readonly help: string;
+  readonly list: boolean;
+  readonly fields: readonly Field[];
+  /** Of each pair of keys the table gives exactly one. */
+  readonly pairs: readonly (readonly [string, string])[];
+}
+
+export interface SceneForm {
+  readonly fields: readonly Field[];
+  readonly tables: readonly Table[];
+}
+
+type Json = Readonly<Record<string, unknown>>;
+
+export class SchemaError extends Error {}
+
+function object(value: unknown, what: string): Json {
+  if (typeof value !== "object" || value === null || Array.isArray(value))
+    throw new SchemaError(`${what} is no object`);
+  return value as Json;
+}
+const text = (value: unknown): string => (typeof value === "string" ? value : "");
+const list = (value: unknown): readonly unknown[] => (Array.isArray(value) ? value : []);
+
+/** Throws SchemaError where the schema is not that of a scene file. */
+export function sceneForm(schema: unknown): SceneForm {
+  const root = object(schema, "the schema");
+  const definitions = object(root.$defs ?? {}, "$defs");
+  const fields: Field[] = [];
+  const tables: Table[] = [];
+  const required = new Set(list(root.required));
+  for (const [key, raw] of Object.entries(object(root.properties, "properties"))) {
+    const entry = object(raw, key);
+    const isList = entry.type === "array" && "$ref" in object(entry.items ?? {}, `${key}.items`);
+    const reference = text(isList ? object(entry.items, key).$ref : entry.$ref);
+    if (!reference) {
+      fields.push(field(key, entry, required.has(key)));
+      continue;
+    }
+    const name = reference.replace("#/$defs/", "");
+    tables.push(table(key, object(definitions[name], name), isList));
+  }
+  return { fields, tables };
+}
+
+function table(key: string, definition: Json, isList: boolean): Table {
+  const required = new Set(list(definition.required));
+  return {
+    key,
+    title: text(definition.title) || key,
+    help: text(definition.description),
+    list: isList,
+    fields: Object.entries(object(definition.properties, key)).map(([name, entry]) =>
+      field(name, object(entry, name), required.has(name)),
+    ),
+    pairs: list(definition.allOf).flatMap(pair),
+  };
+}
+
+/** `{"oneOf": [{"required": ["a"]}, {"required": ["b"]}]}` */
+function pair(rule: unknown): [string, string][] {
+  const keys = list(object(rule, "allOf").oneOf).map((each) => text(list(object(each, "oneOf").required)[0]));
+  return keys.length === 2 && keys[0] && keys[1] ? [[keys[0], keys[1]]] : [];
+}
+
+function field(key: string, entry: Json, required: boolean): Field {
+  const options = list(entry.enum).filter((o): o is string | number => typeof o === "string" || typeof o === "number");
+  return {
+    key,
+    title: text(entry.title) || key,
+    help: text(entry.description),
+    symbol: text(entry["x-symbol"]),
+    unit: text(entry["x-unit"]),
+    kind: kind(key, entry, options.length > 0),
+    least: bound(entry.minimum, entry.exclusiveMinimum),
+    most: bound(entry.maximum, entry.exclusiveMaximum),
+    reason: text(entry["x-reason"]),
+    options,
+    sizes: list(entry["x-diameters-mm"]).filter((size) => typeof size === "number"),
+    required,
+    standard: entry.default,
+  };
+}
+
+function kind(key: string, entry: Json, hasOptions: boolean): FieldKind {
+  if (hasOptions) return "choice";
+  if (entry.type === "number" || entry.type === "integer") return entry.type;
+  if (entry.type === "string") return "text";
+  if (entry.type === "array") return "vector";
+  throw new SchemaError(`${key} is of no kind that the editor knows`);
+}
+
+function bound(closed: unknown, open: unknown): Bound | null {
+  if (typeof open === "number") return { value: open, open: true };
+  return typeof closed === "number" ? { value: closed, open: false } : null;
+}
+
+const GREEK: Readonly<Record<string, string>> = { kappa: "κ", mu: "μ", theta: "θ" };
+
+/** A symbol as it is printed: kappa is κ. */
+export const printed = (symbol: string): string => GREEK[symbol] ?? symbol;

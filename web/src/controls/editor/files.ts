@@ -1,0 +1,59 @@
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import { fileName, saveAddress } from "../download.ts";
+import type { Draft } from "./draft.ts";
+
+const LARGEST = 200_000; // characters; the engine refuses more
+
+/** Undo, redo, reset; a scene from a file and into one. `tell` says what came of a load: empty where it went well. */
+export function sceneTools(app: App, draft: Draft, tell: (problems: readonly string[]) => void): HTMLElement {
+  const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
+    element("button", { type: "button", class: "small", title: help, onclick: act }, label);
+  const undo = button("Undo", "Undo (Ctrl+Z)", () => draft.undo());
+  const redo = button("Redo", "Redo (Ctrl+Shift+Z)", () => draft.redo());
+  const reset = button("Reset", "Back to the scene as it was loaded", () => draft.reset());
+  draft.marks.watch((can) => {
+    undo.disabled = !can.undo;
+    redo.disabled = !can.redo;
+    reset.disabled = !can.reset;
+  });
+
+  const file = element("input", { type: "file", accept: ".toml", hidden: true, "aria-label": "Scene file" });
+  const load = button("Load…", "Load a scene file (TOML) as a new run", () => file.click());
+  file.addEventListener("change", async () => {
+    const chosen = file.files?.[0];
+    file.value = "";
+    if (chosen) tell(await loadFile(app, chosen));
+  });
+  const save = button("Save", "Save the scene as a TOML file", () => {
+    saveAddress(app.api.address("/api/scene.toml"), fileName(String(draft.at(["name"]) ?? "scene"), "toml"));
+  });
+  return element(
+    "div",
+    { class: "tools scene-tools" },
+    undo,
+    redo,
+    reset,
+    element("span", { class: "gap" }),
+    load,
+    file,
+    save,
+  );
+}
+
+async function loadFile(app: App, file: File): Promise<string[]> {
+  if (file.size > 4 * LARGEST)
+    return [`${file.name} is too large for a scene file: ${(file.size / 1e6).toFixed(1)} MB.`];
+  const toml = await file.text();
+  if (toml.length > LARGEST) return [`${file.name} is too long for a scene file: at most ${LARGEST} characters.`];
+  const reply = await app.ask({ do: "load_text", toml });
+  if (!reply) return [`${file.name} was not loaded: there is no connection.`];
+  if (reply.ok) return [];
+  const problems = (reply.problems ?? []).map(({ path, value, reason }) =>
+    path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${reason}` : reason,
+  );
+  return [
+    `${file.name} was not loaded; the run goes on as it was.`,
+    ...(problems.length ? problems : [reply.text ?? ""]),
+  ];
+}

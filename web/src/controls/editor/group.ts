@@ -1,0 +1,43 @@
+import { element } from "../../panel.ts";
+import type { Draft } from "./draft.ts";
+import type { Input } from "./field_frame.ts";
+import type { Table } from "./fields.ts";
+import { pairField } from "./pair_field.ts";
+import { single } from "./single.ts";
+import { getAt, type Path, parsePath, pathText, type Tables } from "./tables.ts";
+
+/** Fields on the page by their path in the file, `membrane[1].friction`. */
+export type Inputs = Map<string, Input>;
+
+/** The fields of one table at `path`, as the schema has them. */
+export function group(
+  table: Pick<Table, "fields" | "pairs">,
+  path: Path,
+  draft: Draft,
+  skip: readonly string[] = [],
+): { root: HTMLElement; inputs: Inputs } {
+  const root = element("div", { class: "group" });
+  const inputs: Inputs = new Map();
+  const byKey = new Map(table.fields.map((field) => [field.key, field]));
+  const paired = new Set<string>(skip);
+  for (const field of table.fields) {
+    if (paired.has(field.key)) continue;
+    const other = byKey.get(partnerOf(table, field.key) ?? "");
+    const here = [...path, field.key];
+    const input = other ? pairField(field, other, path, draft) : single(field, here, draft);
+    root.append(input.root);
+    inputs.set(pathText(here), input);
+    if (other) {
+      paired.add(other.key);
+      inputs.set(pathText([...path, other.key]), input);
+    }
+  }
+  return { root, inputs };
+}
+
+const partnerOf = (table: Pick<Table, "pairs">, key: string): string | undefined =>
+  table.pairs.find((pair) => pair[0] === key)?.[1];
+
+export function showAll(inputs: Inputs, tables: Tables): void {
+  for (const [path, input] of inputs) input.show(getAt(tables, parsePath(path)));
+}

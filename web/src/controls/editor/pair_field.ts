@@ -1,0 +1,54 @@
+import { element } from "../../panel.ts";
+import type { Draft } from "./draft.ts";
+import type { Input } from "./field_frame.ts";
+import type { Field } from "./fields.ts";
+import { converted } from "./pair_units.ts";
+import { single } from "./single.ts";
+import { getAt, type Path, replaceKey, setAt, type Tables } from "./tables.ts";
+
+const UNIT_WORDS = (field: Field): string => field.unit || field.title.toLowerCase();
+
+/** Two ways to say one thing, of which the file gives exactly one: a diameter in mm or as a gauge. */
+export function pairField(one: Field, other: Field, path: Path, draft: Draft): Input {
+  const fields = [one, other] as const;
+  const inputs = fields.map((field) => single(field, [...path, field.key], draft));
+  const root = element("div", { class: "pair" }, ...inputs.map((input) => input.root));
+  let active = 0;
+
+  const choose = (next: number): void => {
+    const [from, to] = [fields[active]!, fields[next]!];
+    const table = draft.at(path) as Tables;
+    const value = converted(from, to, table[from.key]);
+    if (next === active || value === undefined) return;
+    draft.change(setAt(draft.tables.value, path, replaceKey(table, from.key, to.key, value)));
+    root.querySelector<HTMLElement>(".field:not([hidden]) select.in")?.focus();
+  };
+  // The unit of each is a choice between the two.
+  for (const [index, input] of inputs.entries()) {
+    const select = element("select", { class: "in", "aria-label": `${one.title} given in` });
+    fields.forEach((field, i) => {
+      select.append(element("option", { value: i, selected: i === index }, UNIT_WORDS(field)));
+    });
+    select.addEventListener("change", () => {
+      const next = Number(select.value);
+      select.selectedIndex = index;
+      choose(next);
+    });
+    const controls = input.root.querySelector(".controls");
+    controls?.querySelector(".unit")?.remove();
+    controls?.append(select);
+  }
+  return {
+    root,
+    complain: (text) => inputs[active]?.complain(text),
+    show: () => {
+      const table = (getAt(draft.tables.value, path) ?? {}) as Tables;
+      active = other.key in table ? 1 : 0;
+      inputs.forEach((input, i) => {
+        input.root.hidden = i !== active;
+        if (i === active) input.show(table[fields[i]!.key]);
+        else input.complain("");
+      });
+    },
+  };
+}

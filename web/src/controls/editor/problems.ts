@@ -1,0 +1,51 @@
+import type { ProblemPart } from "../../wire/messages.ts";
+import type { Bound, Field } from "./fields.ts";
+import { numberText } from "./number.ts";
+
+/** What is wrong, by the field that caused it; what no field shows stands in `others`, to be told at the top. */
+export interface Sorted {
+  readonly fields: ReadonlyMap<string, string>;
+  readonly others: readonly string[];
+}
+
+/** shown: paths of the fields that are on the page, as `membrane[1].friction`. */
+export function sortProblems(problems: readonly ProblemPart[], shown: ReadonlySet<string>): Sorted {
+  const fields = new Map<string, string>();
+  const others: string[] = [];
+  for (const problem of problems) {
+    const path = shown.has(problem.path) ? problem.path : vectorOf(problem.path, shown);
+    if (path === null) others.push(sentence(problem));
+    else fields.set(path, fields.has(path) ? `${fields.get(path)} ${words(problem.reason)}` : words(problem.reason));
+  }
+  return { fields, others };
+}
+
+/** A vector's component, `point_mm[1]`, is told at the vector. */
+function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
+  const whole = path.replace(/\[\d+\]$/, "");
+  return whole !== path && shown.has(whole) ? whole : null;
+}
+
+const sentence = ({ path, value, reason }: ProblemPart): string =>
+  path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
+
+function words(reason: string): string {
+  const capital = reason.charAt(0).toUpperCase() + reason.slice(1);
+  return /[.!?]$/.test(capital) ? capital : `${capital}.`;
+}
+
+/** Whether a number breaks a bound of the schema, told before anything is sent; null where it does not. */
+export function boundProblem(field: Field, value: number): string | null {
+  const broken = (bound: Bound | null, sign: 1 | -1): boolean =>
+    bound !== null && (sign * value < sign * bound.value || (bound.open && value === bound.value));
+  if (!broken(field.least, 1) && !broken(field.most, -1)) return null;
+  return words(field.reason || boundText(field));
+}
+
+/** The bounds in words: `more than 0`, `0 to 90`. Empty without any. */
+export function boundText(field: Field): string {
+  const { least, most } = field;
+  const low = least && `${least.open ? "more than" : "at least"} ${numberText(Number(least.value.toPrecision(4)))}`;
+  const high = most && `${most.open ? "less than" : "at most"} ${numberText(Number(most.value.toPrecision(4)))}`;
+  return [low, high].filter(Boolean).join(", ");
+}

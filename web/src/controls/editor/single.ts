@@ -1,0 +1,31 @@
+import type { Draft } from "./draft.ts";
+import type { Input } from "./field_frame.ts";
+import type { Field } from "./fields.ts";
+import { numberField } from "./number_field.ts";
+import { choiceField, textField, vectorField } from "./other_fields.ts";
+import { type Path, pathText } from "./tables.ts";
+
+/** Numbers that one sets once and does not try out by sliding. */
+const NO_SLIDER = new Set(["rate_hz", "encoder_step_mm"]);
+
+const idOf = (path: Path): string => `scene-${pathText(path).replace(/[[\].]+/g, "-")}`;
+
+/** The input of one field, which writes what it is given into the draft. */
+export function single(field: Field, path: Path, draft: Draft): Input {
+  const change = (value: unknown): void => draft.set(path, value);
+  switch (field.kind) {
+    case "text":
+      return textField(field, idOf(path), change);
+    case "choice":
+      return choiceField(field, idOf(path), change, field.sizes.length ? sized(field) : undefined);
+    case "vector":
+      return vectorField(field, idOf(path), change);
+    default:
+      return numberField(field, idOf(path), !NO_SLIDER.has(field.key), change);
+  }
+}
+
+const sized =
+  (field: Field) =>
+  (option: string | number): string =>
+    `${option} G, ${field.sizes[field.options.indexOf(option)]} mm`;

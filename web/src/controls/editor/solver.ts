@@ -1,0 +1,46 @@
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import type { Draft } from "./draft.ts";
+
+const SOLVERS = [
+  ["exact", "Exact", "Solves the contact of each tick, K06 (21)–(23), to the last bit."],
+  ["paper", "Paper", "Takes one explicit step a tick, K06 (33)."],
+] as const;
+
+/** Which solver makes the force, and whether the other one is drawn beside it. */
+export function solverControl(app: App, draft: Draft): HTMLElement {
+  const buttons = SOLVERS.map(([name, label, help]) => {
+    const input = element("input", { type: "radio", name: "solver", value: name, id: `solver-${name}` });
+    input.addEventListener("change", () => draft.set(["servo", "solver"], name));
+    return { name, input, label: element("label", { for: `solver-${name}`, title: help }, label) };
+  });
+  draft.tables.watch(() => {
+    const now = draft.at(["servo", "solver"]) ?? "exact";
+    for (const { name, input } of buttons) input.checked = name === now;
+  });
+
+  const compare = element("input", { type: "checkbox", id: "compare-solvers" });
+  let asking = false;
+  compare.addEventListener("change", async () => {
+    asking = true;
+    const reply = await app.ask({ do: "compare", on: compare.checked });
+    if (!reply?.ok) compare.checked = !compare.checked;
+    asking = false;
+  });
+  app.status.watch((status) => {
+    if (status && !asking) compare.checked = status.compare;
+  });
+
+  return element(
+    "fieldset",
+    { class: "solver" },
+    element("legend", {}, "Solver"),
+    element("div", { class: "segmented" }, ...buttons.flatMap(({ input, label }) => [input, label])),
+    element("label", { class: "check" }, compare, "draw the other solver’s force"),
+    element(
+      "p",
+      { class: "quiet" },
+      "Paper takes one step a tick towards the solution, as printed, and may tremble where walls are thin; exact finds it.",
+    ),
+  );
+}

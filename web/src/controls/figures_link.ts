@@ -1,0 +1,31 @@
+import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
+
+const PATH = "/figures/";
+
+/** The page of the paper's figures where it has been made, else the command that makes it. */
+export function figuresLink(app: App): HTMLElement {
+  const link = element("a", { href: app.api.address(PATH), target: "_blank", rel: "noopener" }, "Figures of the paper");
+  const made = element(
+    "span",
+    { hidden: true },
+    link,
+    ": K06 Figs. 3, 5, 10, 11 and 12, computed anew by the model that runs here.",
+  );
+  const missing = element(
+    "span",
+    {},
+    "The paper’s figures, computed anew by this model: ",
+    element("code", {}, "punctura reproduce"),
+    " makes the page.",
+  );
+  const look = async (): Promise<void> => {
+    const there = await app.api.exists(PATH);
+    made.hidden = !there;
+    missing.hidden = there;
+  };
+  app.connection.watch((now) => {
+    if (now.state === "open") void look();
+  });
+  return element("p", { class: "quiet pad figures" }, made, missing);
+}

@@ -1,0 +1,46 @@
+import { expect, test } from "vitest";
+import { type Field, SchemaError, sceneForm } from "../../../src/controls/editor/fields.ts";
+import schema from "../support/schema.json";
+
+const form = sceneForm(schema);
+const table = (key: string) => form.tables.find((each) => each.key === key)!;
+const field = (key: string, name: string): Field => table(key).fields.find((each) => each.key === name)!;
+
+test("the schema of a scene gives its tables in the file's order, the membranes as a list", () => {
+  expect(form.fields.map(({ key, kind }) => [key, kind])).toEqual([["name", "text"]]);
+  expect(form.tables.map(({ key, list }) => [key, list])).toEqual([
+    ["needle", false],
+    ["coupling", false],
+    ["servo", false],
+    ["membrane", true],
+  ]);
+});
+
+test("a field has its unit, symbol, bounds and help", () => {
+  expect(field("membrane", "friction")).toMatchObject({
+    title: "Friction",
+    symbol: "mu",
+    unit: "",
+    kind: "number",
+    least: { value: 0, open: true },
+    most: null,
+    required: true,
+  });
+  expect(field("needle", "tip_angle_deg").most).toEqual({ value: 90, open: true });
+  expect(field("membrane", "point_mm").kind).toBe("vector");
+  expect(field("servo", "solver").options).toEqual(["exact", "paper"]);
+});
+
+test("pairs of which exactly one is given are found, and what the gauges are in mm", () => {
+  expect(table("needle").pairs).toEqual([
+    ["diameter_mm", "gauge"],
+    ["tip_angle_rad", "tip_angle_deg"],
+  ]);
+  const gauge = field("needle", "gauge");
+  expect(gauge.sizes[gauge.options.indexOf(21)]).toBe(0.8);
+});
+
+test("what is no schema is refused", () => {
+  expect(() => sceneForm(null)).toThrow(SchemaError);
+  expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x is of no kind");
+});

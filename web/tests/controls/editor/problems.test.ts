@@ -1,0 +1,28 @@
+import { expect, test } from "vitest";
+import { sceneForm } from "../../../src/controls/editor/fields.ts";
+import { boundProblem, sortProblems } from "../../../src/controls/editor/problems.ts";
+import schema from "../support/schema.json";
+
+const shown = new Set(["membrane[1].friction", "membrane[0].point_mm", "needle.tip_angle_deg"]);
+
+test("a problem is told at the field that caused it, all others at the top", () => {
+  const { fields, others } = sortProblems(
+    [
+      { path: "membrane[1].friction", value: "3.6", reason: "insertion needs mu tan(theta) < 1, K06 (7); here 1.035" },
+      { path: "membrane[0].point_mm[2]", value: "x", reason: "must be a number" },
+      { path: "servo.rate_hz", value: "0", reason: "must be greater than 0" },
+      { path: "", value: "", reason: "the loop has ended" },
+    ],
+    shown,
+  );
+  expect(fields.get("membrane[1].friction")).toBe("Insertion needs mu tan(theta) < 1, K06 (7); here 1.035.");
+  expect(fields.get("membrane[0].point_mm")).toBe("Must be a number.");
+  expect(others).toEqual(["servo.rate_hz = 0: Must be greater than 0.", "The loop has ended."]);
+});
+
+test("a bound of the schema is told before anything is sent", () => {
+  const needle = sceneForm(schema).tables[0]!;
+  const angle = needle.fields.find(({ key }) => key === "tip_angle_deg")!;
+  expect(boundProblem(angle, 90)).toContain("between 0 and pi/2");
+  expect(boundProblem(angle, 11)).toBeNull();
+});

@@ -1,0 +1,73 @@
+import type { Ask, Engine, EngineListener, Reply, Triple } from "../../../src/engine/engine.ts";
+import type { LawCurve, Message, ProblemPart, SceneView } from "../../../src/wire/messages.ts";
+
+type Table = Record<string, number>;
+
+/**
+ * An engine without a model, for the panels' tests: it takes edits as the studio does, with refusals and with laws of
+ * about the right size, and keeps what it was asked.
+ */
+export class FakeEngine implements Engine {
+  readonly asked: Ask[] = [];
+  private listener: EngineListener | null = null;
+  private number = 0;
+
+  constructor(
+    private scene: SceneView,
+    /** ms that a request takes. */
+    private readonly delay = 8,
+  ) {}
+
+  start(listener: EngineListener): void {
+    this.listener = listener;
+    listener.connection({ state: "open" });
+    this.say({ kind: "control", holder: 1, you: true });
+    this.say({ kind: "scene", scene: this.scene, new_run: true });
+  }
+  stop(): void {}
+  target(_position: Triple, _axis: Triple): void {}
+
+  say(message: Exclude<Message, { kind: "reply" }>): void {
+    this.listener?.message(message);
+  }
+
+  async ask(request: Ask): Promise<Reply> {
+    this.asked.push(request);
+    await new Promise((done) => setTimeout(done, this.delay));
+    const reply = { kind: "reply", id: this.asked.length } as const;
+    if (request.do !== "edit") return { ...reply, ok: true };
+    const problems = problemsOf(request.tables);
+    if (problems.length) return { ...reply, ok: false, text: "bad scene", problems };
+    this.number += 1;
+    this.scene = { ...this.scene, number: this.number, tables: request.tables, laws: this.laws(request.tables) };
+    this.say({ kind: "scene", scene: this.scene, new_run: false });
+    return { ...reply, ok: true };
+  }
+
+  private laws(tables: Record<string, unknown>): LawCurve[] {
+    return (tables.membrane as Table[]).map((membrane, i) => {
+      const law = this.scene.laws[Math.min(i, this.scene.laws.length - 1)]!;
+      const size = (membrane.friction! * (membrane.stiffness_N_per_mm! + membrane.precompression_N!)) / 0.14;
+      return {
+        ...law,
+        name: String(membrane.name),
+        lower: law.lower.map((f) => f * size),
+        upper: law.upper.map((f) => f * size),
+      };
+    });
+  }
+}
+
+function problemsOf(tables: Record<string, unknown>): ProblemPart[] {
+  return (tables.membrane as Table[]).flatMap((membrane, i) =>
+    membrane.friction! > 3
+      ? [
+          {
+            path: `membrane[${i}].friction`,
+            value: String(membrane.friction),
+            reason: "insertion needs mu tan(theta) < 1, K06 (7); here 1.035",
+          },
+        ]
+      : [],
+  );
+}
