@@ -6,6 +6,7 @@ import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";
 import { notices } from "./controls/notices.ts";
 import { phasesPanel } from "./controls/phases.ts";
+import { playerBar } from "./controls/recordings/player.ts";
 import { recordingsPanel } from "./controls/recordings.ts";
 import { tabs } from "./controls/tabs.ts";
 import { tour } from "./controls/tour.ts";
@@ -40,6 +41,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["health", "Loop", healthPanel],
       ]),
     ),
+    place("player", "Recording that is looked at", playerBar),
     place("notices", "Messages", notices),
   );
   tour(root, app);

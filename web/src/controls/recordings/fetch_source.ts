@@ -1,0 +1,76 @@
+import { Source } from "../../state/source.ts";
+import type { Api } from "../../wire/api.ts";
+import { type RecordingEntry, type RecordingOverview, recordingPath } from "../../wire/files.ts";
+import { FrameSplitter } from "../../wire/length_prefixed.ts";
+import { decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
+import { gapBefore } from "./gap.ts";
+
+/** More would not fit a page's memory: 11 minutes at 1600 Hz. The rest is in the file. */
+export const MOST_TICKS = 1 << 20;
+
+export interface Progress {
+  readonly bytes: number;
+  readonly total: number;
+}
+export interface Fetched {
+  readonly source: Source;
+  /** Ticks that were left out at the end; 0 where all are there. */
+  readonly left: number;
+}
+
+/** A recording as a run to look at. Throws ApiError, FrameError, or what the signal says. */
+export async function fetchSource(
+  api: Api,
+  entry: RecordingEntry,
+  progress: (now: Progress) => void,
+  signal?: AbortSignal,
+): Promise<Fetched> {
+  const init = signal ? { signal } : {};
+  const path = recordingPath(entry.name);
+  const overview = (await (await api.get(path, init)).json()) as RecordingOverview;
+  const { scene, events, first_tick: first } = overview;
+  const span = overview.ticks + entry.lost;
+  const source = new Source(entry.title || entry.name, false, Math.max(Math.min(span, MOST_TICKS), 1));
+  source.scene.value = scene;
+  source.laws.value = scene.laws;
+  source.history.clear(scene.membranes.length, first);
+
+  const response = await api.get(`${path}/ticks`, init);
+  const told = Number(response.headers.get("Content-Length"));
+  const total = told > 0 ? told : overview.ticks * tickBytes(scene.membranes.length);
+  const splitter = new FrameSplitter();
+  const reader = response.body?.getReader();
+  for (let bytes = 0; reader; ) {
+    const { done, value } = await reader.read();
+    if (done) {
+      splitter.end();
+      break;
+    }
+    bytes += value.byteLength;
+    progress({ bytes, total: Math.max(total, bytes) });
+    for (const frame of splitter.push(value)) take(source, decodeTicks(frame), 1 / scene.rate);
+    if (source.history.length >= MOST_TICKS) {
+      await reader.cancel();
+      break;
+    }
+  }
+  const { end } = source.history;
+  source.events.value = events.filter(({ tick }) => tick < end);
+  return { source, left: Math.max(first + span - end, 0) };
+}
+
+function take(source: Source, batch: TickBatch, period: number): void {
+  const { history } = source;
+  const room = MOST_TICKS - history.length;
+  if (batch.firstTick > history.end && batch.firstTick - history.end < room)
+    history.push(gapBefore(batch, history.end, period));
+  if (history.length + batch.count <= MOST_TICKS) history.push(batch);
+}
+
+/** Bytes of one tick in a frame. */
+function tickBytes(membranes: number): number {
+  const floats = ["time", "position", "axis", "tip", "model_force", "force", "ceiling"] as const;
+  const each = ["depth", "axial_force", "lower", "upper", "proxy", "direction"] as const;
+  const numbers = [...floats, ...each].reduce((sum, name) => sum + rowWidth(name, membranes), 0);
+  return 4 * numbers + 2 + membranes;
+}

@@ -1,0 +1,67 @@
+import type { App } from "../../state/app.ts";
+import { Signal } from "../../state/signal.ts";
+import type { Source } from "../../state/source.ts";
+import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
+import { type Fetched, fetchSource, type Progress } from "./fetch_source.ts";
+
+const KEPT = 2; // whole recordings are large: the one looked at and the one laid over it
+
+/** The recordings that there are, and those that the page has fetched. */
+export class Library {
+  readonly entries = new Signal<readonly RecordingEntry[] | null>(null);
+  /** Why there is no list; empty where there is one. */
+  readonly trouble = new Signal("");
+  private readonly fetched = new Map<string, Fetched>();
+
+  constructor(readonly app: App) {
+    app.connection.watch((now) => now.state === "open" && void this.refresh());
+    let recording = false;
+    app.recording.watch((now) => {
+      if (recording && !now) void this.refresh();
+      recording = now !== null;
+    });
+    app.exercise.watch((now) => now?.result && void this.refresh());
+  }
+
+  async refresh(): Promise<void> {
+    try {
+      this.entries.value = await this.app.api.json<RecordingEntry[]>("/api/recordings");
+      this.trouble.value = "";
+    } catch (error) {
+      this.trouble.value = wordsOf(error);
+    }
+  }
+
+  /** Throws what fetchSource throws. */
+  async open(entry: RecordingEntry, progress: (now: Progress) => void, signal: AbortSignal): Promise<Source> {
+    const known = this.fetched.get(entry.name);
+    const fetched = known ?? (await fetchSource(this.app.api, entry, progress, signal));
+    this.fetched.delete(entry.name);
+    this.fetched.set(entry.name, fetched);
+    for (const [name, { source }] of this.fetched) {
+      if (this.fetched.size <= KEPT) break;
+      if (source !== this.app.source.value && source !== this.app.overlay.value) this.fetched.delete(name);
+    }
+    if (!known && fetched.left > 0)
+      this.app.say(`${entry.name} is too long to be shown whole: the last ${fetched.left} ticks are left out here.`);
+    return fetched.source;
+  }
+
+  /** The name of what is fetched as this source. */
+  nameOf(source: Source | null): string | null {
+    for (const [name, fetched] of this.fetched) if (fetched.source === source) return name;
+    return null;
+  }
+
+  async remove(entry: RecordingEntry): Promise<void> {
+    await this.app.api.remove(recordingPath(entry.name));
+    const { app } = this;
+    const source = this.fetched.get(entry.name)?.source;
+    if (source && app.source.value === source) app.source.value = app.live;
+    if (source && app.overlay.value === source) app.overlay.value = null;
+    this.fetched.delete(entry.name);
+    await this.refresh();
+  }
+}
+
+export const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

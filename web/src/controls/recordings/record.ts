@@ -1,0 +1,60 @@
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import { watchBlock } from "../blocked.ts";
+import { countText } from "./words.ts";
+
+/** Record and stop, and how it goes meanwhile. */
+export function recordControl(app: App): HTMLElement {
+  const name = element("input", {
+    type: "text",
+    class: "words",
+    maxlength: 80,
+    placeholder: "Name, or date and time",
+    "aria-label": "Name of the recording; without one it gets date and time",
+    "aria-describedby": "record-error",
+    autocomplete: "off",
+  });
+  const error = element("p", { class: "error", id: "record-error", role: "alert" });
+  const button = element("button", { type: "submit", class: "small record" }, "Record");
+  const form = element("form", { class: "record-row" }, name, button);
+  const line = element("p", { class: "quiet record-line" });
+  let recording = false;
+
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    button.disabled = true;
+    error.textContent = "";
+    name.removeAttribute("aria-invalid");
+    const wish = name.value.trim();
+    const reply = await app.ask(
+      recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) },
+    );
+    button.disabled = app.control.value.you === false;
+    if (reply && !reply.ok) {
+      error.textContent = reply.text || "It was refused.";
+      if (!recording) name.setAttribute("aria-invalid", "true");
+    } else if (reply && !recording) name.value = "";
+  });
+  app.recording.watch((now) => {
+    recording = now !== null;
+    button.textContent = recording ? "Stop" : "Record";
+    button.classList.toggle("on", recording);
+    name.hidden = recording;
+    form.dataset.name = now?.name ?? "";
+    line.classList.toggle("on", recording);
+    line.textContent = now
+      ? `${now.seconds.toFixed(1)} s, ${countText(now.rows)} ticks, ${countText(now.lost)} lost${now.trouble ? `. ${now.trouble}` : ""}`
+      : "Begins a new run: force comes back once the tip is outside tissue.";
+  });
+  const current = element("strong", { class: "record-name" });
+  form.prepend(current);
+  app.recording.watch((now) => {
+    current.hidden = now === null;
+    current.textContent = now ? now.name : "";
+  });
+  watchBlock(app, (block) => {
+    button.disabled = block !== null;
+    name.disabled = block !== null;
+  });
+  return element("div", { class: "record-part" }, form, line, error);
+}

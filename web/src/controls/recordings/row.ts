@@ -1,0 +1,142 @@
+import { element } from "../../panel.ts";
+import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
+import { blockOf } from "../blocked.ts";
+import { fileName, saveAddress } from "../download.ts";
+import { type Library, wordsOf } from "./library.ts";
+import { bytesText, countText, dateText, lengthText } from "./words.ts";
+
+const FORMATS = ["parquet", "csv", "mcap"] as const;
+
+/** A recording in the list: what it is, and what can be done with it. */
+export interface Row {
+  readonly root: HTMLElement;
+  /** Shows whether it is looked at, and whether it lies over the plots. */
+  mark(shown: boolean, laidOver: boolean): void;
+  block(blocked: boolean, simulated: boolean): void;
+}
+
+export function recordingRow(library: Library, entry: RecordingEntry): Row {
+  const { app } = library;
+  const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
+    element("button", { type: "button", class: "small", title: help, onclick: act }, label);
+  const line = element("p", { class: "error", role: "alert" });
+  const bar = element("progress", { max: 1, value: 0, "aria-label": `Fetching ${entry.name}` });
+  const bytes = element("span", { class: "quiet bytes" });
+  let fetching: AbortController | null = null;
+  const cancel = button("Cancel", "Stops fetching", () => fetching?.abort());
+  const progress = element("div", { class: "tools progress", hidden: true }, bar, bytes, cancel);
+
+  const fetched = async (then: (source: typeof app.live) => void): Promise<void> => {
+    if (fetching) return;
+    line.textContent = "";
+    fetching = new AbortController();
+    // What is there at once needs no bar.
+    const soon = setTimeout(() => {
+      progress.hidden = false;
+      tools.hidden = true;
+    }, 150);
+    try {
+      const source = await library.open(
+        entry,
+        (now) => {
+          bar.value = now.bytes / now.total;
+          bytes.textContent = bytesText(now.bytes, now.total);
+        },
+        fetching.signal,
+      );
+      then(source);
+    } catch (error) {
+      if (!fetching.signal.aborted) line.textContent = wordsOf(error);
+    } finally {
+      clearTimeout(soon);
+      fetching = null;
+      progress.hidden = true;
+      tools.hidden = false;
+    }
+  };
+
+  const look = button("Look", "Look at it in the same view, with a scrubber", () => {
+    if (app.source.value !== app.live && library.nameOf(app.source.value) === entry.name) app.source.value = app.live;
+    else void fetched((source) => (app.source.value = source));
+  });
+  const lay = button("Lay over plots", "Draws it over the plots, to compare", () => {
+    if (library.nameOf(app.overlay.value) === entry.name) app.overlay.value = null;
+    else void fetched((source) => (app.overlay.value = source));
+  });
+  const repeat = button("Hand repeats it", "The simulated hand follows the tip of this recording", () => {
+    app.source.value = app.live;
+    void app.ask({ do: "play_motion", recording: entry.name });
+  });
+  const save = element("span", { class: "save quiet" }, "Save as");
+  for (const format of FORMATS) {
+    const address = app.api.address(`${recordingPath(entry.name)}/download?format=${format}`);
+    save.append(
+      " ",
+      button(format, `Save as ${format.toUpperCase()} file`, () => saveAddress(address, fileName(entry.name, format))),
+    );
+  }
+  save.querySelectorAll("button").forEach((each) => {
+    each.className = "link";
+  });
+
+  const sure = element("span", { class: "tools sure", hidden: true });
+  const remove = button("Delete", "Deletes the file; asks once more", () => ask(true));
+  const ask = (open: boolean): void => {
+    sure.hidden = !open;
+    remove.hidden = open;
+    (open ? keep : remove).focus();
+  };
+  const keep = button("Keep", "Keeps it", () => ask(false));
+  const really = button("Delete for good", "The file is gone then", async () => {
+    try {
+      await library.remove(entry);
+    } catch (error) {
+      line.textContent = wordsOf(error);
+      ask(false);
+    }
+  });
+  really.classList.add("danger");
+  sure.append(keep, really);
+
+  const facts = [
+    entry.scene,
+    lengthText(entry.seconds),
+    dateText(entry.started),
+    entry.exercise && `exercise ${entry.exercise}`,
+    entry.lost > 0 && `${countText(entry.lost)} ticks lost`,
+    !entry.finished && "not finished",
+  ].filter((fact): fact is string => Boolean(fact));
+  const tools = element(
+    "div",
+    { class: "row-tools" },
+    element("div", { class: "tools" }, look, lay, repeat),
+    element("div", { class: "tools" }, save, element("span", { class: "gap" }), remove, sure),
+  );
+  const root = element(
+    "li",
+    { class: "recording" },
+    element(
+      "div",
+      { class: "what" },
+      element("strong", { title: entry.name }, entry.title || entry.name),
+      element("span", { class: "quiet" }, facts.join(" · ")),
+    ),
+    tools,
+    progress,
+    line,
+  );
+  return {
+    root,
+    mark: (shown, laidOver) => {
+      root.classList.toggle("shown", shown);
+      look.textContent = shown ? "Back to live" : "Look";
+      look.setAttribute("aria-pressed", String(shown));
+      lay.textContent = laidOver ? "Take off plots" : "Lay over plots";
+      lay.setAttribute("aria-pressed", String(laidOver));
+    },
+    block: (blocked, simulated) => {
+      repeat.disabled = blocked && blockOf(app)?.remedy !== "live";
+      repeat.hidden = !simulated;
+    },
+  };
+}

@@ -1,0 +1,38 @@
+import { FrameError } from "./ticks.ts";
+
+const LARGEST = 1 << 26; // bytes of one frame
+
+/** Cuts a stream of bytes into frames: a u32 of the length, the frame, zeros until the next length is at a multiple of 4. */
+export class FrameSplitter {
+  private rest = new Uint8Array(0);
+
+  /** The frames that are whole with these bytes, each in a buffer of its own. Throws FrameError. */
+  push(bytes: Uint8Array): ArrayBuffer[] {
+    const all = joined(this.rest, bytes);
+    const view = new DataView(all.buffer, all.byteOffset, all.byteLength);
+    const frames: ArrayBuffer[] = [];
+    let at = 0;
+    while (all.byteLength - at >= 4) {
+      const length = view.getUint32(at, true);
+      if (length === 0 || length > LARGEST) throw new FrameError(`a frame of ${length} bytes cannot be`);
+      const next = at + 4 + Math.ceil(length / 4) * 4;
+      if (next > all.byteLength) break;
+      frames.push(all.slice(at + 4, at + 4 + length).buffer);
+      at = next;
+    }
+    this.rest = all.subarray(at);
+    return frames;
+  }
+
+  /** Throws FrameError where the stream ends within a frame. */
+  end(): void {
+    if (this.rest.byteLength > 0) throw new FrameError("the stream ends within a frame");
+  }
+}
+
+function joined(left: Uint8Array<ArrayBuffer>, right: Uint8Array): Uint8Array<ArrayBuffer> {
+  const all = new Uint8Array(left.byteLength + right.byteLength);
+  all.set(left);
+  all.set(right, left.byteLength);
+  return all;
+}
