@@ -14,7 +14,7 @@ digest() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 25
 
 # digest_files PATH...: one hash of all files below the paths, names and contents; caches do not count.
 digest_files() {
-  (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' -print0 2>/dev/null | LC_ALL=C sort -z |
+  (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' ! -path '*/node_modules/*' ! -path '*/studio/page/*' -print0 2>/dev/null | LC_ALL=C sort -z |
     xargs -0 $(command -v sha256sum || echo shasum -a 256)) | digest
 }
 
@@ -46,7 +46,8 @@ make_venv() {
   stamp venv "$key"
 }
 
-# The back-end's own requirements stand in pyproject.toml alone; CMake and Ninja come with them, so that no system has to bring them.
+# The back-end's own requirements stand in pyproject.toml alone; CMake and Ninja come with them, so that no system has to bring them,
+# and Node for the studio's page where there is none.
 build_requirements() {
   "$venv/bin/python" - "$root/pyproject.toml" <<'PY'
 import sys
@@ -60,7 +61,8 @@ PY
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check --no-input --no-color "$@"; }
 pip_build_tools() {
   local requirements
-  requirements=$(build_requirements) && pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
+  requirements=$(build_requirements && "$venv/bin/python" "$root/tools/build_backend/studio_page.py" --requires) &&
+    pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
 }
 
 # The project is built in place of pip's throw-away folder, so that a changed file costs its own compilation only.
@@ -68,7 +70,7 @@ pip_project() { pip install --progress-bar off --no-build-isolation "$@"; }
 
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {
-  local kind=$1 extra=${2:-} deps sources
+  local kind=$1 extra=${2:-} deps sources node
   export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1
   unset PYTHONPATH PYTHONHOME
   lock
@@ -81,12 +83,13 @@ set_up() {
     stamp "packages-$kind" "$(packages_key)"
   fi
   make_venv
+  node=$(command -v node || true)  # the system's: one from PyPI, in the virtual environment, would look like a change
   export PATH="$venv/bin:$PATH"
-  deps="$(digest_files pyproject.toml)"
-  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python) ${CXX:-}"
-  if ! stamped build-tools "$deps"; then
+  deps="$(digest_files pyproject.toml tools/build_backend)"
+  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python web) ${CXX:-}"
+  if ! stamped build-tools "$deps $node"; then
     step "Build tools from PyPI" build-tools pip_build_tools
-    stamp build-tools "$deps"
+    stamp build-tools "$deps $node"
   fi
   if ! stamped "needs-$kind" "$deps"; then
     unstamp sources

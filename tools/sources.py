@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
+GENERATED = ("web/src/wire/messages.ts",)  # npm run types
 SOURCE_SUFFIXES = (*CPP_SUFFIXES, ".py", ".pyi", ".ts", ".sh", ".cmake")
 
 
@@ -29,7 +30,9 @@ def sources(root: Path, suffixes: tuple[str, ...]) -> list[str]:
         listed = subprocess.run(command, capture_output=True, check=True, text=True).stdout.split("\0")
     except (OSError, subprocess.CalledProcessError):
         listed = [path.relative_to(root).as_posix() for path in root.rglob("*")]
-    return sorted({path for path in listed if path.endswith(suffixes) and (root / path).is_file()})
+    return sorted(
+        {path for path in listed if path.endswith(suffixes) and path not in GENERATED and (root / path).is_file()}
+    )
 
 
 def report(name: str, findings: Callable[[Path], list[Finding]], argv: list[str]) -> int:

@@ -1,7 +1,7 @@
 # The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
 
-all_steps="tree format types cpp clang asan tsan consumer examples python"
-fast_steps="tree format types cpp python"
+all_steps="tree format types web cpp clang asan tsan consumer examples python"
+fast_steps="tree format types web cpp python"
 
 choose_steps() {
   local name
@@ -44,7 +44,7 @@ run_steps() {
 }
 
 # What the step's own runner said last of how many tests passed.
-closing_line() { grep -aE '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):|^Success: no issues|^tree: ' "$1" | tail -n 1 | tr -s ' =' || true; }
+closing_line() { grep -aE '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):|^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true; }
 
 # Rooms, sizes and equations: what the tree promises of itself.
 step_tree() {
@@ -116,6 +116,25 @@ step_python() {
     but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
   python -m pytest -n 2 ${but[@]+"${but[@]}"}
+}
+
+# The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
+step_web() {
+  local types=src/wire/messages.ts code=0
+  export NO_COLOR=1
+  python tools/build_backend/studio_page.py && python tools/build_backend/studio_page.py --modules || return
+  python tools/check_bundle.py || code=1
+  cd web || return
+  npm run -s check || code=1
+  npm run -s lint || code=1
+  cp "$types" "$root/build/messages.ts"
+  if ! npm run -s types >/dev/null || ! cmp -s "$types" "$root/build/messages.ts"; then
+    diff "$root/build/messages.ts" "$types" || true
+    cp "$root/build/messages.ts" "$types"
+    echo "web/$types is not what python/punctura/studio/wire says: cd web && npm run types" && code=1
+  fi
+  npm test || code=1
+  return $code
 }
 
 # Every example runs, in a folder of its own.

@@ -1,0 +1,49 @@
+"""scikit-build-core's back-end with one thing more: the studio's page is built before it is packed (PEP 517, 660)."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import studio_page
+from scikit_build_core import build as native
+
+prepare_metadata_for_build_wheel = getattr(native, "prepare_metadata_for_build_wheel", None)
+prepare_metadata_for_build_editable = getattr(native, "prepare_metadata_for_build_editable", None)
+Settings = dict[str, "list[str] | str"] | None
+
+
+def get_requires_for_build_wheel(settings: Settings = None) -> list[str]:
+    return [*native.get_requires_for_build_wheel(settings), *studio_page.requirements()]
+
+
+def get_requires_for_build_editable(settings: Settings = None) -> list[str]:
+    return [*native.get_requires_for_build_editable(settings), *studio_page.requirements()]
+
+
+def get_requires_for_build_sdist(settings: Settings = None) -> list[str]:
+    return [*native.get_requires_for_build_sdist(settings), *studio_page.requirements()]
+
+
+def build_wheel(directory: str, settings: Settings = None, metadata: str | None = None) -> str:
+    _page()
+    return native.build_wheel(directory, settings, metadata)
+
+
+def build_editable(directory: str, settings: Settings = None, metadata: str | None = None) -> str:
+    _page()
+    return native.build_editable(directory, settings, metadata)
+
+
+def build_sdist(directory: str, settings: Settings = None) -> str:
+    _page()  # goes along, so that a wheel can be made of the sdist without Node
+    return native.build_sdist(directory, settings)
+
+
+def _page() -> None:
+    try:
+        studio_page.build(Path.cwd())
+    except studio_page.PageError as error:
+        sys.stdout.flush()
+        print(f"\n*** {error}", file=sys.stderr)
+        raise SystemExit(1) from None

