@@ -54,8 +54,8 @@ class Hand:
         if self._device is None:
             return
         place, direction = np.array(position, float), np.array(axis, float)
-        length = float(np.linalg.norm(direction))
-        if not (np.isfinite(place).all() and float(np.linalg.norm(place)) <= FARTHEST and 1e-6 < length < 1e6):
+        length = math.hypot(*direction)
+        if not (np.isfinite(place).all() and math.hypot(*place) <= FARTHEST and 1e-6 < length < 1e6):
             raise ValueError("a target needs a position within half a metre and an axis of some length")
         self.mode, self._next = "target", math.inf
         self._go(place, direction / length, buttons)

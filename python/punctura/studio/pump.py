@@ -120,9 +120,10 @@ class Pump:
         )
 
     def _watch_axis(self, columns: Columns) -> None:
-        now, axis, entered = float(columns["time"][-1]), columns["axis"][-1], columns["direction"][-1]
+        now, axis = float(columns["time"][-1]), columns["axis"][-1]
         if np.isfinite(axis).all():
-            self._axis, self._entered = axis, entered
+            inside = columns["phase"][-1] != 0
+            self._axis, self._entered = axis, np.where(inside[:, None], columns["direction"][-1], np.nan)
         scene = self._run.loop.scene
         if now < self._laws_at or len(self._angles) != len(scene.membranes):
             return

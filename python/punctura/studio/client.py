@@ -1,0 +1,142 @@
+"""A page without a browser: for programs that drive a studio, for tests and for soaks."""
+
+from __future__ import annotations
+
+import http.client
+import itertools
+import json
+import threading
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from types import TracebackType
+from typing import Any, TypeVar
+from urllib.parse import parse_qs, quote, urlsplit
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from punctura.studio.wire.frames import Ticks, decode_ticks
+
+T = TypeVar("T")
+Json = dict[str, Any]
+PATIENCE_S = 20.0
+
+
+class StudioClient:
+    """Connects to the address that `punctura run` prints. Keeps all messages; of the frames the last and the counts.
+
+    with StudioClient(url) as page:
+        page.ask(do="strokes", period=2.0)
+        page.wait(lambda: page.of("event"))
+    """
+
+    def __init__(self, url: str, keep_frames: bool = False) -> None:
+        """keep_frames: all of them stand in `frames`. Raises OSError, websockets' exceptions."""
+        parts = urlsplit(url)
+        self.host = f"{parts.hostname}:{parts.port}"
+        self.token = parse_qs(parts.query)["token"][0]
+        self.messages: list[Json] = []
+        self.frames: list[Ticks] = []
+        self.last: Ticks | None = None
+        self.ticks = self.gaps = 0  # gaps: frames that do not follow the one before them, within a run
+        self.closed: tuple[int, str] | None = None  # code and reason
+        self._keep = keep_frames
+        self._ids = itertools.count(1)
+        self._open = ExitStack()
+        self._socket = self._open.enter_context(
+            connect(
+                f"ws://{self.host}/ws",
+                origin=f"http://{self.host}",  # type: ignore[arg-type]
+                subprotocols=["punctura.v1", f"token.{self.token}"],  # type: ignore[list-item]
+                compression=None,
+                max_size=None,
+                ping_interval=None,
+                proxy=None,
+            )
+        )
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def send(self, text: str | bytes) -> None:
+        self._socket.send(text)
+
+    def target(self, position: list[float], axis: list[float]) -> None:
+        """Where the simulated hand shall go, m, and point."""
+        self.send(json.dumps({"do": "target", "position": position, "axis": axis}))
+
+    def ask(self, **request: Any) -> Json:
+        """Sends a request, and gives its reply."""
+        number = next(self._ids)
+        self.send(json.dumps({"id": number, **request}))
+        return self.wait(lambda: next((m for m in self.of("reply") if m["id"] == number), None))
+
+    def of(self, kind: str) -> list[Json]:
+        """The messages of one kind so far."""
+        return [m for m in list(self.messages) if m["kind"] == kind]
+
+    def status(self) -> Json:
+        """The next account of the loop's health."""
+        n = len(self.of("status"))
+        return self.wait(lambda: self.of("status")[n:])[0]
+
+    def wait(self, ready: Callable[[], T | None], seconds: float = PATIENCE_S) -> T:
+        """What `ready` gives, as soon as that is true. Raises TimeoutError; ConnectionError when it is closed."""
+        end = time.monotonic() + seconds
+        while True:
+            found = ready()
+            if found:
+                return found
+            if self.closed:
+                raise ConnectionError(f"closed: {self.closed[0]} {self.closed[1]}")
+            if time.monotonic() > end:
+                raise TimeoutError("what was waited for has not come")
+            time.sleep(0.005)
+
+    def get(self, path: str, method: str = "GET") -> tuple[int, bytes]:
+        """Status and body of one of the addresses under /api; `path` may hold any character."""
+        connection = http.client.HTTPConnection(self.host, timeout=60)
+        try:
+            connection.request(method, quote(path, safe="/?=&%"), headers={"Authorization": f"Bearer {self.token}"})
+            answer = connection.getresponse()
+            return answer.status, answer.read()
+        finally:
+            connection.close()
+
+    def json(self, path: str) -> Any:
+        status, body = self.get(path)
+        if status != 200:
+            raise ValueError(f"{path}: {status} {body.decode(errors='replace').strip()}")
+        return json.loads(body)
+
+    def close(self) -> None:
+        self._open.close()
+        self._thread.join()
+
+    def __enter__(self) -> StudioClient:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _read(self) -> None:
+        try:
+            for data in self._socket:
+                if isinstance(data, str):
+                    self.messages.append(json.loads(data))
+                else:
+                    self._take(decode_ticks(data))
+        except ConnectionClosed:
+            pass
+        self.closed = (self._socket.close_code or 1006, self._socket.close_reason or "")
+
+    def _take(self, frame: Ticks) -> None:
+        before = self.last
+        if before is not None and before.run == frame.run and before.first_tick + len(before) != frame.first_tick:
+            self.gaps += 1
+        self.last = frame
+        self.ticks += len(frame)
+        if self._keep:
+            self.frames.append(frame)

@@ -1,0 +1,39 @@
+"""A studio on the simulated device, with a folder of its own and a page that is only a word."""
+
+import pytest
+from punctura.studio.client import StudioClient
+from punctura.studio.loaded import from_name
+from punctura.studio.run import Settings
+from punctura.studio.serve import StudioServer
+
+
+def serve(folder, scene="k06-fig12", **more):
+    page = folder / "page"
+    (page / "assets").mkdir(parents=True, exist_ok=True)
+    (page / "index.html").write_text("<!doctype html><title>page</title>")
+    (page / "assets" / "a.js").write_text("1")
+    server = StudioServer(from_name(scene), Settings(), page=page, folder=folder / "kept", **more)
+    server.start()
+    return server
+
+
+@pytest.fixture
+def served(tmp_path):
+    server = serve(tmp_path)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def page(served):
+    with StudioClient(served.address.url, keep_frames=True) as client:
+        client.wait(lambda: client.of("scene") and client.last)
+        yield client
+
+
+@pytest.fixture(scope="module")
+def guarded(tmp_path_factory):
+    """For many requests that must not get far."""
+    server = serve(tmp_path_factory.mktemp("studio"))
+    yield server
+    server.stop()

@@ -1,0 +1,173 @@
+"""What a page asks of a running studio, over a real socket."""
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura._core import ServoState
+from punctura.studio.client import StudioClient
+
+AXIS = [0.0, -1.0, 0.0]
+
+
+def all_rows(page, column):
+    return np.concatenate([f.columns[column] for f in page.frames if f.run == page.frames[-1].run])
+
+
+def test_a_newcomer_is_told_everything_there_is(page):
+    page.wait(lambda: page.of("status"))
+    kinds = [m["kind"] for m in page.messages]
+    assert kinds[0] == "hello"
+    hello, scene = page.of("hello")[0], page.of("scene")[0]
+    assert hello["device"]["simulated"] and {"name": "venipuncture", "title": "Venipuncture"} in hello["scenes"]
+    assert [c["name"] for c in hello["exercises"]] == ["epidural", "venipuncture"]
+    assert scene["new_run"] and [m["name"] for m in scene["scene"]["membranes"]] == [
+        "first membrane",
+        "second membrane",
+    ]
+    assert {"control", "fault", "exercise"} <= set(kinds)
+
+
+def test_every_tick_comes_once_and_in_order(page):
+    page.wait(lambda: page.ticks > 1600)
+    tick = np.concatenate([f.first_tick + np.arange(len(f)) for f in page.frames])
+    assert np.array_equal(tick, tick[0] + np.arange(len(tick)))
+    assert page.frames[-1].lost == 0
+    assert np.all(np.diff(all_rows(page, "time")) != 0)
+
+
+def test_the_hand_is_dragged_through_a_membrane_and_the_pop_is_told_and_seen(page):
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    for k in range(100):
+        page.target([0.0, 5e-3 - 2e-4 * k, 0.0], AXIS)
+        page.wait(lambda n=page.ticks: page.ticks > n + 30)
+    pop = page.wait(lambda: next((e for e in page.of("event") if e["what"] == "pop"), None))
+    assert pop["name"] == "first membrane"
+    law = pn.ThickLaw(pn.load_scene("k06-fig12").needle, pn.load_scene("k06-fig12").membranes[0].membrane)
+    strongest = -float(np.min(law.bounds(np.linspace(0, law.X + law.U, 10001))[0]))
+    assert pop["force_before"] == pytest.approx(strongest, rel=0.02)
+    assert pop["drop"] == pytest.approx(strongest - law.F, rel=0.02)
+    assert float(np.abs(all_rows(page, "force")).max()) > 0.5
+
+
+def test_strokes_go_through_all_membranes_until_the_next_target(page):
+    assert page.ask(do="strokes", period=1.0)["ok"]
+    page.wait(lambda: sum(e["what"] == "out" for e in page.of("event")) >= 2)
+    page.wait(lambda: page.status()["hand"] == "strokes")
+    page.target([0.0, 5e-3, 0.0], AXIS)
+    page.wait(lambda: page.status()["hand"] == "target")
+
+
+def test_an_edit_takes_effect_between_two_ticks_and_a_bad_one_changes_nothing(page):
+    tables = page.of("scene")[-1]["scene"]["tables"]
+    laws = page.of("scene")[-1]["scene"]["laws"]
+    tables["membrane"][0]["friction"] = 3.9
+    tables["needle"]["colour"] = "blue"
+    bad = page.ask(do="edit", tables=tables)
+    assert not bad["ok"]
+    assert {p["path"] for p in bad["problems"]} == {"needle.colour", "membrane[0].friction"}
+    assert len(page.of("scene")) == 1
+
+    del tables["needle"]["colour"]
+    tables["membrane"][0]["friction"] = 0.3
+    assert page.ask(do="edit", tables=tables)["ok"]
+    edited = page.of("scene")[-1]
+    assert not edited["new_run"] and edited["scene"]["number"] == 1
+    assert edited["scene"]["tables"]["membrane"][0]["friction"] == 0.3
+    assert min(edited["scene"]["laws"][0]["lower"]) < min(laws[0]["lower"])
+    assert page.gaps == 0 and page.last.run == 0
+
+
+def test_an_edit_may_add_and_take_away_membranes(page):
+    tables = page.of("scene")[-1]["scene"]["tables"]
+    more = {
+        **tables,
+        "membrane": [*tables["membrane"], {**tables["membrane"][0], "name": "third", "point_mm": [0, -20, 0]}],
+    }
+    for given, count in ((more, 3), (tables, 2), ({**tables, "membrane": tables["membrane"][:1]}, 1)):
+        assert page.ask(do="edit", tables=given)["ok"]
+        page.wait(lambda c=count: page.last.membranes == c)
+    assert page.gaps == 0
+
+
+def test_pause_and_arm_say_what_they_say(page):
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    assert page.ask(do="pause")["ok"]
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.disarmed))
+    assert page.ask(do="arm")["ok"]
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    page.wait(lambda: page.status()["armed"])
+
+
+def test_a_fault_is_told_with_its_reason_and_left_by_a_reset(page):
+    assert page.ask(do="trip_fault")["ok"]
+    fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
+    assert fault["fault"] == "non_finite_input" and fault["kept"] > 0 and fault["tick"] is not None
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.faulted))
+    assert not page.last.columns["force"][-1].any()
+    assert page.ask(do="reset")["ok"]
+    page.wait(lambda: page.of("fault")[-1]["reason"] == "")
+    assert page.ask(do="arm")["ok"]
+    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+
+
+def test_the_other_solver_runs_beside_and_begins_equal(page):
+    assert page.ask(do="compare", on=True)["ok"]
+    assert page.ask(do="strokes", period=1.0)["ok"]
+    page.wait(lambda: sum(e["what"] == "pop" for e in page.of("event")) >= 2)
+    both = [f for f in page.frames if "other_force" in f.columns]
+    other = np.concatenate([f.columns["other_force"] for f in both])
+    own = np.concatenate([f.columns["model_force"] for f in both])
+    assert np.isfinite(other).all()
+    assert np.array_equal(other[:10], own[:10])
+    assert 1e-3 < np.abs(other - own).max() < 1.0
+    assert page.ask(do="compare", on=False)["ok"]
+    page.wait(lambda: "other_force" not in page.last.columns)
+
+
+def test_a_scene_is_loaded_by_name_and_by_text_as_a_new_run(page):
+    assert page.ask(do="load", scene="venipuncture")["ok"]
+    scene = page.of("scene")[-1]
+    assert scene["new_run"] and scene["scene"]["name"] == "Venipuncture" and scene["scene"]["lumen"] == [1, 2]
+    page.wait(lambda: page.last.run == 1 and page.last.membranes == 3)
+    assert next(f for f in page.frames if f.run == 1).first_tick == 0
+
+    text = page.get("/api/scene.toml")[1].decode()
+    assert "gauge = 21" in text and 'behind = "blood"' in text
+    assert page.ask(do="load_text", toml=text.replace("Venipuncture", "Mine"))["ok"]
+    assert page.of("scene")[-1]["scene"]["name"] == "Mine"
+    bad = page.ask(do="load_text", toml="name = ")
+    assert not bad["ok"] and "not TOML" in bad["problems"][0]["reason"]
+    assert not page.ask(do="load", scene="../../etc/passwd")["ok"]
+    assert page.of("scene")[-1]["scene"]["name"] == "Mine"
+
+
+def test_the_laws_follow_the_needle_when_it_turns(page):
+    page.target([0.0, 5e-3, 0.0], [1.0, -1.0, 0.0])
+    laws = page.wait(lambda: next((m["laws"] for m in page.of("laws") if m["laws"][0]["obliquity"] > 0.7), None))
+    assert laws[0]["obliquity"] == pytest.approx(np.pi / 4, abs=0.01)
+    assert laws[0]["through"] == pytest.approx(laws[0]["tip_length"] + 1e-3 * np.sqrt(2), rel=0.02)
+
+
+@pytest.mark.parametrize("axis", [[0, 0, 0], [1e300, 0, 0]])
+def test_a_target_that_is_none_is_told_and_moves_nothing(page, axis):
+    page.target([0.0, 0.0, 0.0], [float(a) for a in axis])
+    page.wait(lambda: any("axis" in n["text"] for n in page.of("notice")))
+    page.target([9.0, 0.0, 0.0], AXIS)
+    page.wait(lambda: len(page.of("notice")) == 2)
+
+
+def test_only_who_has_control_may_ask_and_anyone_may_take_it(served, page):
+    with StudioClient(served.address.url) as other:
+        other.wait(lambda: other.of("control"))
+        assert not other.of("control")[-1]["you"]
+        refused = other.ask(do="pause")
+        assert not refused["ok"] and "control" in refused["text"]
+        other.target([0.0, -10e-3, 0.0], AXIS)
+        assert other.ask(do="take_control")["ok"]
+        page.wait(lambda: not page.of("control")[-1]["you"])
+        assert not page.ask(do="pause")["ok"]
+        assert other.ask(do="pause")["ok"]
+        assert page.last.columns["tip"][-1][1] > 4e-3
+    page.wait(lambda: page.of("control")[-1]["holder"] is None)
+    with StudioClient(served.address.url) as third:
+        third.wait(lambda: third.of("control") and third.of("control")[-1]["you"])
