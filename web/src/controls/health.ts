@@ -1,3 +1,145 @@
-import type { Panel } from "../panel.ts";
+import { element, type Panel } from "../panel.ts";
+import type { Spread, Status } from "../wire/messages.ts";
+import { bars, logPlace } from "./histogram.ts";
+import { RateMeter } from "./rate.ts";
 
-export const healthPanel: Panel = (_host, _app) => {};
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A duration with three digits that say something. */
+export function duration(seconds: number): string {
+  const [scale, unit] = seconds >= 0.9995 ? [1, "s"] : seconds >= 0.9995e-3 ? [1e3, "ms"] : [1e6, "µs"];
+  const value = seconds * scale;
+  return `${value.toFixed(value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2)} ${unit}`;
+}
+
+const HANDS: Readonly<Record<Status["hand"], string>> = {
+  target: "simulated, follows the pointer",
+  strokes: "simulated, strokes by itself",
+  motion: "simulated, follows a recording",
+  device: "a person at the device",
+};
+
+/** How well the loop keeps its time: 4 times a second from the server. */
+export const healthPanel: Panel = (host, app) => {
+  const rate = new RateMeter();
+  const figure = (label: string, help: string): [HTMLElement, (text: string, bad?: boolean) => void] => {
+    const value = element("dd");
+    const set = (text: string, bad = false): void => {
+      value.textContent = text;
+      value.classList.toggle("bad", bad);
+    };
+    return [element("div", { title: help }, element("dt", {}, label), value), set];
+  };
+  const [rateBox, setRate] = figure("rate", "Ticks a second, as the server counts them");
+  const [ticksBox, setTicks] = figure("ticks", "Ticks of this run");
+  const [lateBox, setLate] = figure("late ticks", "Ticks that began after their time by more than the loop allows");
+  const [lostBox, setLost] = figure("lost", "Records of ticks that the studio was too slow to take");
+  const [droppedBox, setDropped] = figure("dropped here", "Batches that this page was too slow for");
+  const [viewersBox, setViewers] = figure("pages", "Pages that look on");
+  const [forceBox, setForce] = figure("force", "Whether forces go out");
+  const [handBox, setHand] = figure("hand", "Who moves the needle");
+  const period = spread("Period", "From the beginning of one tick to the next");
+  const compute = spread("Compute time", "What a tick takes of its period");
+  const statements = element("ul", { class: "health-statements" });
+  const nothing = element("p", { class: "health-none" }, "No word from the loop yet.");
+  const all = element(
+    "div",
+    { class: "health-all" },
+    element(
+      "dl",
+      { class: "health-figures" },
+      rateBox,
+      ticksBox,
+      lateBox,
+      lostBox,
+      droppedBox,
+      viewersBox,
+      forceBox,
+      handBox,
+    ),
+    period.box,
+    compute.box,
+    element("h3", {}, "The machine"),
+    statements,
+  );
+  host.append(nothing, all);
+
+  let told = "";
+  app.status.watch((status) => {
+    all.hidden = status === null;
+    nothing.hidden = status !== null;
+    if (!status) return;
+    const nominal = app.source.value.scene.value?.rate ?? app.hello.value?.device.rate ?? 1000;
+    const measured = rate.add(performance.now() / 1e3, status.ticks);
+    setRate(
+      measured === null ? "–" : `${measured.toFixed(0)} of ${nominal.toFixed(0)} Hz`,
+      measured !== null && measured < 0.98 * nominal,
+    );
+    setTicks(status.ticks.toLocaleString("en"));
+    setLate(status.late.toLocaleString("en"), status.late > 0);
+    setLost(status.lost.toLocaleString("en"), status.lost > 0);
+    setDropped(status.dropped.toLocaleString("en"), status.dropped > 0);
+    setViewers(String(status.viewers));
+    setForce(status.armed ? "armed" : "off");
+    setHand(HANDS[status.hand]);
+    if (!host.hidden) {
+      period.show(status.period, 1 / nominal);
+      compute.show(status.compute, 1 / nominal);
+    }
+    const now = [...status.statements, ...(app.hello.value?.notes ?? [])].join("\n");
+    if (now !== told) {
+      told = now;
+      statements.replaceChildren(...now.split("\n").map((text) => element("li", {}, text)));
+    }
+  });
+};
+
+/** A distribution: its figures, and a histogram on a logarithmic axis with the nominal period marked. */
+function spread(title: string, help: string): { box: HTMLElement; show(spread: Spread, nominal: number): void } {
+  const names = ["median", "99 %", "99.9 %", "largest"];
+  const values = names.map(() => element("dd"));
+  const figures = element("dl", {}, ...names.map((name, i) => element("div", {}, element("dt", {}, name), values[i]!)));
+  const drawing = document.createElementNS(SVG, "svg");
+  drawing.setAttribute("viewBox", "0 0 300 54");
+  drawing.setAttribute("preserveAspectRatio", "none");
+  drawing.setAttribute("role", "img");
+  drawing.setAttribute("aria-label", `${title}, histogram`);
+  const scale = element("div", { class: "health-scale", "aria-hidden": "true" });
+  const box = element(
+    "section",
+    { class: "health-spread", title: help },
+    element("h3", {}, title),
+    figures,
+    drawing,
+    scale,
+  );
+  const show = (now: Spread, nominal: number): void => {
+    [now.p50, now.p99, now.p99_9, now.largest].forEach((value, i) => {
+      values[i]!.textContent = duration(value);
+    });
+    const from = Math.min(now.p50, nominal) / 8;
+    const to = Math.max(now.largest, nominal) * 2;
+    const shape = (name: string, attributes: Readonly<Record<string, number | string>>): SVGElement => {
+      const made = document.createElementNS(SVG, name);
+      for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+      return made;
+    };
+    const columns = bars(now, from, to).map((bar) => {
+      const height = 52 * bar.height;
+      return shape("rect", {
+        x: 300 * bar.left,
+        y: 54 - height,
+        width: Math.max(1, 300 * bar.width - 0.4),
+        height,
+        class: "health-bar",
+      });
+    });
+    const mark = 300 * logPlace(nominal, from, to);
+    drawing.replaceChildren(...columns, shape("line", { x1: mark, x2: mark, y1: 0, y2: 54, class: "health-nominal" }));
+    const label = element("span", {}, `${duration(nominal)}: the period`);
+    label.style.left = `${(100 * logPlace(nominal, from, to)).toFixed(1)}%`;
+    if (logPlace(nominal, from, to) > 0.55) label.classList.add("leftwards");
+    scale.replaceChildren(label);
+  };
+  return { box, show };
+}

@@ -1,3 +1,136 @@
-import type { Panel } from "../panel.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import { plotsOf } from "../plots/shared.ts";
+import { badge } from "./badge.ts";
+import { eventList } from "./events.ts";
+import { phaseWords } from "./phase_words.ts";
 
-export const phasesPanel: Panel = (_host, _app) => {};
+const EVERY = 60; // ms: faster than that nobody reads
+
+const fixed = (value: number, places: number): string => {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(places);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+};
+
+/** Writes only what has changed: the page is laid out again for every text that is set. */
+function write(node: HTMLElement, text: string): void {
+  if (node.textContent !== text) node.textContent = text;
+}
+
+interface Row {
+  readonly row: HTMLTableRowElement;
+  readonly phase: HTMLElement;
+  readonly symbol: HTMLElement;
+  readonly word: HTMLElement;
+  readonly detail: HTMLElement;
+  readonly depth: HTMLElement;
+  readonly force: HTMLElement;
+  readonly band: HTMLElement;
+  readonly needle: HTMLElement;
+}
+
+function makeRow(index: number, name: string): Row {
+  const [symbol, word, detail] = ["phase-symbol", "phase-word", "phase-detail"].map((c) =>
+    element("span", { class: c }),
+  );
+  const phase = element("span", { class: "phase" }, symbol!, word!, " ", detail!);
+  const [depth, force, band] = [0, 1, 2].map(() => element("span", { class: "number" }));
+  const needle = element("i", {});
+  const gauge = element("span", { class: "band-gauge", "aria-hidden": "true" }, needle);
+  const head = element(
+    "th",
+    { scope: "row" },
+    badge(index),
+    element("span", { class: "membrane-name", title: name }, name),
+  );
+  const cells = [phase, depth!, force!].map((node) => element("td", {}, node));
+  const row = element("tr", {}, head, ...cells, element("td", {}, band!, gauge));
+  return {
+    row,
+    phase,
+    symbol: symbol!,
+    word: word!,
+    detail: detail!,
+    depth: depth!,
+    force: force!,
+    band: band!,
+    needle,
+  };
+}
+
+/** How each membrane holds the needle, and what happened. */
+export const phasesPanel: Panel = (host, app) => {
+  const plots = plotsOf(app);
+  const when = element("span", { class: "phases-when" });
+  const body = element("tbody");
+  const columns = ["membrane", "phase", "depth, mm", "force, N", "friction band, N"];
+  const head = element("tr", {}, ...columns.map((text) => element("th", { scope: "col" }, text)));
+  host.append(
+    element("div", { class: "phases-head" }, element("h2", {}, "Membranes"), when),
+    element("table", { class: "phases-table" }, element("thead", {}, head), body),
+    element("h3", { class: "phases-title" }, "What happened"),
+    eventList(app),
+  );
+
+  let rows: Row[] = [];
+  const build = (): void => {
+    const { source } = plots;
+    const membranes = source.scene.value?.membranes ?? [];
+    rows = Array.from({ length: Math.max(membranes.length, source.history.membranes) }, (_, i) =>
+      makeRow(i, membranes[i]?.name ?? `membrane ${i + 1}`),
+    );
+    body.replaceChildren(...rows.map(({ row }) => row));
+  };
+  let leave = (): void => {};
+  app.source.watch((source) => {
+    leave();
+    leave = source.scene.watch(build);
+  });
+  plots.frozen.watch(build);
+
+  const fill = (tick: number): void => {
+    const { history, laws } = plots.source;
+    const depths = history.row("depth", tick);
+    const forces = history.row("axial_force", tick);
+    const lowers = history.row("lower", tick);
+    const uppers = history.row("upper", tick);
+    const phases = history.byteRow("phase", tick);
+    rows.forEach((row, i) => {
+      const depth = depths[i] ?? Number.NaN;
+      const through = laws.value[i]?.through ?? Number.POSITIVE_INFINITY;
+      const { kind, symbol, word, detail } = phaseWords(phases[i] ?? 0, depth, through);
+      if (row.phase.dataset.kind !== kind) row.phase.dataset.kind = kind;
+      write(row.symbol, symbol);
+      write(row.word, word);
+      write(row.detail, detail);
+      write(row.depth, fixed(depth * 1e3, 2));
+      // As in the plots: positive is what pushes the needle out, against the hand.
+      const force = -(forces[i] ?? Number.NaN);
+      const low = -(uppers[i] ?? Number.NaN);
+      const high = -(lowers[i] ?? Number.NaN);
+      const inside = high > low;
+      write(row.force, fixed(force, 3));
+      write(row.band, inside ? `${fixed(low, 2)} to ${fixed(high, 2)}` : "–");
+      row.needle.style.left = inside
+        ? `${(100 * Math.min(1, Math.max(0, (force - low) / (high - low)))).toFixed(1)}%`
+        : "50%";
+      row.needle.style.visibility = inside ? "visible" : "hidden";
+    });
+  };
+
+  let last = 0;
+  let seen = -1;
+  everyFrame((now) => {
+    if (now - last < EVERY) return;
+    last = now;
+    const { history } = plots.source;
+    if (rows.length !== Math.max(history.membranes, plots.source.scene.value?.membranes.length ?? 0)) build();
+    const pointed = plots.pointed.value;
+    const tick = pointed ?? plots.source.shown();
+    if (tick === null || tick < history.first || tick >= history.end || tick === seen) return;
+    seen = tick;
+    const time = `${history.timeOf(tick).toFixed(3)} s`;
+    write(when, pointed === null ? time : `under the cursor: ${time}`);
+    fill(tick);
+  });
+};

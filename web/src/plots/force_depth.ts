@@ -1,6 +1,5 @@
 import { mm, newton } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
-import type { Source } from "../state/source.ts";
 import { difference } from "./difference.ts";
 import { type Area, ForceDepthDrawing, type ForceDepthPicture } from "./force_depth_drawing.ts";
 import { keyTick } from "./keys.ts";
@@ -25,15 +24,15 @@ export const forceDepthPlot: Panel = (host, app) => {
 
   const setZoom = (area: Area | null): void => {
     zoom = area;
-    reset.disabled = area === null;
+    reset.hidden = area === null;
     changes++;
   };
   const which = choice("Membrane", [["all", "all membranes"]], "all", (value) => {
     chosen = value === "all" ? null : Number(value);
     setZoom(null);
   });
-  const reset = button("Whole", "Reset the zoom (0, or double click)", () => setZoom(null));
-  reset.disabled = true;
+  const reset = button("Reset zoom", "Reset the zoom (0, or double click)", () => setZoom(null));
+  reset.hidden = true;
   const picture = (): ForceDepthPicture => ({
     source: plots.source,
     window: plots.window,
@@ -53,8 +52,8 @@ export const forceDepthPlot: Panel = (host, app) => {
       element("h2", {}, "Force against depth"),
       which.select,
       element("span", { class: "plot-gap" }),
-      freezeButton(plots),
       reset,
+      freezeButton(plots),
       saveMenu({
         name: "force-depth",
         plots,
@@ -102,11 +101,14 @@ export const forceDepthPlot: Panel = (host, app) => {
     which.offer([["all", "all membranes"], ...entries], chosen === null ? "all" : String(chosen));
     changes++;
   };
-  const follow = (source: Source): void => {
-    source.scene.watch(offer);
-    source.laws.watch(() => laws++);
-  };
-  app.source.watch(follow);
+  let leave = (): void => {};
+  app.source.watch((source) => {
+    leave();
+    const ends = [source.scene.watch(offer), source.laws.watch(() => laws++)];
+    leave = () => {
+      for (const end of ends) end();
+    };
+  });
   plots.frozen.watch(offer);
   app.overlay.watch(() => changes++);
 

@@ -5,6 +5,7 @@ import { drawBadge } from "./badge.ts";
 import { CalmRange } from "./calm_range.ts";
 import { throughColumns } from "./decimate.ts";
 import { Extent, gather, gatherOther, isCompared } from "./gather.ts";
+import { drawKey, type KeyEntry, otherName } from "./key.ts";
 import { Painted } from "./painted.ts";
 import type { Pen, Stroke } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
@@ -107,6 +108,10 @@ export class ForceDepthDrawing {
       });
     });
     drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force on the hand (N)" });
+    const keys: KeyEntry[] = [];
+    if (overlay) keys.push({ text: overlay.title, colour: theme.text });
+    if (isCompared(source.history, window.first, end)) keys.push({ text: otherName(source), colour: theme.quiet });
+    drawKey(pen, left + width, top - 9, keys, theme);
     pen.within(left, top, width, height, () => {
       for (const i of membranes) if (overlay) this.drawOverlay(pen, overlay, i, theme);
       this.drawOther(pen, source, window.first, end, membranes, theme);
@@ -195,7 +200,7 @@ export class ForceDepthDrawing {
     if (membrane >= overlay.history.membranes) return;
     const { first, end } = overlay.history;
     const n = this.pixels(overlay, first, end, membrane);
-    this.drawNew(pen, 0, n, { colour: theme.quiet, width: WIDTH, alpha: 0.8 }, true);
+    this.drawNew(pen, 0, n, { colour: theme.text, width: WIDTH, alpha: 0.6 }, true);
   }
 
   /** The hand's way, the older the fainter. */
@@ -224,7 +229,7 @@ export class ForceDepthDrawing {
     for (const i of membranes) {
       const n = this.pixels(source, first, end, i);
       gatherOther(history, first, end, i, -slope(y), y.px(0), this.ys);
-      this.drawNew(pen, 0, n, { colour: theme.text, width: 1, alpha: 0.6 }, true);
+      this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1, alpha: 0.8 }, true);
     }
   }
 

@@ -79,6 +79,8 @@ export class Plots {
     const time = history.timeOf(tick);
     const half = Math.min(1, this.span.value / 2);
     this.zoomTo(time - half, time + half);
+    if (!this.app.source.value.live) this.app.source.value.cursor.value = tick;
+    this.pointedBy = "keys";
     this.pointed.value = tick;
     return true;
   }

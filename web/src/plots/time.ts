@@ -25,9 +25,9 @@ export const timePlots: Panel = (host, app) => {
       plots.span.value = Number(value) as Span;
     },
   );
-  const whole = button("Whole", "Reset the zoom (0, or double click)", () => plots.resetZoom());
+  const reset = button("Reset zoom", "Reset the zoom (0, or double click)", () => plots.resetZoom());
   plots.zoom.watch((zoom) => {
-    whole.disabled = zoom === null;
+    reset.hidden = zoom === null;
     changes++;
   });
   const picture = (): TimePicture => ({
@@ -45,8 +45,8 @@ export const timePlots: Panel = (host, app) => {
       element("h2", {}, "Against time"),
       spans.select,
       element("span", { class: "plot-gap" }),
+      reset,
       freezeButton(plots),
-      whole,
       saveMenu({
         name: "force-and-depth",
         plots,

@@ -125,7 +125,7 @@ export class TimeDrawing {
     for (let i = 0; i < history.membranes; i++) {
       if (compared) {
         gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
-        this.drawLine(pen, n, theme.text, 1, 0.6);
+        this.drawLine(pen, n, theme.quiet, 1, 0.8);
       }
       gather(history, first, end, "axial_force", i, -gain, y.px(0), this.ys);
       this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);

@@ -1,0 +1,56 @@
+import { element } from "../panel.ts";
+import { plotsOf } from "../plots/shared.ts";
+import type { App } from "../state/app.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
+import { badge } from "./badge.ts";
+import { eventsSince, eventWords, popSentence } from "./event_words.ts";
+
+const SHOWN = 100;
+
+/** What happened at the membranes, the newest first; each leads to its place in the plots. */
+export function eventList(app: App): HTMLElement {
+  const plots = plotsOf(app);
+  const list = element("ol", { class: "events-list", reversed: true });
+  const empty = element("p", { class: "events-none" }, "No membrane touched yet.");
+  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
+
+  const row = (event: MembraneEvent): HTMLLIElement => {
+    const { word, force } = eventWords(event);
+    const go = (): void => {
+      if (!plots.jump(event.tick)) app.say("The plots no longer have this moment: they keep the last 80 seconds.");
+    };
+    return element(
+      "li",
+      {},
+      element(
+        "button",
+        { type: "button", class: `event ${event.what}`, title: "Show this moment in the plots", onclick: go },
+        element("span", { class: "event-time" }, `${event.time.toFixed(3)} s`),
+        badge(event.membrane),
+        element("span", { class: "event-name" }, event.name),
+        element("span", { class: "event-what" }, word),
+        element("span", { class: "event-force" }, force),
+      ),
+    );
+  };
+
+  let shown: readonly MembraneEvent[] = [];
+  const show = (events: readonly MembraneEvent[]): void => {
+    const fresh = eventsSince(shown, events);
+    if (fresh === null || events.length === 0) list.replaceChildren();
+    for (const event of (fresh ?? events).slice(-SHOWN)) list.prepend(row(event));
+    while (list.childElementCount > SHOWN) list.lastElementChild!.remove();
+    const pop = fresh && shown.length ? fresh.findLast((event) => event.what === "pop") : undefined;
+    if (pop && app.source.value.live) spoken.textContent = popSentence(pop);
+    shown = events;
+    empty.hidden = events.length > 0;
+  };
+  let leave = (): void => {};
+  app.source.watch((source) => {
+    leave();
+    shown = [];
+    list.replaceChildren();
+    leave = source.events.watch(show);
+  });
+  return element("div", { class: "events" }, empty, list, spoken);
+}
