@@ -1,3 +1,120 @@
-import type { Panel } from "../panel.ts";
+import { element, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
+import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
+import { blockLine, watchBlock } from "./blocked.ts";
+import { goalList } from "./exercises/goals.ts";
+import { pastResults } from "./exercises/past.ts";
+import { Person, personField } from "./exercises/person.ts";
+import { openResult } from "./exercises/result_dialog.ts";
 
-export const exercisesPanel: Panel = (_host, _app) => {};
+/** Exercises to do, how the present one goes, and what came of those before. */
+export const exercisesPanel: Panel = (host, app) => {
+  host.classList.add("exercises-panel");
+  const person = new Person();
+  let known: readonly ExerciseOverview[] = [];
+  let running = false;
+  const of = (name: string): ExerciseOverview | null => known.find((exercise) => exercise.name === name) ?? null;
+  const start = (name: string): void =>
+    void app.ask({ do: "start_exercise", exercise: name, person: person.name.value });
+  const open = (result: ExerciseResult): void => {
+    const again = app.control.value.you && of(result.exercise) ? () => start(result.exercise) : null;
+    openResult(app, result, of(result.exercise), again);
+  };
+  const past = pastResults(app, open);
+  const now = runningPart(app, (name) => of(name)?.title ?? name);
+  const list = element("fieldset", { class: "exercise-list" });
+  host.append(
+    element(
+      "div",
+      { class: "editor-top" },
+      blockLine(app, "Force and depth together say how well it went."),
+      personField(person),
+    ),
+    now.root,
+    list,
+    past.root,
+  );
+
+  const showList = (): void => {
+    list.replaceChildren(...known.map((exercise) => card(exercise, () => start(exercise.name))));
+  };
+  app.connection.watch(async (state) => {
+    if (state.state !== "open") return;
+    try {
+      known = await app.api.json<ExerciseOverview[]>("/api/exercises");
+      showList();
+    } catch (error) {
+      list.replaceChildren(
+        element(
+          "p",
+          { class: "quiet" },
+          `The exercises cannot be had: ${error instanceof Error ? error.message : String(error)}`,
+        ),
+      );
+    }
+    await past.show(person.name.value);
+  });
+  person.name.watch((name) => {
+    if (app.connection.value.state === "open") void past.show(name);
+  });
+  watchBlock(app, (block) => {
+    list.disabled = block !== null;
+  });
+  app.exercise.watch(async (status) => {
+    list.hidden = status?.running ?? false;
+    const ended = running && status !== null && !status.running;
+    running = status?.running ?? false;
+    if (!ended || !status.result) return;
+    await past.show(person.name.value);
+    try {
+      open(await app.api.json<ExerciseResult>(resultPath(status.result)));
+    } catch (error) {
+      app.say(`The result cannot be shown: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  });
+};
+
+function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
+  return element(
+    "article",
+    { class: "exercise" },
+    element(
+      "header",
+      {},
+      element("h3", {}, exercise.title),
+      element("button", { type: "button", class: "small primary", onclick: start }, "Start"),
+    ),
+    element("p", {}, exercise.description),
+    goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
+  );
+}
+
+/** What to do now, and how the goals stand. Hidden while no exercise runs. */
+function runningPart(app: App, titleOf: (name: string) => string): { root: HTMLElement } {
+  const title = element("h3", {});
+  const instruction = element("p", { class: "instruction", role: "status" });
+  const goals = element("div", {});
+  const end = element(
+    "button",
+    { type: "button", class: "small", onclick: () => void app.ask({ do: "end_exercise" }) },
+    "End",
+  );
+  const root = element(
+    "section",
+    { class: "running", hidden: true },
+    element("header", {}, title, end),
+    instruction,
+    goals,
+  );
+  watchBlock(app, (block) => {
+    end.disabled = block !== null;
+  });
+  app.exercise.watch((status) => {
+    root.hidden = !status?.running;
+    if (!status?.running) return;
+    title.textContent = titleOf(status.exercise);
+    instruction.textContent = status.instruction;
+    goals.replaceChildren(goalList(status.goals));
+  });
+  return { root };
+}

@@ -1,4 +1,4 @@
-import type { MembraneEvent, SceneView } from "./messages.ts";
+import type { ExerciseGoal, MembraneEvent, SceneView } from "./messages.ts";
 
 /** What the studio's files say of themselves, as JSON: python/punctura/studio has their making. */
 
@@ -27,3 +27,57 @@ export interface RecordingOverview {
 }
 
 export const recordingPath = (name: string): string => `/api/recordings/${encodeURIComponent(name)}`;
+
+/** `GET /api/exercises`, one of them. SI. */
+export interface ExerciseOverview {
+  readonly name: string;
+  readonly title: string;
+  readonly description: string;
+  readonly instruction: string;
+  readonly scene: string;
+  /** The two membranes, by their place in the scene, between which one is to come. */
+  readonly space: readonly number[];
+  readonly goals: readonly string[];
+}
+
+/** `GET /api/results/NAME`: python/punctura/exercise/result.py. SI; null: there was none. */
+export interface ExerciseResult {
+  readonly name: string;
+  readonly exercise: string;
+  readonly title: string;
+  readonly scene: string;
+  readonly person: string;
+  /** Empty: it was not recorded. */
+  readonly recording: string;
+  /** ISO 8601, UTC. */
+  readonly date: string;
+  readonly passed: boolean;
+  /** Sentences for the student. */
+  readonly reasons: readonly string[];
+  readonly goals: readonly ExerciseGoal[];
+  readonly metrics: ExerciseMetrics;
+  readonly events: readonly Omit<MembraneEvent, "kind">[];
+}
+
+export interface ExerciseMetrics {
+  readonly attempts: number;
+  readonly peak_force: number;
+  readonly overshoot: readonly {
+    readonly membrane: number;
+    readonly name: string;
+    readonly time: number;
+    readonly distance: number;
+  }[];
+  readonly dwell: number;
+  readonly longest_stay: number;
+  readonly path_length: number | null;
+  readonly net_distance: number | null;
+  readonly straightness: number | null;
+  readonly lateral_deviation: number | null;
+  readonly entry_angle: number | null;
+  readonly time_to_target: number | null;
+  readonly total_time: number;
+  readonly lost_ticks: number;
+}
+
+export const resultPath = (name: string): string => `/api/results/${encodeURIComponent(name)}`;
