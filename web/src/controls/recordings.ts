@@ -10,16 +10,12 @@ export const recordingsPanel: Panel = (host, app) => {
   const list = element("ul", { class: "recordings-list" });
   const note = element("p", { class: "quiet pad" }, "The list comes with the connection.");
   host.append(
-    element(
-      "div",
-      { class: "editor-top" },
-      blockLine(app, "Every tick is kept, and can be run again to the last bit."),
-      recordControl(app),
-    ),
+    element("div", { class: "editor-top" }, blockLine(app, "Every tick is kept."), recordControl(app)),
     list,
     note,
   );
   let rows = new Map<string, Row>();
+  let texts = new Map<string, string>();
 
   const mark = (): void => {
     const shown = library.nameOf(app.source.value);
@@ -32,8 +28,17 @@ export const recordingsPanel: Panel = (host, app) => {
   };
   library.entries.watch((entries) => {
     if (!entries) return;
-    rows = new Map(entries.map((entry) => [entry.name, recordingRow(library, entry)]));
-    list.replaceChildren(...[...rows.values()].map((row) => row.root));
+    // A row that says the same stays: someone may be at it.
+    const before = rows;
+    const said = new Map(entries.map((entry) => [entry.name, JSON.stringify(entry)]));
+    const kept = (name: string): Row | undefined => (texts.get(name) === said.get(name) ? before.get(name) : undefined);
+    rows = new Map(entries.map((entry) => [entry.name, kept(entry.name) ?? recordingRow(library, entry)]));
+    texts = said;
+    const roots = [...rows.values()].map((row) => row.root);
+    for (const old of [...list.children]) if (!roots.includes(old as HTMLElement)) old.remove();
+    roots.forEach((root, i) => {
+      if (list.children[i] !== root) list.insertBefore(root, list.children[i] ?? null);
+    });
     note.hidden = entries.length > 0;
     note.textContent = "There is no recording yet.";
     mark();

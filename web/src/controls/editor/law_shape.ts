@@ -43,7 +43,7 @@ export function placing(extent: Extent, left: number, top: number, width: number
 
 /** An SVG path through a curve, and on along its last force to the end of the axis. */
 export function curvePath(depth: readonly number[], force: readonly number[], place: Place, end: number): string {
-  const points = depth.map((d, i) => [d, force[i] ?? 0] as const).filter(([d]) => d <= end);
+  const points = depth.map((d, i) => [d, force[i] ?? 0] as const).filter(([d]) => d >= 0 && d <= end);
   const last = points.at(-1);
   if (!last) return "";
   return `M${[...points, [end, last[1]] as const].map(([d, f]) => write(place(d, f))).join("L")}`;

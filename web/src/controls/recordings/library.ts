@@ -4,6 +4,7 @@ import type { Source } from "../../state/source.ts";
 import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
 import { type Fetched, fetchSource, type Progress } from "./fetch_source.ts";
 
+const FINISHING = 10; // s that a file is given
 const KEPT = 2; // whole recordings are large: the one looked at and the one laid over it
 
 /** The recordings that there are, and those that the page has fetched. */
@@ -11,6 +12,7 @@ export class Library {
   readonly entries = new Signal<readonly RecordingEntry[] | null>(null);
   /** Why there is no list; empty where there is one. */
   readonly trouble = new Signal("");
+  private later: ReturnType<typeof setTimeout> | undefined;
   private readonly fetched = new Map<string, Fetched>();
 
   constructor(readonly app: App) {
@@ -23,10 +25,14 @@ export class Library {
     app.exercise.watch((now) => now?.result && void this.refresh());
   }
 
-  async refresh(): Promise<void> {
+  async refresh(again = FINISHING): Promise<void> {
+    clearTimeout(this.later);
     try {
       this.entries.value = await this.app.api.json<RecordingEntry[]>("/api/recordings");
       this.trouble.value = "";
+      // A file is finished beside the run, in a moment after its end.
+      const open = this.entries.value.some(({ finished, started }) => !finished && recent(started));
+      if (open && again > 0) this.later = setTimeout(() => void this.refresh(again - 1), 1000);
     } catch (error) {
       this.trouble.value = wordsOf(error);
     }
@@ -63,5 +69,7 @@ export class Library {
     await this.refresh();
   }
 }
+
+const recent = (iso: string): boolean => Date.now() - new Date(iso).getTime() < 3_600_000;
 
 export const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -59,11 +59,11 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
     if (app.source.value !== app.live && library.nameOf(app.source.value) === entry.name) app.source.value = app.live;
     else void fetched((source) => (app.source.value = source));
   });
-  const lay = button("Lay over plots", "Draws it over the plots, to compare", () => {
+  const lay = button("Lay over", "Draws it over the plots, to compare", () => {
     if (library.nameOf(app.overlay.value) === entry.name) app.overlay.value = null;
     else void fetched((source) => (app.overlay.value = source));
   });
-  const repeat = button("Hand repeats it", "The simulated hand follows the tip of this recording", () => {
+  const repeat = button("Hand repeats", "The simulated hand follows the tip of this recording", () => {
     app.source.value = app.live;
     void app.ask({ do: "play_motion", recording: entry.name });
   });
@@ -84,6 +84,7 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   const ask = (open: boolean): void => {
     sure.hidden = !open;
     remove.hidden = open;
+    save.hidden = open;
     (open ? keep : remove).focus();
   };
   const keep = button("Keep", "Keeps it", () => ask(false));
@@ -131,7 +132,7 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
       root.classList.toggle("shown", shown);
       look.textContent = shown ? "Back to live" : "Look";
       look.setAttribute("aria-pressed", String(shown));
-      lay.textContent = laidOver ? "Take off plots" : "Lay over plots";
+      lay.textContent = laidOver ? "Take off" : "Lay over";
       lay.setAttribute("aria-pressed", String(laidOver));
     },
     block: (blocked, simulated) => {
