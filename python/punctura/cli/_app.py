@@ -46,7 +46,11 @@ def build_app() -> typer.Typer:
     for module in sorted(pkgutil.iter_modules([str(Path(__file__).parent)]), key=lambda m: m.name):
         if not module.name.startswith("_"):
             command = importlib.import_module(f"punctura.cli.{module.name}").command
-            app.command(module.name.replace("_", "-"))(command)
+            name = module.name.replace("_", "-")
+            if isinstance(command, typer.Typer):  # a verb with verbs of its own
+                app.add_typer(command, name=name)
+            else:
+                app.command(name)(command)
     return app
 
 

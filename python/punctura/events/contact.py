@@ -14,7 +14,7 @@ from punctura.events.crossing import Crossing
 
 Numbers = NDArray[np.float64]
 
-CLEAR = 0.1e-3  # m in front of the surface at which the tip has left: more than a trembling hand moves
+CLEAR = 0.25e-3  # m in front of the surface at which the tip has left: more than a trembling hand moves
 
 _OUTSIDE, _INSIDE, _UNKNOWN = 0, 1, 2
 # By phase; every other number is none.

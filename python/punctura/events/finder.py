@@ -29,7 +29,7 @@ class EventFinder:
 
     def __init__(self, scene: Scene, rate: float | None = None) -> None:
         """rate: ticks a second, for runs that do not tell the time; the scene's own if not given."""
-        self._period = 1 / (rate or scene.servo.rate)
+        self._rate = rate or scene.servo.rate
         self._scene = scene
         self._next: Scene | None = None
         self._contacts = [Contact() for _ in scene.membranes]
@@ -86,7 +86,7 @@ class EventFinder:
     def _event(self, columns: Columns, first: int, i: int, happening: Happening) -> Event:
         row = happening.row
         tick = int(columns["tick"][row]) if "tick" in columns else first + row
-        time = float(columns["time"][row]) if "time" in columns else tick * self._period
+        time = float(columns["time"][row]) if "time" in columns else tick / self._rate
         before, after = happening.before, happening.after
         return Event(
             what=cast(Any, happening.what),

@@ -32,9 +32,7 @@ class Space(_Table):
     behind: Word  # names of membranes of the scene
     in_front_of: Word
     sign: Word | None = None  # by which one knows: "the flash-back"
-    press_mm: Annotated[float, Field(allow_inf_nan=False, ge=0)] = (
-        0.0  # how deep the point may be in the second membrane
-    )
+    press_mm: From0 = 0.0  # how deep the point may be in the second membrane
 
 
 class _Goal(_Table):

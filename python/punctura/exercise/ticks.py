@@ -53,7 +53,7 @@ class Geometry:
         self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         self.thickness = np.array([placed.membrane.thickness for placed in scene.membranes], dtype=np.float64)
         self.tip_length = np.array([ThickLaw(scene.needle, placed.membrane).X for placed in scene.membranes])
-        self._period = 1 / scene.servo.rate
+        self._rate = scene.servo.rate
 
     def ticks(self, columns: Columns, first: int = 0) -> Ticks:
         """A batch of snapshots. first: the number of its first tick, where it does not tell."""
@@ -68,7 +68,7 @@ class Geometry:
         tick = columns["tick"].astype(np.int64) if "tick" in columns else np.arange(first, first + n)
         force = columns["model_force"] if "model_force" in columns else columns["force"]
         zeros = np.zeros(n, dtype=np.int64)
-        time = np.asarray(columns["time"] if "time" in columns else tick * self._period, dtype=np.float64)
+        time = np.asarray(columns["time"] if "time" in columns else tick / self._rate, dtype=np.float64)
         return Ticks(
             tick=tick,
             time=time,

@@ -1,0 +1,59 @@
+"""`punctura exercise`: what exercises there are, and how a recorded attempt was."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+command = typer.Typer(no_args_is_help=True, help="Exercises: list them, score a recording.")
+
+
+@command.command("list")
+def list_exercises(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
+    """The ready exercises, by the names that score takes."""
+    from punctura.exercise import exercises
+
+    all_of_them = exercises()
+    if as_json:
+        entries = [{"name": e.name, "title": e.title, "scene": e.scene_name, "file": str(e.path)} for e in all_of_them]
+        typer.echo(json.dumps(entries, indent=2))
+        return
+    width = max(len(exercise.name) for exercise in all_of_them)
+    for exercise in all_of_them:
+        typer.echo(f"{exercise.name:{width}}  {exercise.title}: {exercise.instruction}")
+
+
+@command.command()
+def score(
+    recording: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="RECORDING")],
+    exercise: Annotated[str, typer.Option(help="A ready exercise's name, or an exercise file.", metavar="NAME|FILE")],
+    person: Annotated[str, typer.Option(help="Whose attempt it is.")] = "",
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """Judges a recorded attempt as it would have been judged live.
+
+    Status 0 whether it is passed or not: "passed" says so.
+    """
+    from punctura.exercise import Result
+    from punctura.exercise import score as judge
+
+    result: Result = judge(recording, exercise, person)
+    if as_json:
+        typer.echo(result.model_dump_json(indent=2))
+        return
+    typer.echo(f"{result.title}: {'passed' if result.passed else 'not passed'}")
+    for reason in result.reasons:
+        typer.echo(f"  {reason}")
+    for goal in result.goals:
+        typer.echo(f"  {goal.state:6}  {goal.text}")
+    m = result.metrics
+    typer.echo(f"  {m.attempts} entries, {m.peak_force:.2f} N at most")
+    typer.echo(f"  {m.total_time:.1f} s, of them {m.dwell:.1f} s in the space")
+    for one in m.overshoot:
+        typer.echo(f"  {one.distance * 1e3:.1f} mm past the {one.name} within 0.3 s of its pop")
+    if m.straightness is not None and m.lateral_deviation is not None:
+        aside = m.lateral_deviation * 1e3
+        typer.echo(f"  path {m.straightness:.2f} times the straight one, at most {aside:.1f} mm to the side")

@@ -1,0 +1,110 @@
+"""Events against the offline law: what a slow needle meets is what Phi_I says."""
+
+import math
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.events import EventFinder, crossing
+from runs import along, ramp, unit
+
+# Of the peak: a tick of 3 um passes it by that much at most.
+TOLERANCE = 2e-3
+
+NEEDLE, COUPLING = pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1)
+
+
+def wall(thickness, stiffness=570, precompression=0.41, friction=0.2):
+    return pn.Membrane(stiffness, precompression, friction, thickness)
+
+
+def scene_of(membrane, solver="exact"):
+    placed = [pn.PlacedMembrane("wall", membrane, (0, 0, 0), (0, -1, 0))]
+    return pn.Scene("one wall", NEEDLE, COUPLING, placed, pn.ServoSettings(low_pass=0, solver=solver))
+
+
+def offline(scene, index, obliquity):
+    """The law's largest resistance and its shaft friction, N."""
+    law = pn.ThickLaw(scene.needle, scene.membranes[index].membrane, obliquity)
+    lower, _ = law.bounds(np.linspace(0, law.X + law.U, 200_001))
+    return -float(lower.min()), -float(law.bounds(law.X + law.U + 1e-3)[0])
+
+
+@pytest.mark.parametrize("solver", ["exact", "paper"])
+@pytest.mark.parametrize("thickness", [0.0, 0.3e-3, 1e-3, 4e-3, 9e-3])
+@pytest.mark.parametrize("degrees", [0, 30, 60])
+def test_a_slow_pop_has_the_laws_peak_and_friction(thickness, degrees, solver):
+    scene = scene_of(wall(thickness), solver)
+    beta = math.radians(degrees)
+    events = EventFinder(scene).add(along(scene, ramp(scene, -1e-3, 30e-3), (math.sin(beta), -math.cos(beta), 0)))
+    assert [event.what for event in events] == ["touch", "pop"]
+    peak, friction = offline(scene, 0, beta)
+    pop = events[1]
+    assert pop.force_before == pytest.approx(peak, rel=TOLERANCE)
+    assert pop.force_after == pytest.approx(friction, rel=1e-12)
+    assert pop.drop == pop.force_before - pop.force_after
+    if peak - friction > 0.1 * peak:
+        assert pop.drop == pytest.approx(peak - friction, rel=0.02)
+
+
+@pytest.mark.parametrize("name", pn.scene_names())
+def test_every_pop_of_the_ready_scenes_drops_as_the_law_says(name):
+    scene = pn.load_scene(name)
+    columns = along(scene, ramp(scene, -1e-3, 75e-3, speed=10e-3))
+    pops = [event for event in EventFinder(scene).add(columns) if event.what == "pop"]
+    assert sorted(pop.membrane for pop in pops) == list(range(len(scene.membranes)))
+    for pop in pops:
+        peak, friction = offline(scene, pop.membrane, 0)
+        assert pop.name == scene.membranes[pop.membrane].name
+        assert pop.force_before == pytest.approx(peak, rel=TOLERANCE)
+        assert pop.force_after == pytest.approx(friction, rel=1e-12)
+        assert pop.drop == pytest.approx(peak - friction, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["k06-fig10", "venipuncture"])
+def test_a_hands_pop_drops_as_the_law_says_within_2_percent(name):
+    """Through the simulated device, its encoders, the tremor and the filter."""
+    scene = pn.load_scene(name)
+    normal = unit(scene.membranes[0].inward_normal)
+    strokes = pn.Strokes(-5e-3 * normal, 25e-3 * normal, count=1, duration=3.0, variation=0.0)
+    trace = pn.Experiment(scene, strokes, seed=4).run(5)
+    columns = {k: getattr(trace, k) for k in ("time", "depth", "axial_force", "lower", "phase")}
+    pops = [event for event in EventFinder(scene).add(columns) if event.what == "pop"]
+    assert len(pops) == len(scene.membranes)
+    for pop in pops:
+        peak, friction = offline(scene, pop.membrane, 0)
+        assert pop.drop == pytest.approx(peak - friction, rel=0.02)
+
+
+def test_the_peak_lies_where_the_laws_largest_resistance_is():
+    random = np.random.default_rng(1)
+    for _ in range(200):
+        thickness = float(random.choice([0, 10 ** random.uniform(-5, -1.8)]))
+        membrane = wall(thickness, random.uniform(50, 2000), random.uniform(0, 2), random.uniform(0.02, 0.9))
+        beta = float(random.uniform(0, 1.3))
+        law = pn.ThickLaw(NEEDLE, membrane, beta)
+        turns = crossing(scene_of(membrane), 0, math.cos(beta))
+        lower, _ = law.bounds(np.linspace(0, law.X + law.U, 50_001))
+        assert -law.bounds(turns.peak)[0] >= -lower.min() * (1 - 1e-9)
+        assert turns.through == pytest.approx(law.X + law.U, rel=1e-12)
+        assert turns.far_face == pytest.approx(law.U, rel=1e-12)
+        assert turns.again < turns.peak <= turns.through * (1 + 1e-12)
+
+
+def test_the_pop_is_complete_in_the_tick_in_which_the_tip_is_through():
+    scene = scene_of(wall(1e-3))
+    columns = along(scene, ramp(scene, -1e-3, 12e-3))
+    pop = EventFinder(scene).add(columns)[1]
+    through = crossing(scene, 0, 1.0).through
+    depth = columns["depth"][:, 0]
+    assert depth[pop.tick - 1] < through <= depth[pop.tick] == pop.depth
+    assert pop.time == pop.tick / scene.servo.rate
+    assert -columns["axial_force"][pop.tick, 0] == pytest.approx(pop.force_after, rel=1e-12)
+
+
+def test_a_thin_wall_pops_in_one_tick():
+    scene = scene_of(wall(0.0))
+    columns = along(scene, ramp(scene, -1e-3, 8e-3))
+    pop = EventFinder(scene).add(columns)[1]
+    before, after = -columns["axial_force"][pop.tick - 1, 0], -columns["axial_force"][pop.tick, 0]
+    assert (before, after) == (pytest.approx(pop.force_before), pytest.approx(pop.force_after))
