@@ -10,6 +10,7 @@ Text = Annotated[str, Field(min_length=1, max_length=2000)]
 Word = Annotated[str, Field(min_length=1, max_length=200)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Above0 = Annotated[float, Field(allow_inf_nan=False, gt=0)]
+From0 = Annotated[float, Field(allow_inf_nan=False, ge=0)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
