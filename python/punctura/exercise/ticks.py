@@ -16,7 +16,9 @@ Columns = dict[str, NDArray[Any]]
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_INSIDE = (Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value)
+# By phase: whether the membrane holds the needle.
+_INSIDE = np.zeros(256, dtype=np.bool_)
+_INSIDE[[Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value]] = True
 _COMMAND_SCENE = 8
 
 
@@ -61,7 +63,7 @@ class Geometry:
         depth = _wide(columns["depth"], m, np.nan)
         n = len(depth)
         finite = np.isfinite(depth)
-        inside = np.isin(_wide(columns["phase"], m, 255), _INSIDE) & finite
+        inside = _INSIDE[_wide(columns["phase"], m, 255)] & finite
         axis = _rows(columns.get("axis"), n)
         cosine = self._cosine(columns, axis, inside)
         below = np.where(inside, depth * cosine, depth)

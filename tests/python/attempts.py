@@ -1,0 +1,94 @@
+"""Attempts by a simulated hand, and needles whose way is known to the micrometre."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import punctura as pn
+from punctura import Phase
+from punctura.exercise import Attempt, Exercise, Result, load_exercise
+from runs import Columns, cut, experiment, unit
+
+HERTZ = 60.0  # at which a page sends where the mouse is
+
+
+def as_a_device_runs_it(scene: pn.Scene) -> pn.Scene:
+    """With positions conditioned for the encoders of the simulated device, as `punctura run` does."""
+    return scene.replace(servo=scene.servo.replace(conditioning="line_fit", encoder_step=0.055e-3))
+
+
+def motion_of(exercise: Exercise, legs: list[tuple[float, float]], axis: np.ndarray) -> pn.RecordedMotion:
+    """A mouse's way along the needle: legs of (seconds, mm from the start), in steps of a page's frames."""
+    times = np.cumsum([0.0, *[seconds for seconds, _ in legs]])
+    frames = np.arange(0, times[-1], 1 / HERTZ)
+    way = np.interp(frames, times, [0.0, *[mm * 1e-3 for _, mm in legs]])
+    return pn.RecordedMotion(frames, np.asarray(exercise.start_position) + np.outer(way, axis))
+
+
+@cache
+def hand_run(name: str, legs: tuple[tuple[float, float], ...], upright: bool = False, seed: int = 0) -> Columns:
+    exercise = load_exercise(name)
+    axis = unit(exercise.scene.membranes[0].inward_normal) if upright else np.asarray(exercise.start_axis)
+    motion = motion_of(exercise, list(legs), axis)
+    duration = sum(seconds for seconds, _ in legs)
+    return experiment(as_a_device_runs_it(exercise.scene), motion, duration, axis, seed)
+
+
+def judged(exercise: Exercise, columns: Columns, cuts: int = 27, scene: pn.Scene | None = None) -> Attempt:
+    attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene))
+    for batch in cut(columns, range(0, len(columns["depth"]), cuts)):
+        attempt.add(batch)
+    return attempt
+
+
+def tried(name: str, *legs: tuple[float, float], upright: bool = False, seed: int = 0) -> Result:
+    """A hand's attempt, in batches as a page gets them."""
+    return judged(load_exercise(name), hand_run(name, legs, upright, seed)).finish()
+
+
+def ideal(scene: pn.Scene, *corners: tuple[float, float, float], speed: float = 10e-3, stops: float = 0.0) -> Columns:
+    """A needle that goes from corner to corner (mm) at one speed, at right angles to the membranes, without any lag.
+
+    stops: s of rest at the end.
+    """
+    rate = scene.servo.rate
+    parts = []
+    for a, b in itertools.pairwise(np.asarray(corners) * 1e-3):
+        n = max(1, round(float(np.linalg.norm(b - a)) / speed * rate))
+        parts.append(a + np.outer(np.arange(n) / n, b - a))
+    end = np.asarray(corners[-1]) * 1e-3
+    position = np.concatenate([*parts, np.tile(end, (1 + round(stops * rate), 1))])
+    return of_positions(scene, position)
+
+
+def of_positions(scene: pn.Scene, position: np.ndarray) -> Columns:
+    n, m = len(position), len(scene.membranes)
+    normals = np.array([unit(p.inward_normal) for p in scene.membranes])
+    depth = np.stack([(position - p.point) @ k for p, k in zip(scene.membranes, normals, strict=True)], axis=1)
+    force: Callable[[int], np.ndarray] = lambda i: pn.ThickLaw(  # noqa: E731
+        scene.needle, scene.membranes[i].membrane
+    ).bounds(depth[:, i])[0]
+    lower = np.stack([force(i) for i in range(m)], axis=1)
+    return {
+        "tick": np.arange(n),
+        "time": np.arange(n) / scene.servo.rate,
+        "tip": position,
+        "axis": np.tile(normals[0], (n, 1)),
+        "depth": depth,
+        "phase": np.where(depth > 0, Phase.sliding_in.value, Phase.outside.value).astype(np.uint8),
+        "axial_force": lower,
+        "lower": lower,
+        "direction": np.tile(normals, (n, 1, 1)),
+        "model_force": np.einsum("nm,mk->nk", lower, normals),
+        "fault": np.zeros(n, dtype=np.uint8),
+        "commands": np.zeros(n, dtype=np.uint32),
+    }
+
+
+def goal(kind: str, **keys: object) -> str:
+    """A table of an exercise file."""
+    values = {key: f'"{v}"' if isinstance(v, str) else str(v).lower() for key, v in keys.items()}
+    return "\n".join(["[[goal]]", f'kind = "{kind}"', *[f"{key} = {value}" for key, value in values.items()], ""])

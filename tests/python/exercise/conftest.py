@@ -1,0 +1,34 @@
+"""Exercises in files of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+HEAD = """
+title = "Test"
+description = "A test."
+instruction = "Do it."
+scene = "venipuncture"
+[start]
+position_mm = [0, 5, 0]
+[space]
+name = "the vein"
+behind = "front vein wall"
+in_front_of = "back vein wall"
+sign = "the flash-back"
+"""
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[..., Path]:
+    """An exercise file with these goals, or this text."""
+
+    def make(*goals: str, head: str = HEAD) -> Path:
+        path = tmp_path / "test.toml"
+        path.write_text(head + "".join(goals), encoding="utf-8")
+        return path
+
+    return make

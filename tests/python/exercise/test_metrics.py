@@ -1,0 +1,151 @@
+"""Metrics against values worked out by hand, for a needle that moves without lag."""
+
+import math
+
+import numpy as np
+import punctura as pn
+import pytest
+from attempts import goal, ideal, judged, of_positions
+from punctura.exercise import load_exercise
+
+SCENE = pn.load_scene("venipuncture")  # the skin at 0, 1.2 mm thick; walls at -4.81 and -8.22, 0.4 mm thick
+TIP = 0.8e-3 / math.tan(math.radians(11))  # m
+TICK = 1 / SCENE.servo.rate
+STEP = 10e-3 * TICK  # m that the needle moves in a tick
+NEVER = goal("stay", seconds=1000)  # so that nothing is decided
+
+
+def measured(write, columns, *goals):
+    return judged(load_exercise(write(*goals)), columns, scene=SCENE).finish()
+
+
+def test_times_and_stays(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -6, 0), stops=2)
+    result = measured(write, columns, goal("reach"), goal("stay", seconds=1))
+    m = result.metrics
+    assert result.passed
+    assert m.time_to_target == pytest.approx(0.521, abs=2 * TICK)  # 4.81 + 0.4 mm at 10 mm/s
+    assert m.total_time == pytest.approx(1.521, abs=3 * TICK)
+    assert m.dwell == m.longest_stay == pytest.approx(1.0, abs=3 * TICK)
+    assert result.reasons == [
+        "You reached the vein 0.5 s after touching the skin, at the first attempt.",
+        "You stayed in it for 1 s.",
+    ]
+
+
+def test_the_dwell_is_the_sum_of_all_stays(write):
+    up_and_down = [(0, 5, 0), (0, -6, 0), (0, -5, 0), (0, -7, 0), (0, -5, 0)]
+    m = measured(write, ideal(SCENE, *up_and_down), NEVER).metrics
+    # The vein begins at 5.21 mm: 2 x 0.79 and 2 x 1.79 mm at 10 mm/s.
+    assert m.dwell == pytest.approx(0.158 + 0.358, abs=8 * TICK)
+    assert m.longest_stay == pytest.approx(0.358, abs=4 * TICK)
+
+
+def test_the_vein_ends_where_the_back_wall_begins(write):
+    m = measured(write, ideal(SCENE, (0, 5, 0), (0, -8.5, 0)), NEVER).metrics
+    assert m.dwell == pytest.approx(0.301, abs=4 * TICK)  # 3.01 mm
+
+
+def test_overshoot_is_what_the_tip_runs_on_in_300_ms(write):
+    m = measured(write, ideal(SCENE, (0, 5, 0), (0, -14, 0), stops=1), NEVER).metrics
+    assert [one.name for one in m.overshoot] == ["skin", "front vein wall", "back vein wall"]
+    skin, front, back = m.overshoot
+    assert skin.time == pytest.approx(0.5 + (1.2e-3 + TIP) / 10e-3, abs=2 * TICK)
+    assert [skin.distance, front.distance] == pytest.approx([3e-3, 3e-3], abs=2 * STEP)
+    assert back.distance == pytest.approx(14e-3 - 8.62e-3 - TIP, abs=2 * STEP)  # it stops before 0.3 s are over
+
+
+def test_what_comes_later_is_no_overshoot(write):
+    first = 1.2 + TIP * 1e3 + 0.5
+    columns = ideal(SCENE, (0, 5, 0), (0, -first, 0), stops=0.5)
+    later = ideal(SCENE, (0, -first, 0), (0, -7, 0))
+    position = np.concatenate([columns["tip"], later["tip"]])
+    m = measured(write, of_positions(SCENE, position), NEVER).metrics
+    assert m.overshoot[0].distance == pytest.approx(0.5e-3, abs=2 * STEP)
+
+
+def test_the_peak_force_is_that_of_all_membranes_together(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -14, 0))
+    depth = np.linspace(0, 14e-3, 140_001)
+    laws = [pn.ThickLaw(SCENE.needle, placed.membrane) for placed in SCENE.membranes]
+    total = sum(-law.bounds(depth + placed.point[1])[0] for law, placed in zip(laws, SCENE.membranes, strict=True))
+    m = measured(write, columns, NEVER).metrics
+    assert m.peak_force == pytest.approx(total.max(), rel=1e-3)
+    assert m.peak_force > 1.1 * 0.446  # of the skin alone
+
+
+def test_a_straight_path_is_straight(write):
+    m = measured(write, ideal(SCENE, (0, 5, 0), (3, -6, 0)), NEVER).metrics
+    way = 5.21 / 11 * math.hypot(3, 11) * 1e-3  # from the skin to the vein
+    assert m.net_distance == pytest.approx(way, abs=2 * STEP)
+    assert m.path_length == pytest.approx(way, abs=2 * STEP)
+    assert m.straightness == pytest.approx(1, abs=1e-9)
+    assert m.lateral_deviation == pytest.approx(3 / 11 * 5.21e-3, abs=2 * STEP)  # the needle points straight in
+
+
+def test_a_detour_makes_the_path_longer(write):
+    m = measured(write, ideal(SCENE, (0, 5, 0), (0, -3, 0), (2, -3, 0), (2, -6, 0)), NEVER).metrics
+    cut = 2 * (2 - math.sqrt(2)) * 0.5e-3  # what a ruler of 0.5 mm cuts off two corners at most
+    assert 7.21e-3 - cut - 3 * STEP <= m.path_length <= 7.21e-3
+    assert m.net_distance == pytest.approx(math.hypot(5.21e-3, 2e-3), abs=2 * STEP)
+    assert m.straightness == m.path_length / m.net_distance > 1.15
+    assert m.lateral_deviation == pytest.approx(2e-3, abs=STEP)
+
+
+def test_a_path_that_misses_ends_at_its_deepest_point(write):
+    m = measured(write, ideal(SCENE, (0, 5, 0), (0, -4, 0), (3, 1, 0)), NEVER).metrics
+    assert m.path_length == m.net_distance == pytest.approx(4e-3, abs=2 * STEP)
+    assert (m.time_to_target, m.lateral_deviation) == (None, pytest.approx(0, abs=1e-12))
+
+
+def test_a_hand_that_trembles_goes_no_longer_way(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -4.5, 0), stops=5)
+    random = np.random.default_rng(1)
+    t = columns["time"]
+    phases = random.uniform(0, 6, (3, 1, 3))
+    tremor = sum(
+        2.4e-5 * np.sin(2 * np.pi * hertz * t[:, None] + phase) for hertz, phase in zip((8, 9, 11), phases, strict=True)
+    )
+    assert tremor.std() == pytest.approx(pn.Hand().tremor_rms, rel=0.05)
+    m = measured(write, of_positions(SCENE, columns["tip"] + tremor), NEVER).metrics
+    assert m.straightness == pytest.approx(1, abs=0.03)
+
+
+def test_each_entry_is_an_attempt_and_the_path_begins_with_the_last(write):
+    corners = [(0, 5, 0), (0, -2, 0), (0, 2, 0), (1, 2, 0), (1, -6, 0)]
+    result = measured(write, ideal(SCENE, *corners), goal("reach"))
+    m = result.metrics
+    assert m.attempts == 2
+    # Down 2, up 2, up 2 outside, across 1, down 2 outside and 5.21: all at 10 mm/s.
+    assert m.time_to_target == pytest.approx(1.421, abs=4 * TICK)
+    assert m.path_length == pytest.approx(5.21e-3, abs=2 * STEP)
+    assert m.lateral_deviation == pytest.approx(0, abs=1e-9)
+    assert "with 2 attempts" in result.reasons[0]
+
+
+def test_the_angle_of_entry_is_that_to_the_skin(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -2, 0))
+    slanted = np.array([math.cos(0.6), -math.sin(0.6), 0])
+    columns["direction"] = np.tile(slanted, (*columns["depth"].shape, 1))
+    assert measured(write, columns, NEVER).metrics.entry_angle == pytest.approx(0.6)
+    del columns["direction"]
+    columns["axis"] = np.tile(2 * slanted, (len(columns["tick"]), 1))
+    assert measured(write, columns, NEVER).metrics.entry_angle == pytest.approx(0.6)
+
+
+def test_ticks_that_never_came_are_told(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -2, 0))
+    keep = np.ones(len(columns["tick"]), dtype=bool)
+    keep[500:523] = False
+    m = measured(write, {name: column[keep] for name, column in columns.items()}, NEVER).metrics
+    assert m.lost_ticks == 23
+
+
+def test_nothing_at_all_gives_a_result_without_metrics(write):
+    exercise = load_exercise(write(NEVER))
+    m = judged(exercise, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE).finish().metrics
+    assert m.model_dump() == {
+        "attempts": 0, "peak_force": 0, "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None,
+        "net_distance": None, "straightness": None, "lateral_deviation": None, "entry_angle": None,
+        "time_to_target": None, "total_time": 0, "lost_ticks": 0,
+    }  # fmt: skip
