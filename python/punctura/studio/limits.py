@@ -28,3 +28,7 @@ class Bucket:
             return False
         self._left -= 1
         return True
+
+    def empty(self) -> None:
+        """As if all had been taken."""
+        self._left, self._at = 0.0, self._clock()

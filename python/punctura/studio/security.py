@@ -59,7 +59,7 @@ class Guard:
         self._app, self._token = app, token
         names = ["127.0.0.1", "localhost", "[::1]"]
         self._hosts = {f"{name}:{port}" for name in names} | (set(names) if port == 80 else set())
-        self._bucket = Bucket(HTTP_A_SECOND, HTTP_AT_ONCE)
+        self.bucket = Bucket(HTTP_A_SECOND, HTTP_AT_ONCE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -80,7 +80,7 @@ class Guard:
         client = scope.get("client")
         if not client or not _is_loopback(client[0]):
             raise Refused(403, "The studio serves this computer only.")
-        if not self._bucket.take():
+        if not self.bucket.take():
             raise Refused(429, "Too many requests; wait a second.")
         if len(headers.getlist("host")) != 1 or headers["host"].lower() not in self._hosts:
             raise Refused(421, "The studio does not go by this name; use the address that it printed.")

@@ -70,8 +70,9 @@ class StudioServer:
             raise
         self.address = Address(self._socket.getsockname()[1], token or secrets.token_urlsafe(24))
         self.studio = Studio(self.session, self.hub, page)
+        self.guard = build_app(self.studio, self.address.port, self.address.token)
         config = uvicorn.Config(
-            build_app(self.studio, self.address.port, self.address.token),
+            self.guard,
             ws="websockets-sansio",
             ws_max_size=MOST_SCENE_TEXT,
             ws_per_message_deflate=False,

@@ -1,0 +1,136 @@
+"""Viewers: each with a queue of its own."""
+
+import asyncio
+
+import pytest
+from punctura.studio import hub as hubs
+from punctura.studio.hub import Hub
+from punctura.studio.wire.messages import Hello, Notice, SceneMessage
+from punctura.studio.wire.messages import Status as Health
+
+FRAME = b"PNT1"
+
+
+def hello(viewer):
+    device = {"backend": "", "model": "", "simulated": True, "has_orientation": True, "max_force": None, "rate": 1.0}
+    return Hello.model_validate(
+        {"protocol": 1, "version": "", "viewer": viewer, "device": device, "scenes": [], "exercises": [], "notes": []}
+    )
+
+
+def run(test):
+    """On a loop of its own, where `post` runs at once."""
+
+    async def on_loop():
+        hub = Hub()
+        hub.attach(asyncio.get_running_loop())
+        hub.post = lambda call: call()
+        await test(hub)
+
+    asyncio.run(on_loop())
+
+
+async def all_of(viewer):
+    return [await viewer.take() for _ in range(viewer.waiting)]
+
+
+def test_a_stalled_viewer_loses_its_own_frames_and_nobody_else_s():
+    async def test(hub):
+        stalled, quick = hub.join(hello), hub.join(hello)
+        await all_of(quick)
+        got = 0
+        for _ in range(1000):
+            hub.frame(FRAME)
+            got += sum(data == FRAME for data in await all_of(quick))
+        assert (got, quick.dropped) == (1000, 0)
+        waits = [d for d in await all_of(stalled) if d == FRAME]
+        assert stalled.dropped + len(waits) == 1000 and len(waits) <= hubs.MOST_FRAMES
+
+    run(test)
+
+
+def test_frames_are_lost_in_one_go_and_messages_never():
+    async def test(hub):
+        viewer = hub.join(hello)
+        await all_of(viewer)
+        hub.say(Notice(text="before"))
+        for i in range(hubs.MOST_FRAMES + 1):
+            hub.frame(bytes([i]))
+        hub.say(Notice(text="after"))
+        data = await all_of(viewer)
+        assert [d for d in data if isinstance(d, bytes)] == [bytes([hubs.MOST_FRAMES])]
+        assert ["before" in data[0], "after" in data[-1]] == [True, True]
+        assert viewer.dropped == hubs.MOST_FRAMES
+
+    run(test)
+
+
+def test_a_viewer_that_reads_no_message_either_has_to_go():
+    async def test(hub):
+        viewer = hub.join(hello)
+        for _ in range(hubs.MOST_MESSAGES + 1):
+            hub.say(Notice(text=""))
+        assert viewer.closed and viewer.waiting == 0
+        assert await viewer.take() is None
+
+    run(test)
+
+
+def test_there_is_room_for_so_many_and_no_more():
+    async def test(hub):
+        viewers = [hub.join(hello) for _ in range(hubs.MOST_VIEWERS)]
+        assert all(viewers) and hub.join(hello) is None
+        hub.leave(viewers[3])
+        assert hub.join(hello) is not None
+
+    run(test)
+
+
+def test_control_goes_to_the_first_and_when_its_holder_leaves_to_the_next_who_comes():
+    async def test(hub):
+        first, second = hub.join(hello), hub.join(hello)
+        assert hub.holder == first.number
+        hub.take_control(second)
+        assert hub.holder == second.number
+        hub.leave(second)
+        assert hub.holder is None
+        assert '"holder":null' in (await all_of(first))[-1]
+        third = hub.join(hello)
+        assert hub.holder == third.number
+
+    run(test)
+
+
+@pytest.mark.parametrize("kind", ["scene"])
+def test_a_newcomer_is_told_the_scene_as_a_new_run(kind):
+    view = {
+        "number": 3, "name": "s", "diameter": 1e-3, "tip_angle": 0.3, "direction": "stylus", "solver": "exact",
+        "rate": 1600.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
+    }  # fmt: skip
+
+    async def test(hub):
+        hub.say(SceneMessage.model_validate({"scene": view, "new_run": False}))
+        viewer = hub.join(hello)
+        (scene,) = [d for d in await all_of(viewer) if '"scene"' in d and '"kind":"scene"' in d]
+        assert '"new_run":true' in scene
+
+    run(test)
+
+
+def test_each_is_told_its_own_losses():
+    spread = {"p50": 0.0, "p99": 0.0, "p99_9": 0.0, "largest": 0.0, "edges": [0.0], "counts": []}
+    health = {
+        "ticks": 0, "late": 0, "lost": 0, "period": spread, "compute": spread, "viewers": 0, "dropped": 0,
+        "armed": True, "hand": "target", "compare": False, "statements": [],
+    }  # fmt: skip
+
+    async def test(hub):
+        viewer = hub.join(hello)
+        for _ in range(hubs.MOST_FRAMES + 1):
+            hub.frame(FRAME)
+        other = hub.join(hello)
+        hub.say(Health.model_validate(health))
+        assert f'"viewers":2,"dropped":{hubs.MOST_FRAMES}' in (await all_of(viewer))[-1]
+        assert '"viewers":2,"dropped":0' in (await all_of(other))[-1]
+
+    run(test)
