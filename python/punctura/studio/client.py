@@ -15,6 +15,7 @@ from urllib.parse import parse_qs, quote, urlsplit
 
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
+from websockets.typing import Origin, Subprotocol
 
 from punctura.studio.wire.frames import Ticks, decode_ticks
 
@@ -47,8 +48,8 @@ class StudioClient:
         self._socket = self._open.enter_context(
             connect(
                 f"ws://{self.host}/ws",
-                origin=f"http://{self.host}",  # type: ignore[arg-type]
-                subprotocols=["punctura.v1", f"token.{self.token}"],  # type: ignore[list-item]
+                origin=Origin(f"http://{self.host}"),
+                subprotocols=[Subprotocol("punctura.v1"), Subprotocol(f"token.{self.token}")],
                 compression=None,
                 max_size=None,
                 ping_interval=None,

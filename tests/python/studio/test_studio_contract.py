@@ -1,0 +1,105 @@
+"""The wire format, on the files of tests/contract, which web/tests/wire/contract.test.ts reads, too."""
+
+import base64
+import importlib.util
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
+from punctura.studio.wire.messages import Message
+from punctura.studio.wire.schema import wire_schema
+from pydantic import TypeAdapter, ValidationError
+
+ROOT = Path(__file__).parents[3]
+FRAMES = json.loads((ROOT / "tests/contract/frames.json").read_text(encoding="utf-8"))
+MESSAGES = json.loads((ROOT / "tests/contract/messages.json").read_text(encoding="utf-8"))
+MESSAGE = TypeAdapter(Message)
+
+
+def numbers(values):
+    return np.array([np.nan if v is None else v for v in values], np.float32)
+
+
+@pytest.mark.parametrize("frame", FRAMES, ids=[f["what"] for f in FRAMES])
+def test_a_frame_of_the_contract_reads_as_it_says(frame):
+    data = base64.b64decode(frame["bytes"])
+    if "holds" not in frame:
+        with pytest.raises(FrameError):
+            decode_ticks(data)
+        return
+    ticks, head = decode_ticks(data), frame["head"]
+    assert [ticks.first_tick, ticks.first_time, ticks.run, ticks.lost, ticks.membranes, len(ticks)] == list(
+        head.values()
+    )
+    assert set(ticks.columns) == set(frame["holds"])
+    for name, values in frame["holds"].items():
+        assert np.array_equal(ticks.columns[name].ravel().astype(np.float32), numbers(values), equal_nan=True), name
+
+
+@pytest.mark.parametrize("message", MESSAGES["messages"], ids=[m["kind"] for m in MESSAGES["messages"]])
+def test_a_message_of_the_contract_comes_back_as_it_was(message):
+    assert json.loads(MESSAGE.validate_json(json.dumps(message)).model_dump_json()) == message
+
+
+@pytest.mark.parametrize("request_", MESSAGES["requests"], ids=[r["do"] for r in MESSAGES["requests"]])
+def test_a_request_of_the_contract_is_understood(request_):
+    assert parse_request(json.dumps(request_)).model_dump(mode="json", exclude_unset=True) == request_
+
+
+@pytest.mark.parametrize("request_", MESSAGES["refused"], ids=[str(i) for i in range(len(MESSAGES["refused"]))])
+def test_what_is_no_request_is_refused(request_):
+    with pytest.raises(ValidationError):
+        parse_request(json.dumps(request_))
+
+
+def test_the_contract_has_one_of_everything():
+    schema = wire_schema()["properties"]
+    for what, key, found in (("message", "kind", MESSAGES["messages"]), ("request", "do", MESSAGES["requests"])):
+        names = {ref["$ref"].rsplit("/", 1)[1] for ref in schema[what]["oneOf"]}
+        tags = {wire_schema()["$defs"][name]["properties"][key]["const"] for name in names}
+        assert tags == {entry[key] for entry in found}
+
+
+def test_the_contract_is_what_the_wire_format_gives(monkeypatch, capsys):
+    spec = importlib.util.spec_from_file_location("make_contract", ROOT / "tools" / "make_contract.py")
+    tool = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tool)
+    monkeypatch.setattr(sys, "argv", ["make_contract", "--check"])
+    assert tool.main() == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_any_ticks_come_back_as_f32(seed):
+    rng = np.random.default_rng(seed)
+    n, m = int(rng.integers(1, 40)), int(rng.integers(0, 7))
+    first = int(rng.integers(0, 2**40))
+    time = 100.0 + np.cumsum(rng.uniform(5e-4, 8e-4, n))
+    columns = {"tick": np.arange(first, first + n, dtype=np.uint64), "time": time}
+    for name in ("position", "axis", "tip", "model_force", "force"):
+        columns[name] = rng.normal(size=(n, 3))
+    columns["ceiling"] = rng.normal(size=n)
+    for name in ("depth", "axial_force", "lower", "upper"):
+        columns[name] = rng.normal(size=(n, m))
+    for name in ("proxy", "direction"):
+        columns[name] = rng.normal(size=(n, m, 3))
+    for name in ("state", "fault"):
+        columns[name] = rng.integers(0, 255, n)
+    columns["phase"] = rng.integers(0, 5, (n, m))
+    other = rng.normal(size=(n, 3)) if seed % 2 else None
+    ticks = decode_ticks(encode_ticks(columns, 3, 9, other))
+    assert (ticks.first_tick, ticks.run, ticks.lost, ticks.membranes) == (first, 3, 9, m)
+    assert np.allclose(ticks.first_time + ticks.columns["time"].astype(float), time, atol=1e-8)
+    for name, column in columns.items():
+        if name not in ("tick", "time"):
+            assert np.array_equal(ticks.columns[name], column.astype(ticks.columns[name].dtype)), name
+
+
+def test_a_frame_holds_no_gap_and_no_nothing():
+    columns = {"tick": np.array([1, 3]), "depth": np.empty((2, 1)), "time": np.zeros(2)}
+    with pytest.raises(FrameError):
+        encode_ticks(columns, 0)
+    with pytest.raises(FrameError):
+        encode_ticks({name: column[:0] for name, column in columns.items()}, 0)

@@ -1,0 +1,180 @@
+"""Writes tests/contract: what server and page must read alike, once and for both.
+
+    python tools/make_contract.py          writes the files
+    python tools/make_contract.py --check  fails where they are not what would be written
+
+frames.json: frames of ticks, as base64, with what is in them (null is NaN); those without `holds` must be refused.
+messages.json: one of each kind of message and request that is sound, and requests that are none.
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import json
+import struct
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from punctura.studio.wire.frames import BYTES, COLUMNS, HEAD, encode_ticks
+
+FOLDER = Path(__file__).resolve().parents[1] / "tests" / "contract"
+PLAIN = ("take_control", "arm", "pause", "reset", "stop_recording", "end_exercise", "trip_fault")
+TRIPLE = [0.25, -1.5, 3.0]
+SPREAD = {"p50": 1e-6, "p99": 2e-6, "p99_9": 3e-6, "largest": 4e-6, "edges": [0.0, 1e-6, 2e-6], "counts": [5, 6]}
+LAW = {
+    "name": "skin", "obliquity": 0.5, "tip_length": 0.004, "through": 0.005, "depth": [-0.001, 0.0, 0.001],
+    "lower": [0.0, -0.5, -0.25], "upper": [0.0, 0.25, 0.125],
+}  # fmt: skip
+TABLES = {
+    "name": "one",
+    "needle": {"gauge": 21, "tip_angle_deg": 11, "direction": "stylus"},
+    "membrane": [{"name": "skin", "point_mm": [0, 0, 0]}],
+}
+VIEW = {
+    "number": 1, "name": "one", "diameter": 0.0008, "tip_angle": 0.19, "direction": "stylus", "solver": "exact",
+    "rate": 1600.0, "laws": [LAW], "tables": TABLES, "lumen": [0, 1],
+    "membranes": [{"name": "skin", "point": TRIPLE, "inward_normal": [0.0, -1.0, 0.0], "thickness": 0.001}],
+}  # fmt: skip
+
+
+def columns(n: int, m: int, first: int, nan: bool) -> dict[str, Any]:
+    """Numbers that f32 holds exactly, each other than its neighbours."""
+    made: dict[str, Any] = {"tick": np.arange(first, first + n, dtype=np.uint64)}
+    for at, (name, (width, each)) in enumerate(COLUMNS.items()):
+        shape = (n, *((m,) if each else ()), *((width,) if width > 1 else ()))
+        made[name] = (np.arange(int(np.prod(shape)), dtype=float).reshape(shape) + 1) / 64 - at
+    made["time"] = 2.5 + np.arange(n) / 1024
+    for at, (name, each) in enumerate(BYTES.items()):
+        made[name] = (np.arange(n * (m if each else 1)).reshape((n, m) if each else (n,)) + at) % 5
+    if nan:
+        made["depth"][0, 0] = made["position"][1, 2] = made["ceiling"][2] = np.nan
+    return made
+
+
+def plain(values: Any) -> list[float | None]:
+    return [None if np.isnan(v) else float(v) for v in np.asarray(values, float).ravel()]
+
+
+def sound_frame(what: str, m: int, other: bool, nan: bool, first: int = 7) -> dict[str, Any]:
+    n = 3
+    made = columns(n, m, first, nan)
+    force = np.full((n, 3), np.nan) if other and nan else np.arange(n * 3).reshape(n, 3) / 8 if other else None
+    data = encode_ticks(made, 2, 5, force)
+    made["time"] = made["time"] - 2.5
+    names = [*COLUMNS, *BYTES]
+    holds = {name: plain(made[name]) for name in names} | ({"other_force": plain(force)} if other else {})
+    head = {"first_tick": first, "first_time": 2.5, "run": 2, "lost": 5, "membranes": m, "count": n}
+    return {"what": what, "bytes": base64.b64encode(data).decode(), "head": head, "holds": holds}
+
+
+def frames() -> list[dict[str, Any]]:
+    sound = [
+        sound_frame("one membrane", 1, False, False),
+        sound_frame("three membranes", 3, False, False),
+        sound_frame("one membrane, both solvers", 1, True, False),
+        sound_frame("three membranes, both solvers, cells that are NaN", 3, True, True),
+        sound_frame("a tick beyond 32 bits", 1, False, False, 2**40 + 1),
+    ]
+    whole = base64.b64decode(sound[1]["bytes"])
+    head = list(HEAD.unpack_from(whole))
+
+    def with_head(at: int, value: int) -> bytes:
+        changed = [*head[:at], value, *head[at + 1 :]]
+        return HEAD.pack(*changed) + whole[HEAD.size :]
+
+    bad = {
+        "nothing": b"",
+        "half a head": whole[:20],
+        "another magic": with_head(0, 0x31544E51),
+        "cut off": whole[:-1],
+        "cut off within a column": whole[: HEAD.size + 10],
+        "too long": whole + b"\0",
+        "one tick more than there is": with_head(1, head[1] + 1),
+        "one tick less than there is": with_head(1, head[1] - 1),
+        "one membrane more than there is": with_head(2, head[2] + 1),
+        "more ticks than memory could hold": with_head(1, 2**32 - 1),
+        "more membranes than memory could hold": with_head(2, 2**32 - 1),
+        "another solver that is not there": with_head(3, 1),
+        "random": struct.pack("<40B", *range(40)),
+    }
+    return sound + [{"what": what, "bytes": base64.b64encode(data).decode()} for what, data in bad.items()]
+
+
+def messages() -> dict[str, Any]:
+    device = {
+        "backend": "simulated",
+        "model": "M",
+        "simulated": True,
+        "has_orientation": True,
+        "max_force": None,
+        "rate": 1600.0,
+    }
+    choice = {"name": "a", "title": "A"}
+    problem = {"path": "membrane[0].friction", "value": "3.9", "reason": "is too much"}
+    goal = {"text": "Reach the vein", "state": "open"}
+    sent = [
+        {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "scenes": [choice],
+         "exercises": [choice], "notes": ["a note"]},
+        {"kind": "scene", "scene": VIEW, "new_run": True},
+        {"kind": "laws", "laws": [LAW]},
+        {"kind": "control", "holder": None, "you": False},
+        {"kind": "status", "ticks": 1, "late": 0, "lost": 0, "period": SPREAD, "compute": SPREAD, "viewers": 1,
+         "dropped": 0, "armed": True, "hand": "strokes", "compare": False, "statements": ["s"]},
+        {"kind": "fault", "fault": "clock", "reason": "r", "trouble": "", "tick": 7, "kept": 1000},
+        {"kind": "event", "what": "pop", "membrane": 0, "name": "skin", "tick": 7, "time": 0.5, "depth": 0.004,
+         "force_before": 0.75, "force_after": 0.5, "drop": 0.25},
+        {"kind": "recording", "name": "r", "rows": 1, "lost": 0, "seconds": 0.5, "trouble": ""},
+        {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": [goal],
+         "result": ""},
+        {"kind": "reply", "id": 1, "ok": False, "text": "1 problem", "problems": [problem], "data": {}},
+        {"kind": "notice", "text": "Größe"},
+    ]  # fmt: skip
+    asked = [
+        *({"id": 1, "do": do} for do in PLAIN),
+        {"do": "target", "position": TRIPLE, "axis": [0.0, -1.0, 0.0], "buttons": 1},
+        {"id": 2, "do": "strokes", "period": 2.0},
+        {"id": 3, "do": "play_motion", "recording": "r"},
+        {"id": 4, "do": "edit", "tables": TABLES},
+        {"id": 5, "do": "load", "scene": "venipuncture"},
+        {"id": 6, "do": "load_text", "toml": "name = 'x'"},
+        {"id": 7, "do": "compare", "on": True},
+        {"id": 8, "do": "start_recording", "name": None},
+        {"id": 9, "do": "start_exercise", "exercise": "venipuncture", "person": "Ada"},
+    ]  # fmt: skip
+    refused = [
+        {"id": 1}, {"do": "arm"}, {"id": 1, "do": "fly"}, {"id": "1", "do": "arm"}, {"id": 1.5, "do": "arm"},
+        {"id": -1, "do": "arm"}, {"id": 1, "do": "arm", "more": 1}, {"id": 1, "do": "compare", "on": "yes"},
+        {"do": "target", "position": [0.0, 0.0], "axis": TRIPLE}, {"do": "target", "position": TRIPLE, "axis": None},
+        {"id": 1, "do": "strokes", "period": 0.1}, {"id": 1, "do": "load", "scene": ""}, [], "arm", 7, None,
+    ]  # fmt: skip
+    return {"messages": sent, "requests": asked, "refused": refused}
+
+
+def wanted() -> dict[str, str]:
+    return {
+        name: json.dumps(data, indent=1, ensure_ascii=False) + "\n"
+        for name, data in {"frames.json": frames(), "messages.json": messages()}.items()
+    }
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    check = parser.parse_args().check
+    drifted = 0
+    for name, text in wanted().items():
+        path = FOLDER / name
+        if check and (not path.is_file() or path.read_text(encoding="utf-8") != text):
+            print(f"{path}: is not what the wire format gives; run python tools/make_contract.py")
+            drifted += 1
+        elif not check:
+            FOLDER.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    return 1 if drifted else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
