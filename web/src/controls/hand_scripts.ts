@@ -40,5 +40,6 @@ export function scriptRows(app: App, hand: Hand): HTMLElement {
       element("span", {}, "s"),
       button,
     ),
+    element("p", { class: "hint" }, "A recorded motion: see the tab Recordings."),
   );
 }

@@ -9,16 +9,18 @@ const batch = (shape: FrameShape) => decodeTicks(makeFrame(shape));
 /** Every tick that the history says it has is the one that was sent. */
 function whole(history: History): void {
   const m = history.membranes;
+  const wrong: number[] = [];
   for (let tick = history.first; tick < history.end; tick++) {
-    expect(history.timeOf(tick)).toBeCloseTo(tick / 1600, 6);
-    expect([...history.row("tip", tick)]).toEqual([0, 1, 2].map((place) => expected("tip", tick, place)));
-    expect(history.row("proxy", tick)).toHaveLength(3 * m);
-    for (let place = 0; place < m; place++) {
-      expect(history.row("depth", tick)[place]).toBe(expected("depth", tick, place));
-      expect(history.byteRow("phase", tick)[place]).toBe(expectedByte("phase", tick, place));
-    }
-    expect(history.byteRow("state", tick)[0]).toBe(expectedByte("state", tick, 0));
+    const right =
+      Math.abs(history.timeOf(tick) - tick / 1600) < 1e-6 &&
+      history.row("proxy", tick).length === 3 * m &&
+      history.row("tip", tick).every((value, place) => value === expected("tip", tick, place)) &&
+      history.row("depth", tick).every((value, place) => value === expected("depth", tick, place)) &&
+      history.byteRow("phase", tick).every((value, place) => value === expectedByte("phase", tick, place)) &&
+      history.byteRow("state", tick)[0] === expectedByte("state", tick, 0);
+    if (!right) wrong.push(tick);
   }
+  expect(wrong).toEqual([]);
 }
 
 describe("the history", () => {

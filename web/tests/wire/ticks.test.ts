@@ -13,20 +13,23 @@ describe("a frame of ticks", () => {
   ])("of %i ticks and %i membranes reads as it was written", (count, membranes, other) => {
     const batch = decodeTicks(makeFrame({ first: 7, count, membranes, run: 3, lost: 9, other, time: 1.5 }));
     expect(batch).toMatchObject({ firstTick: 7, firstTime: 1.5, run: 3, lost: 9, count, membranes });
+    const wrong: string[] = [];
     for (const [name, values] of Object.entries(batch.floats) as [FloatColumn, Float32Array][]) {
       const width = rowWidth(name, membranes);
       expect(values).toHaveLength(count * width);
       values.forEach((value, i) => {
         const row = Math.floor(i / width);
-        expect(value).toBe(expected(name, name === "time" ? row : 7 + row, i % width));
+        if (value !== expected(name, name === "time" ? row : 7 + row, i % width)) wrong.push(`${name} ${i}`);
       });
     }
     for (const [name, values] of Object.entries(batch.bytes) as [ByteColumn, Uint8Array][]) {
       const width = rowWidth(name, membranes);
+      expect(values).toHaveLength(count * width);
       values.forEach((value, i) => {
-        expect(value).toBe(expectedByte(name, 7 + Math.floor(i / width), i % width));
+        if (value !== expectedByte(name, 7 + Math.floor(i / width), i % width)) wrong.push(`${name} ${i}`);
       });
     }
+    expect(wrong).toEqual([]);
     expect(batch.otherForce?.length ?? 0).toBe(other ? 3 * count : 0);
   });
 
@@ -36,9 +39,16 @@ describe("a frame of ticks", () => {
 
   it("that ends anywhere too early, or goes on too long, is a FrameError", () => {
     const whole = makeFrame({ count: 2, membranes: 2, other: true });
+    const taken: number[] = [];
     for (let length = 0; length < whole.byteLength; length++) {
-      expect(() => decodeTicks(whole.slice(0, length)), `${length} bytes`).toThrow(FrameError);
+      try {
+        decodeTicks(whole.slice(0, length));
+        taken.push(length);
+      } catch (error) {
+        if (!(error instanceof FrameError)) taken.push(length);
+      }
     }
+    expect(taken).toEqual([]);
     const long = new Uint8Array(whole.byteLength + 1);
     long.set(new Uint8Array(whole));
     expect(() => decodeTicks(long.buffer)).toThrow(FrameError);

@@ -1,0 +1,43 @@
+import type { Hand } from "./hand_model.ts";
+import { add, scaled } from "./vectors.ts";
+
+const IDLE = 0.12; // of a stick's way: they never rest at 0
+const FASTEST = 0.025; // m/s
+const TURNING = 0.8; // rad/s
+const FULL_DROP = 0.5; // N
+
+/** A stick's way from -1 to 1 as a speed: nothing at rest, fine near it. */
+export function stick(value: number | undefined): number {
+  const way = Math.abs(value ?? 0);
+  if (!(way > IDLE)) return 0;
+  return Math.sign(value!) * Math.min(1, (way - IDLE) / (1 - IDLE)) ** 2;
+}
+
+/** The first gamepad that there is; browsers show one only after a button of it was pressed. */
+export function firstGamepad(): Gamepad | null {
+  return navigator.getGamepads?.().find((pad) => pad?.connected) ?? null;
+}
+
+/**
+ * Moves the hand: left stick along the needle (forward is in) and to the side, right stick tilts and goes towards the viewer. True where
+ * something moved.
+ */
+export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
+  const [side, back, turn, near] = pad.axes.map(stick);
+  if (!side && !back && !turn && !near) return false;
+  const pose = hand.pose();
+  if (!pose) return false;
+  const way = FASTEST * seconds;
+  const deep = add(pose.position, scaled(pose.axis, -(back ?? 0) * way));
+  const aside = add(deep, scaled(hand.side(), (side ?? 0) * way));
+  hand.moveTo(add(aside, [0, 0, (near ?? 0) * way]));
+  if (turn) hand.setTilt(hand.tilt() + turn * TURNING * seconds);
+  return true;
+}
+
+/** A knock as strong as the drop of force, N, where pad and browser can. */
+export function rumble(pad: Gamepad, drop: number): void {
+  const strong = Math.min(1, 0.3 + Math.abs(drop) / FULL_DROP);
+  const effect = { duration: 90, strongMagnitude: strong, weakMagnitude: 0.5 * strong };
+  pad.vibrationActuator?.playEffect?.("dual-rumble", effect).catch(() => {});
+}

@@ -1,0 +1,115 @@
+import { beforeEach, describe, expect, it } from "vitest";
+import { Hand } from "../../../src/controls/hand_model.ts";
+import type { EngineListener, Triple } from "../../../src/engine/engine.ts";
+import { App } from "../../../src/state/app.ts";
+import { Source } from "../../../src/state/source.ts";
+import type { DevicePart, Status } from "../../../src/wire/messages.ts";
+import { decodeTicks } from "../../../src/wire/ticks.ts";
+import { makeFrame } from "../../wire/frame.ts";
+
+const DEVICE: DevicePart = {
+  backend: "simulated", model: "PHANTOM Omni", simulated: true, has_orientation: true, max_force: 3.3, rate: 1600,
+}; // biome-ignore format: short
+
+let server: EngineListener;
+let sent: { position: Triple; axis: Triple }[];
+let app: App;
+let hand: Hand;
+
+const status = (mode: Status["hand"]): void => server.message({ kind: "status", hand: mode } as Status);
+const hello = (device: DevicePart): void =>
+  server.message({ kind: "hello", protocol: 1, version: "", viewer: 1, device, scenes: [], exercises: [], notes: [] });
+
+/** A tick with the needle at a place, pointing down. */
+function tick(position: Triple): void {
+  const batch = decodeTicks(makeFrame({ first: app.live.history.end, count: 1, membranes: 1 }));
+  batch.floats.position.set(position);
+  batch.floats.tip.set(position);
+  batch.floats.axis.set([0, -1, 0]);
+  server.ticks(batch);
+}
+
+beforeEach(() => {
+  sent = [];
+  app = new App({
+    start: (listener) => {
+      server = listener;
+    },
+    stop: () => {},
+    ask: () => Promise.reject(new Error("nobody asks here")),
+    target: (position, axis) => sent.push({ position, axis }),
+  });
+  app.start();
+  hand = new Hand(app);
+  server.connection({ state: "open" });
+  hello(DEVICE);
+  server.message({ kind: "control", holder: 1, you: true });
+  tick([0, 0.01, 0]);
+});
+
+describe("the hand", () => {
+  it("begins where the needle is, and goes on from where it was led", () => {
+    hand.push(0.001);
+    expect(sent[0]!.position[1]).toBeCloseTo(0.009, 8);
+    expect(sent[0]!.axis).toEqual([0, -1, 0]);
+    tick([0, 0.0095, 0]); // it lags
+    hand.push(0.001);
+    expect(sent[1]!.position[1]).toBeCloseTo(0.008, 8);
+    expect(hand.lag()).toBeCloseTo(0.0015, 8);
+  });
+
+  it("turns about its target, and no flatter than the model takes", () => {
+    hand.setTilt(0.5);
+    expect(hand.tilt()).toBeCloseTo(0.5, 9);
+    hand.setTilt(2);
+    expect(hand.tilt()).toBeCloseTo(1.3, 9);
+    expect(sent.at(-1)!.position[1]).toBeCloseTo(0.01, 8);
+  });
+
+  it("goes along the needle that was turned", () => {
+    hand.setTilt(Math.PI / 6);
+    hand.push(0.002);
+    const [x, y] = sent.at(-1)!.position;
+    expect([x, y]).toEqual([expect.closeTo(0.001, 8), expect.closeTo(0.01 - 0.002 * Math.cos(Math.PI / 6), 8)]);
+  });
+
+  it("never leaves the desk, and is never led to no place", () => {
+    hand.moveTo([10, 0, 0]);
+    expect(Math.hypot(...sent.at(-1)!.position)).toBeCloseTo(0.25, 9);
+    hand.moveTo([Number.NaN, 0, 0]);
+    expect(sent).toHaveLength(1);
+  });
+
+  it.each([
+    ["another page has control", () => server.message({ kind: "control", holder: 2, you: false }), "Another page"],
+    ["the device is a real one", () => hello({ ...DEVICE, simulated: false, model: "omega.3" }), "omega.3"],
+    ["the connection has gone", () => server.connection({ state: "lost", reason: "", retryInMs: 1 }), "not connected"],
+    [
+      "a recording is shown",
+      () => {
+        app.source.value = new Source("recording", false, 10);
+      },
+      "recording",
+    ],
+  ])("says why it cannot be moved where %s, and is not", (_name, happen, words) => {
+    hand.push(0.001);
+    happen();
+    expect(hand.barred.value).toContain(words);
+    expect(hand.target.value).toBeNull();
+    hand.push(0.001);
+    hand.setTilt(0.3);
+    expect(sent).toHaveLength(1);
+  });
+
+  it("gives way to strokes, unless it was moved just now", () => {
+    hand.push(0.001);
+    status("strokes"); // on its way when the hand was taken
+    expect(hand.target.value).not.toBeNull();
+    hand.release();
+    expect(hand.target.value).toBeNull();
+    status("strokes");
+    tick([0, -0.005, 0]);
+    hand.hold();
+    expect(sent.at(-1)!.position[1]).toBeCloseTo(-0.005, 8);
+  });
+});
