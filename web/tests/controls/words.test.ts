@@ -1,0 +1,41 @@
+import { describe, expect, it } from "vitest";
+import { eventsSince, eventWords, popSentence } from "../../src/controls/event_words.ts";
+import { phaseWords } from "../../src/controls/phase_words.ts";
+import type { MembraneEvent } from "../../src/wire/messages.ts";
+
+describe("the phase in words", () => {
+  it("each has a symbol and a word of its own", () => {
+    const all = [0, 1, 2, 3, 4].map((phase) => phaseWords(phase, 1e-3, 5e-3));
+    expect(all.map(({ word }) => word)).toEqual(["outside", "sticking", "sliding in", "sliding out", "barred"]);
+    const through = phaseWords(2, 6e-3, 5e-3);
+    expect(through).toMatchObject({ word: "through", detail: "sliding in" });
+    expect(new Set([...all, through].map(({ symbol }) => symbol)).size).toBe(6);
+    expect(new Set([...all, through].map(({ kind }) => kind)).size).toBe(6);
+  });
+  it("through is from the depth at which the law says so, and only inside", () => {
+    expect(phaseWords(1, 5e-3, 5e-3).word).toBe("through");
+    expect(phaseWords(1, 4.999e-3, 5e-3).word).toBe("sticking");
+    expect(phaseWords(0, 9e-3, 5e-3).word).toBe("outside");
+    expect(phaseWords(4, 9e-3, 5e-3).word).toBe("barred");
+    expect(phaseWords(0, Number.NaN, 5e-3).word).toBe("outside");
+  });
+});
+
+describe("what happened in words", () => {
+  const event = (tick: number, what: MembraneEvent["what"]): MembraneEvent => ({
+    kind: "event", what, membrane: 0, name: "skin", tick, time: tick / 1600, depth: 0, force_before: 0.5, force_after: 0.26, drop: 0.24,
+  }); // biome-ignore format: one line
+  it("a pop says what the force lost", () => {
+    expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });
+    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newton.");
+    expect(eventWords(event(1, "touch")).force).toBe("");
+  });
+  it("only what is new is added; another run begins anew", () => {
+    const [a, b, c, d] = [event(1, "touch"), event(2, "pop"), event(3, "out"), event(4, "touch")] as const;
+    expect(eventsSince([a, b], [a, b, c, d])).toEqual([c, d]);
+    expect(eventsSince([a, b, c], [c, d])).toEqual([d]);
+    expect(eventsSince([], [a])).toEqual([a]);
+    expect(eventsSince([a, b], [c])).toBeNull();
+    expect(eventsSince([a], [])).toBeNull();
+  });
+});

@@ -1,0 +1,62 @@
+import { describe, expect, it } from "vitest";
+import { CalmRange } from "../../src/plots/calm_range.ts";
+import { Scale } from "../../src/plots/scale.ts";
+import { label, niceStep, ticks } from "../../src/plots/ticks.ts";
+
+describe("numbers along an axis", () => {
+  it("steps are 1, 2 or 5 times a power of ten", () => {
+    expect([0.9, 1.9, 4.4, 9, 0.034].map((span) => niceStep(span, 5))).toEqual(
+      [0.2, 0.5, 1, 2, 0.005].map((v) => expect.closeTo(v)),
+    );
+  });
+  it("ticks are the multiples of the step that lie inside", () => {
+    expect(ticks(-0.3, 0.55, 0.2)).toEqual([-0.2, 0, 0.2, 0.4].map((v) => expect.closeTo(v, 12)));
+    expect(ticks(0, 1, 0.5)).toEqual([0, 0.5, 1]);
+  });
+  it("labels have as many places as the step needs, a minus that is one, and no minus zero", () => {
+    expect(label(0.30000000000000004, 0.1)).toBe("0.3");
+    expect(label(-0.1, 0.05)).toBe("−0.10");
+    expect(label(-1e-17, 0.1)).toBe("0.0");
+    expect(label(20, 10)).toBe("20");
+  });
+});
+
+describe("a calm range", () => {
+  it("grows at once and takes in every value", () => {
+    const range = new CalmRange();
+    range.follow(-0.1, 0.5, 0);
+    range.follow(-0.1, 0.9, 0.01);
+    expect(range.max).toBeGreaterThanOrEqual(0.9);
+    expect(range.min).toBeLessThanOrEqual(-0.1);
+  });
+  it("does not move while values stay within it", () => {
+    const range = new CalmRange();
+    range.follow(0, 1, 0);
+    const { min, max } = range;
+    for (let i = 1; i < 100; i++) expect(range.follow(0, 0.7 + 0.3 * Math.sin(i), i)).toBe(false);
+    expect([range.min, range.max]).toEqual([min, max]);
+  });
+  it("shrinks when values have been much smaller for a while, not before", () => {
+    const range = new CalmRange();
+    range.follow(0, 10, 0);
+    const { max } = range;
+    range.follow(0, 1, 1);
+    range.follow(0, 1, 2.5);
+    expect(range.max).toBe(max);
+    range.follow(0, 1, 3.5);
+    expect(range.max).toBeLessThan(2);
+  });
+  it("takes no value that does not exist", () => {
+    const range = new CalmRange();
+    expect(range.follow(Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY, 0)).toBe(false);
+    expect(range.follow(Number.NaN, Number.NaN, 0)).toBe(false);
+  });
+});
+
+it("a scale maps there and back, upside down too", () => {
+  const scale = new Scale();
+  scale.set(-1, 3, 200, 20);
+  expect(scale.px(-1)).toBe(200);
+  expect(scale.px(3)).toBe(20);
+  expect(scale.value(scale.px(0.7))).toBeCloseTo(0.7, 12);
+});

@@ -1,0 +1,56 @@
+import { describe, expect, it } from "vitest";
+import { columnNames, csv, exactF32 } from "../../src/plots/csv.ts";
+import { history } from "../support/fill_history.ts";
+
+describe("a table of ticks", () => {
+  const run = history(50, 2, {
+    depth: (tick) => [tick === 7 ? Number.NaN : 0.1 + tick * 1e-3, -0.25],
+    axial_force: () => [-0.1, 0],
+    phase: () => [2, 0],
+    state: () => [2],
+  });
+
+  it("has every tick, SI, with the unit in every column's name", () => {
+    const lines = csv(run, 3, 45, ["skin", "front vein wall"], null).join("").trimEnd().split("\n");
+    const head = lines[0]!.split(",");
+    expect(lines.length).toBe(1 + 42);
+    expect(head.slice(0, 4)).toEqual(["tick", "time_s", "state", "position_x_m"]);
+    expect(head).toContain("depth_front_vein_wall_m");
+    expect(head).toContain("axial_force_skin_N");
+    expect(head.filter((name) => !/^(tick|state|phase_.*)$/.test(name)).every((name) => /_(s|m|N)$/.test(name))).toBe(
+      true,
+    );
+    const row = lines[1]!.split(",");
+    expect(row.length).toBe(head.length);
+    expect(row.slice(0, 3)).toEqual(["3", "0.003000000", "active"]);
+  });
+
+  it("keeps all digits of what was sent", () => {
+    const lines = csv(run, 0, 50, ["skin", "front vein wall"], 0).join("").trimEnd().split("\n");
+    const at = lines[0]!.split(",").indexOf("depth_skin_m");
+    expect(lines[0]).not.toContain("front");
+    for (let tick = 0; tick < 50; tick++) {
+      const cell = lines[1 + tick]!.split(",")[at]!;
+      if (tick === 7) expect(cell).toBe("");
+      else expect(Math.fround(Number(cell))).toBe(Math.fround(0.1 + tick * 1e-3));
+    }
+  });
+
+  it("has the other solver's force only where there is one", () => {
+    expect(csv(run, 0, 5, [], null)[0]).not.toContain("other_solver");
+    const compared = history(5, 1, { other_force: () => [1, 2, 3] });
+    expect(csv(compared, 0, 5, [], null)[0]).toContain("other_solver_force_x_N");
+  });
+
+  it("names each membrane's columns differently", () => {
+    expect(columnNames(["Skin", "skin", "a,b\n", ""], 5)).toEqual(["skin", "skin_2", "a_b", "membrane", "membrane_5"]);
+  });
+
+  it("numbers come back as they were, to the last bit", () => {
+    for (const value of [0, 1, -0.1, 1 / 3, 1.17549435e-38, 3.4028235e38, 123456.79, 1e-5].map(Math.fround)) {
+      expect(Math.fround(Number(exactF32(value)))).toBe(value);
+    }
+    expect(exactF32(Math.fround(0.1))).toBe("0.1");
+    expect(exactF32(Number.NaN)).toBe("");
+  });
+});

@@ -1,0 +1,127 @@
+import { describe, expect, it } from "vitest";
+import { ForceDepthDrawing, type ForceDepthPicture } from "../../src/plots/force_depth_drawing.ts";
+import { SvgPen } from "../../src/plots/svg_pen.ts";
+import type { Theme } from "../../src/plots/theme.ts";
+import { TimeDrawing } from "../../src/plots/time_drawing.ts";
+import { Window } from "../../src/plots/window.ts";
+import { Source } from "../../src/state/source.ts";
+import { batch, type Cell } from "../support/fill_history.ts";
+
+const theme: Theme = { panel: "white", line: "silver", text: "black", quiet: "gray", accent: "navy", danger: "maroon", data: ["blue", "red"] }; // biome-ignore format: one line
+const SPIKE = 12_345;
+
+/** 20 s at 1 kHz: a slow stroke, and one tick with a force of 3 N. */
+function source(more: Cell = {}): Source {
+  const made = new Source("test", true, 20_000);
+  made.laws.value = [
+    { name: "skin", obliquity: 0, tip_length: 4e-3, through: 5e-3, depth: [0, 4e-3, 5e-3], lower: [-0.2, -0.5, -0.25], upper: [0.1, 0.1, 0.25] }, // biome-ignore format: one line
+  ];
+  const cells: Cell = {
+    depth: (tick) => [(8e-3 * tick) / 20_000],
+    axial_force: (tick) => [tick === SPIKE ? -3 : -0.25],
+    direction: () => [0, -1, 0],
+    axis: () => [0, -1, 0],
+    phase: () => [2],
+    state: () => [2],
+    ...more,
+  };
+  for (let first = 0; first < 20_000; first += 1000) made.history.push(batch(first, 1000, 1, cells));
+  return made;
+}
+
+const window20 = (from: Source): Window => {
+  const window = new Window();
+  window.follow(from.history, from.shown(), 20, true, 20 / 400);
+  return window;
+};
+
+/** Heights of the points of all lines in a colour. */
+function heights(file: string, colour: string): number[] {
+  const paths = [...file.matchAll(new RegExp(`<path d="([^"]*)"[^>]*stroke="${colour}" stroke-width="1.[56]"`, "g"))];
+  return paths.flatMap(([, d]) => [...d!.matchAll(/[ML]([-\d.]+) ([-\d.]+)/g)].map((point) => Number(point[2])));
+}
+
+describe("force against depth", () => {
+  const picture = (from: Source): ForceDepthPicture => ({
+    source: from,
+    window: window20(from),
+    shown: from.shown(),
+    chosen: null,
+    overlay: null,
+    zoom: null,
+    pointed: null,
+  });
+  const drawn = (now: ForceDepthPicture): { drawing: ForceDepthDrawing; file: string } => {
+    const drawing = new ForceDepthDrawing();
+    drawing.arrange(now, 480, 400, 0);
+    const pen = new SvgPen();
+    drawing.draw(pen, now, theme);
+    return { drawing, file: pen.file(480, 400, "white", "", "") };
+  };
+
+  it("one tick of 20 000 that stands out is drawn at its height", () => {
+    const { drawing, file } = drawn(picture(source()));
+    expect(Math.min(...heights(file, "blue"))).toBeCloseTo(drawing.pane.y.px(3), 1);
+  });
+
+  it("the friction band lies behind, mirrored so that what pushes the needle out is up", () => {
+    const { drawing, file } = drawn(picture(source()));
+    const band = /<path d="([^"]*)Z" fill="blue"/.exec(file)![1]!;
+    const { x, y } = drawing.pane;
+    const at = (depth: number, force: number): string =>
+      `${Math.round(x.px(depth) * 100) / 100} ${Math.round(y.px(force) * 100) / 100}`;
+    expect(band).toContain(at(4, 0.5));
+    expect(band).toContain(at(4, -0.1));
+  });
+
+  it("the point nearest to the pointer is found", () => {
+    const now = picture(source());
+    const { drawing } = drawn(now);
+    const { x, y } = drawing.pane;
+    expect(drawing.nearest(now, x.px((8 * SPIKE) / 20_000) + 3, y.px(3) - 2, 20)).toEqual({ tick: SPIKE, membrane: 0 });
+    expect(drawing.nearest(now, x.px(2), y.px(2.5), 20)).toBeNull();
+  });
+
+  it("an earlier run and the other solver are laid over, with a key", () => {
+    const other = (tick: number): number[] => [0, tick === 777 ? 1.5 : 0.25, 0];
+    const from = source({ other_force: other, model_force: () => [0, 0.25, 0] });
+    const { file } = drawn({ ...picture(from), overlay: source() });
+    expect(file).toContain(">paper solver<");
+    expect(file).toContain(">test<");
+    expect(heights(file, "black").length).toBeGreaterThan(100);
+  });
+});
+
+describe("force and depth against time", () => {
+  const drawn = (from: Source): { drawing: TimeDrawing; file: string } => {
+    const drawing = new TimeDrawing();
+    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null };
+    drawing.arrange(now, 480, 320, 0);
+    const pen = new SvgPen();
+    drawing.draw(pen, now, theme);
+    return { drawing, file: pen.file(480, 320, "white", "", "") };
+  };
+
+  it("one tick of 20 000 that stands out is drawn at its height", () => {
+    const { drawing, file } = drawn(source());
+    expect(Math.min(...heights(file, "blue"))).toBeCloseTo(drawing.force.y.px(3), 1);
+  });
+
+  it("the cursor reads the tick under it", () => {
+    const { file } = drawn(source());
+    expect(file).toContain(">12.3450 s  active<");
+    expect(file).toContain(">3.000 N<");
+    expect(file).toContain(">4.938 mm<");
+  });
+
+  it("a pop has a mark that says what the force lost, a fault its shade", () => {
+    const from = source({ state: (tick) => [tick > 15_000 ? 3 : 2] });
+    from.events.value = [
+      { kind: "event", what: "pop", membrane: 0, name: "skin", tick: 9000, time: 9, depth: 5e-3, force_before: 0.5, force_after: 0.25, drop: 0.25 }, // biome-ignore format: one line
+    ];
+    const { file } = drawn(from);
+    expect(file).toContain(">pop −0.25 N<");
+    expect(file).toContain('fill="maroon" fill-opacity="0.2"');
+    expect(file).toContain(">fault<");
+  });
+});

@@ -1,0 +1,101 @@
+import { describe, expect, it } from "vitest";
+import { difference } from "../../src/plots/difference.ts";
+import { frozenCopy } from "../../src/plots/freeze.ts";
+import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "../../src/plots/gather.ts";
+import { eachState } from "../../src/plots/states.ts";
+import { Source } from "../../src/state/source.ts";
+import { batch, history } from "../support/fill_history.ts";
+
+describe("gathering ticks for a drawing", () => {
+  const two = history(250, 2, { depth: (tick) => [tick, 1000 + tick] }, 128);
+
+  it("takes a membrane's column across the end of the rings", () => {
+    const out = new Float32Array(10);
+    gather(two, 250 - 10, 250, "depth", 1, 2, 0.5, out);
+    expect([...out]).toEqual(Array.from({ length: 10 }, (_, i) => 2 * (1240 + i) + 0.5));
+    expect([two.first, two.end]).toEqual([122, 250]);
+  });
+
+  it("keeps time apart to the tick", () => {
+    const out = new Float32Array(3);
+    gatherTime(two, 240, 243, 1000, -240, out);
+    expect([...out]).toEqual([0, 1, 2].map((v) => expect.closeTo(v, 3)));
+  });
+
+  it("finds lowest and highest, and nothing where all is NaN", () => {
+    const extent = new Extent();
+    extent.takeColumn(two, 130, 140, "depth", 0, -1);
+    expect([extent.low, extent.high]).toEqual([-139, -130]);
+    extent.forget();
+    extent.takeColumn(history(5, 1, { depth: () => [Number.NaN] }), 0, 5, "depth", 0, 1);
+    expect(extent.low).toBeGreaterThan(extent.high);
+  });
+
+  it("the force at the hand is taken against the needle's axis", () => {
+    const pushed = history(1, 1, { force: () => [0, 0.5, 0], axis: () => [0, -1, 0] });
+    const out = new Float32Array(1);
+    gatherSent(pushed, 0, 1, 1, 0, out);
+    expect(out[0]).toBe(0.5);
+  });
+});
+
+describe("the other solver", () => {
+  const compared = history(100, 1, {
+    axial_force: () => [-0.5],
+    model_force: () => [0, 0.5, 0],
+    other_force: (tick) => [0, tick % 2 ? 0.6 : 0.4, 0],
+    direction: () => [0, -1, 0],
+    phase: (tick) => [tick < 10 ? 0 : 2],
+  });
+
+  it("its axial force is this one's and the difference along b, inside a membrane only", () => {
+    const out = new Float32Array(100);
+    gatherOther(compared, 0, 100, 0, 1, 0, out);
+    expect(out[5]).toBeNaN();
+    expect(out[20]).toBeCloseTo(-0.4, 6);
+    expect(out[21]).toBeCloseTo(-0.6, 6);
+  });
+
+  it("their difference is told as root mean square and largest", () => {
+    expect(difference(compared, 0, 100)).toEqual({
+      ticks: 100,
+      rms: expect.closeTo(0.1, 6),
+      largest: expect.closeTo(0.1, 6),
+    });
+  });
+
+  it("without it there is no difference, and nothing to draw", () => {
+    const alone = history(10, 1);
+    expect(difference(alone, 0, 10)).toBeNull();
+    expect(isCompared(alone, 0, 10)).toBe(false);
+    expect(isCompared(compared, 0, 10)).toBe(true);
+  });
+});
+
+describe("a frozen copy", () => {
+  it("keeps every tick while the run goes on and forgets them", () => {
+    const live = new Source("live", true, 3000);
+    const cells = { depth: (tick: number) => [tick / 7], other_force: () => [1, 2, 3] };
+    for (let first = 0; first < 5000; first += 50) live.history.push(batch(first, 50, 1, cells));
+    const copy = frozenCopy(live);
+    for (let first = 5000; first < 9000; first += 50) live.history.push(batch(first, 50, 1, cells));
+    expect([copy.history.first, copy.history.end]).toEqual([2000, 5000]);
+    for (const tick of [2000, 3456, 4999]) {
+      expect(copy.history.row("depth", tick)[0]).toBe(Math.fround(tick / 7));
+      expect([...copy.history.row("other_force", tick)]).toEqual([1, 2, 3]);
+      expect(copy.history.timeOf(tick)).toBeCloseTo(tick / 1000, 7);
+    }
+    expect(live.history.first).toBe(6000);
+  });
+});
+
+it("states are told in stretches", () => {
+  const states = history(300, 1, { state: (tick) => [tick < 100 ? 0 : tick < 299 ? 2 : 3] });
+  const told: unknown[] = [];
+  eachState(states, 50, 300, (...stretch) => told.push(stretch));
+  expect(told).toEqual([
+    ["disarmed", 50, 100],
+    ["active", 100, 299],
+    ["faulted", 299, 300],
+  ]);
+});
