@@ -3,6 +3,7 @@ import type { Spread, Status } from "../wire/messages.ts";
 import { bars, logPlace } from "./histogram.ts";
 import { RateMeter } from "./rate.ts";
 
+const MANY_LATE = 1e-4; // share of the ticks
 const SVG = "http://www.w3.org/2000/svg";
 
 /** A duration with three digits that say something. */
@@ -76,7 +77,7 @@ export const healthPanel: Panel = (host, app) => {
       measured !== null && measured < 0.98 * nominal,
     );
     setTicks(status.ticks.toLocaleString("en"));
-    setLate(status.late.toLocaleString("en"), status.late > 0);
+    setLate(status.late.toLocaleString("en"), status.late > MANY_LATE * status.ticks);
     setLost(status.lost.toLocaleString("en"), status.lost > 0);
     setDropped(status.dropped.toLocaleString("en"), status.dropped > 0);
     setViewers(String(status.viewers));

@@ -40,6 +40,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     chosen,
     overlay: app.overlay.value,
     zoom,
+    oldest: plots.source.live ? 0.2 : 0.55, // who holds it still wants to see all of it
     pointed,
   });
   const readout = element("output", { class: "plot-readout" });

@@ -32,6 +32,8 @@ export interface ForceDepthPicture {
   readonly chosen: number | null;
   readonly overlay: Source | null;
   readonly zoom: Area | null;
+  /** How much of the oldest tick is to be seen, 0 to 1. */
+  readonly oldest: number;
   readonly pointed: { readonly tick: number; readonly membrane: number } | null;
 }
 
@@ -115,7 +117,7 @@ export class ForceDepthDrawing {
     pen.within(left, top, width, height, () => {
       for (const i of membranes) if (overlay) this.drawOverlay(pen, overlay, i, theme);
       this.drawOther(pen, source, window.first, end, membranes, theme);
-      for (const i of membranes) this.drawHistory(pen, source, window, end, i, theme);
+      for (const i of membranes) this.drawHistory(pen, picture, i, theme);
     });
   }
 
@@ -204,13 +206,15 @@ export class ForceDepthDrawing {
   }
 
   /** The hand's way, the older the fainter. */
-  private drawHistory(pen: Pen, source: Source, window: Window, end: number, membrane: number, theme: Theme): void {
+  private drawHistory(pen: Pen, picture: ForceDepthPicture, membrane: number, theme: Theme): void {
+    const { source, window, oldest } = picture;
+    const end = this.end(picture);
     const n = this.pixels(source, window.first, end, membrane);
     const colour = colourOf(theme, membrane);
     const age = Math.max(1, Math.ceil((window.end - window.first) / AGES));
     // The newest first: what lies under it need not be drawn.
     for (let to = n, young = 1; to > 0; to -= age, young -= 1 / AGES) {
-      const stroke = { colour, width: WIDTH, alpha: 0.2 + 0.8 * Math.max(0, young) ** 2 };
+      const stroke = { colour, width: WIDTH, alpha: oldest + (1 - oldest) * Math.max(0, young) ** 2 };
       this.drawNew(pen, Math.max(0, to - age - 1), to, stroke, to === n);
     }
   }

@@ -28,6 +28,7 @@ export const timePlots: Panel = (host, app) => {
   const reset = button("Reset zoom", "Reset the zoom (0, or double click)", () => plots.resetZoom());
   plots.zoom.watch((zoom) => {
     reset.hidden = zoom === null;
+    drawing.forget();
     changes++;
   });
   const picture = (): TimePicture => ({

@@ -39,6 +39,12 @@ export class TimeDrawing {
   private xs = new Float32Array(0);
   private ys = new Float32Array(0);
 
+  /** Lets the ranges of the values begin anew: for another part of the run. */
+  forget(): void {
+    this.rangeForce.forget();
+    this.rangeDepth.forget();
+  }
+
   /** Lays the axes out; now in s. */
   arrange({ source, window }: TimePicture, width: number, height: number, now: number): void {
     const { force, depth, extent } = this;
@@ -174,7 +180,7 @@ export class TimeDrawing {
         const x = at(event);
         const colour = colourOf(theme, event.membrane);
         const y = force.y.px(0);
-        if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.6, dash: [2, 2] });
+        if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.45, dash: [2, 3] });
         else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
       }
     });

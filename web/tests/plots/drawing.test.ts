@@ -49,6 +49,7 @@ describe("force against depth", () => {
     chosen: null,
     overlay: null,
     zoom: null,
+    oldest: 0.2,
     pointed: null,
   });
   const drawn = (now: ForceDepthPicture): { drawing: ForceDepthDrawing; file: string } => {
