@@ -18,11 +18,7 @@ export function pastResults(
     element(
       "thead",
       {},
-      element(
-        "tr",
-        {},
-        ...["When", "Exercise", "Result", "Attempts", "Peak"].map((text) => element("th", { scope: "col" }, text)),
-      ),
+      element("tr", {}, ...["When", "Exercise", "Result"].map((text) => element("th", { scope: "col" }, text))),
     ),
     body,
   );
@@ -72,7 +68,5 @@ function row(result: ExerciseResult, open: (result: ExerciseResult) => void): HT
     element("td", {}, when),
     element("td", {}, result.title),
     element("td", { class: result.passed ? "passed" : "failed" }, result.passed ? "✓ passed" : "✕ not passed"),
-    element("td", { class: "count" }, String(result.metrics.attempts)),
-    element("td", { class: "count" }, `${result.metrics.peak_force.toFixed(2)} N`),
   );
 }
