@@ -88,9 +88,9 @@ function axis(values: readonly number[], y: Scale, label: string, { top, height 
   ];
 }
 
-/** Pops as lines, and the first arrival in the space. */
+/** Pops as lines, the first arrival in the space, and when it was decided. */
 function marks(result: ExerciseResult, touch: number, x: Scale, end: number): SVGElement[] {
-  const { time_to_target: arrival } = result.metrics;
+  const { time_to_target: arrival, total_time: total } = result.metrics;
   const pops = result.events.filter(({ what, time }) => what === "pop" && time <= end);
   const upright = (kind: string, time: number, label: string, row: number): SVGElement[] => [
     svg("line", { class: kind, x1: x(time), x2: x(time), y1: DEPTH.top - 4, y2: FORCE.top + FORCE.height }),
@@ -99,6 +99,9 @@ function marks(result: ExerciseResult, touch: number, x: Scale, end: number): SV
   return [
     ...pops.flatMap(({ time }, i) => upright("pop", time, `pop ${i + 1}`, crowded(pops, i) ? 1 : 0)),
     ...(arrival === null ? [] : upright("arrival", touch + arrival, "arrived", 1)),
+    ...(total > 0
+      ? upright(result.passed ? "done" : "lost", touch + total, result.passed ? "✓ done" : "✕ lost", 1)
+      : []),
   ];
 }
 

@@ -1,0 +1,33 @@
+import { expect, test } from "vitest";
+import { metricRows } from "../../../src/controls/exercises/metrics.ts";
+import type { ExerciseMetrics } from "../../../src/wire/files.ts";
+
+const metrics: ExerciseMetrics = {
+  attempts: 2,
+  peak_force: 0.9041,
+  overshoot: [{ membrane: 0, name: "skin", time: 1, distance: 0.00213 }],
+  dwell: 5.26,
+  longest_stay: 3.1,
+  path_length: null,
+  net_distance: null,
+  straightness: null,
+  lateral_deviation: 0.0001,
+  entry_angle: 0.5236,
+  time_to_target: null,
+  total_time: 21.1,
+  lost_ticks: 0,
+};
+
+test("measures are told in units for people; what there was not is a dash", () => {
+  const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
+  expect(Object.fromEntries(rows)).toMatchObject({
+    Attempts: "2",
+    "Peak force": "0.90 N",
+    "Overshoot after skin": "2.1 mm",
+    "Path straightness": "–",
+    "Angle of entry": "30°",
+    "Time to the space": "–",
+  });
+  expect(rows.has("Ticks lost")).toBe(false);
+  expect(metricRows({ ...metrics, lost_ticks: 3 }).at(-1)).toMatchObject({ label: "Ticks lost", value: "3" });
+});
