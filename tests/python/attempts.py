@@ -92,3 +92,18 @@ def goal(kind: str, **keys: object) -> str:
     """A table of an exercise file."""
     values = {key: f'"{v}"' if isinstance(v, str) else str(v).lower() for key, v in keys.items()}
     return "\n".join(["[[goal]]", f'kind = "{kind}"', *[f"{key} = {value}" for key, value in values.items()], ""])
+
+
+HEAD = """
+title = "Test"
+description = "A test."
+instruction = "Do it."
+scene = "venipuncture"
+[start]
+position_mm = [0, 5, 0]
+[space]
+name = "the vein"
+behind = "front vein wall"
+in_front_of = "back vein wall"
+sign = "the flash-back"
+"""

@@ -6,20 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-HEAD = """
-title = "Test"
-description = "A test."
-instruction = "Do it."
-scene = "venipuncture"
-[start]
-position_mm = [0, 5, 0]
-[space]
-name = "the vein"
-behind = "front vein wall"
-in_front_of = "back vein wall"
-sign = "the flash-back"
-"""
+from attempts import HEAD
 
 
 @pytest.fixture

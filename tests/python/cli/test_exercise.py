@@ -1,0 +1,76 @@
+"""punctura exercise."""
+
+import json
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from attempts import as_a_device_runs_it, motion_of
+from punctura._core import ServoLoop, SimulatedDevice
+from punctura.cli import main
+from punctura.exercise import load_exercise
+from punctura.record import Recorder
+
+
+class Done(NamedTuple):
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def punctura(capsys):
+    """The command line, in this process."""
+
+    def call(*arguments):
+        try:
+            main([str(argument) for argument in arguments])
+            code = 0
+        except SystemExit as end:
+            code = end.code or 0
+        return Done(code, *capsys.readouterr())
+
+    return call
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    exercise = load_exercise("venipuncture")
+    axis = np.asarray(exercise.start_axis)
+    motion = motion_of(exercise, [(1.0, 0.0), (2.5, 20.0), (2.0, 33.0), (1.0, 33.0)], axis)
+    device = SimulatedDevice(motion, real_time=False, ticks=12000, axis=axis)
+    path = tmp_path_factory.mktemp("recordings") / "try.parquet"
+    loop = ServoLoop(device, as_a_device_runs_it(exercise.scene))
+    with Recorder(loop, path, 12000):
+        loop.arm()
+        loop.start()
+        while not device.finished:
+            pass
+        loop.stop()
+    return path
+
+
+def test_the_ready_exercises_are_listed(punctura):
+    assert "venipuncture  Venipuncture: " in punctura("exercise", "list").stdout
+    entries = json.loads(punctura("exercise", "list", "--json").stdout)
+    assert [(e["name"], e["scene"]) for e in entries] == [("epidural", "epidural"), ("venipuncture", "venipuncture")]
+
+
+def test_a_recording_is_scored(punctura, recording):
+    done = punctura("exercise", "score", recording, "--exercise", "venipuncture")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("Venipuncture: not passed\n  You went through the back vein wall ")
+    assert "missed  Do not go through the back vein wall" in done.stdout
+    done = punctura("exercise", "score", recording, "--exercise", "venipuncture", "--person", "Ada", "--json")
+    result = json.loads(done.stdout)
+    assert (result["passed"], result["person"], result["recording"]) == (False, "Ada", "try")
+
+
+def test_what_cannot_be_scored_is_told(punctura, recording, tmp_path):
+    done = punctura("exercise", "score", recording, "--exercise", "epidural")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "has no membrane 'ligamentum flavum'" in done.stderr
+    assert punctura("exercise", "score", tmp_path / "none", "--exercise", "epidural").returncode == 1
+    done = punctura("exercise", "score", recording, "--exercise", "none")
+    assert done.returncode == 2 and "ready exercises: epidural, venipuncture" in done.stderr
+    assert punctura("exercise").returncode == 2

@@ -1,0 +1,118 @@
+"""Exercise files: what is in them, and everything that is wrong with one at once."""
+
+import json
+import math
+import os
+
+import pytest
+from attempts import HEAD, goal
+from punctura import ConfigurationError, save_scene, scene_json_schema
+from punctura.exercise import exercise_json_schema, exercises, load_exercise
+
+
+def problems(path):
+    with pytest.raises(ConfigurationError) as error:
+        load_exercise(path)
+    return {problem.path: problem.reason for problem in error.value.problems}
+
+
+def test_a_sound_file_gives_its_exercise_in_si(write):
+    exercise = load_exercise(write(goal("stay", seconds=2, whole_tip=True), goal("time_limit", seconds=9)))
+    assert (exercise.name, exercise.title, exercise.description, exercise.instruction) == (
+        "test", "Test", "A test.", "Do it.",
+    )  # fmt: skip
+    assert (exercise.scene_name, exercise.scene.name, exercise.space) == ("venipuncture", "Venipuncture", (1, 2))
+    assert exercise.start_position == (0, 0.005, 0)
+    assert exercise.start_axis == pytest.approx((0, -1, 0))
+    assert [g.kind for g in exercise.goals] == ["stay", "time_limit"]
+
+
+def test_the_needle_points_at_the_angle_to_the_skin_that_the_file_says(write):
+    head = HEAD.replace("[space]", "angle_deg = 25\nheading = [0, 0, -2]\n[space]")
+    axis = load_exercise(write(goal("reach"), head=head)).start_axis
+    assert axis == pytest.approx((0, -math.sin(math.radians(25)), -math.cos(math.radians(25))))
+
+
+@pytest.mark.parametrize("exercise", exercises(), ids=lambda e: e.name)
+def test_the_needle_of_a_ready_exercise_waits_in_front_of_the_skin_and_points_into_the_space(exercise):
+    skin = exercise.scene.membranes[0]
+    distance = -(exercise.start_position[1] - skin.point[1])
+    assert distance < -2e-3
+    assert exercise.start_axis[1] < 0
+    assert exercise.start_axis[2] == 0
+
+
+def test_everything_that_is_wrong_is_told_at_once(write):
+    head = (
+        HEAD.replace('title = "Test"', "titel = 3").replace("[0, 5, 0]", "[0, 5]").replace("[space]", "x = 1\n[space]")
+    )
+    wrong = write(
+        goal("stay", seconds=-1),
+        goal("fly"),
+        goal("never_pass"),
+        goal("attempts", at_most=0),
+        goal("reach", whole_tip="yes"),
+        "[[goal]]\nseconds = 3\n",
+        head=head,
+    )
+    found = problems(wrong)
+    assert found["title"] == "is missing"
+    assert found["titel"] == found["start.x"] == "unknown key"
+    assert "at least 3 items" in found["start.position_mm"]
+    assert "greater than 0" in found["goal[0].seconds"]
+    assert found["goal[1].kind"].startswith("must be one of reach, stay, never_pass, stop_after_pop")
+    assert found["goal[5].kind"] == found["goal[1].kind"]
+    assert found["goal[2].membrane"] == "is missing"
+    assert "greater than or equal to 1" in found["goal[3].at_most"]
+    assert "boolean" in found["goal[4].whole_tip"]
+
+
+def test_what_does_not_fit_the_scene_is_told_at_once(write):
+    head = HEAD.replace("front vein wall", "vein").replace("[space]", "angle_deg = 30\nheading = [0, 3, 0]\n[space]")
+    found = problems(write(goal("never_pass", membrane="dura"), goal("time_limit", seconds=3), head=head))
+    assert found["space.behind"] == "must be one of the scene's membranes: skin, front vein wall, back vein wall"
+    assert found["goal[0].membrane"] == found["space.behind"]
+    assert found["goal"].startswith("one at least must be of kind reach or stay")
+    assert found["start.heading"] == "must not be parallel to the first membrane's normal"
+
+
+def test_a_space_between_a_membrane_and_itself_is_none(write):
+    head = HEAD.replace("back vein wall", "front vein wall")
+    assert "another membrane" in problems(write(goal("reach"), head=head))["space.in_front_of"]
+
+
+def test_a_scene_that_is_not_there_or_is_wrong_is_told(write, tmp_path):
+    assert "no such file" in problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
+    (tmp_path / "mine.toml").write_text("name = 'x'\n")
+    told = problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
+    assert "needle" in told and "membrane" in told
+
+
+def test_a_scene_may_lie_beside_the_exercise(write, tmp_path):
+    save_scene(exercises()[1].scene, tmp_path / "mine.toml")
+    exercise = load_exercise(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))
+    assert exercise.scene == exercises()[1].scene
+    assert exercise.scene_name == os.fspath(tmp_path / "mine.toml")
+
+
+def test_files_that_are_none_are_told(tmp_path):
+    with pytest.raises(ConfigurationError, match="ready exercises: epidural, venipuncture"):
+        load_exercise("lumbar")
+    with pytest.raises(ConfigurationError, match="no such file"):
+        load_exercise(tmp_path / "none.toml")
+    (tmp_path / "bad.toml").write_text("title = ")
+    with pytest.raises(ConfigurationError, match="is not TOML"):
+        load_exercise(tmp_path / "bad.toml")
+
+
+@pytest.mark.parametrize("text", ["goal = 3\n", "goal = [3]\n", "[goal]\nkind = 'reach'\n", "[[goal]]\nkind = 3\n"])
+def test_goals_that_are_no_tables_are_told(tmp_path, text):
+    (tmp_path / "odd.toml").write_text(text)
+    assert any(path.startswith("goal") for path in problems(tmp_path / "odd.toml"))
+
+
+def test_the_schema_names_every_kind_of_goal():
+    text = json.dumps(exercise_json_schema())
+    for kind in ("reach", "stay", "never_pass", "stop_after_pop", "time_limit", "peak_force", "attempts"):
+        assert f'"const": "{kind}"' in text
+    assert exercise_json_schema() != scene_json_schema()

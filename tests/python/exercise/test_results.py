@@ -1,0 +1,132 @@
+"""Kept results: found again, by person, and nothing outside their folder."""
+
+import csv
+import io
+import json
+import threading
+
+import pytest
+from attempts import hand_run, judged
+from punctura.exercise import ResultsError, ResultStore, load_exercise
+from punctura.exercise.results import COLUMNS, default_folder, to_csv, to_json
+
+
+@pytest.fixture(scope="module")
+def result():
+    legs = ((1.0, 0.0), (2.5, 20.0), (4.0, 27.8), (5.0, 27.8))
+    return judged(load_exercise("venipuncture"), hand_run("venipuncture", legs)).finish("Ada Lovelace", "run-1")
+
+
+def of(result, person, date="2026-01-01T10:00:00+00:00"):
+    return result.model_copy(update={"person": person, "date": date})
+
+
+def test_what_was_saved_is_loaded_again(tmp_path, result):
+    store = ResultStore(tmp_path / "results")
+    kept = store.save(of(result, "Ada Lovelace"))
+    assert kept.name.startswith("2026-01-01t10-00-00-venipuncture-ada-lovelace-")
+    assert store.load(kept.name) == kept
+    assert kept.model_copy(update={"name": ""}) == of(result, "Ada Lovelace")
+    assert [path.name for path in (tmp_path / "results").iterdir()] == [f"{kept.name}.json"]
+
+
+def test_nothing_is_overwritten(tmp_path, result):
+    store = ResultStore(tmp_path)
+    assert len({store.save(result).name for _ in range(20)}) == 20
+    assert len(store.all()) == 20
+
+
+def test_results_are_found_by_person_the_latest_first(tmp_path, result):
+    store = ResultStore(tmp_path)
+    for person, day in (("Ada", 1), ("Grace", 3), ("Ada", 2), ("", 4)):
+        store.save(of(result, person, f"2026-01-0{day}T10:00:00+00:00"))
+    assert [r.date[8:10] for r in store.all()] == ["04", "03", "02", "01"]
+    assert [r.date[8:10] for r in store.all("Ada")] == ["02", "01"]
+    assert store.all("Nobody") == []
+    assert store.people() == ["Ada", "Grace"]
+
+
+@pytest.mark.parametrize(
+    "person",
+    ["../../etc/passwd", "..", "/", "a\\b", "con", "  ", "\x00", "漢字", "Zoë Ö", "x" * 80, "a/../../b", "-rf"],
+)
+def test_a_persons_name_never_leads_out_of_the_folder(tmp_path, result, person):
+    folder = tmp_path / "deep" / "results"
+    kept = ResultStore(folder).save(of(result, person))
+    assert [path.parent for path in tmp_path.rglob("*.json")] == [folder]
+    assert ResultStore(folder).load(kept.name).person == person
+    assert ResultStore(folder).all(person)[0].name == kept.name
+
+
+@pytest.mark.parametrize(
+    "name", ["", "..", "../x", "x/../../y", "/etc/passwd", "a.json", "A", "a\x00", "a\n", "x" * 200, "C:x", "%2e%2e"]
+)
+def test_names_that_are_none_are_refused(tmp_path, name):
+    (tmp_path.parent / "x.json").write_text("{}")
+    store = ResultStore(tmp_path)
+    for what in (store.load, store.delete):
+        with pytest.raises(ResultsError):
+            what(name)
+
+
+def test_what_is_no_result_is_left_alone(tmp_path, result):
+    store = ResultStore(tmp_path)
+    kept = store.save(result)
+    (tmp_path / "other.json").write_text('{"a": 1}')
+    (tmp_path / "broken.json").write_bytes(b"\xff{")
+    (tmp_path / "notes.txt").write_text("mine")
+    (tmp_path / "folder.json").mkdir()
+    outside = tmp_path.parent / "outside.json"
+    outside.write_text(kept.model_dump_json())
+    (tmp_path / "link.json").symlink_to(outside)
+    assert [r.name for r in store.all()] == [kept.name]
+    for name in ("other", "broken", "folder", "link", "none"):
+        with pytest.raises(ResultsError):
+            store.load(name)
+    store.delete(kept.name)
+    assert store.all() == []
+    assert {path.name for path in tmp_path.iterdir()} >= {"other.json", "notes.txt", "link.json"}
+
+
+def test_a_folder_that_is_not_there_is_empty_and_stays_away(tmp_path):
+    store = ResultStore(tmp_path / "none")
+    assert (store.all(), store.people()) == ([], [])
+    assert not (tmp_path / "none").exists()
+
+
+def test_results_saved_at_the_same_time_are_all_kept(tmp_path, result):
+    store = ResultStore(tmp_path)
+    threads = [threading.Thread(target=lambda: [store.save(result) for _ in range(5)]) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(store.all()) == 20
+    assert not list(tmp_path.glob("*.part"))
+
+
+def test_the_table_has_one_row_a_result_in_units_for_people(tmp_path, result):
+    rows = list(csv.DictReader(io.StringIO(to_csv([of(result, "Ada"), of(result, "=cmd()")]))))
+    assert list(rows[0]) == list(COLUMNS)
+    assert (rows[0]["person"], rows[0]["passed"], rows[0]["attempts"]) == ("Ada", "yes", "1")
+    assert float(rows[0]["peak_force_N"]) == pytest.approx(result.metrics.peak_force, rel=1e-5)
+    assert float(rows[0]["entry_angle_deg"]) == pytest.approx(30, abs=0.01)
+    largest = max(one.distance for one in result.metrics.overshoot)
+    assert float(rows[0]["largest_overshoot_mm"]) == pytest.approx(largest * 1e3, rel=1e-5)
+    assert rows[1]["person"] == "'=cmd()"  # no formula for a spreadsheet
+
+
+def test_the_table_of_a_result_without_metrics_has_empty_cells(result):
+    nothing = result.metrics.model_copy(update={"straightness": None, "overshoot": [], "path_length": None})
+    row = next(csv.DictReader(io.StringIO(to_csv([result.model_copy(update={"metrics": nothing})]))))
+    assert (row["straightness"], row["largest_overshoot_mm"], row["path_length_mm"]) == ("", "", "")
+
+
+def test_the_json_is_a_list_of_whole_results(result):
+    assert json.loads(to_json([result, result])) == [json.loads(result.model_dump_json())] * 2
+    assert json.loads(to_json([])) == []
+
+
+def test_the_usual_folder_is_the_persons_own():
+    assert default_folder().name == "results"
+    assert "punctura" in str(default_folder())
