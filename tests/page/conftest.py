@@ -41,11 +41,11 @@ class Studio:
         return self.process.wait(20)
 
 
-def start_studio(folder: Path, *words: str, port: int = 0) -> Studio:
+def start_studio(folder: Path, *words: str, port: int = 0, token: str = "") -> Studio:
     """`punctura run`, once it has told its address."""
     command = [sys.executable, "-m", "punctura.cli", "run", *words, "--no-browser", "--device", "simulated"]
     command += ["--port", str(port), "--recordings", str(folder)]
-    environment = {**os.environ, "HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "MPLBACKEND": "agg"}
+    environment = {**os.environ, "HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, cwd=folder
     )
@@ -89,7 +89,7 @@ def page(browser: Browser, studio: Studio) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
     opened = context.new_page()
     opened.on("pageerror", lambda error: errors.append(str(error)))
-    opened.goto(studio.address)
+    opened.goto(studio.address, timeout=120_000)
     yield opened
     context.close()
     assert not errors, errors

@@ -1,6 +1,7 @@
 import { editorPanel } from "./controls/editor.ts";
 import { exercisesPanel } from "./controls/exercises.ts";
 import { faultBanner } from "./controls/fault_banner.ts";
+import { faultTrial } from "./controls/fault_trial.ts";
 import { handPanel } from "./controls/hand.ts";
 import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";
@@ -15,6 +16,14 @@ import { forceDepthPlot } from "./plots/force_depth.ts";
 import { timePlots } from "./plots/time.ts";
 import { view } from "./scene/view.ts";
 import type { App } from "./state/app.ts";
+
+/** Two panels, one below the other. */
+const both =
+  (above: Panel, below: Panel): Panel =>
+  (host, app) => {
+    above(host, app);
+    below(host, app);
+  };
 
 /** The page: header; the view and the phases to the left; plots in the middle; the tabs to the right. */
 export function layout(root: HTMLElement, app: App): void {
@@ -38,7 +47,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["scene", "Scene", editorPanel],
         ["recordings", "Recordings", recordingsPanel],
         ["exercises", "Exercises", exercisesPanel],
-        ["health", "Loop", healthPanel],
+        ["health", "Loop", both(healthPanel, faultTrial)],
       ]),
     ),
     place("player", "Recording that is looked at", playerBar),

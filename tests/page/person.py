@@ -1,0 +1,79 @@
+"""What a person does at the page, in words; every wait is for something to be seen, none for a time."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+PATIENCE = 120_000  # ms, on a machine without a graphics card
+
+
+def ready(page: Page) -> None:
+    """Past the tour, with force on."""
+    expect(page.get_by_text("Connected", exact=True)).to_be_visible(timeout=PATIENCE)
+    if page.get_by_role("button", name="Skip").count():
+        page.get_by_role("button", name="Skip").click()
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+
+
+def tab(page: Page, name: str) -> Locator:
+    page.get_by_role("tab", name=name).click()
+    return page.locator(".side")
+
+
+def view(page: Page) -> Locator:
+    return page.get_by_role("application", name="The needle and the membranes")
+
+
+def events(page: Page, what: str = "") -> Locator:
+    return page.locator(f".events-list .event{f'.{what}' if what else ''}")
+
+
+def drag_in(page: Page, pops: int, step: int = 4) -> None:
+    """Drags the needle in, until so many pops have been told."""
+    box = view(page).bounding_box()
+    assert box
+    x, y = box["x"] + box["width"] / 2, box["y"] + 0.2 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for _ in range(400):
+        y += step
+        page.mouse.move(x, y)
+        page.wait_for_timeout(40)  # the hand's own pace, not a wait for anything
+        if events(page, "pop").count() >= pops:
+            break
+    page.mouse.up()
+    expect(events(page, "pop")).to_have_count(pops, timeout=PATIENCE)
+
+
+def push(page: Page, key: str, times: int) -> None:
+    """Key after key with the picture in focus: ArrowDown goes in along the needle, ArrowUp comes out."""
+    view(page).focus()
+    for _ in range(times):
+        page.keyboard.press(key)
+        page.wait_for_timeout(25)
+
+
+def newton(words: str) -> float:
+    """The first force in a text."""
+    found = re.search(r"([-−]?\d+(?:\.\d+)?) ?N\b", words)
+    assert found, words
+    return float(found[1].replace("−", "-"))
+
+
+def saved(page: Page, act: Locator, folder: Path) -> Path:
+    """Clicks what saves a file, and gives the file."""
+    with page.expect_download(timeout=PATIENCE) as download:
+        act.click()
+    path = folder / download.value.suggested_filename
+    download.value.save_as(path)
+    return path
+
+
+def columns(path: Path) -> dict[str, list[float]]:
+    with path.open(newline="") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {name: [float(row[name] or "nan") for row in rows] for name in rows[0]}

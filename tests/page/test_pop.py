@@ -1,0 +1,42 @@
+"""A person drags the needle through a membrane and sees the pop."""
+
+import numpy as np
+import punctura as pn
+import pytest
+from person import columns, drag_in, events, newton, ready, saved
+from playwright.sync_api import expect
+
+
+def laws_drop(scene):
+    """What the law says that a straight push loses at the pop, N: its peak less the shaft's friction, K06 (18)."""
+    law = pn.ThickLaw(scene.needle, scene.membranes[0].membrane)
+    lower, _ = law.bounds(np.linspace(0, 20e-3, 200_001))
+    return -lower.min() + lower[-1]
+
+
+def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law(page, tmp_path):
+    ready(page)
+    drag_in(page, pops=1)
+    told = abs(newton(events(page, "pop").first.inner_text()))
+    expected = laws_drop(pn.load_scene("k06-fig10"))
+    assert told == pytest.approx(expected, rel=0.02)
+
+    panel = page.locator(".force-depth")
+    panel.get_by_text("Save").click()
+    plotted = columns(saved(page, panel.get_by_role("button", name="CSV"), tmp_path))
+    depth = next(v for k, v in plotted.items() if k.startswith("depth"))
+    force = np.abs(next(v for k, v in plotted.items() if k.startswith("force") and "other" not in k))
+    through = np.array(depth) > 6e-3
+    peak = force[~through & np.isfinite(force)].max()
+    assert peak - force[through].max() == pytest.approx(expected, rel=0.02)
+    ticks = plotted.get("tick")
+    if ticks:
+        assert np.diff(ticks).max() == 1, "every tick is in the plot"
+
+
+def test_the_phase_is_told_in_words(page):
+    ready(page)
+    expect(page.locator(".phases")).to_contain_text("outside")
+    drag_in(page, pops=1)
+    expect(page.locator(".phases")).to_contain_text("through")
+    expect(page.locator(".phases")).to_contain_text("sticking")

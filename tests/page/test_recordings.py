@@ -1,0 +1,35 @@
+"""Record, look again, export."""
+
+import numpy as np
+import pyarrow.parquet as parquet
+from person import PATIENCE, drag_in, events, ready, saved, tab
+from playwright.sync_api import expect
+from punctura.record import replay
+
+
+def test_a_run_is_recorded_looked_at_again_and_exported(page, tmp_path):
+    ready(page)
+    tab(page, "Recordings")
+    page.get_by_role("textbox", name="Name of the recording").fill("first try")
+    page.get_by_role("button", name="Record", exact=True).click()
+    expect(page.locator(".record-line")).to_contain_text("0 lost", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    drag_in(page, pops=1)
+    drop = events(page, "pop").first.inner_text()
+    page.get_by_role("button", name="Stop", exact=True).click()
+
+    entry = page.locator(".recording", has_text="first try")
+    file = saved(page, entry.get_by_role("button", name="parquet"), tmp_path)
+    ticks = parquet.read_table(file).column("tick").to_numpy()
+    assert (np.diff(ticks) == 1).all()
+    again = replay(file)
+    assert again.identical and again.complete
+
+    entry.get_by_role("button", name="Look").click()
+    bar = page.get_by_role("group", name="Replay")
+    expect(bar).to_be_visible(timeout=PATIENCE)
+    expect(page.locator("body")).to_contain_text("Looking at")
+    bar.get_by_role("button", name="To the next event").click()
+    assert events(page, "pop").first.inner_text().split("s", 1)[1] == drop.split("s", 1)[1]
+    page.get_by_role("button", name="Back to live").first.click()
+    expect(page.get_by_role("group", name="Replay")).to_have_count(0)
