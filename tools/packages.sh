@@ -6,6 +6,7 @@ has_compiler() {
     $1 -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1
 }
 has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
+has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
 has_siconos() { /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null; }
 
 # find_missing KIND: fills missing with Debian's names, and needs with words for people on other systems.
@@ -21,6 +22,7 @@ find_missing() {
   case $lacking in *venv*) lack "$prefix-venv" "the modules venv and ensurepip of $python" ;; esac
   [ "$1" = test ] || return 0
   has_compiler clang++ || lack clang "clang++, for the second opinion on warnings"
+  has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
   # An independent solver that the clamp is compared with, for the system's Python. Only some releases of Debian have it;
   # elsewhere its one test is left out, which ./test says, and SciPy's solver remains.

@@ -1,6 +1,6 @@
 # The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
 
-all_steps="tree format types web cpp clang asan tsan consumer examples python"
+all_steps="tree format types web cpp clang asan tsan consumer examples python page"
 fast_steps="tree format types web cpp python"
 
 choose_steps() {
@@ -136,6 +136,9 @@ step_web() {
   npm test || code=1
   return $code
 }
+
+# The studio in a real browser, as a person uses it.
+step_page() { python -m pytest tests/page; }
 
 # Every example runs, in a folder of its own.
 step_examples() {

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, Playwright, sync_playwright
 
 FLAGS = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -45,7 +45,12 @@ def start_studio(folder: Path, *words: str, port: int = 0, token: str = "") -> S
     """`punctura run`, once it has told its address."""
     command = [sys.executable, "-m", "punctura.cli", "run", *words, "--no-browser", "--device", "simulated"]
     command += ["--port", str(port), "--recordings", str(folder)]
-    environment = {**os.environ, "HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
+    environment = {
+        **os.environ,
+        "HOME": str(folder),
+        "XDG_DATA_HOME": str(folder / "data"),
+        "PUNCTURA_STUDIO_TOKEN": token,
+    }
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, cwd=folder
     )
@@ -72,12 +77,17 @@ def studio(tmp_path: Path) -> Iterator[Studio]:
     running.end()
 
 
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def launch(playwright: Playwright) -> Browser:
+    """The system's Chromium, without a window and without a graphics card."""
     found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     assert found, "Chromium is missing: apt-get install chromium"
+    return playwright.chromium.launch(executable_path=found, args=FLAGS)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
     with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=found, args=FLAGS)
+        launched = launch(playwright)
         yield launched
         launched.close()
 

@@ -58,10 +58,10 @@ def push(page: Page, key: str, times: int) -> None:
 
 
 def newton(words: str) -> float:
-    """The first force in a text."""
-    found = re.search(r"([-−]?\d+(?:\.\d+)?) ?N\b", words)
+    """The first force in a text, without its sign."""
+    found = re.search(r"(\d+(?:\.\d+)?) ?N\b", words)
     assert found, words
-    return float(found[1].replace("−", "-"))
+    return float(found[1])
 
 
 def saved(page: Page, act: Locator, folder: Path) -> Path:

@@ -15,8 +15,11 @@ def test_a_changed_parameter_changes_the_law_and_the_force_stays_on(page):
     stiffness = page.get_by_role("textbox", name="Stiffness").first
     stiffness.fill("1.4")
     stiffness.press("Enter")
-    page.wait_for_function("before => [...document.querySelectorAll('.side svg path')]"
-                           ".map(p => p.getAttribute('d')).join() !== before", arg=before, timeout=PATIENCE)
+    page.wait_for_function(
+        "before => [...document.querySelectorAll('.side svg path')].map(p => p.getAttribute('d')).join() !== before",
+        arg=before,
+        timeout=PATIENCE,
+    )
     expect(page.locator(".header")).to_contain_text("Force on")
 
 

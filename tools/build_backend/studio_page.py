@@ -1,7 +1,7 @@
 """Builds the studio's page, web/ -> python/punctura/studio/page, when its sources are not those that it was built from.
 
-As a program: builds it; with --modules only brings web/node_modules, with --requires prints what pip must bring first, for
-those who build without isolation.
+As a program: builds it; with --modules only brings web/node_modules, with --requires prints what pip must bring first,
+for those who build without isolation.
 """
 
 from __future__ import annotations

@@ -1,0 +1,135 @@
+"""Pictures of the studio in every state, docs/images/studio-*.png, taken in Chromium as the end-to-end tests use it.
+
+    python tools/screenshots.py [--out FOLDER]
+
+Laptop (1440 x 900) and tablet (900 x 1200), light and dark. Look at them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "page"))
+
+from conftest import launch, start_studio  # noqa: E402
+from person import PATIENCE, drag_in, push, ready, tab  # noqa: E402
+
+LAPTOP, TABLET = (1440, 900), (900, 1200)
+
+
+def tour(page: Page) -> None:
+    expect(page.get_by_role("dialog")).to_be_visible(timeout=PATIENCE)
+
+
+def popped(page: Page) -> None:
+    ready(page)
+    drag_in(page, pops=1)
+
+
+def editor(page: Page) -> None:
+    popped(page)
+    tab(page, "Scene")
+    page.get_by_text("draw the other solver").click()
+
+
+def wrong_value(page: Page) -> None:
+    ready(page)
+    tab(page, "Scene")
+    friction = page.get_by_role("textbox", name="Friction").first
+    friction.fill("3.6")
+    friction.press("Enter")
+    expect(friction).to_have_attribute("aria-invalid", "true", timeout=PATIENCE)
+
+
+def fault(page: Page) -> None:
+    ready(page)
+    tab(page, "Loop")
+    page.get_by_role("button", name="Try a fault").click()
+    expect(page.locator(".fault")).to_contain_text("no force", timeout=PATIENCE)
+
+
+def replay(page: Page) -> None:
+    ready(page)
+    tab(page, "Recordings")
+    page.get_by_role("button", name="Record", exact=True).click()
+    expect(page.locator(".record-line")).to_contain_text("0 lost", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    drag_in(page, pops=1)
+    page.get_by_role("button", name="Stop", exact=True).click()
+    page.locator(".recording").first.get_by_role("button", name="Look").click()
+    bar = page.get_by_role("group", name="Replay")
+    expect(bar).to_be_visible(timeout=PATIENCE)
+    for _ in range(2):
+        bar.get_by_role("button", name="To the next event").click()
+
+
+def exercise(page: Page) -> None:
+    ready(page)
+    tab(page, "Exercises")
+    page.locator("article.exercise", has_text="Venipuncture").get_by_role("button", name="Start").click()
+    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    for _ in range(100):
+        push(page, "ArrowDown", 5)
+        if page.get_by_role("dialog").count():
+            break
+    expect(page.get_by_role("dialog")).to_contain_text("Peak force", timeout=PATIENCE)
+
+
+# name, scene, what is done, size, colours
+STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...] = (
+    ("tour", "k06-fig10", tour, LAPTOP, "light"),
+    ("pop", "k06-fig10", popped, LAPTOP, "light"),
+    ("pop-dark", "k06-fig10", popped, LAPTOP, "dark"),
+    ("vein", "venipuncture", popped, LAPTOP, "light"),
+    ("editor", "k06-fig10", editor, LAPTOP, "light"),
+    ("error", "k06-fig10", wrong_value, LAPTOP, "light"),
+    ("fault", "k06-fig10", fault, LAPTOP, "dark"),
+    ("replay", "k06-fig12", replay, LAPTOP, "light"),
+    ("result", "venipuncture", exercise, LAPTOP, "light"),
+    ("tablet", "venipuncture", popped, TABLET, "light"),
+    ("tablet-dark", "epidural", popped, TABLET, "dark"),
+)
+
+
+def take(browser: Browser, out: Path, wanted: list[str]) -> None:
+    for name, scene, act, (width, height), colours in STATES:
+        if wanted and name not in wanted:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            studio = start_studio(Path(folder), scene)
+            context = browser.new_context(
+                viewport={"width": width, "height": height}, color_scheme=colours, reduced_motion="reduce"
+            )
+            page = context.new_page()
+            page.goto(studio.address, timeout=PATIENCE)
+            act(page)
+            page.wait_for_timeout(1500)  # for plots and view to have drawn
+            page.screenshot(path=out / f"studio-{name}.png", full_page=width < 1080)
+            context.close()
+            studio.end()
+        print(out / f"studio-{name}.png", flush=True)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "images")
+    parser.add_argument("names", nargs="*", help="some of: " + " ".join(state[0] for state in STATES))
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
+        take(browser, arguments.out, arguments.names)
+        browser.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
