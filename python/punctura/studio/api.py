@@ -52,6 +52,7 @@ class Api:
             Route(one + "/download", _told(self.download)),
             Route("/api/exercises", _told(self.exercises)),
             Route("/api/results", _told(self.results)),
+            Route("/api/results/download", _told(self.download_results)),  # before NAME: no result has this name
             Route("/api/results/{name}", _told(self.result), methods=["GET"]),
             Route("/api/results/{name}", _told(self.delete_result), methods=["DELETE"]),
             Route("/api/results/{name}/download", _told(self.download_result)),
@@ -117,13 +118,19 @@ class Api:
         return Response(status_code=204)
 
     def download_result(self, request: Request) -> Response:
+        result = self._results.load(_name(request))
+        return self._written([result], result.name, request)
+
+    def download_results(self, request: Request) -> Response:
+        return self._written(self._results.all(request.query_params.get("person")), "results", request)
+
+    def _written(self, results: list[Result], name: str, request: Request) -> Response:
         kind = request.query_params.get("format", "json")
         if kind not in RESULT_FORMATS:
             return _sentence(400, f"There is {', '.join(RESULT_FORMATS)}.")
-        result = self._results.load(_name(request))
         media, write = RESULT_FORMATS[kind]
-        headers = {"content-disposition": f'attachment; filename="{result.name}.{kind}"'}
-        return Response(write([result]), media_type=media, headers=headers)
+        headers = {"content-disposition": f'attachment; filename="{name}.{kind}"'}
+        return Response(write(results), media_type=media, headers=headers)
 
 
 def _name(request: Request) -> str:
