@@ -4,6 +4,7 @@ import { controlLine } from "./control_line.ts";
 import { scenePicker } from "./scene_picker.ts";
 import { stateButton } from "./state_button.ts";
 import { themeSwitch } from "./theme_switch.ts";
+import { startTour } from "./tour.ts";
 
 /** What runs, on what, whether with force, and who holds it. */
 export const headerBar: Panel = (host, app) => {
@@ -29,6 +30,11 @@ export const headerBar: Panel = (host, app) => {
     element("span", { class: "gap" }),
     controlLine(app),
     connectionLine(app),
+    element(
+      "button",
+      { type: "button", class: "quiet-button", title: "Four steps through the page", onclick: startTour },
+      "Tour",
+    ),
     themeSwitch(),
   );
 };
