@@ -70,7 +70,12 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     sceneTools(app, draft, (lines) => told.show(lines.map((text) => ({ text })))),
   );
   host.append(
-    element("div", { class: "editor-top" }, blockLine(app, "Changes take effect at once, also inside tissue."), tools),
+    element(
+      "div",
+      { class: "editor-top" },
+      blockLine(app, "Changes take effect at once, also inside tissue.", "scene"),
+      tools,
+    ),
     told.root,
     element(
       "div",
@@ -85,10 +90,14 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     figuresLink(app),
   );
 
-  watchBlock(app, (block) => {
-    fields.disabled = block !== null;
-    tools.disabled = block !== null;
-  });
+  watchBlock(
+    app,
+    (block) => {
+      fields.disabled = block !== null;
+      tools.disabled = block !== null;
+    },
+    "scene",
+  );
   draft.tables.watch((tables) => {
     list.show(tables);
     showAll(top.inputs, tables);

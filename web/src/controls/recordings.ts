@@ -10,7 +10,7 @@ export const recordingsPanel: Panel = (host, app) => {
   const list = element("ul", { class: "recordings-list" });
   const note = element("p", { class: "quiet pad" }, "The list comes with the connection.");
   host.append(
-    element("div", { class: "editor-top" }, blockLine(app, "Every tick is kept."), recordControl(app)),
+    element("div", { class: "editor-top" }, blockLine(app, "Every tick is kept.", "scene"), recordControl(app)),
     list,
     note,
   );

@@ -1,6 +1,6 @@
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
-import { watchBlock } from "../blocked.ts";
+import { blockOf, watchBlock } from "../blocked.ts";
 import { countText } from "./words.ts";
 
 /** Record and stop, and how it goes meanwhile. */
@@ -29,7 +29,7 @@ export function recordControl(app: App): HTMLElement {
     const reply = await app.ask(
       recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) },
     );
-    button.disabled = app.control.value.you === false;
+    button.disabled = blockOf(app, "scene") !== null;
     if (reply && !reply.ok) {
       error.textContent = reply.text || "It was refused.";
       if (!recording) name.setAttribute("aria-invalid", "true");
@@ -52,9 +52,13 @@ export function recordControl(app: App): HTMLElement {
     current.hidden = now === null;
     current.textContent = now ? now.name : "";
   });
-  watchBlock(app, (block) => {
-    button.disabled = block !== null;
-    name.disabled = block !== null;
-  });
+  watchBlock(
+    app,
+    (block) => {
+      button.disabled = block !== null;
+      name.disabled = block !== null;
+    },
+    "scene",
+  );
   return element("div", { class: "record-part" }, form, line, error);
 }
