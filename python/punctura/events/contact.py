@@ -95,7 +95,8 @@ class Contact:
             self._strongest = float(np.fmax(self._strongest, np.fmax.reduce(resistance[at:last])))
             if hit is not None:
                 self._ready = False
-                yield Happening(last - 1, "pop", self._strongest, float(friction[last - 1]))
+                after = float(friction[last - 1])
+                yield Happening(last - 1, "pop", self._strongest, after if np.isfinite(after) else self.crossing.shaft)
             at = last
 
 

@@ -19,6 +19,7 @@ class Crossing(NamedTuple):
     peak: float  # the resistance is largest: where Phi_I is
     through: float  # the slanted face is out behind, too; from here on only the shaft rubs: X + U
     again: float  # a tip that has come back to here can pop again
+    shaft: float  # N, of the shaft alone: F / n.b
 
 
 def crossing(scene: Scene, membrane: int, cos_beta: float) -> Crossing:
@@ -31,4 +32,4 @@ def crossing(scene: Scene, membrane: int, cos_beta: float) -> Crossing:
     law = ThickLaw(scene.needle, scene.membranes[membrane].membrane, math.acos(cos_beta))
     still = min(law.U, law.X) - law.X - law.Q + law.F / law.A_I
     peak = max(law.U, law.X) + max(0.0, still)
-    return Crossing(cos_beta, law.U, peak, law.X + law.U, peak - BACK * law.X)
+    return Crossing(cos_beta, law.U, peak, law.X + law.U, peak - BACK * law.X, law.F / cos_beta)

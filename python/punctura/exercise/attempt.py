@@ -82,19 +82,40 @@ class Attempt:
                 if all(when.tick <= other.tick for other in failures):
                     self._spoilt = _spoilt(why, int(ticks.fault[int(flags.argmax())]))
                 failures.append(when)
-        wanted = [judge.met for judge in self._judges if judge.achievement]
-        success = None if any(met is None for met in wanted) else max(cast(list[Moment], wanted))
+        success = self._success(ticks)
         failure = min(failures, default=None)
         self._decision = min((one for one in (failure, success) if one is not None), default=None)
         self._passed = success is not None and (failure is None or success.tick < failure.tick)
         if self._passed:
             self._spoilt = ""
 
+    def _success(self, ticks: Ticks) -> Moment | None:
+        """The first tick at which all is achieved and no tip is still on its way from a pop."""
+        done = self._done()
+        if done is None:
+            return None
+        good = ticks.tick >= done.tick
+        for judge in self._judges:
+            if judge.busy is not None:
+                good &= ~judge.busy
+        return moment(ticks, int(good.argmax())) if good.any() else None
+
+    def _done(self) -> Moment | None:
+        wanted = [judge.met for judge in self._judges if judge.achievement]
+        return None if any(met is None for met in wanted) else max(cast(list[Moment], wanted))
+
+    @property
+    def passed(self) -> bool:
+        """Everything was achieved, no limit broken; before the decision: as it stands."""
+        if self._decision is not None:
+            return self._passed
+        return self._done() is not None
+
     @property
     def goals(self) -> list[GoalState]:
         """All goals as they stand."""
         states = [judge.state(self._decision) for judge in self._judges]
-        if self.over and self._passed:
+        if self.passed:
             states = ["met"] * len(states)
         return [GoalState(text=j.text, state=cast(Any, s)) for j, s in zip(self._judges, states, strict=True)]
 
@@ -122,7 +143,7 @@ class Attempt:
         first = self.scene.membranes[0].name
         if self._spoilt:
             return [self._spoilt]
-        if self._decision is not None and self._passed:
+        if self.passed:
             return words.passed(self._judges, self._measures, self._space, first)
         if self._decision is not None:
             now = [judge for judge in self._judges if judge.state(self._decision) == "missed"]
@@ -141,7 +162,7 @@ class Attempt:
             recording=recording,
             date=when.isoformat(timespec="seconds"),
             version=version("punctura"),
-            passed=self.over and self._passed,
+            passed=self.passed,
             reasons=self._reasons(),
             goals=self.goals,
             metrics=self._measures.metrics(),

@@ -41,6 +41,7 @@ class Judge:
         self.text = text
         self.met: Moment | None = None
         self.missed: Moment | None = None
+        self.busy: Flags | None = None  # the ticks of the batch in which something is still to be seen
 
     def add(self, ticks: Ticks, events: list[Event]) -> None:
         raise NotImplementedError
@@ -124,14 +125,15 @@ class StopJudge(Judge):
         pops = [event for event in events if event.what == "pop" and event.membrane == self._index]
         cuts = np.searchsorted(ticks.tick, [event.tick for event in pops]).tolist()
         edges = [0, *cuts, len(ticks)]
+        self.busy = np.zeros(len(ticks), dtype=np.bool_)
         for k, (start, end) in enumerate(itertools.pairwise(edges)):
             if k:
                 self._until = pops[k - 1].time + self._seconds
             part = ticks.part(slice(start, end))
             past = part.run_on[:, self._index] > self.within
             self._miss(part, past & (part.time <= self._until))
-            over = (part.time > self._until) & np.isfinite(self._until)
-            self._meet(part, over)
+            self.busy[start:end] = part.time <= self._until
+            self._meet(part, (part.time > self._until) & np.isfinite(self._until))
 
 
 class TimeJudge(Judge):

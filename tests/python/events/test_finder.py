@@ -131,6 +131,12 @@ def test_ticks_without_numbers_are_passed_over():
     events = found(STILL, torn)
     assert brief(events) == brief(whole)
     assert [event.tick for event in events] == [event.tick for event in whole]
+    blind = {**torn, "lower": np.full_like(columns["lower"], np.nan)}
+    blind["axial_force"] = np.where(
+        np.isin(columns["tick"], [e.tick for e in whole])[:, None], np.nan, torn["axial_force"]
+    )
+    pops = [event for event in found(STILL, blind) if event.what == "pop"]
+    assert [event.force_after for event in pops] == pytest.approx([0.41024, 0.41024])
     nothing = {**torn, "depth": np.full_like(columns["depth"], np.nan)}
     assert found(STILL, nothing) == []
 

@@ -1,0 +1,80 @@
+"""A person with a mouse: sees, takes their time to react, and leads the simulated hand by a target."""
+
+import numpy as np
+import punctura as pn
+import pytest
+from attempts import HERTZ, as_a_device_runs_it
+from punctura.exercise import Attempt, load_exercise
+from runs import of_trace, unit
+
+
+class Person:
+    """Goes fast until the cue, then slowly until the pop; draws back while the needle presses on the wall behind."""
+
+    def __init__(self, fast, slow, reaction, seed=0, draws_back=True):
+        """Speeds in m/s, the reaction in s."""
+        self.fast, self.slow, self.reaction, self.seed, self.draws_back = fast, slow, reaction, seed, draws_back
+
+    def tries(self, name, cue, pop, seconds=40):
+        """cue: of an attempt, whether it is to be seen. pop: the membrane at whose pop to stop."""
+        exercise = load_exercise(name)
+        scene = as_a_device_runs_it(exercise.scene)
+        axis, start = np.asarray(exercise.start_axis), np.asarray(exercise.start_position)
+        device = pn.Experiment(scene, pn.Target(start), seed=self.seed, axis=axis)
+        attempt, way, ticks, seen = Attempt(exercise, scene), 0.0, 0, []
+        while ticks < seconds * scene.servo.rate and not attempt.over:
+            way += self._speed(seen) / HERTZ
+            device.move_to(start + way * axis)
+            trace = device.run(1 / HERTZ)
+            n = len(trace.time)
+            columns = of_trace(trace) | {
+                "tick": np.arange(ticks, ticks + n),
+                "time": trace.time,
+                "tip": trace.position,
+                "model_force": trace.model_force,
+                "axis": np.tile(unit(axis), (n, 1)),
+            }
+            ticks += n
+            attempt.add(columns)
+            result = attempt.finish()
+            popped = any(e.what == "pop" and e.name == pop for e in result.events)
+            seen.append((cue(result), popped, "press against" in attempt.status.instruction))
+        return attempt.finish()
+
+    def _speed(self, seen):
+        late = max(1, round(self.reaction * HERTZ))
+        cue, popped, pressing = seen[-late] if len(seen) >= late else (False, False, False)
+        if popped:
+            return -2e-3 if pressing and self.draws_back else 0.0
+        return self.slow if cue else self.fast
+
+
+def in_the_vein(result):
+    return result.metrics.time_to_target is not None
+
+
+def at_the_flavum(result):
+    return any(event.name == "ligamentum flavum" for event in result.events)
+
+
+@pytest.mark.parametrize("reaction", [0.2, 0.3])
+@pytest.mark.parametrize("slow", [2e-3, 4e-3, 6e-3])
+@pytest.mark.parametrize("fast", [8e-3, 15e-3])
+def test_who_slows_down_at_the_flash_back_passes_venipuncture(fast, slow, reaction):
+    result = Person(fast, slow, reaction).tries("venipuncture", in_the_vein, "front vein wall")
+    assert result.passed, result.reasons
+
+
+@pytest.mark.parametrize("reaction", [0.2, 0.3])
+@pytest.mark.parametrize("slow", [2e-3, 4e-3])
+def test_who_slows_down_at_the_flavum_passes_epidural(slow, reaction):
+    result = Person(12e-3, slow, reaction).tries("epidural", at_the_flavum, "ligamentum flavum")
+    assert result.passed, result.reasons
+
+
+def test_who_does_not_slow_down_fails_both():
+    hasty = Person(15e-3, 15e-3, 0.25, draws_back=False)
+    result = hasty.tries("venipuncture", in_the_vein, "front vein wall")
+    assert "You went through the back vein wall" in result.reasons[0]
+    result = hasty.tries("epidural", at_the_flavum, "ligamentum flavum")
+    assert "You ran more than 2.5 mm past the ligamentum flavum" in result.reasons[0]
