@@ -1,0 +1,20 @@
+"""The soak and the fuzz of the studio, for a few seconds each."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TOOLS = Path(__file__).parents[2] / "tools"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="ends the studio by a signal")
+@pytest.mark.parametrize("tool", ["soak_studio.py", "fuzz_studio.py"])
+def test_a_short_run_passes(tool):
+    done = subprocess.run(
+        [sys.executable, str(TOOLS / tool), "--minutes", "0.1"], capture_output=True, text=True, timeout=180
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "passed" in done.stdout

@@ -1,0 +1,176 @@
+"""Throws random frames, requests and HTTP at a studio for minutes, while a page watches and a recording runs.
+
+    python tools/fuzz_studio.py --minutes 10 --seed 1
+
+Passes if the studio does not end, says no traceback, its memory stays within 5 %, and no tick is lost.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import random
+import socket
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+from punctura.record import open_recording
+from punctura.studio.client import StudioClient
+from studio_process import Memory, StudioProcess
+from websockets.frames import Opcode
+from websockets.sync.client import connect
+
+MOST_GROWTH = 0.05
+CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
+PATHS = ("/", "/ws", "/api/recordings", "/api/recordings/fuzz/ticks", "/api/scene.toml", "/assets/", "/api/results/x")
+
+
+class Fuzzer(threading.Thread):
+    """Opens connection after connection, and sends what it likes; it never has control."""
+
+    def __init__(self, url: str, page: StudioClient, seed: int) -> None:
+        super().__init__(daemon=True)
+        self._random = random.Random(seed)
+        self._host, self._token = page.host, page.token
+        self._requests = json.loads(CONTRACT.read_text(encoding="utf-8"))
+        self.ends: Counter[str] = Counter()  # how connections ended
+        self.sent = 0
+        self.stop = False
+
+    def run(self) -> None:
+        while not self.stop:
+            attack = self._random.choice((self._messages, self._messages, self._raw_frames, self._http))
+            with contextlib.suppress(Exception):  # being thrown out is what it is here for
+                attack()
+
+    def _messages(self) -> None:
+        with self._socket() as opened:
+            for _ in range(self._random.randint(1, 60)):
+                if self.stop:
+                    return
+                opened.send(self._message())
+                self.sent += 1
+                if self._random.random() < 0.1:
+                    with contextlib.suppress(TimeoutError):
+                        opened.recv(timeout=0.01)
+        self.ends[str(opened.close_code)] += 1
+
+    def _raw_frames(self) -> None:
+        """Bytes below the messages: wrong opcodes, lengths that lie, frames without a mask."""
+        with self._socket() as opened:
+            for _ in range(self._random.randint(1, 5)):
+                if self._random.random() < 0.5:
+                    opened.socket.sendall(self._random.randbytes(self._random.randint(1, 300)))
+                else:
+                    head = bytes([0x80 | self._random.choice(list(Opcode)), self._random.randint(0, 255)])
+                    opened.socket.sendall(head + self._random.randbytes(self._random.randint(0, 200)))
+                self.sent += 1
+        self.ends["raw"] += 1
+
+    def _http(self) -> None:
+        method = self._random.choice(("GET", "POST", "DELETE", "PUT", "G\0T", "OPTIONS"))
+        path = self._random.choice(PATHS) + self._random.choice(
+            ("", "?token=" + self._token, "?token=%ff", "?" + "a&" * 500)
+        )
+        length = self._random.randint(-1, 10**6)
+        head = f"{method} {path} HTTP/1.1\r\nHost: {self._host}\r\nContent-Length: {length}\r\n\r\n"
+        data = bytearray(head.encode())
+        if self._random.random() < 0.5:
+            for _ in range(self._random.randint(1, 8)):
+                data[self._random.randrange(len(data))] = self._random.randrange(256)
+        host, _, port = self._host.rpartition(":")
+        with socket.create_connection((host, int(port)), 5) as raw:
+            raw.settimeout(0.2)
+            raw.sendall(bytes(data))
+            self.sent += 1
+            answer = raw.recv(64)
+        self.ends[answer[9:12].decode("latin-1") or "nothing"] += 1
+
+    def _message(self) -> str | bytes:
+        kind = self._random.random()
+        if kind < 0.1:
+            return self._random.randbytes(self._random.randint(0, 2000))
+        if kind < 0.15:
+            return "".join(chr(self._random.randrange(1, 0xD7FF)) for _ in range(self._random.randint(0, 500)))
+        pool = self._requests["requests"] + self._requests["refused"]
+        request = json.loads(json.dumps(self._random.choice(pool)))
+        text = json.dumps(self._mutated(request) if kind < 0.6 else request)
+        if kind > 0.9:
+            at = self._random.randrange(len(text))
+            text = text[:at] + self._random.choice(('"', "{", "[", "9" * 400, "NaN", "\\u0000", "")) + text[at + 1 :]
+        return text if '"take_control"' not in text else "{}"
+
+    def _mutated(self, value: Any) -> Any:
+        if self._random.random() < 0.15:
+            return self._random.choice(
+                (None, True, -1, 1e308, "", "x" * 5000, [], {}, [[[[]]]], {"a": {"b": None}}, 2**70)
+            )
+        if isinstance(value, dict):
+            return {key: self._mutated(entry) for key, entry in value.items() if self._random.random() > 0.03}
+        return [self._mutated(entry) for entry in value] if isinstance(value, list) else value
+
+    def _socket(self) -> Any:
+        return connect(
+            f"ws://{self._host}/ws",
+            origin=f"http://{self._host}",
+            subprotocols=["punctura.v1", f"token.{self._token}"],
+            compression=None,
+            open_timeout=5,
+            close_timeout=0.2,
+            proxy=None,
+        )
+
+
+def fuzz(seconds: float, seed: int, folder: Path) -> int:
+    memory = Memory(seconds, warm=0.2)
+    with StudioProcess(folder) as studio:
+        page = StudioClient(studio.url)
+        page.wait(lambda: page.last)
+        good = page.ask(do="start_recording", name="fuzz")["ok"]
+        page.ask(do="strokes", period=2.0)
+        fuzzers = [Fuzzer(studio.url, page, seed + i) for i in range(2)]
+        for fuzzer in fuzzers:
+            fuzzer.start()
+        began = time.monotonic()
+        while time.monotonic() - began < seconds and studio.running and page.closed is None:
+            time.sleep(0.2)
+            memory.add(studio.memory_mb())
+            del page.messages[:-100]
+        for fuzzer in fuzzers:
+            fuzzer.stop = True
+        for fuzzer in fuzzers:
+            fuzzer.join(30)
+        status = page.status()
+        good = good and page.ask(do="stop_recording")["ok"]
+        page.close()
+        code = studio.end()
+        recording = open_recording(folder / "recordings" / "fuzz.parquet")
+        said = studio.said()
+    ends: Counter[str] = sum((fuzzer.ends for fuzzer in fuzzers), Counter())
+    print(f"{sum(f.sent for f in fuzzers)} sent, seed {seed}; ends: {dict(ends.most_common())}")
+    print(f"{recording.rows} ticks recorded, {recording.lost} lost; page: {page.gaps} gaps, {status['lost']} not shown")
+    growth = memory.growth()
+    print(f"memory {memory.samples[-1] if memory.samples else 0:.1f} MB, grown by {growth:+.1%}; ended with {code}")
+    good = good and code == 130 and not growth > MOST_GROWTH and recording.lost == page.gaps == status["lost"] == 0
+    good = good and "Traceback" not in said and sum(ends.values()) > 0
+    print("passed" if good else f"FAILED {said[-3000:]}")
+    return 0 if good else 1
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--minutes", type=float, default=10.0)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        return fuzz(60 * options.minutes, options.seed, Path(folder))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
