@@ -21,6 +21,7 @@ from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.hub import Hub
 from punctura.studio.limits import MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
+from punctura.studio.quiet import quiet_server
 from punctura.studio.run import Settings
 from punctura.studio.session import Session
 from punctura.studio.shelf import Shelf, default_folder
@@ -90,6 +91,7 @@ class StudioServer:
 
     def start(self) -> None:
         """Returns when the page can be asked for, and ticks come."""
+        quiet_server()
         self._thread.start()
         while not self._server.started:
             if not self._thread.is_alive():
