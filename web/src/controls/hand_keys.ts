@@ -11,7 +11,7 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
   ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
   ["Q E", "tilt by 2°"],
-  ["Home", "back in front of the first membrane"],
+  ["Home", "in front of the first membrane, aiming at the middle"],
   ["+ −", "nearer, farther"],
   ["A D W S", "go round the scene"],
 ];

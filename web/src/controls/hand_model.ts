@@ -1,6 +1,7 @@
 import type { Triple } from "../engine/engine.ts";
 import type { App } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
+import { aiming, heightOver } from "./aim.ts";
 import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
 
 const FARTHEST = 0.25; // m from the scene's origin: nobody means more
@@ -104,16 +105,21 @@ export class Hand {
     const now = this.pose();
     return now ? tiltOf(now.axis, this.normal()) : 0;
   }
+  /** In tissue the needle turns about its tip; in front of it so that it aims at the middle of the scene, as far from the skin as before. */
   setTilt(angle: number): void {
     const now = this.pose();
-    if (now) this.moveTo(now.position, tilted(Math.max(-STEEPEST, Math.min(STEEPEST, angle)), this.normal()));
+    if (!now) return;
+    const axis = tilted(Math.max(-STEEPEST, Math.min(STEEPEST, angle)), this.normal());
+    const scene = this.app.live.scene.value;
+    const before = scene ? heightOver(scene, now.position) : 0;
+    this.moveTo(scene && before > 0 ? aiming(scene, axis, before) : now.position, axis);
   }
 
-  /** Back to in front of the first membrane, m away from it. */
-  home(distance = 0.01): void {
+  /** In front of the first membrane, m away from it, aiming at the middle of the scene. */
+  home(height = 0.005): void {
     const now = this.pose();
-    const first = this.app.live.scene.value?.membranes[0];
-    if (now && first) this.moveTo(add(first.point, scaled(now.axis, -distance)));
+    const scene = this.app.live.scene.value;
+    if (now && scene) this.moveTo(aiming(scene, now.axis, height));
   }
 
   normal(): Triple {

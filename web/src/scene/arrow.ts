@@ -1,4 +1,4 @@
-import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from "three";
+import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 import type { Theme } from "./theme.ts";
 
 const UP = new Vector3(0, 1, 0);
@@ -10,7 +10,7 @@ export class ForceArrow {
   /** Where its head is, for the number beside it. */
   readonly head = new Vector3();
   shown = 0;
-  private readonly material = new MeshStandardMaterial({ roughness: 0.5, transparent: true });
+  private readonly material = new MeshLambertMaterial({ transparent: true });
   private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 20).translate(0, 0.5, 0), this.material);
   private readonly cone = new Mesh(new ConeGeometry(1, 1, 24).translate(0, 0.5, 0), this.material);
 

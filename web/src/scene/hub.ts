@@ -1,4 +1,4 @@
-import { CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshStandardMaterial, Vector2 } from "three";
+import { CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshPhongMaterial, Vector2 } from "three";
 import type { Theme } from "./theme.ts";
 
 const LENGTH = 9;
@@ -7,10 +7,9 @@ const FLOW_MS = 350;
 /** The hub behind the shaft: clear plastic, in whose chamber blood shows once the tip is in the lumen. mm. */
 export class Hub {
   readonly group = new Group();
-  private readonly plastic = new MeshStandardMaterial({
-    roughness: 0.35, transparent: true, opacity: 0.42, depthWrite: false, side: DoubleSide,
+  private readonly plastic = new MeshPhongMaterial({ transparent: true, opacity: 0.42, depthWrite: false, side: DoubleSide,
   }); // biome-ignore format: short
-  private readonly blood = new MeshStandardMaterial({ roughness: 0.25 });
+  private readonly blood = new MeshPhongMaterial({});
   private readonly fill: Mesh;
   private level = 0;
 

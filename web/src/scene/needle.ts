@@ -1,7 +1,8 @@
-import { Color, Group, Mesh, MeshStandardMaterial, type Vector3 } from "three";
+import { Color, Group, Mesh, MeshLambertMaterial, type Vector3 } from "three";
 import { placeNeedle } from "./bevel.ts";
 import { Hub } from "./hub.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
+import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
 
 const EMPTY = new Color(0x23272d);
@@ -10,9 +11,9 @@ const EMPTY = new Color(0x23272d);
 export class Needle {
   readonly group = new Group();
   private hub: Hub | null = null;
-  private readonly steel = new MeshStandardMaterial({ color: 0xc9d0d8, metalness: 0.55, roughness: 0.34 });
-  private readonly ground = new MeshStandardMaterial({ color: 0xe3e8ee, metalness: 0.4, roughness: 0.25 });
-  private readonly bore = new MeshStandardMaterial({ roughness: 0.9 });
+  private readonly steel = steel(0.92);
+  private readonly ground = steel(1.15);
+  private readonly bore = new MeshLambertMaterial();
 
   constructor(private readonly theme: Theme) {
     this.group.matrixAutoUpdate = false;

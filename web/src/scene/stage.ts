@@ -1,12 +1,10 @@
 import type { Camera } from "three";
-import {
-  AmbientLight, DirectionalLight, HemisphereLight, NeutralToneMapping, PMREMGenerator, Scene, WebGLRenderer,
-} from "three"; // biome-ignore format: a list
-import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
+import { DirectionalLight, HemisphereLight, Scene, WebGLRenderer } from "three";
 import type { Theme } from "./theme.ts";
 
 const SHARPEST = 2;
-const SLOW_MS = 40;
+const LEAST_SHARP = 0.75;
+const SLOW_MS = 45;
 
 /** The canvas, its lights and its size; survives the loss of the graphics card. */
 export class Stage {
@@ -15,9 +13,10 @@ export class Stage {
   height = 1;
   private readonly key = new DirectionalLight(0xffffff, 1.6);
   private readonly sky = new HemisphereLight(0xffffff, 0x8a8f98, 0.8);
-  private readonly fill = new AmbientLight(0xffffff, 0.15);
+  private readonly rim = new DirectionalLight(0xffffff, 0.5);
   private sharpness = Math.min(SHARPEST, window.devicePixelRatio || 1);
   private slow = 0;
+  private drawn = 0;
   /** Whether all must be drawn anew. */
   stale = true;
   lost = false;
@@ -31,15 +30,13 @@ export class Stage {
     lost: (gone: boolean) => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
-    this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.setClearAlpha(0);
-    this.furnish();
     this.key.position.set(0.6, 1, 0.9);
-    this.scene.add(this.key, this.sky, this.fill);
+    this.rim.position.set(-0.8, 0.3, -0.6);
+    this.scene.add(this.key, this.sky, this.rim);
     theme.watch(() => {
-      this.scene.environmentIntensity = theme.dark ? 0.45 : 0.6;
-      this.key.intensity = theme.dark ? 1.3 : 1.5;
-      this.sky.intensity = theme.dark ? 0.55 : 0.9;
+      this.key.intensity = theme.dark ? 1.5 : 1.3;
+      this.sky.intensity = theme.dark ? 1.3 : 1.9;
       this.stale = true;
     });
     canvas.addEventListener("webglcontextlost", (event) => {
@@ -49,7 +46,6 @@ export class Stage {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
-      this.furnish();
       this.stale = true;
       lost(false);
     });
@@ -57,12 +53,6 @@ export class Stage {
     this.resize(host);
   }
   private readonly renderer: WebGLRenderer;
-
-  private furnish(): void {
-    const maker = new PMREMGenerator(this.renderer);
-    this.scene.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
-    maker.dispose();
-  }
 
   private resize(host: HTMLElement): void {
     this.width = Math.max(1, host.clientWidth);
@@ -73,19 +63,21 @@ export class Stage {
     this.stale = true;
   }
 
-  draw(camera: Camera): void {
-    const began = performance.now();
+  draw(camera: Camera, now: number): void {
     this.renderer.render(this.scene, camera);
     this.stale = false;
-    this.watchSpeed(performance.now() - began);
+    this.watchSpeed(now);
   }
 
   /** Without a graphics card fewer pixels are better than fewer pictures. */
-  private watchSpeed(took: number): void {
-    this.slow = took > SLOW_MS ? this.slow + 1 : 0;
-    if (this.slow < 20 || this.sharpness <= 0.75) return;
+  private watchSpeed(now: number): void {
+    const took = now - this.drawn;
+    this.drawn = now;
+    if (took > 500) return; // nothing had changed in between
+    this.slow = took > SLOW_MS ? this.slow + 1 : Math.max(0, this.slow - 2);
+    if (this.slow < 20 || this.sharpness <= LEAST_SHARP) return;
     this.slow = 0;
-    this.sharpness = Math.max(0.75, this.sharpness * 0.75);
+    this.sharpness = Math.max(LEAST_SHARP, this.sharpness * 0.75);
     this.renderer.setPixelRatio(this.sharpness);
     this.stale = true;
   }

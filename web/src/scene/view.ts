@@ -84,7 +84,7 @@ export const view: Panel = (host, app) => {
     const changed = world.lay(source, hand.target.value, orbit.camera, elapsed);
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) return;
-    stage.draw(orbit.camera);
+    stage.draw(orbit.camera, now);
     world.name(orbit.camera);
     drawScale(orbit.mmPerPixel(world.moment.tip, stage.height));
     speak(world.moment, scene, now);

@@ -3,7 +3,7 @@ import { Hand } from "../../../src/controls/hand_model.ts";
 import type { EngineListener, Triple } from "../../../src/engine/engine.ts";
 import { App } from "../../../src/state/app.ts";
 import { Source } from "../../../src/state/source.ts";
-import type { DevicePart, Status } from "../../../src/wire/messages.ts";
+import type { DevicePart, SceneView, Status } from "../../../src/wire/messages.ts";
 import { decodeTicks } from "../../../src/wire/ticks.ts";
 import { makeFrame } from "../../wire/frame.ts";
 
@@ -64,6 +64,26 @@ describe("the hand", () => {
     hand.setTilt(2);
     expect(hand.tilt()).toBeCloseTo(1.3, 9);
     expect(sent.at(-1)!.position[1]).toBeCloseTo(0.01, 8);
+  });
+
+  it("aims at the middle of the scene when it is turned in front of it, as far from the skin as before", () => {
+    const membranes = [{ name: "skin", point: [0, 0, 0], inward_normal: [0, -1, 0], thickness: 0.006 }];
+    server.message({
+      kind: "scene",
+      scene: { membranes, laws: [], number: 0 } as unknown as SceneView,
+      new_run: false,
+    });
+    for (const angle of [0.3, -0.9, 1.2]) {
+      hand.setTilt(angle);
+      const { position, axis } = sent.at(-1)!;
+      expect(position[1]).toBeCloseTo(0.01, 8);
+      const along = (position[1] + 0.003) / -axis[1];
+      expect(position[0] + along * axis[0]).toBeCloseTo(0, 8);
+    }
+    hand.push(0.05); // now it is in
+    const { position } = sent.at(-1)!;
+    hand.setTilt(0);
+    expect(sent.at(-1)!.position).toEqual(position);
   });
 
   it("goes along the needle that was turned", () => {
