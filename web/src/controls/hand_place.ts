@@ -4,7 +4,9 @@ import { KEYS } from "./hand_keys.ts";
 import type { Hand } from "./hand_model.ts";
 
 const number = (metres: number | undefined): string =>
-  metres === undefined || Number.isNaN(metres) ? "–" : (Math.round(metres * 1e5) / 100 + 0).toFixed(2);
+  metres === undefined || Number.isNaN(metres)
+    ? "–"
+    : (Math.round(metres * 1e5) / 100 + 0).toFixed(2).replace("-", "−");
 
 /** Where the hand is led and where the tip is, and buttons that move it. */
 export function placeRows(app: App, hand: Hand): HTMLElement {

@@ -16,6 +16,9 @@ export class ForceArrow {
 
   constructor(theme: Theme) {
     this.group.add(this.shaft, this.cone);
+    // After the tissue, which would tint it; the needle still covers it.
+    this.shaft.renderOrder = 5;
+    this.cone.renderOrder = 5;
     this.group.visible = false;
     theme.watch(() => {
       this.material.color.copy(theme.color("data-2"));

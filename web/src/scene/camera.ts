@@ -24,12 +24,22 @@ export class OrbitCamera {
   private readonly goal: Pose = { azimuth: 0.4, elevation: 0.25, distance: 100, target: new Vector3() };
   private home = { centre: new Vector3(), radius: 20 };
   private moved = true;
+  private fitted = false;
   private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
 
+  /** What a preset showed whole stays whole; a view that somebody chose stays theirs. */
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
     this.moved = true;
+    if (!this.fitted) return;
+    this.goal.distance = this.fittingDistance();
+    this.now.distance = this.goal.distance;
+  }
+
+  private fittingDistance(): number {
+    const half = MathUtils.degToRad(this.camera.fov / 2);
+    return this.home.radius / Math.sin(Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect)));
   }
 
   /** What the presets show: a ball, mm. */
@@ -40,8 +50,8 @@ export class OrbitCamera {
   preset(preset: Preset, axis: Vector3, tip: Vector3): void {
     const { goal, home } = this;
     goal.target.copy(home.centre);
-    const half = MathUtils.degToRad(this.camera.fov / 2);
-    goal.distance = home.radius / Math.sin(Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect)));
+    goal.distance = this.fittingDistance();
+    this.fitted = true;
     goal.azimuth = 0;
     goal.elevation = 0;
     if (preset === "oblique") {
@@ -78,6 +88,7 @@ export class OrbitCamera {
 
   /** factor > 1 comes nearer. */
   zoom(factor: number): void {
+    this.fitted = false;
     this.goal.distance = MathUtils.clamp(this.goal.distance / factor, CLOSEST_MM, FARTHEST_MM);
   }
 

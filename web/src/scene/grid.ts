@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineBasicMaterial, L
 import type { FaceState } from "./slab.ts";
 import { CORNERS, carried } from "./slab_shape.ts";
 
-const STEPS_PER_CELL = 4;
+const STEPS_PER_CELL = 8;
 
 /** Lines on a face that go with the tissue: they show its size, and where it gives way. */
 export class Grid {
@@ -21,7 +21,7 @@ export class Grid {
   /** size: half the side, mm. */
   private rule(size: number): void {
     this.size = size;
-    const cell = size > 16 ? 5 : size > 6 ? 2 : 1;
+    const cell = size > 11 ? 5 : size > 5 ? 2 : 1;
     const step = cell / STEPS_PER_CELL;
     const most = Math.floor(size / cell) * cell;
     const within = (x: number, y: number): boolean =>
