@@ -5,13 +5,13 @@ import type { App } from "../state/app.ts";
 export function controlLine(app: App): HTMLElement {
   const words = element("span", { role: "status", class: "control-words" });
   const take = takeControl(app);
-  app.control.watch(({ holder, you }) => {
-    words.textContent = you
-      ? "You have control"
-      : holder === null
-        ? "Nobody has control"
-        : `Page ${holder} has control`;
-  });
+  const show = (): void => {
+    const { holder, you } = app.control.value;
+    const other = holder === null ? "Nobody has control" : `Page ${holder} has control`;
+    words.textContent = app.connection.value.state === "open" ? (you ? "You have control" : other) : "";
+  };
+  app.control.watch(show);
+  app.connection.watch(show);
   return element("span", { class: "control" }, words, take);
 }
 

@@ -20,14 +20,15 @@ export function stateButton(app: App): HTMLElement {
   app.control.watch(enable);
   everyFrame(() => {
     const { history } = app.live;
-    const now = history.length ? (history.byteRow("state", history.end - 1)[0] ?? 0) : -1;
+    const known = history.length > 0 && app.connection.value.state === "open";
+    const now = known ? (history.byteRow("state", history.end - 1)[0] ?? 0) : -1;
     if (now === shown) return;
     shown = now;
     const entry = STATES[now];
     state.dataset.state = entry?.name ?? "none";
     state.title = entry?.why ?? "";
     mark.textContent = entry?.mark ?? "";
-    words.textContent = entry?.words ?? "No ticks yet";
+    words.textContent = entry?.words ?? "No ticks";
     button.textContent = now === 0 || now === FAULTED ? "Arm" : "Pause";
     enable();
   });
