@@ -3,6 +3,7 @@ import { element, everyFrame, type Panel } from "../panel.ts";
 import { difference } from "./difference.ts";
 import { type Area, ForceDepthDrawing, type ForceDepthPicture } from "./force_depth_drawing.ts";
 import { keyTick } from "./keys.ts";
+import { reading } from "./reading.ts";
 import { plotsOf } from "./shared.ts";
 import { type Box, Surface } from "./surface.ts";
 import { type Theme, watchTheme } from "./theme.ts";
@@ -43,8 +44,9 @@ export const forceDepthPlot: Panel = (host, app) => {
     oldest: plots.source.live ? 0.2 : 0.55, // who holds it still wants to see all of it
     pointed,
   });
-  const readout = element("output", { class: "plot-readout" });
-  const compared = element("output", { class: "plot-compared" });
+  const readout = element("span", { class: "plot-readout" });
+  const compared = element("span", { class: "plot-compared" });
+  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
   const body = element("div", { class: "plot-body" });
   host.append(
     element(
@@ -54,7 +56,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       which.select,
       element("span", { class: "plot-gap" }),
       reset,
-      freezeButton(plots),
+      freezeButton(plots, app),
       saveMenu({
         name: "force-depth",
         plots,
@@ -66,6 +68,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     ),
     body,
     element("div", { class: "plot-foot" }, readout, compared),
+    spoken,
   );
 
   const surface = new Surface(
@@ -81,7 +84,9 @@ export const forceDepthPlot: Panel = (host, app) => {
       doubled: () => setZoom(null),
       key: (event) => {
         if (event.key === "0") setZoom(null);
-        else return keyTick(event, plots);
+        else if (!keyTick(event, plots)) return false;
+        const tick = plots.pointed.value;
+        if (tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
         return true;
       },
     },
@@ -105,6 +110,7 @@ export const forceDepthPlot: Panel = (host, app) => {
   let leave = (): void => {};
   app.source.watch((source) => {
     leave();
+    setZoom(null);
     const ends = [source.scene.watch(offer), source.laws.watch(() => laws++)];
     leave = () => {
       for (const end of ends) end();
@@ -129,13 +135,13 @@ export const forceDepthPlot: Panel = (host, app) => {
     const tick = pointed?.tick ?? plots.source.shown();
     const m = pointed?.membrane ?? chosen;
     if (tick === null || m === null || tick < history.first || tick >= history.end) {
-      readout.value = "";
+      readout.textContent = "";
       return;
     }
     const depth = history.row("depth", tick)[m]!;
     const force = -history.row("axial_force", tick)[m]!;
     const at = `${m + 1} ${name(m)}: ${mm(depth, 3)}, ${newton(force, 3)} at ${history.timeOf(tick).toFixed(4)} s`;
-    readout.value = at.replaceAll("-", "−");
+    readout.textContent = at.replaceAll("-", "−");
   };
   let seen = "";
   let told = 0;
@@ -174,7 +180,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     if (time - told > 250) {
       told = time;
       const apart = difference(history, window.first, window.end);
-      compared.value = apart
+      compared.textContent = apart
         ? `solvers differ by ${newton(apart.rms, 4)} rms, ${newton(apart.largest, 3)} at most`
         : "";
     }

@@ -83,6 +83,10 @@ export class ForceDepthDrawing {
       extentX.takeColumn(history, first, end, "depth", i, MM);
       extentY.takeColumn(history, first, end, "axial_force", i, -1);
     }
+    for (const i of this.overlaid(picture)) {
+      const { history } = picture.overlay!;
+      extentY.takeColumn(history, history.first, history.end, "axial_force", i, -1);
+    }
     const before = Math.max(Math.min(extentX.low, 0), -OUTSIDE * extentX.high); // the way to the skin is long and empty
     this.rangeX.follow(before, extentX.high, now);
     this.rangeY.follow(extentY.low, extentY.high, now);
@@ -115,7 +119,7 @@ export class ForceDepthDrawing {
     if (isCompared(source.history, window.first, end)) keys.push({ text: otherName(source), colour: theme.quiet });
     drawKey(pen, left + width, top - 9, keys, theme);
     pen.within(left, top, width, height, () => {
-      for (const i of membranes) if (overlay) this.drawOverlay(pen, overlay, i, theme);
+      for (const i of this.overlaid(picture)) this.drawOverlay(pen, overlay!, i, theme);
       this.drawOther(pen, source, window.first, end, membranes, theme);
       for (const i of membranes) this.drawHistory(pen, picture, i, theme);
     });
@@ -163,6 +167,20 @@ export class ForceDepthDrawing {
     return found;
   }
 
+  /** The membranes of the earlier run that stand for those that are drawn: of one name, else of one place in the row. */
+  private overlaid(picture: ForceDepthPicture): number[] {
+    const { source, overlay } = picture;
+    if (!overlay) return [];
+    const names = overlay.scene.value?.membranes.map(({ name }) => name) ?? [];
+    return Array.from({ length: source.history.membranes }, (_, i) => i)
+      .filter((i) => ForceDepthDrawing.draws(picture, i))
+      .map((i) => {
+        const named = names.indexOf(source.scene.value?.membranes[i]?.name ?? "");
+        return named < 0 ? i : named;
+      })
+      .filter((i) => i < overlay.history.membranes);
+  }
+
   private end({ window, shown }: ForceDepthPicture): number {
     return shown === null ? window.end : Math.max(window.first, Math.min(window.end, shown + 1));
   }
@@ -199,10 +217,9 @@ export class ForceDepthDrawing {
   }
 
   private drawOverlay(pen: Pen, overlay: Source, membrane: number, theme: Theme): void {
-    if (membrane >= overlay.history.membranes) return;
     const { first, end } = overlay.history;
     const n = this.pixels(overlay, first, end, membrane);
-    this.drawNew(pen, 0, n, { colour: theme.text, width: WIDTH, alpha: 0.6 }, true);
+    this.drawNew(pen, 0, n, { colour: theme.text, width: 1.5, alpha: 0.7 }, true);
   }
 
   /** The hand's way, the older the fainter. */
@@ -233,7 +250,7 @@ export class ForceDepthDrawing {
     for (const i of membranes) {
       const n = this.pixels(source, first, end, i);
       gatherOther(history, first, end, i, -slope(y), y.px(0), this.ys);
-      this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1, alpha: 0.8 }, true);
+      this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1 }, true);
     }
   }
 

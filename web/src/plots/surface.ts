@@ -76,11 +76,20 @@ export class Surface {
   private listen(): void {
     const { canvas } = this;
     const at = (event: PointerEvent): { x: number; y: number } => ({ x: event.offsetX, y: event.offsetY });
+    const leave = (): void => {
+      this.pointer = null;
+      this.changes++;
+    };
     let pressed: { x: number; y: number } | null = null;
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       canvas.setPointerCapture(event.pointerId);
       pressed = at(event);
+      this.pointer = pressed;
+      this.changes++;
+    });
+    document.addEventListener("pointerdown", (event) => {
+      if (event.target !== canvas && this.pointer) leave();
     });
     canvas.addEventListener("pointermove", (event) => {
       this.pointer = at(event);
@@ -99,9 +108,8 @@ export class Surface {
     };
     canvas.addEventListener("pointerup", () => letGo(true));
     canvas.addEventListener("pointercancel", () => letGo(false));
-    canvas.addEventListener("pointerleave", () => {
-      this.pointer = null;
-      this.changes++;
+    canvas.addEventListener("pointerleave", (event) => {
+      if (event.pointerType !== "touch") leave(); // what a finger points at is read when the finger is gone
     });
     canvas.addEventListener("dblclick", () => this.acts.doubled());
     canvas.addEventListener("keydown", (event) => {

@@ -9,6 +9,8 @@ import { TimeDrawing, type TimePicture } from "./time_drawing.ts";
 import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
+const TAIL = 800; // ticks that are drawn anew every frame, at most
+
 /** Force and depth against time, one above the other. */
 export const timePlots: Panel = (host, app) => {
   const plots = plotsOf(app);
@@ -47,7 +49,7 @@ export const timePlots: Panel = (host, app) => {
       spans.select,
       element("span", { class: "plot-gap" }),
       reset,
-      freezeButton(plots),
+      freezeButton(plots, app),
       saveMenu({
         name: "force-and-depth",
         plots,
@@ -109,7 +111,7 @@ export const timePlots: Panel = (host, app) => {
     const state = `${still} ${surface.changes} ${first} ${end} ${source.cursor.value} ${plots.pointed.value}`;
     if (state === seen) return;
     seen = state;
-    if (still !== back) {
+    if (still !== back || end - backEnd > TAIL) {
       back = still;
       backEnd = end;
       drawing.arrange(picture(), surface.width, surface.height, time / 1e3);

@@ -6,6 +6,7 @@ import { drawBadge } from "./badge.ts";
 import { CalmRange } from "./calm_range.ts";
 import { throughColumns } from "./decimate.ts";
 import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "./gather.ts";
+import { drawKey, type KeyEntry, otherName } from "./key.ts";
 import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
@@ -87,6 +88,10 @@ export class TimeDrawing {
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     this.drawMarks(pen, picture, theme);
+    const key: KeyEntry[] = [{ text: "sent to the hand", colour: theme.text }];
+    if (isCompared(source.history, window.first, window.end))
+      key.push({ text: otherName(source), colour: theme.quiet });
+    drawKey(pen, this.depth.left + this.depth.width, this.depth.top - 9, key, theme);
     this.drawLines(pen, source.history, window.first, window.end, theme);
   }
 
@@ -131,7 +136,7 @@ export class TimeDrawing {
     for (let i = 0; i < history.membranes; i++) {
       if (compared) {
         gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
-        this.drawLine(pen, n, theme.quiet, 1, 0.8);
+        this.drawLine(pen, n, theme.quiet, 1, 1);
       }
       gather(history, first, end, "axial_force", i, -gain, y.px(0), this.ys);
       this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);

@@ -1,4 +1,5 @@
 import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
 import { type Saving, save } from "./save.ts";
 import type { Plots } from "./shared.ts";
 
@@ -23,11 +24,14 @@ export function choice(
 }
 
 /** Holds all plots still, or lets them go on; the run does not notice. */
-export function freezeButton(plots: Plots): HTMLButtonElement {
+export function freezeButton(plots: Plots, app: App): HTMLButtonElement {
   const made = button("Freeze", "Hold the plots still; the run goes on (space)", () =>
     plots.frozen.value ? plots.thaw() : plots.freeze(),
   );
   made.classList.add("plot-freeze");
+  app.source.watch((source) => {
+    made.disabled = !source.live; // a recording stands still by itself
+  });
   plots.frozen.watch((frozen) => made.setAttribute("aria-pressed", String(frozen !== null)));
   return made;
 }
@@ -46,8 +50,10 @@ export function saveMenu(saving: Saving): HTMLElement {
   menu.addEventListener("keydown", (event) => {
     if (event.key === "Escape") menu.open = false;
   });
-  menu.addEventListener("focusout", (event) => {
-    if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false;
-  });
+  const leave = (to: EventTarget | null): void => {
+    if (to instanceof Node && !menu.contains(to)) menu.open = false;
+  };
+  menu.addEventListener("focusout", (event) => leave(event.relatedTarget));
+  document.addEventListener("pointerdown", (event) => leave(event.target));
   return menu;
 }

@@ -37,7 +37,9 @@ const window20 = (from: Source): Window => {
 
 /** Heights of the points of all lines in a colour. */
 function heights(file: string, colour: string): number[] {
-  const paths = [...file.matchAll(new RegExp(`<path d="([^"]*)"[^>]*stroke="${colour}" stroke-width="1.[56]"`, "g"))];
+  const paths = [
+    ...file.matchAll(new RegExp(`<path d="([^"]*)"[^>]*stroke="${colour}" stroke-width="(?:1\\.[56]|2)"`, "g")),
+  ];
   return paths.flatMap(([, d]) => [...d!.matchAll(/[ML]([-\d.]+) ([-\d.]+)/g)].map((point) => Number(point[2])));
 }
 

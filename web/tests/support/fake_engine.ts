@@ -11,7 +11,7 @@ const COLUMNS = [
 
 /** An engine without a server: a hand that strokes through three membranes at 1600 Hz. For looking at the page only. */
 export class FakeEngine implements Engine {
-  readonly membranes: FakeMembrane[] = fakeMembranes();
+  readonly membranes: FakeMembrane[];
   /** Adds the other solver's force. */
   compare = false;
   private tick = 0;
@@ -19,7 +19,12 @@ export class FakeEngine implements Engine {
   private timer = 0;
 
   /** prefill: s of run that are there at once. */
-  constructor(private readonly prefill: number) {}
+  constructor(
+    private readonly prefill: number,
+    stiffer = 1,
+  ) {
+    this.membranes = fakeMembranes(stiffer);
+  }
 
   start(listener: EngineListener): void {
     this.listener = listener;

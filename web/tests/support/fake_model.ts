@@ -75,10 +75,10 @@ export class FakeMembrane {
   }
 }
 
-export const fakeMembranes = (): FakeMembrane[] => [
-  new FakeMembrane("skin", 0, 1.2e-3, 900, 0.5, 0.1),
-  new FakeMembrane("front vein wall", 4.81e-3, 0.4e-3, 450, 0.25, 0.08),
-  new FakeMembrane("back vein wall", 8.22e-3, 0.4e-3, 450, 0.25, 0.08),
+export const fakeMembranes = (stiffer = 1): FakeMembrane[] => [
+  new FakeMembrane("skin", 0, 1.2e-3, 900 * stiffer, 0.5, 0.1),
+  new FakeMembrane("front vein wall", 4.81e-3, 0.4e-3, 450 * stiffer, 0.25, 0.08),
+  new FakeMembrane("back vein wall", 8.22e-3, 0.4e-3, 450 * stiffer, 0.25, 0.08),
 ];
 
 export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {

@@ -1,5 +1,5 @@
 // The page with a made-up run, for looking at panels without a server: never part of the product.
-// ?seconds=20 of run are there at once, ?compare=1 shows the other solver, ?plots=1 leaves out all but plots and tables.
+// ?seconds=20 of run are there at once, ?compare=1 shows the other solver, ?overlay=1 an earlier run, ?plots=1 leaves out all but plots and tables.
 import "../../src/style.css";
 import { healthPanel } from "../../src/controls/health.ts";
 import { phasesPanel } from "../../src/controls/phases.ts";
@@ -28,4 +28,11 @@ if (asked.has("plots")) {
   healthPanel(body, app);
 } else layout(root, app);
 app.start();
-Object.assign(window, { app, Source });
+if (asked.has("overlay")) {
+  const earlier = new Source("earlier run", false, 16_000);
+  const run = new FakeEngine(10, 1.3);
+  run.start({ connection: () => {}, message: () => {}, ticks: (batch) => earlier.history.push(batch) });
+  run.stop();
+  app.overlay.value = earlier;
+}
+Object.assign(window, { app });
