@@ -1,7 +1,8 @@
 import { mm, newton } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { difference } from "./difference.ts";
-import { type Area, ForceDepthDrawing, type ForceDepthPicture } from "./force_depth_drawing.ts";
+import { ForceDepthDrawing } from "./force_depth_drawing.ts";
+import type { Area, ForceDepthPicture } from "./force_depth_picture.ts";
 import { keyTick } from "./keys.ts";
 import { reading } from "./reading.ts";
 import { plotsOf } from "./shared.ts";

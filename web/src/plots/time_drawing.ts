@@ -1,23 +1,20 @@
 import type { History } from "../state/history.ts";
 import type { Source } from "../state/source.ts";
-import type { MembraneEvent } from "../wire/messages.ts";
 import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
 import { CalmRange } from "./calm_range.ts";
 import { throughColumns } from "./decimate.ts";
 import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "./gather.ts";
 import { drawKey, type KeyEntry, otherName } from "./key.ts";
-import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
 import { drawReading } from "./reading.ts";
 import type { Scale } from "./scale.ts";
-import { eachState, STATE_WORDS, type State } from "./states.ts";
 import { colourOf, type Theme } from "./theme.ts";
+import { drawMarks, drawStates } from "./time_marks.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
-const NAME = 62; // px that the name of the upper axis takes
 const FORCE_SHARE = 0.58;
 
 /** What is to be drawn: the ticks of a window. Depths in mm, forces in N, positive where they push the needle out. */
@@ -84,10 +81,10 @@ export class TimeDrawing {
   /** What stays while the window does. */
   drawBack(pen: Pen, picture: TimePicture, theme: Theme): void {
     const { source, window } = picture;
-    this.drawStates(pen, source.history, window, theme);
+    drawStates(pen, this.force, this.depth, source.history, window, theme);
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
-    this.drawMarks(pen, picture, theme);
+    drawMarks(pen, this.force, this.depth, source, window, theme);
     const key: KeyEntry[] = [{ text: "sent to the hand", colour: theme.text }];
     if (isCompared(source.history, window.first, window.end))
       key.push({ text: otherName(source), colour: theme.quiet });
@@ -147,54 +144,6 @@ export class TimeDrawing {
     this.path.clear();
     throughColumns(this.xs, this.ys, 0, n, this.path);
     if (this.path.count) pen.line(this.path, { colour, width, alpha });
-  }
-
-  private drawStates(pen: Pen, history: History, window: Window, theme: Theme): void {
-    const { x, left, top, width } = this.force;
-    const bottom = this.depth.top + this.depth.height;
-    const looks: Readonly<Record<State, readonly [colour: string, alpha: number]>> = {
-      disarmed: [theme.quiet, 0.14],
-      waiting: [theme.quiet, 0.07],
-      active: ["", 0],
-      faulted: [theme.danger, 0.2],
-    };
-    pen.within(left, top, width, bottom - top, () =>
-      eachState(history, window.first, window.end, (state, first, end) => {
-        const [colour, alpha] = looks[state];
-        if (!alpha) return;
-        const from = Math.max(left, x.px(history.timeOf(first)));
-        const to = x.px(end < history.end ? history.timeOf(end) : history.timeOf(end - 1));
-        pen.box(from, top, to - from, bottom - top, colour, alpha);
-        if (to - from > 48) {
-          const ink = state === "faulted" ? theme.danger : theme.quiet;
-          pen.text(from + 4, bottom - 8, STATE_WORDS[state], { colour: ink, size: 10 });
-        }
-      }),
-    );
-  }
-
-  /** Pops with what the force lost; touch and out as a notch on the line of zero. */
-  private drawMarks(pen: Pen, { source, window }: TimePicture, theme: Theme): void {
-    const { force, depth } = this;
-    const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
-    const at = (event: MembraneEvent): number => force.x.px(source.history.timeOf(event.tick));
-    const right = force.left + force.width;
-    const bottom = depth.top + depth.height;
-    pen.within(force.left, force.top, force.width, bottom - force.top, () => {
-      for (const event of inside) {
-        const x = at(event);
-        const colour = colourOf(theme, event.membrane);
-        const y = force.y.px(0);
-        if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.45, dash: [2, 3] });
-        else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
-      }
-    });
-    const pops = inside.filter((event) => event.what === "pop");
-    const labels = pops.map((event) => ({ x: at(event) - 2, text: popLabel(event), weight: Math.abs(event.drop) }));
-    labelsThatFit(labels, force.left + NAME, right + MARGIN.right).forEach((fits, i) => {
-      const { x, text } = labels[i]!;
-      if (fits) pen.text(x, force.top - 9, text, { colour: theme.text, size: 10.5 });
-    });
   }
 
   private drawNow(pen: Pen, picture: TimePicture, theme: Theme): void {

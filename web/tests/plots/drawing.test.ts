@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { ForceDepthDrawing, type ForceDepthPicture } from "../../src/plots/force_depth_drawing.ts";
+import { ForceDepthDrawing } from "../../src/plots/force_depth_drawing.ts";
+import type { ForceDepthPicture } from "../../src/plots/force_depth_picture.ts";
 import { SvgPen } from "../../src/plots/svg_pen.ts";
 import type { Theme } from "../../src/plots/theme.ts";
 import { TimeDrawing } from "../../src/plots/time_drawing.ts";

@@ -1,0 +1,23 @@
+import type { LawCurve } from "../wire/messages.ts";
+import type { Pane } from "./axes.ts";
+import type { Pen } from "./pen.ts";
+import { Polyline } from "./polyline.ts";
+
+const MM = 1e3;
+const path = new Polyline();
+
+/** The friction band of a membrane, from Phi_I (up: what the hand feels going in) to Phi_O: any force in it holds the needle. */
+export function drawBand(pen: Pen, { x, y }: Pane, law: LawCurve, colour: string): void {
+  const { depth, lower, upper } = law;
+  if (!depth.length) return;
+  // Behind its last point a law is constant.
+  const onwards = x.px(Math.max(depth.at(-1)! * MM, x.max));
+  path.clear();
+  for (let i = 0; i < depth.length; i++) path.add(x.px(depth[i]! * MM), y.px(-lower[i]!));
+  path.add(onwards, y.px(-lower.at(-1)!));
+  path.add(onwards, y.px(-upper.at(-1)!));
+  for (let i = depth.length - 1; i >= 0; i--) path.add(x.px(depth[i]! * MM), y.px(-upper[i]!));
+  path.add(path.xs[0]!, path.ys[0]!);
+  pen.area(path, colour, 0.13);
+  pen.line(path, { colour, width: 1, alpha: 0.35 });
+}

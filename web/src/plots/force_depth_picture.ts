@@ -1,0 +1,44 @@
+import type { Source } from "../state/source.ts";
+import type { Window } from "./window.ts";
+
+export interface Area {
+  readonly x: readonly [number, number];
+  readonly y: readonly [number, number];
+}
+
+/** What is to be drawn: ticks of a source. Depths in mm, forces in N, positive where they push the needle out. */
+export interface ForceDepthPicture {
+  readonly source: Source;
+  readonly window: Window;
+  /** The present tick; nothing after it is drawn. */
+  readonly shown: number | null;
+  /** One membrane, or null for all. */
+  readonly chosen: number | null;
+  readonly overlay: Source | null;
+  readonly zoom: Area | null;
+  /** How much of the oldest tick is to be seen, 0 to 1. */
+  readonly oldest: number;
+  readonly pointed: { readonly tick: number; readonly membrane: number } | null;
+}
+
+/** The membranes that are drawn. */
+export const drawnMembranes = ({ source, chosen }: ForceDepthPicture): number[] =>
+  Array.from({ length: source.history.membranes }, (_, i) => i).filter((i) => chosen === null || chosen === i);
+
+/** Those of the earlier run that stand for them: of the same name, else of the same place in the row. */
+export function overlaidMembranes(picture: ForceDepthPicture): number[] {
+  const { source, overlay } = picture;
+  if (!overlay) return [];
+  const names = overlay.scene.value?.membranes.map(({ name }) => name) ?? [];
+  return drawnMembranes(picture)
+    .map((i) => {
+      const named = names.indexOf(source.scene.value?.membranes[i]?.name ?? "");
+      return named < 0 ? i : named;
+    })
+    .filter((i) => i < overlay.history.membranes);
+}
+
+/** One after the last tick that is drawn. */
+export function endOf({ window, shown }: ForceDepthPicture): number {
+  return shown === null ? window.end : Math.max(window.first, Math.min(window.end, shown + 1));
+}

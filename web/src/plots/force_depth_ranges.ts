@@ -1,0 +1,65 @@
+import type { Pane } from "./axes.ts";
+import { CalmRange } from "./calm_range.ts";
+import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
+import { Extent, gatherOther, isCompared } from "./gather.ts";
+
+const MM = 1e3;
+const OUTSIDE = 0.35; // share of the depth inside that is shown before the surface
+
+/** The ranges of the axes: they hold the laws, the ticks that are shown and what is laid over. */
+export class ForceDepthRanges {
+  private readonly rangeX = new CalmRange();
+  private readonly rangeY = new CalmRange();
+  private readonly x = new Extent();
+  private readonly y = new Extent();
+  private scratch = new Float32Array(0);
+
+  /** Lays out the axes of `pane`; now in s. */
+  arrange(picture: ForceDepthPicture, pane: Pane, now: number): void {
+    if (picture.zoom) {
+      pane.rangeX(...picture.zoom.x);
+      pane.rangeY(...picture.zoom.y);
+      return;
+    }
+    this.measure(picture);
+    // The way to the skin is long and empty.
+    const before = Math.max(Math.min(this.x.low, 0), -OUTSIDE * this.x.high);
+    this.rangeX.follow(before, this.x.high, now);
+    this.rangeY.follow(this.y.low, this.y.high, now);
+    pane.rangeX(this.rangeX.min, this.rangeX.max);
+    pane.rangeY(this.rangeY.min, this.rangeY.max);
+  }
+
+  private measure(picture: ForceDepthPicture): void {
+    const { x, y } = this;
+    const { source, overlay, window } = picture;
+    const { history } = source;
+    x.forget();
+    y.forget();
+    y.take(-0.1);
+    y.take(0.1);
+    x.take(2);
+    const end = endOf(picture);
+    const compared = isCompared(history, window.first, end);
+    for (const i of drawnMembranes(picture)) {
+      const law = source.laws.value[i];
+      for (const force of law?.lower ?? []) y.take(-force);
+      for (const force of law?.upper ?? []) y.take(-force);
+      if (law) x.take(1.2 * law.through * MM);
+      x.takeColumn(history, window.first, end, "depth", i, MM);
+      y.takeColumn(history, window.first, end, "axial_force", i, -1);
+      if (compared) this.takeOther(picture, i, end);
+    }
+    for (const i of overlaidMembranes(picture)) {
+      const { first, end } = overlay!.history;
+      y.takeColumn(overlay!.history, first, end, "axial_force", i, -1);
+    }
+  }
+
+  private takeOther({ source, window }: ForceDepthPicture, membrane: number, end: number): void {
+    const n = end - window.first;
+    if (this.scratch.length < n) this.scratch = new Float32Array(2 * n);
+    gatherOther(source.history, window.first, end, membrane, -1, 0, this.scratch);
+    this.y.takeNumbers(this.scratch, n);
+  }
+}

@@ -1,0 +1,59 @@
+import type { History } from "../state/history.ts";
+import type { Source } from "../state/source.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
+import { MARGIN, type Pane } from "./axes.ts";
+import { labelsThatFit, popLabel } from "./marks.ts";
+import type { Pen } from "./pen.ts";
+import { eachState, STATE_WORDS, type State } from "./states.ts";
+import { colourOf, type Theme } from "./theme.ts";
+import type { Window } from "./window.ts";
+
+const NAME = 62; // px that the name of the upper axis takes
+
+/** Shades the ticks in which no force goes out, and says why where there is room. */
+export function drawStates(pen: Pen, force: Pane, depth: Pane, history: History, window: Window, theme: Theme): void {
+  const { x, left, top, width } = force;
+  const bottom = depth.top + depth.height;
+  const looks: Readonly<Record<State, readonly [colour: string, alpha: number]>> = {
+    disarmed: [theme.quiet, 0.14],
+    waiting: [theme.quiet, 0.07],
+    active: ["", 0],
+    faulted: [theme.danger, 0.2],
+  };
+  pen.within(left, top, width, bottom - top, () =>
+    eachState(history, window.first, window.end, (state, first, end) => {
+      const [colour, alpha] = looks[state];
+      if (!alpha) return;
+      const from = Math.max(left, x.px(history.timeOf(first)));
+      const to = x.px(end < history.end ? history.timeOf(end) : history.timeOf(end - 1));
+      pen.box(from, top, to - from, bottom - top, colour, alpha);
+      if (to - from > 48) {
+        const ink = state === "faulted" ? theme.danger : theme.quiet;
+        pen.text(from + 4, bottom - 8, STATE_WORDS[state], { colour: ink, size: 10 });
+      }
+    }),
+  );
+}
+
+/** Pops with what the force lost; touch and out as a notch on the line of zero. */
+export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, window: Window, theme: Theme): void {
+  const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
+  const at = (event: MembraneEvent): number => force.x.px(source.history.timeOf(event.tick));
+  const right = force.left + force.width;
+  const bottom = depth.top + depth.height;
+  pen.within(force.left, force.top, force.width, bottom - force.top, () => {
+    for (const event of inside) {
+      const x = at(event);
+      const colour = colourOf(theme, event.membrane);
+      const y = force.y.px(0);
+      if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.45, dash: [2, 3] });
+      else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
+    }
+  });
+  const pops = inside.filter((event) => event.what === "pop");
+  const labels = pops.map((event) => ({ x: at(event) - 2, text: popLabel(event), weight: Math.abs(event.drop) }));
+  labelsThatFit(labels, force.left + NAME, right + MARGIN.right).forEach((fits, i) => {
+    const { x, text } = labels[i]!;
+    if (fits) pen.text(x, force.top - 9, text, { colour: theme.text, size: 10.5 });
+  });
+}
