@@ -76,10 +76,10 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
       blockLine(app, "Changes take effect at once, also inside tissue.", "scene"),
       tools,
     ),
-    told.root,
     element(
       "div",
       { class: "law-place" },
+      told.root,
       drawing.root,
       helpLine(
         fields,

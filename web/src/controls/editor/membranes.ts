@@ -74,7 +74,7 @@ export class MembraneList {
     const title = element("span", { class: "title" });
     const summary = element("span", { class: "summary" });
     const bodyId = `membrane-${index}-fields`;
-    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+    const swatch = element("span", { class: "swatch", "aria-hidden": "true" }, String(index + 1));
     swatch.style.setProperty("--swatch", `var(--data-${(index % 5) + 1})`); // as an attribute the page's policy forbids it
     const head = element(
       "button",
