@@ -66,6 +66,11 @@ export const exercisesPanel: Panel = (host, app) => {
     running = status?.running ?? false;
     if (!ended || !status.result) return;
     await past.show(person.name.value);
+    // Who only looks on is told, not interrupted.
+    if (!app.control.value.you) {
+      app.say(`${of(status.exercise)?.title ?? status.exercise}: the attempt is over.`);
+      return;
+    }
     try {
       open(await app.api.json<ExerciseResult>(resultPath(status.result)));
     } catch (error) {
