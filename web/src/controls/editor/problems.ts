@@ -29,7 +29,8 @@ function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
 const sentence = ({ path, value, reason }: ProblemPart): string =>
   path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
 
-function words(reason: string): string {
+/** A reason as a sentence. */
+export function words(reason: string): string {
   const capital = reason.charAt(0).toUpperCase() + reason.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

@@ -1,6 +1,8 @@
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { blockOf, watchBlock } from "../blocked.ts";
+import { words } from "../editor/problems.ts";
+import { wordsOf } from "./library.ts";
 import { countText } from "./words.ts";
 
 /** Record and stop, and how it goes meanwhile. */
@@ -16,7 +18,8 @@ export function recordControl(app: App): HTMLElement {
   });
   const error = element("p", { class: "error", id: "record-error", role: "alert" });
   const button = element("button", { type: "submit", class: "small record" }, "Record");
-  const form = element("form", { class: "record-row" }, name, button);
+  const current = element("strong", { class: "record-name" });
+  const form = element("form", { class: "record-row" }, current, name, button);
   const line = element("p", { class: "quiet record-line" });
   let recording = false;
 
@@ -26,31 +29,28 @@ export function recordControl(app: App): HTMLElement {
     error.textContent = "";
     name.removeAttribute("aria-invalid");
     const wish = name.value.trim();
-    const reply = await app.ask(
-      recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) },
-    );
+    // Told at the field, not as a message of the page.
+    const refusal = await app.engine
+      .ask(recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) })
+      .then((reply) => (reply.ok ? "" : reply.text || "it was refused"))
+      .catch(wordsOf);
     button.disabled = blockOf(app, "scene") !== null;
-    if (reply && !reply.ok) {
-      error.textContent = reply.text || "It was refused.";
+    if (refusal) {
+      error.textContent = words(refusal);
       if (!recording) name.setAttribute("aria-invalid", "true");
-    } else if (reply && !recording) name.value = "";
+    } else name.value = "";
   });
   app.recording.watch((now) => {
     recording = now !== null;
     button.textContent = recording ? "Stop" : "Record";
     button.classList.toggle("on", recording);
     name.hidden = recording;
-    form.dataset.name = now?.name ?? "";
+    current.hidden = now === null;
+    current.textContent = now?.name ?? "";
     line.classList.toggle("on", recording);
     line.textContent = now
       ? `${now.seconds.toFixed(1)} s, ${countText(now.rows)} ticks, ${countText(now.lost)} lost${now.trouble ? `. ${now.trouble}` : ""}`
       : "Begins a new run: force comes back once the tip is outside tissue.";
-  });
-  const current = element("strong", { class: "record-name" });
-  form.prepend(current);
-  app.recording.watch((now) => {
-    current.hidden = now === null;
-    current.textContent = now ? now.name : "";
   });
   watchBlock(
     app,
