@@ -167,6 +167,14 @@ def test_without_ticks_and_times_the_rate_tells_them():
     ]
 
 
+def test_ticks_are_counted_from_batch_to_batch_where_they_tell_no_number():
+    columns = along(STILL, ramp(STILL, -2e-3, 15e-3))
+    bare = {name: columns[name] for name in ("depth", "axial_force", "phase", "lower")}
+    finder = EventFinder(STILL)
+    events = [event for batch in cut(bare, range(0, 4000, 100)) for event in finder.add(batch)]
+    assert events == found(STILL, columns)
+
+
 def test_a_changed_membrane_pops_where_its_new_law_says():
     thick = STILL.replace(membranes=[p.replace(membrane=p.membrane.replace(thickness=3e-3)) for p in STILL.membranes])
     columns = along(STILL, ramp(STILL, -2e-3, 3e-3))

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import punctura as pn
 import pytest
-from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, motion_of
+from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, motion_of, of_positions
 from punctura._core import Fault, Phase, ServoLoop, SimulatedDevice
 from punctura.exercise import Attempt, Result, load_exercise, score
 from punctura.record import Recorder, open_recording
@@ -128,6 +128,17 @@ def test_success_waits_until_a_tip_that_has_just_popped_has_come_to_rest(write, 
     assert stopped.finish().metrics.total_time == pytest.approx(at_pop.time - 0.5 + 0.3, abs=2e-3)
     given_up = judged(exercise, ideal(SCENE, (0, 5, 0), (0, -10, 0)), cuts, SCENE)
     assert not given_up.over and given_up.finish().passed
+
+
+@pytest.mark.parametrize("cuts", [27, 100_000])
+def test_each_pop_of_a_membrane_is_judged(write, cuts):
+    goals = goal("stay", seconds=9), goal("stop_after_pop", membrane="skin", within_mm=1.0)
+    gently = ideal(SCENE, (0, 5, 0), (0, -5.6, 0), stops=0.5)["tip"]  # 0.3 mm past the pop, and back
+    again = ideal(SCENE, (0, -5.6, 0), (0, -3, 0), (0, -7, 0))["tip"]
+    result = judged(load_exercise(write(*goals)), of_positions(SCENE, np.concatenate([gently, again])), cuts, SCENE)
+    assert result.over
+    assert [e.time for e in result.finish().events if e.what == "pop"] == pytest.approx([1.032, 2.052], abs=2e-3)
+    assert "past the skin" in result.finish().reasons[0]
 
 
 def test_goals_in_ones_own_words(write):
