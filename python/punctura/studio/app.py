@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from importlib.metadata import version
 from pathlib import Path
@@ -20,6 +20,7 @@ from starlette.websockets import WebSocket
 from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
 from punctura.studio.catalog import exercise_choices, ready_scenes
+from punctura.studio.figures import Figures
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
 from punctura.studio.security import PROTOCOL, TOKEN_REFUSED, Guard, socket_token
@@ -33,8 +34,8 @@ NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it.
 class Studio:
     """What the routes share."""
 
-    def __init__(self, session: Session, hub: Hub, page: Path, figures: Path | None = None) -> None:
-        self.session, self.hub, self.page, self.figures = session, hub, page, figures
+    def __init__(self, session: Session, hub: Hub, page: Path, figures: Sequence[Path] = ()) -> None:
+        self.session, self.hub, self.page, self.figures = session, hub, page, Figures(figures)
 
     def hello(self, viewer: int) -> Hello:
         info = self.session.bench.device.info
@@ -87,9 +88,9 @@ class Studio:
             Route("/api/scene.toml", self.scene),
             *Api(self.session).routes(),
             WebSocketRoute("/ws", self.socket),
+            self.figures.index(),
+            self.figures.route(),
         ]
-        if self.figures and self.figures.is_dir():
-            routes.append(Mount("/figures", StaticFiles(directory=self.figures, html=True)))
         if self.page.is_dir():
             routes.append(Mount("/", StaticFiles(directory=self.page)))
         return routes

@@ -9,6 +9,7 @@ import asyncio
 import itertools
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from pydantic import BaseModel
 
@@ -16,11 +17,21 @@ from punctura.studio.wire.messages import Control, Status
 
 MOST_VIEWERS = 32
 MOST_FRAMES = 60  # a second of them; then all that wait are dropped at once, which leaves one gap instead of many
-MOST_MESSAGES = 2000  # never dropped: a viewer that leaves so many unread is closed
+MOST_BYTES = 8_000_000  # of messages, which are never dropped: a viewer that leaves more unread is closed
+# Of these the last says it all: a newer one takes the place of one that still waits.
+SUPERSEDED = ("status", "recording", "laws", "exercise")
 # What a newcomer is told, in this order; "laws" belongs to the scene before it.
 RETAINED = ("scene", "laws", "control", "recording", "exercise", "fault")
 
 Data = str | bytes
+
+
+@dataclass(eq=False)
+class Waiting:
+    """In a queue; without data, once a newer one has taken its place."""
+
+    data: Data | None
+    kind: str
 
 
 class Viewer:
@@ -30,49 +41,68 @@ class Viewer:
         self.number = number
         self.dropped = 0  # frames
         self.closed = ""
-        self._queue: deque[Data] = deque()
-        self._frames = self._messages = 0
+        self._queue: deque[Waiting] = deque()
+        self._last: dict[str, Waiting] = {}  # of each kind of SUPERSEDED, while it waits
+        self._frames = self._bytes = 0
         self._wake = asyncio.Event()
 
-    def put(self, data: Data) -> None:
+    def put(self, data: Data, kind: str = "") -> None:
+        """kind: of a message."""
         if self.closed:
             return
+        entry = Waiting(data, kind)
         if isinstance(data, bytes):
             if self._frames >= MOST_FRAMES:
-                self.dropped += self._frames
-                self._frames = 0
-                self._queue = deque(text for text in self._queue if isinstance(text, str))
+                self._drop_frames()
             self._frames += 1
         else:
-            if self._messages >= MOST_MESSAGES:
-                self.close("this page does not read what it is sent")
+            self._bytes += len(data)
+            if kind in SUPERSEDED:
+                self._supersede(entry)
+            if self._bytes > MOST_BYTES:
+                self.close("This page does not read what it is sent.")
                 return
-            self._messages += 1
-        self._queue.append(data)
+        self._queue.append(entry)
         self._wake.set()
+
+    def _supersede(self, entry: Waiting) -> None:
+        before = self._last.get(entry.kind)
+        if before is not None and before.data is not None:
+            self._bytes -= len(before.data)
+            before.data = None
+        self._last[entry.kind] = entry
+
+    def _drop_frames(self) -> None:
+        self.dropped += self._frames
+        self._frames = 0
+        self._queue = deque(entry for entry in self._queue if isinstance(entry.data, str))
 
     async def take(self) -> Data | None:
         """The next, in the order of `put`; None when the viewer has to go."""
-        while not self._queue and not self.closed:
-            self._wake.clear()
-            await self._wake.wait()
-        if self.closed:
-            return None
-        data = self._queue.popleft()
-        if isinstance(data, bytes):
-            self._frames -= 1
-        else:
-            self._messages -= 1
-        return data
+        while True:
+            while not self._queue and not self.closed:
+                self._wake.clear()
+                await self._wake.wait()
+            if self.closed:
+                return None
+            entry = self._queue.popleft()
+            data, entry.data = entry.data, None
+            if isinstance(data, bytes):
+                self._frames -= 1
+            elif data is not None:
+                self._bytes -= len(data)
+            if data is not None:
+                return data
 
     def close(self, reason: str) -> None:
         self.closed = self.closed or reason
         self._queue.clear()
+        self._last.clear()
         self._wake.set()
 
     @property
     def waiting(self) -> int:
-        return len(self._queue)
+        return sum(entry.data is not None for entry in self._queue)
 
 
 class Hub:
@@ -103,7 +133,7 @@ class Hub:
 
     def frame(self, data: bytes) -> None:
         """From any thread."""
-        self.post(lambda: self._put_all(data))
+        self.post(lambda: self._put_frame(data))
 
     def say(self, message: BaseModel) -> None:
         """From any thread: to all; kept for those who come later where that is of use."""
@@ -118,7 +148,9 @@ class Hub:
         if isinstance(message, Status):
             self._tell_status(message)
             return
-        self._put_all(message.model_dump_json())
+        text = message.model_dump_json()
+        for viewer in self.viewers.values():
+            viewer.put(text, kind)
 
     def join(self, hello: Callable[[int], BaseModel]) -> Viewer | None:
         """A new viewer, who is told everything that is; None when there are too many."""
@@ -150,7 +182,7 @@ class Hub:
         self.holder = viewer.number
         self._tell_control()
 
-    def _put_all(self, data: Data) -> None:
+    def _put_frame(self, data: bytes) -> None:
         for viewer in self.viewers.values():
             viewer.put(data)
 
@@ -164,4 +196,4 @@ class Hub:
     def _tell_status(self, status: Status) -> None:
         for viewer in self.viewers.values():
             own = status.model_copy(update={"viewers": len(self.viewers), "dropped": viewer.dropped})
-            viewer.put(own.model_dump_json())
+            viewer.put(own.model_dump_json(), own.kind)

@@ -18,6 +18,7 @@ import uvicorn
 from punctura.exercise import ResultStore
 from punctura.live.session import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
+from punctura.studio.figures import likely_folders
 from punctura.studio.hub import Hub
 from punctura.studio.limits import MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
@@ -70,7 +71,7 @@ class StudioServer:
             self._socket.close()
             raise
         self.address = Address(self._socket.getsockname()[1], token or secrets.token_urlsafe(24))
-        self.studio = Studio(self.session, self.hub, page)
+        self.studio = Studio(self.session, self.hub, page, likely_folders())
         self.guard = build_app(self.studio, self.address.port, self.address.token)
         config = uvicorn.Config(
             self.guard,

@@ -5,7 +5,7 @@ import asyncio
 import pytest
 from punctura.studio import hub as hubs
 from punctura.studio.hub import Hub
-from punctura.studio.wire.messages import Hello, Notice, SceneMessage
+from punctura.studio.wire.messages import Hello, Notice, RecordingStatus, SceneMessage
 from punctura.studio.wire.messages import Status as Health
 
 FRAME = b"PNT1"
@@ -68,10 +68,26 @@ def test_frames_are_lost_in_one_go_and_messages_never():
 def test_a_viewer_that_reads_no_message_either_has_to_go():
     async def test(hub):
         viewer = hub.join(hello)
-        for _ in range(hubs.MOST_MESSAGES + 1):
-            hub.say(Notice(text=""))
+        for _ in range(hubs.MOST_BYTES // 1000):
+            hub.say(Notice(text="x" * 1000))
         assert viewer.closed and viewer.waiting == 0
         assert await viewer.take() is None
+
+    run(test)
+
+
+def test_a_stalled_viewer_is_told_the_last_of_what_is_told_again_and_again():
+    async def test(hub):
+        viewer = hub.join(hello)
+        await all_of(viewer)
+        for rows in range(1000):
+            hub.say(RecordingStatus(name="r", rows=rows, lost=0, seconds=0.0, trouble=""))
+            hub.frame(FRAME)
+        assert viewer._bytes < 200 and len(viewer._queue) < 3 * hubs.MOST_FRAMES
+        (last,) = [d for d in await all_of(viewer) if isinstance(d, str)]
+        assert '"rows":999' in last and viewer._bytes == 0
+        hub.say(RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble=""))
+        assert len(await all_of(viewer)) == 1
 
     run(test)
 

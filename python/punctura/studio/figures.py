@@ -1,0 +1,39 @@
+"""The page of `punctura reproduce`, where it has been made: those files of its folder and no others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.routing import Route
+
+_MADE = re.compile(r"index\.html|(fig\d\d|chatter|pop)\.(png|svg|csv)")
+
+
+def likely_folders() -> list[Path]:
+    """Where `./run reproduce` and `punctura reproduce` put it, as seen from here."""
+    return [Path.cwd() / "out", Path.cwd() / "out" / "reproduce"]
+
+
+class Figures:
+    """Looked for at each request: it may be made while the studio runs."""
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        self._folders = list(folders)
+
+    def route(self) -> Route:
+        return Route("/figures/{name}", self.file)
+
+    def index(self) -> Route:
+        return Route("/figures/", self.file)
+
+    def file(self, request: Request) -> Response:
+        name = request.path_params.get("name", "index.html")
+        for folder in self._folders if _MADE.fullmatch(name) else ():
+            # The page is written last, so with it the rest is there.
+            if all((folder / each).is_file() and not (folder / each).is_symlink() for each in ("index.html", name)):
+                return FileResponse(folder / name)
+        return PlainTextResponse("There are no figures yet: punctura reproduce makes them.\n", 404)
