@@ -15,6 +15,7 @@ from pathlib import Path
 
 import uvicorn
 
+from punctura._core import DeviceError
 from punctura.exercise import ResultStore
 from punctura.live.session import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
@@ -84,6 +85,7 @@ class StudioServer:
             server_header=False,
             proxy_headers=False,
             timeout_graceful_shutdown=2,
+            limit_concurrency=200,
         )
         self._server = uvicorn.Server(config)
         self._thread = threading.Thread(
@@ -132,6 +134,8 @@ def run_studio(
                 time.sleep(POLL_S)
         finally:
             server.stop()
+    if isinstance(server.session.failure, DeviceError):
+        raise server.session.failure
     if server.session.failure:
         raise StudioError(f"the run has ended by a defect, please report it: {server.session.failure!r}")
 

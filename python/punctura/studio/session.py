@@ -12,6 +12,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
+from punctura._core import DeviceError
 from punctura.exercise import Exercise, ResultStore
 from punctura.record import RecorderStatus
 from punctura.studio.hand import Hand, Pose
@@ -101,12 +102,16 @@ class Session:
         self.end_run()
         try:
             self.run = Run(self.run.number + 1, self.bench, loaded, path, about, pose)
-            self.recording = record or ""
         except Exception:
             self.run = Run(self.run.number + 1, self.bench, self.run.loaded, pose=self.run.pose)
             self._start_run()
             raise
-        self._start_run()
+        self.recording = record or ""
+        try:
+            self._start_run()
+        except Exception:  # the device cannot be started again: there is no tick, and nothing to record
+            self.end_run()
+            raise
 
     def edit(self, loaded: Loaded) -> None:
         """Another scene while it runs. Raises ConfigurationError; then nothing has changed."""
@@ -225,6 +230,8 @@ class Session:
                 if now >= status_at:
                     status_at = now + STATUS_S
                     self._guarded(self._tell_status)
+        except DeviceError as error:
+            self.failure = error
         except BaseException as error:
             self.failure = error
             raise
