@@ -72,7 +72,7 @@ export class Membranes {
       material.opacity = theme.dark ? 0.3 : 0.36;
       slab.edgeMaterial.color.copy(theme.membrane(i)).lerp(theme.color("text"), 0.15);
       grid.material.color.copy(theme.membrane(i)).lerp(theme.color("text"), 0.25);
-      grid.material.opacity = theme.dark ? 0.22 : 0.26;
+      grid.material.opacity = (theme.dark ? 0.26 : 0.3) / Math.sqrt(Math.max(1, this.placed.length / 2));
       scars.paint(theme);
     });
   }
@@ -86,7 +86,8 @@ export class Membranes {
       const old = holes.of(i, moment.tick);
       this.shape(membrane, state, moment, old.at(-1));
       // Far from the needle the infinite membrane of the model must still be there to be seen.
-      const away = membrane.faces[0].centre.distanceTo(membrane.point);
+      const from = new Vector3().subVectors(membrane.faces[0].centre, membrane.point);
+      const away = from.addScaledVector(membrane.normal, -from.dot(membrane.normal)).length();
       if (away > 0.75 * this.size) this.size = away / 0.6;
       const width = dimple(this.diameter, membrane.thickness);
       const { point, normal, thickness, faces, slab, scars, grid } = membrane;
@@ -108,7 +109,11 @@ export class Membranes {
     back.hole = 0;
     const inside = state.phase !== OUTSIDE && state.phase !== BARRED && state.direction.lengthSq() > 0.5;
     const direction = inside ? state.direction : last?.direction;
-    if (!direction) return;
+    if (!direction) {
+      front.centre.copy(membrane.point);
+      back.centre.copy(membrane.point);
+      return;
+    }
     const slope = direction.dot(membrane.normal);
     const path = membrane.thickness / Math.max(0.1, slope);
     const side = bevelSide(direction);

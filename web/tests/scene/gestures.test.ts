@@ -1,0 +1,98 @@
+import { beforeEach, describe, expect, it } from "vitest";
+import { gestures } from "../../src/scene/gestures.ts";
+
+/** As much of a canvas as gestures need. */
+class FakeCanvas extends EventTarget {
+  readonly dataset: Record<string, string> = {};
+  getBoundingClientRect(): { left: number; top: number } {
+    return { left: 100, top: 50 };
+  }
+  setPointerCapture(): void {}
+}
+
+let canvas: FakeCanvas;
+let log: string[];
+let free: boolean;
+
+function send(type: string, fields: Record<string, unknown>): Event {
+  const event = new Event(type, { cancelable: true });
+  canvas.dispatchEvent(Object.assign(event, { pointerId: 1, button: 0, shiftKey: false, ...fields }));
+  return event;
+}
+const down = (x: number, y: number, more = {}): Event => send("pointerdown", { clientX: x, clientY: y, ...more });
+const move = (x: number, y: number, more = {}): Event => send("pointermove", { clientX: x, clientY: y, ...more });
+const up = (more = {}): Event => send("pointerup", more);
+
+beforeEach(() => {
+  canvas = new FakeCanvas();
+  log = [];
+  free = true;
+  gestures(canvas as unknown as HTMLElement, {
+    grab: (x, y) => {
+      log.push(`grab ${x} ${y}`);
+      return free;
+    },
+    drag: (x, y) => log.push(`drag ${x} ${y}`),
+    release: () => log.push("release"),
+    orbit: (dx, dy) => log.push(`orbit ${dx} ${dy}`),
+    pan: (dx, dy) => log.push(`pan ${dx} ${dy}`),
+    zoom: (factor) => log.push(`zoom ${factor.toFixed(2)}`),
+    push: (depth) => {
+      if (free) log.push(`push ${depth.toFixed(2)}`);
+      return free;
+    },
+  });
+});
+
+describe("a gesture over the view", () => {
+  it("with the left button or one finger drags the needle", () => {
+    down(150, 80);
+    move(155, 90);
+    up();
+    move(200, 200);
+    expect(log).toEqual(["grab 50 30", "drag 55 40", "release"]);
+  });
+
+  it.each([
+    ["the right button", { button: 2 }],
+    ["Shift", { shiftKey: true }],
+  ])("with %s goes round the scene, and never touches the needle", (_name, how) => {
+    down(150, 80, how);
+    move(155, 90, how);
+    up(how);
+    expect(log).toEqual(["orbit 5 10"]);
+  });
+
+  it("with the middle button moves the picture", () => {
+    down(150, 80, { button: 1 });
+    move(155, 90);
+    expect(log).toEqual(["pan 5 10"]);
+  });
+
+  it("with two fingers lets the needle go, zooms and goes round; the finger that stays does not take the needle", () => {
+    down(150, 80, { pointerId: 1 });
+    down(250, 80, { pointerId: 2 });
+    move(350, 80, { pointerId: 2 });
+    up({ pointerId: 2 });
+    move(160, 80, { pointerId: 1 });
+    up({ pointerId: 1 });
+    expect(log).toEqual(["grab 50 30", "release", "zoom 2.00", "orbit 50 0", "orbit 10 0"]);
+  });
+
+  it("goes round where the needle cannot be taken", () => {
+    free = false;
+    down(150, 80);
+    move(155, 80);
+    expect(log).toEqual(["grab 50 30", "orbit 5 0"]);
+  });
+
+  it("with the wheel goes along the needle, with Ctrl zooms, and does not scroll the page", () => {
+    const wheel = (fields: object): Event =>
+      send("wheel", { deltaY: 100, deltaMode: 0, ctrlKey: false, metaKey: false, ...fields });
+    expect(wheel({}).defaultPrevented).toBe(true);
+    expect(wheel({ ctrlKey: true }).defaultPrevented).toBe(true);
+    free = false;
+    wheel({});
+    expect(log).toEqual(["push 0.40", "zoom 0.55", "zoom 0.89"]);
+  });
+});
