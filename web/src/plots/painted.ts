@@ -9,6 +9,8 @@ export class Painted {
   private top = 0;
   private width = 0;
   private height = 0;
+  private lastCell = -1;
+  private lastInk = false;
 
   /** Forgets, for another drawing in this box. */
   begin(left: number, top: number, width: number, height: number): void {
@@ -16,6 +18,7 @@ export class Painted {
     this.top = Math.floor(top);
     this.width = Math.ceil(width) + 1;
     this.height = Math.ceil(height) + 1;
+    this.lastCell = -1;
     const size = this.width * this.height;
     if (this.cells.length < size) this.cells = new Uint8Array(size);
     else this.cells.fill(0, 0, size);
@@ -57,8 +60,11 @@ export class Painted {
     const row = Math.floor(y) - this.top;
     if (column < 0 || row < 0 || column >= this.width || row >= this.height) return true;
     const cell = row * this.width + column;
-    const was = this.cells[cell] === 1;
+    // A stay in a pixel is one: the ink that it lays itself does not count against it.
+    if (cell === this.lastCell) return this.lastInk;
+    this.lastCell = cell;
+    this.lastInk = this.cells[cell] === 1;
     this.cells[cell] = 1;
-    return was;
+    return this.lastInk;
   }
 }

@@ -38,6 +38,15 @@ describe("ink that is there already", () => {
     ]);
   });
 
+  it("a slow stroke, many points to a pixel, has no gap", () => {
+    const painted = new Painted();
+    painted.begin(0, 0, 100, 100);
+    const slow = Array.from({ length: 300 }, (_, i) => [i / 8, 20 + 0.25 * (i % 3)] as const);
+    const out = new Polyline();
+    painted.addNew(line(slow), out);
+    expect(points(out)).toEqual(slow.map((point) => point.map(Math.fround)));
+  });
+
   it("another drawing begins without ink", () => {
     const painted = new Painted();
     painted.begin(0, 0, 100, 100);
