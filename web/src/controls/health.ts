@@ -31,7 +31,7 @@ export const healthPanel: Panel = (host, app) => {
     };
     return [element("div", { title: help }, element("dt", {}, label), value), set];
   };
-  const [rateBox, setRate] = figure("rate", "Ticks a second, as the server counts them");
+  const [rateBox, setRate] = figure("rate", "Ticks a second, by the loop's own clock");
   const [ticksBox, setTicks] = figure("ticks", "Ticks of this run");
   const [lateBox, setLate] = figure("late ticks", "Ticks that began after their time by more than the loop allows");
   const [lostBox, setLost] = figure("lost", "Records of ticks that the studio was too slow to take");
@@ -71,7 +71,9 @@ export const healthPanel: Panel = (host, app) => {
     nothing.hidden = status !== null;
     if (!status) return;
     const nominal = app.source.value.scene.value?.rate ?? app.hello.value?.device.rate ?? 1000;
-    const measured = rate.add(performance.now() / 1e3, status.ticks);
+    const { history } = app.live;
+    // By the ticks' own clock: when this page hears of them says nothing about the loop.
+    const measured = history.length ? rate.add(history.timeOf(history.end - 1), history.end) : null;
     setRate(
       measured === null ? "–" : `${measured.toFixed(0)} of ${nominal.toFixed(0)} Hz`,
       measured !== null && measured < 0.98 * nominal,

@@ -66,7 +66,7 @@ export class TimeDrawing {
     extent.take(1);
     for (let i = 0; i < history.membranes; i++) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
     // A hand far away from the tissue must not press what happens inside into a line.
-    this.rangeDepth.follow(Math.max(extent.low, -Math.max(5, extent.high)), extent.high, now);
+    this.rangeDepth.follow(Math.max(extent.low, -Math.max(10, 1.5 * extent.high)), extent.high, now);
     for (const pane of [force, depth]) pane.rangeX(window.from, window.to);
     force.rangeY(this.rangeForce.min, this.rangeForce.max);
     depth.rangeY(this.rangeDepth.min, this.rangeDepth.max);
