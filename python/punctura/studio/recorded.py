@@ -10,15 +10,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from punctura import Phase, Scene
 from punctura.errors import ConfigurationError
 from punctura.events import find_events, snapshot_columns
 from punctura.record import Recording
+from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
 from punctura.studio.view import scene_view
+from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import Columns, encode_ticks
 
 NO_PHASE = 255
+_INSIDE = [int(phase) for phase in (Phase.sticking, Phase.sliding_in, Phase.sliding_out)]
 MOTION_HZ = 250.0  # of a recorded motion that the hand follows; Target smooths what is between
 Array = npt.NDArray[np.float64]
 
@@ -47,7 +51,8 @@ def _text_of(recording: Recording) -> str:
 def overview(recording: Recording) -> dict[str, Any]:
     """What the page needs before the ticks, as JSON. Goes through the whole recording, for its events."""
     info = recording.info
-    view = scene_view(loaded_of(recording), 0, info.scene.servo.rate)
+    loaded = loaded_of(recording)
+    view = scene_view(loaded, 0, info.scene.servo.rate, _laws(loaded.scene, recording))
     events = [{"kind": "event", **event.model_dump()} for event in find_events(recording)]
     data = {key: value for key, value in info.data.items() if key not in ("scene", "about")}
     return {
@@ -57,6 +62,24 @@ def overview(recording: Recording) -> dict[str, Any]:
         "ticks": recording.rows,
         "first_tick": int(recording.summary.get("first_tick", 0)),
     }
+
+
+def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:
+    """For the direction in which each membrane was entered first; None for a recording without a tick."""
+    axis: Array | None = None
+    entered = np.full((len(scene.membranes), 3), np.nan)
+    for batch in recording.batches():
+        columns = snapshot_columns(batch)
+        if len(columns["tick"]) == 0:
+            continue
+        axis = np.asarray(columns["axis"][0], np.float64) if axis is None else axis
+        for i in range(min(len(entered), columns["phase"].shape[1])):
+            inside = np.isin(columns["phase"][:, i], _INSIDE)
+            if np.isnan(entered[i]).any() and inside.any():
+                entered[i] = columns["direction"][inside.argmax(), i]
+        if np.isfinite(entered).all():
+            break
+    return None if axis is None else law_curves(scene, obliquities(scene, axis, entered))
 
 
 def tick_frames(recording: Recording) -> Iterator[bytes]:
