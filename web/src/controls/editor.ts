@@ -57,7 +57,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     { class: "fields" },
     solverControl(app, draft),
     top.root,
-    element("h3", {}, membraneTable.title.replace(/e?s?$/, "es")),
+    element("h3", {}, membraneTable.title),
     list.root,
     element("div", { class: "tools" }, add),
     ...(needle ? [section(needle.table, needle.root, true)] : []),

@@ -71,16 +71,16 @@ export function sceneForm(schema: unknown): SceneForm {
       continue;
     }
     const name = reference.replace("#/$defs/", "");
-    tables.push(table(key, object(definitions[name], name), isList));
+    tables.push(table(key, object(definitions[name], name), isList, text(entry.title)));
   }
   return { fields, tables };
 }
 
-function table(key: string, definition: Json, isList: boolean): Table {
+function table(key: string, definition: Json, isList: boolean, title: string): Table {
   const required = new Set(list(definition.required));
   return {
     key,
-    title: text(definition.title) || key,
+    title: title || text(definition.title) || key,
     help: text(definition.description),
     list: isList,
     fields: Object.entries(object(definition.properties, key)).map(([name, entry]) =>

@@ -10,9 +10,9 @@ const SOLVERS = [
 /** Which solver makes the force, and whether the other one is drawn beside it. */
 export function solverControl(app: App, draft: Draft): HTMLElement {
   const buttons = SOLVERS.map(([name, label, help]) => {
-    const input = element("input", { type: "radio", name: "solver", value: name, id: `solver-${name}` });
+    const input = element("input", { type: "radio", name: "solver", value: name });
     input.addEventListener("change", () => draft.set(["servo", "solver"], name));
-    return { name, input, label: element("label", { for: `solver-${name}`, title: help }, label) };
+    return { name, input, root: element("label", { title: help }, input, element("span", {}, label)) };
   });
   draft.tables.watch(() => {
     const now = draft.at(["servo", "solver"]) ?? "exact";
@@ -35,7 +35,7 @@ export function solverControl(app: App, draft: Draft): HTMLElement {
     "fieldset",
     { class: "solver" },
     element("legend", {}, "Solver"),
-    element("div", { class: "segmented" }, ...buttons.flatMap(({ input, label }) => [input, label])),
+    element("div", { class: "segmented" }, ...buttons.map(({ root }) => root)),
     element("label", { class: "check" }, compare, "draw the other solver’s force"),
     element(
       "p",
