@@ -15,6 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))  # for person.py
+
 from playwright.sync_api import Browser, Page, Playwright, sync_playwright
 
 FLAGS = [
