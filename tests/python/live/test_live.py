@@ -70,6 +70,23 @@ def test_a_fault_ends_the_run_and_says_what_to_do():
     assert summary.force_N == (0.0, 0.0, 0.0)
 
 
+def test_an_encoder_that_fails_once_is_a_fault_that_stays_until_a_reset():
+    loop = ServoLoop(SimulatedDevice(STROKES, ticks=0), SCENE)
+    loop.arm()
+    loop.start()
+    loop.device.trip()
+    end = time.monotonic() + 10
+    while not len(loop.fault_history()["tick"]) and time.monotonic() < end:
+        time.sleep(0.001)
+    assert loop.fault_history()["fault"][-1] == int(Fault.non_finite_input)
+    assert list(loop.device.last_force) == [0.0, 0.0, 0.0]
+    loop.reset()
+    while loop.latest()["fault"][0] and time.monotonic() < end:
+        time.sleep(0.001)
+    assert loop.latest()["fault"][0] == 0
+    loop.stop()
+
+
 def test_strokes_go_from_in_front_of_all_membranes_to_behind_them():
     for name in pn.scene_names():
         scene = pn.load_scene(name)

@@ -44,6 +44,14 @@ def test_phases_and_states_are_words(start):
     assert set(table["state"].to_pylist()) == {"active"}
 
 
+def test_its_maker_may_say_more_of_a_run(tmp_path):
+    loop = ServoLoop(SimulatedDevice(STROKES, real_time=False, ticks=100), load_scene("k06-fig12"))
+    about = {"title": "Größe", "tables": {"needle": {"gauge": 21}}}
+    with Recorder(loop, tmp_path / "run.parquet", about=about):
+        assert open_recording(tmp_path / "run.parquet").info.about == about  # of a growing file, too
+    assert open_recording(tmp_path / "run.parquet").info.about == about
+
+
 def test_the_description_holds_scene_limits_device_and_build(start):
     gate = GateLimits(position_jump=0.02, dead_man=1)
     run = start(gate=gate).record()

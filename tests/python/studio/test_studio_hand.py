@@ -1,0 +1,73 @@
+"""The simulated hand's scripts."""
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.studio.hand import LEAD_S, REST_SHARE, Hand, resting_pose
+
+SCENE = pn.load_scene("k06-fig12")
+
+
+class Watched:
+    """In place of a simulated device: where it was told to go."""
+
+    def __init__(self):
+        self.places, self.axes = [], []
+
+    def move_to(self, place):
+        self.places.append(place)
+
+    def point(self, axis, buttons=0):
+        self.axes.append(axis)
+
+
+@pytest.fixture
+def hand():
+    made = Hand()
+    made.take(None, resting_pose(SCENE))
+    made._device, made.mode = Watched(), "target"
+    return made
+
+
+def test_it_rests_in_front_of_all_membranes_and_points_inward():
+    place, axis = resting_pose(SCENE)
+    assert place == pytest.approx((0, 5e-3, 0)) and axis == (0.0, -1.0, 0.0)
+
+
+def test_of_a_real_device_it_does_nothing():
+    hand = Hand()
+    hand.take(None, resting_pose(SCENE))
+    hand.target([0.0, 0.0, 0.0], [0.0, -1.0, 0.0])
+    hand.drive(1.0)
+    assert hand.mode == "device" and hand.next_at == float("inf")
+
+
+def test_strokes_rest_at_both_ends_and_never_jump(hand):
+    hand.strokes(SCENE, 2.0, now=10.0)
+    for k in range(1000):
+        hand.drive(10.0 + k * 0.004)
+    y = np.array([p[1] for p in hand._device.places])
+    assert y[0] == pytest.approx(5e-3) and y[: int(REST_SHARE * 250)].max() == y[: int(REST_SHARE * 250)].min()
+    assert y.min() < -5e-3 and np.abs(np.diff(y)).max() < 5e-4
+    assert y[500] == pytest.approx(y[0], abs=1e-5)
+    hand.target([0.0, 0.0, 0.0], [0.0, -2.0, 0.0])
+    assert hand.mode == "target" and hand.next_at == float("inf") and hand._device.axes[-1] == (0.0, -1.0, 0.0)
+
+
+def test_a_motion_is_led_into_without_a_jump_and_ends(hand):
+    time = np.linspace(0, 0.5, 126)
+    tip = np.column_stack((np.zeros(126), -0.01 - 0.01 * time, np.zeros(126)))
+    hand.motion(time, tip, np.tile([0.0, -1.0, 0.0], (126, 1)), now=3.0)
+    for k in range(int((LEAD_S + 1) * 250)):
+        hand.drive(3.0 + k * 0.004)
+    y = np.array([p[1] for p in hand._device.places])
+    assert np.abs(np.diff(y)).max() < 3e-4 and y[-1] == pytest.approx(tip[-1, 1]) and hand.mode == "target"
+
+
+@pytest.mark.parametrize(
+    ("place", "axis"), [((9, 0, 0), (0, -1, 0)), ((0, 0, 0), (0, 0, 0)), ((0, 0, 0), (1e200, 1e200, 0))]
+)
+def test_what_is_no_target_moves_nothing(hand, place, axis):
+    with pytest.raises(ValueError, match="axis"):
+        hand.target(list(place), list(axis))
+    assert not hand._device.places
