@@ -18,14 +18,19 @@ export function scenePicker(app: App): HTMLElement {
   };
   app.hello.watch(show);
   app.live.scene.watch(show);
+  let loading = false;
   const enable = (): void => {
-    select.disabled = !app.control.value.you || app.connection.value.state !== "open";
+    select.disabled = loading || !app.control.value.you || app.connection.value.state !== "open";
   };
   app.control.watch(enable);
   app.connection.watch(enable);
   select.addEventListener("change", () => {
     if (select.value === OWN) return;
+    loading = true;
+    enable();
     void app.ask({ do: "load", scene: select.value }).then((reply) => {
+      loading = false;
+      enable();
       if (!reply?.ok) show();
     });
   });

@@ -31,7 +31,7 @@ export function extentOf(scene: SceneView): Extent {
   const length = deep + 2 * tip + 12;
   const above = Math.min(14, 7 + 0.4 * deep);
   const below = deep + 0.5 * tip;
-  const radius = Math.max((above + below) / 2, 1.22 * size);
+  const radius = Math.hypot((above + below) / 2, 1.12 * size);
   const centre = origin.clone().addScaledVector(normal, (below - above) / 2);
   const strongest = Math.max(0.2, ...scene.laws.flatMap((law) => law.lower.map(Math.abs)));
   return { deep, size, length, centre, radius, mmPerNewton: (0.5 * radius) / strongest };

@@ -1,19 +1,28 @@
-import type { Color, Vector3 } from "three";
+import { type Color, Quaternion, Vector3 } from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 
-/** A straight line of a width in pixels, which may be dashed. */
+const UP = new Vector3(0, 1, 0);
+
+/** A straight line of a width in pixels, which may be dashed (mm). It is one line, put in its place: nothing is made anew. */
 export class FatLine {
   readonly line: Line2;
   private readonly material: LineMaterial;
+  private readonly way = new Vector3();
 
   constructor(pixels: number, opacity: number, dash?: number) {
     this.material = new LineMaterial({
-      linewidth: pixels, transparent: true, opacity, depthTest: false, dashed: dash !== undefined,
-      dashSize: dash ?? 1, gapSize: (dash ?? 1) * 0.7,
-    }); // biome-ignore format: short
-    this.line = new Line2(new LineGeometry(), this.material);
+      linewidth: pixels,
+      transparent: true,
+      opacity,
+      depthTest: false,
+      dashed: dash !== undefined,
+      dashSize: dash ?? 1,
+      gapSize: (dash ?? 1) * 0.7,
+    });
+    this.line = new Line2(new LineGeometry().setPositions([0, 0, 0, 0, 1, 0]), this.material);
+    this.line.computeLineDistances();
     this.line.frustumCulled = false;
     this.line.renderOrder = 4;
     this.line.visible = false;
@@ -25,9 +34,12 @@ export class FatLine {
 
   /** null hides it. */
   between(ends: readonly [Vector3, Vector3] | null): void {
-    this.line.visible = ends !== null;
-    if (!ends) return;
-    this.line.geometry.setPositions([...ends[0].toArray(), ...ends[1].toArray()]);
-    this.line.computeLineDistances();
+    const length = ends ? this.way.subVectors(ends[1], ends[0]).length() : 0;
+    this.line.visible = length > 1e-6;
+    if (!ends || !this.line.visible) return;
+    this.line.position.copy(ends[0]);
+    this.line.quaternion.copy(new Quaternion().setFromUnitVectors(UP, this.way.divideScalar(length)));
+    this.line.scale.set(1, length, 1);
+    this.material.dashScale = length;
   }
 }

@@ -40,6 +40,11 @@ export class Grid {
     this.lines.geometry = new BufferGeometry().setAttribute("position", this.attribute);
   }
 
+  dispose(): void {
+    this.lines.geometry.dispose();
+    this.material.dispose();
+  }
+
   /** origin: of the face, whose plane t1 and t2 span. */
   lay(origin: Vector3, t1: Vector3, t2: Vector3, face: FaceState, size: number, width: number): void {
     if (size !== this.size) this.rule(size);

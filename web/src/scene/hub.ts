@@ -7,29 +7,47 @@ const FLOW_MS = 350;
 /** The hub behind the shaft: clear plastic, in whose chamber blood shows once the tip is in the lumen. mm. */
 export class Hub {
   readonly group = new Group();
-  private readonly plastic = new MeshPhongMaterial({ transparent: true, opacity: 0.42, depthWrite: false, side: DoubleSide,
-  }); // biome-ignore format: short
-  private readonly blood = new MeshPhongMaterial({});
-  private readonly fill: Mesh;
+  private readonly plastic = new MeshPhongMaterial({
+    transparent: true,
+    opacity: 0.42,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+  private readonly blood = new MeshPhongMaterial();
+  private readonly body = new Mesh(new LatheGeometry(), this.plastic);
+  private readonly fill = new Mesh(new CylinderGeometry(1.6, 1.6, 1, 32).translate(0, 0.5, 0), this.blood);
   private level = 0;
 
-  constructor(diameter: number, theme: Theme) {
-    const neck = Math.max(0.9, diameter * 0.8);
-    const profile = [
-      [diameter / 2, 0], [neck, 0.05], [neck * 1.15, 1.2], [2.1, 2.4], [2.2, LENGTH - 1], [2.9, LENGTH - 0.9], [2.9, LENGTH], [1.7, LENGTH],
-    ].map(([r, z]) => new Vector2(r, z)); // biome-ignore format: a table
-    const body = new Mesh(new LatheGeometry(profile, 40), this.plastic);
-    body.renderOrder = 3;
-    const shape = new CylinderGeometry(1.6, 1.6, 1, 32).translate(0, 0.5, 0);
-    this.fill = new Mesh(shape, this.blood);
+  constructor(theme: Theme) {
+    this.body.renderOrder = 3;
     this.fill.position.y = 2.2;
     this.fill.visible = false;
-    this.group.add(body, this.fill);
+    this.group.add(this.body, this.fill);
     this.group.rotation.x = Math.PI / 2; // built along y, placed along the shaft's z
     theme.watch(() => {
       this.plastic.color.copy(theme.color("quiet")).lerp(theme.color("panel"), theme.dark ? 0.1 : 0.35);
       this.blood.color.copy(theme.color("blood"));
     });
+  }
+
+  build(diameter: number): void {
+    const neck = Math.max(0.9, diameter * 0.8);
+    // Radius and height, from the shaft to the rim.
+    const profile: [number, number][] = [
+      [diameter / 2, 0],
+      [neck, 0.05],
+      [neck * 1.15, 1.2],
+      [2.1, 2.4],
+      [2.2, LENGTH - 1],
+      [2.9, LENGTH - 0.9],
+      [2.9, LENGTH],
+      [1.7, LENGTH],
+    ];
+    this.body.geometry.dispose();
+    this.body.geometry = new LatheGeometry(
+      profile.map(([r, z]) => new Vector2(r, z)),
+      40,
+    );
   }
 
   /** Flows in while `inLumen`, and drains slower; true where it changed. */

@@ -34,9 +34,8 @@ export class Membranes {
   }
 
   build(scene: SceneView, size: number): void {
-    for (const { slab, scars } of this.placed) {
-      slab.mesh.geometry.dispose();
-      scars.dispose();
+    for (const { slab, scars, grid, material } of this.placed) {
+      for (const part of [slab, scars, grid, material]) part.dispose();
     }
     this.group.clear();
     this.size = size;

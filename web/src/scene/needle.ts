@@ -10,26 +10,25 @@ const EMPTY = new Color(0x23272d);
 /** The needle of the scene: its true diameter and tip angle; its length is the view's choice. mm, rad. */
 export class Needle {
   readonly group = new Group();
-  private hub: Hub | null = null;
-  private readonly steel = steel(0.92);
-  private readonly ground = steel(1.15);
-  private readonly bore = new MeshLambertMaterial();
+  private readonly mouth = new MeshLambertMaterial();
+  private readonly shaft = new Mesh(undefined, steel(0.92));
+  private readonly face = new Mesh(undefined, steel(1.15));
+  private readonly bore = new Mesh(undefined, this.mouth);
+  private readonly hub: Hub;
 
   constructor(private readonly theme: Theme) {
+    this.hub = new Hub(theme);
     this.group.matrixAutoUpdate = false;
+    this.group.add(this.shaft, this.face, this.bore, this.hub.group);
   }
 
   build(diameter: number, tipAngle: number, length: number): void {
-    for (const child of this.group.children) if (child instanceof Mesh) child.geometry.dispose();
-    this.group.clear();
-    this.hub = new Hub(diameter, this.theme);
+    for (const { geometry } of [this.shaft, this.face, this.bore]) geometry.dispose();
+    this.shaft.geometry = shaftShape(diameter, tipAngle, length);
+    this.face.geometry = faceShape(diameter, tipAngle, false);
+    this.bore.geometry = faceShape(diameter, tipAngle, true);
+    this.hub.build(diameter);
     this.hub.group.position.set(diameter / 2, 0, length);
-    this.group.add(
-      new Mesh(shaftShape(diameter, tipAngle, length), this.steel),
-      new Mesh(faceShape(diameter, tipAngle, false), this.ground),
-      new Mesh(faceShape(diameter, tipAngle, true), this.bore),
-      this.hub.group,
-    );
   }
 
   place(tip: Vector3, axis: Vector3): void {
@@ -39,7 +38,7 @@ export class Needle {
 
   /** Blood at the bore's mouth and in the hub; true where the picture changes. */
   step(inLumen: boolean, elapsedMs: number): boolean {
-    this.bore.color.copy(inLumen ? this.theme.color("blood") : EMPTY);
-    return this.hub?.step(inLumen, elapsedMs) ?? false;
+    this.mouth.color.copy(inLumen ? this.theme.color("blood") : EMPTY);
+    return this.hub.step(inLumen, elapsedMs);
   }
 }

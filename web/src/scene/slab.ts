@@ -115,12 +115,18 @@ export class Slab {
     }
   }
 
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.edges.geometry.dispose();
+    this.edgeMaterial.dispose();
+  }
+
   private key(faces: readonly FaceState[], size: number, width: number, thickness: number, needle: Vector3): string {
     const parts = [size, width, thickness];
     for (const { centre, hole, shift } of faces) {
       parts.push(centre.x, centre.y, centre.z, hole, shift.x, shift.y, shift.z);
       if (hole > 0) parts.push(needle.x, needle.y, needle.z);
     }
-    return parts.map((value) => value.toFixed(3)).join(" ");
+    return parts.map((value) => value.toFixed(2)).join(" ");
   }
 }

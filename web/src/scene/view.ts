@@ -81,12 +81,13 @@ export const view: Panel = (host, app) => {
     if (!scene || stage.lost) return;
     if (scene !== built) build(scene);
     const turned = orbit.step(elapsed);
-    const changed = world.lay(source, hand.target.value, orbit.camera, elapsed);
+    const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
+    const changed = world.lay(source, hand.target.value, orbit.camera, elapsed, pixel);
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) return;
     stage.draw(orbit.camera, now);
     world.name(orbit.camera);
-    drawScale(orbit.mmPerPixel(world.moment.tip, stage.height));
+    drawScale(pixel);
     speak(world.moment, scene, now);
   });
 };

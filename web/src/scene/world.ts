@@ -15,9 +15,10 @@ import { MM, Moment, OUTSIDE } from "./moment.ts";
 import { Needle } from "./needle.ts";
 import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
-import { Trail } from "./trail.ts";
+import { TRAIL_SECONDS, Trail } from "./trail.ts";
 
 const ACTIVE = 2;
+const FADES_A_SECOND = 15;
 
 /** All that stands on the stage, laid for a moment of a source. */
 export class World {
@@ -33,6 +34,8 @@ export class World {
   private readonly entry = new FatLine(1.5, 0.85, 0.8);
   private readonly holes = new Holes();
   private drawn = "";
+  private moved = 0;
+  private faded = -1;
 
   constructor(
     private readonly stage: Stage,
@@ -68,17 +71,15 @@ export class World {
     return true;
   }
 
-  /** Lays all for what the source shows now; true where the picture changes. */
-  lay(source: Source, target: Pose | null, camera: Camera, elapsedMs: number): boolean {
+  /** Lays all for what the source shows now; true where the picture changes. pixel: mm that one spans. */
+  lay(source: Source, target: Pose | null, camera: Camera, elapsedMs: number, pixel: number): boolean {
     const { moment, scene, extent } = this;
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.lay(moment, this.holes);
     changed = this.blood.lay(this.membranes, moment.axis) || changed;
     changed = this.needle.step(this.blood.holdsTip(this.membranes, moment), elapsedMs) || changed;
-    const key = this.key(target);
-    if (key === this.drawn && !changed) return false;
-    this.drawn = key;
+    if (!this.differs(this.key(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
     this.trail.lay(source, moment.tick, scene.rate);
     this.placeArrow(camera, extent, scene);
@@ -147,24 +148,28 @@ export class World {
     return middle.addScaledVector(along.normalize(), this.membranes.size);
   }
 
-  private key(target: Pose | null): string {
+  /** A trail goes on fading for a while when the needle has come to rest. */
+  private differs(key: string, changed: boolean): boolean {
+    const { time } = this.moment;
+    if (key !== this.drawn || changed) this.moved = time;
+    const fading = Math.abs(time - this.moved) < TRAIL_SECONDS ? Math.floor(time * FADES_A_SECOND) : -1;
+    const differs = key !== this.drawn || changed || fading !== this.faded;
+    this.drawn = key;
+    this.faded = fading;
+    return differs;
+  }
+
+  /** What the picture shows, in steps too small to be seen: a hand that trembles less than that costs no picture. */
+  private key(target: Pose | null, pixel: number): string {
     const { tip, axis, force, modelForce, state } = this.moment;
-    const at = [
-      tip.x,
-      tip.y,
-      tip.z,
-      axis.x,
-      axis.y,
-      axis.z,
-      force.x,
-      force.y,
-      force.z,
-      modelForce.x,
-      modelForce.y,
-      modelForce.z,
-    ];
-    const pose = target ? [...target.position, ...target.axis].map((value) => value.toFixed(6)) : [];
-    return [state, ...at.map((value) => value.toFixed(3)), ...pose].join(" ");
+    const step = Math.max(1e-3, pixel / 3);
+    const places = [tip, ...(target ? [new Vector3(...target.position).multiplyScalar(MM)] : [])];
+    const parts = places.flatMap(({ x, y, z }) => [x, y, z].map((value) => Math.round(value / step)));
+    for (const { x, y, z } of [axis, force, modelForce]) {
+      parts.push(...[x, y, z].map((value) => Math.round(value * 250)));
+    }
+    parts.push(...(target?.axis.map((value) => Math.round(value * 1000)) ?? []));
+    return `${state} ${parts.join(" ")}`;
   }
 }
 
