@@ -24,8 +24,13 @@ class Problem(NamedTuple):
     reason: str
 
     def __str__(self) -> str:
-        given = "" if self.value is MISSING else f" = {self.value!r}"
+        given = "" if self.value is MISSING else f" = {_brief(repr(self.value))}"
         return f"{self.path}{given}: {self.reason}" if self.path else self.reason
+
+
+def _brief(text: str) -> str:
+    """For a line of a message: whole lists of numbers would bury the reason."""
+    return text if len(text) <= 200 else f"{text[:150]} ... ({len(text)} characters)"
 
 
 class ConfigurationError(ValueError):

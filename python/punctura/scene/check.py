@@ -7,6 +7,7 @@ harmless one stands in for it while the core looks at the rest.
 from __future__ import annotations
 
 import difflib
+import json
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -27,22 +28,43 @@ from punctura.scene.units import split_key, to_si
 _TABLES: dict[str, type[BaseModel]] = {
     "needle": NeedleTable, "coupling": CouplingTable, "servo": ServoTable, "membrane": MembraneTable,
 }  # fmt: skip
+Location = tuple[int | str, ...]  # of a value in the file: ("membrane", 1, "friction")
+
+_ENOUGH = 100  # membranes to look at: more than the core takes, and so few that all their problems can be told
 
 
 def check_tables(data: dict[str, Any]) -> tuple[SceneFile | None, list[Problem]]:
     """The scene file of these tables, if it is sound, and every problem if it is not."""
-    problems = list(_alternative_problems(data))
+    tables = data.get("membrane")
+    if isinstance(tables, list) and len(tables) > _ENOUGH:
+        data = data | {"membrane": tables[:_ENOUGH]}
+    problems = [(_location(p.path), p) for p in _alternative_problems(data)]
     scene_file: SceneFile | None = None
     try:
         scene_file = SceneFile.model_validate(data)
     except ValidationError as error:
-        problems = [_type_problem(e) for e in error.errors(include_url=False)] + problems
-    problems += _domain_problems(data, {p.path for p in problems})
-    return (None if problems else scene_file), sorted(problems, key=lambda p: _place(p.path, data))
+        problems = [(e["loc"], _type_problem(e)) for e in error.errors(include_url=False)] + problems
+    problems += [(_location(p.path), p) for p in _domain_problems(data, {p.path for _, p in problems})]
+    order = _Order(data)
+    problems.sort(key=lambda located: order.place(located[0]))
+    return (None if problems else scene_file), [problem for _, problem in problems]
 
 
-def _path(location: tuple[int | str, ...]) -> str:
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location).lstrip(".")
+def _path(location: Location) -> str:
+    """A key that TOML wants in quotes has them here, too: its dots and brackets are its own."""
+    text = ""
+    for part in location:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            key = part if re.fullmatch("[A-Za-z0-9_-]+", part) else json.dumps(part, ensure_ascii=False)
+            text += f".{key}" if text else key
+    return text
+
+
+def _location(path: str) -> Location:
+    """Of a path whose keys are the schema's own."""
+    return tuple(int(part) if part.isdigit() else part for part in re.findall(r"[^.\[\]]+", path))
 
 
 def _shown(value: Any) -> object:
@@ -133,9 +155,9 @@ def _bound_in_unit(path: str, key_path: str, value: float) -> str:
 
 
 def _lookup(data: Any, path: str) -> Any:
-    for part in re.findall(r"[^.\[\]]+", path):
-        if isinstance(data, list) and part.isdigit() and int(part) < len(data):
-            data = data[int(part)]
+    for part in _location(path):
+        if isinstance(data, list) and isinstance(part, int) and part < len(data):
+            data = data[part]
         elif isinstance(data, dict):
             data = data.get(part)
         else:
@@ -143,16 +165,24 @@ def _lookup(data: Any, path: str) -> Any:
     return data
 
 
-def _place(path: str, data: Mapping[str, Any]) -> tuple[int, ...]:
+class _Order:
     """Where a problem's field stands in the file, so that problems are told from top to bottom."""
-    place: list[int] = []
-    here: Any = data
-    for part in re.findall(r"[^.\[\]]+", path):
-        if isinstance(here, dict):
-            keys = list(here)
-            place.append(keys.index(part) if part in keys else len(keys))
-            here = here.get(part)
-        elif isinstance(here, list):
-            place.append(int(part))
-            here = here[int(part)] if int(part) < len(here) else None
-    return tuple(place)
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self._data = data
+        self._ranks: dict[int, dict[str, int]] = {}  # of a table's keys, by the table
+
+    def place(self, location: Location) -> tuple[int, ...]:
+        place: list[int] = []
+        here: Any = self._data
+        for part in location:
+            if isinstance(here, dict) and isinstance(part, str):
+                if id(here) not in self._ranks:
+                    self._ranks[id(here)] = {key: rank for rank, key in enumerate(here)}
+                ranks = self._ranks[id(here)]
+                place.append(ranks.get(part, len(ranks)))
+                here = here.get(part)
+            elif isinstance(here, list) and isinstance(part, int):
+                place.append(part)
+                here = here[part] if part < len(here) else None
+        return tuple(place)

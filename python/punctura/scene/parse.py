@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import sys
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
 
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.scene.limits import MOST_BYTES, excess
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -23,7 +24,11 @@ def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
 def read_text(path: Path) -> str:
     """The text of a scene file; a byte-order mark is passed over."""
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            raise _error(path, f"is larger than {MOST_BYTES // 1024} KiB: no scene needs that")
+        return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise _error(path, "there is no such file") from None
     except IsADirectoryError:
@@ -35,10 +40,20 @@ def read_text(path: Path) -> str:
         raise _error(path, f"cannot be read: {bad.strerror}") from None
 
 
+def _decimal(text: str) -> Decimal:
+    try:
+        return Decimal(text)
+    except InvalidOperation:  # an exponent of 19 digits: no Decimal, but as a double 0 or infinite
+        return Decimal(float(text))
+
+
 def parse_toml(text: str, path: Path) -> dict[str, Any]:
     """The tables of a TOML text. Fractions stay the decimals that were written."""
+    beyond = excess(text)
+    if beyond:
+        raise _error(path, beyond.reason, f"line {beyond.line}")
     try:
-        return tomllib.loads(text, parse_float=Decimal)
+        return tomllib.loads(text, parse_float=_decimal)
     except tomllib.TOMLDecodeError as bad:
         message = str(bad)
         found = re.search(r" \(at (line \d+, column \d+|end of document)\)$", message)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
+from decimal import Context, Decimal
 from typing import NamedTuple
 
 # pi/180 to more digits than a double holds, so that an angle in degrees is rounded once only.
 _RAD_PER_DEG = Decimal("0.017453292519943295769236907684886127134428718885417")
+
+# Of products of what a scene file can hold no digit is lost; one beyond a Decimal's range is infinite, as a double is.
+_EXACT = Context(prec=2000, traps=[])
 
 
 class Unit(NamedTuple):
@@ -38,7 +41,7 @@ def split_key(key: str) -> tuple[str, Unit]:
 
 def to_si(value: Decimal, unit: Unit) -> float:
     """The double nearest to the written decimal in SI units: 1.08 mm is exactly the double 0.00108."""
-    return float(value * unit.si) if value.is_finite() else float(value)
+    return float(_EXACT.multiply(value, unit.si)) if value.is_finite() else float(value)
 
 
 def from_si(value: float, unit: Unit) -> Decimal:
