@@ -90,7 +90,7 @@ HEADS = (
 )
 
 _VALUE = re.compile(r"(?<== )(?:\"[^\"\n]*\"|'[^'\n]*'|\[[^\[\]\n]*\]|[^\s,{}\[\]\"']+)")
-_KEY = re.compile(r"[\w\".]+(?= = )")
+_KEY = re.compile(r"(?<![\w\".])[\w\".]+(?= = )")  # from the beginning of a word only: long ones are looked at once
 _HEAD = re.compile(r"^\[.*\]$", re.MULTILINE)
 
 Way = Callable[[str, random.Random], str]

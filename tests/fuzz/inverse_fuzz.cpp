@@ -1,4 +1,4 @@
-// The parsers of the Inverse Service's messages under libFuzzer: tools/fuzz.sh inverse.
+// The parsers of the Inverse Service's messages under libFuzzer: tools/fuzz_inverse.sh.
 #include <cstdint>
 
 #include "fuzz/inverse_inputs.hpp"
