@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "fake_hd.h"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
+
+#ifdef _WIN32
+#define EXPORT extern "C" __declspec(dllexport)
+#else
+#define EXPORT extern "C" __attribute__((visibility("default")))
+#endif
 
 namespace fake_hd {
 
@@ -96,8 +103,9 @@ class Fake {
   std::thread thread_;
   std::vector<Scheduled> called_;  // in this tick: kept, so that ticks take no memory
   std::atomic<bool> stopping_{false};
-  unsigned long next_ = 0x100000001ul;  // does not fit in 32 bits, like the real one's
-  double laid_out_for_ = 0;             // s, the period of the plant
+  // Where an unsigned long has 64 bits it does not fit in 32, like the real one's.
+  unsigned long next_ = std::numeric_limits<unsigned long>::max() / 0xFFFFFFFF;
+  double laid_out_for_ = 0;  // s, the period of the plant
   std::vector<punctura::StrokesMotion> motion_;
   std::vector<punctura::Plant> plant_;
 };

@@ -52,8 +52,6 @@ void Fake::restart() {
 
 using fake_hd::Fake;
 
-#define EXPORT extern "C" __attribute__((visibility("default")))
-
 EXPORT void fake_hd_defaults(fake_hd_settings* to) {
   *to = {};
   to->name = "Default Device";

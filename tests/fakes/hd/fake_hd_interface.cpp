@@ -55,8 +55,6 @@ bool numbers(std::uint32_t which, double* values) {
 
 }  // namespace
 
-#define EXPORT extern "C" __attribute__((visibility("default")))
-
 EXPORT std::uint32_t hdInitDevice(const char* name) {
   Fake& f = fake();
   const Locked lock(f.state);

@@ -1,11 +1,12 @@
 // What the registry says of Force Dimension's devices, in each state that they can be in.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
+#include <algorithm>
 
 #include "fakes/drd/rig.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
 #include "punctura_runtime/backends/registry.hpp"
+#include "runtime/support/environment.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -14,18 +15,8 @@ namespace {
 
 using State = BackendStatus::State;
 
-/// PUNCTURA_DRD_LIBRARY for the length of a test.
-class Override {
- public:
-  explicit Override(const char* value) { set(value); }
-  ~Override() { set(nullptr); }
-  static void set(const char* value, const char* name = "PUNCTURA_DRD_LIBRARY") {
-#ifdef _WIN32
-    _putenv_s(name, value ? value : "");
-#else
-    value ? setenv(name, value, 1) : unsetenv(name);
-#endif
-  }
+struct Override : Environment {
+  explicit Override(const char* library) : Environment("PUNCTURA_DRD_LIBRARY", library) {}
 };
 
 BackendStatus status() {
@@ -56,9 +47,8 @@ TEST_CASE("a library that is not there: where it was looked for, and what to do"
 }
 
 TEST_CASE("without an override the library is looked for in the SDK, then elsewhere, the robotics library first") {
-  Override::set("/opt/sdk-of-nobody", "FDSDK");
+  const Environment sdk("FDSDK", "/opt/sdk-of-nobody");
   const auto names = force_dimension::candidates();
-  Override::set(nullptr, "FDSDK");
   const auto first = [&](const char* what) {
     return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.find(what) != std::string::npos; });
   };

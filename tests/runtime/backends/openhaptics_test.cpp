@@ -5,6 +5,7 @@
 #include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
+#include "runtime/support/environment.hpp"
 #include "runtime/support/fake_hd.hpp"
 
 using namespace punctura;
@@ -12,13 +13,6 @@ using namespace punctura::test;
 using State = BackendStatus::State;
 
 namespace {
-
-/// For the time of a test.
-struct Environment {
-  Environment(const char* variable, const char* value) : name(variable) { setenv(name, value, 1); }
-  ~Environment() { unsetenv(name); }
-  const char* name;
-};
 
 template <typename Change>
 BackendStatus status_with(Change&& change) {

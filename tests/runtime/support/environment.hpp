@@ -1,0 +1,26 @@
+// A variable of the environment for the length of a test.
+#pragma once
+
+#include <cstdlib>
+
+namespace punctura::test {
+
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) { set(value); }
+  ~Environment() { set(nullptr); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  void set(const char* value) const {
+#ifdef _WIN32
+    _putenv_s(name_, value ? value : "");  // an empty one is none
+#else
+    value ? setenv(name_, value, 1) : unsetenv(name_);
+#endif
+  }
+  const char* name_;
+};
+
+}  // namespace punctura::test
