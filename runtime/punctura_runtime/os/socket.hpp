@@ -1,4 +1,4 @@
-// Stream sockets, which differ from one operating system to the next. posix_socket.cpp implements this for Linux and macOS.
+// Stream sockets, which differ from one operating system to the next. posix_socket.cpp implements this for Linux and macOS, windows_socket.cpp for Windows.
 #pragma once
 
 #include <cstddef>

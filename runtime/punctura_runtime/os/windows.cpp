@@ -8,9 +8,11 @@
 #include <avrt.h>
 #include <timeapi.h>
 
+#include <algorithm>
 #include <string>
 
 #include "punctura_runtime/os/os.hpp"
+#include "punctura_runtime/os/windows_words.hpp"
 
 #ifndef CREATE_WAITABLE_TIMER_HIGH_RESOLUTION
 #define CREATE_WAITABLE_TIMER_HIGH_RESOLUTION 0x00000002
@@ -18,9 +20,7 @@
 
 namespace punctura::os {
 
-namespace {
-
-std::string words_for(DWORD error) {
+std::string windows_words(unsigned long error) {
   char* text = nullptr;
   const DWORD length =
       FormatMessageA(FORMAT_MESSAGE_ALLOCATE_BUFFER | FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS,
@@ -31,13 +31,20 @@ std::string words_for(DWORD error) {
   return words.empty() ? "error " + std::to_string(error) : words;
 }
 
-RealtimeItem item(const char* what, bool granted) { return {what, granted, granted ? "" : words_for(GetLastError())}; }
+namespace {
 
-/// A timer that wakes within a fraction of a millisecond, one a thread; without it Windows wakes at its 15.6 ms.
+RealtimeItem item(const char* what, bool granted) {
+  return {what, granted, granted ? "" : windows_words(GetLastError())};
+}
+
+/// A timer that wakes within a fraction of a millisecond, one a thread; without it Windows wakes at its 15.6 ms, or at 1 ms
+/// where somebody asks for that.
 class PreciseTimer {
  public:
   PreciseTimer() noexcept
-      : handle_(CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS)) {}
+      : handle_(CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS)) {
+    if (!handle_) timeBeginPeriod(1);
+  }
   ~PreciseTimer() {
     if (handle_) CloseHandle(handle_);
   }
@@ -98,8 +105,19 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
 }
 
 void* load_library(const char* name, std::string& error) {
-  HMODULE handle = LoadLibraryA(name);
-  if (!handle) error = std::string(name) + ": " + words_for(GetLastError());
+  // The loader takes backslashes only, and looks beside a library for what that one needs only where it has the whole path.
+  std::string path = name;
+  std::replace(path.begin(), path.end(), '/', '\\');
+  DWORD flags = 0;
+  if (char whole[MAX_PATH]; path.find('\\') != std::string::npos) {
+    const DWORD length = GetFullPathNameA(path.c_str(), MAX_PATH, whole, nullptr);
+    if (length > 0 && length < MAX_PATH) path.assign(whole, length), flags = LOAD_WITH_ALTERED_SEARCH_PATH;
+  }
+  DWORD mode = 0;  // no window that asks the user to press a button
+  SetThreadErrorMode(SEM_FAILCRITICALERRORS | SEM_NOOPENFILEERRORBOX, &mode);
+  HMODULE handle = LoadLibraryExA(path.c_str(), nullptr, flags);
+  if (!handle) error = std::string(name) + ": " + windows_words(GetLastError());
+  SetThreadErrorMode(mode, nullptr);
   return reinterpret_cast<void*>(handle);
 }
 

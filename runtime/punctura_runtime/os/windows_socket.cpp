@@ -11,6 +11,7 @@
 
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/os/socket.hpp"
+#include "punctura_runtime/os/windows_words.hpp"
 
 namespace punctura::os {
 
@@ -46,7 +47,7 @@ bool ready(SOCKET handle, SHORT events, std::int64_t deadline) noexcept {
   }
 }
 
-std::string words_for(int error) { return "Winsock error " + std::to_string(error); }
+std::string words_for(int error) { return windows_words(static_cast<unsigned long>(error)); }
 
 SOCKET connected(const addrinfo& address, std::int64_t deadline, int& error) noexcept {
   const SOCKET handle = ::socket(address.ai_family, address.ai_socktype, address.ai_protocol);

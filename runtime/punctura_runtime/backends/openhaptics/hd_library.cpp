@@ -107,7 +107,7 @@ Loaded opened(os::Library library) {
 /// Whether the file is there and yet does not load: then the reason is worth more than the list of places.
 bool is_there(const std::string& place, const std::string& error) {
   std::error_code ignored;
-  if (place.find('/') != std::string::npos) return std::filesystem::exists(place, ignored);
+  if (place.find_first_of("/\\") != std::string::npos) return std::filesystem::exists(place, ignored);
   return error.find("cannot open shared object") != std::string::npos && error.rfind(place + ":", 0) != 0;
 }
 
