@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Core, runtime and the runtime's tests, compiled and linked for macOS from Linux. Nothing is run: there is no macOS here.
+#   tools/macos.sh [aarch64|x86_64]     aarch64 when nothing is said
+# The compiler is Zig's Clang from PyPI, which brings the system's public headers; it goes into build/macos/. What came of it: docs/windows-and-macos.md.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+cd "$root"
+machine=${1:-aarch64}
+out=build/macos/$machine
+venv=build/macos/venv
+
+[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+"$venv/bin/python" -c 'import ziglang' 2>/dev/null || "$venv/bin/pip" install -q --disable-pip-version-check "ziglang==0.17.*"
+for eigen in "${PUNCTURA_EIGEN_DIR:-}" .venv/lib/python3*/site-packages/cmeel.prefix/include/eigen3 /usr/include/eigen3; do
+  [ ! -f "$eigen/Eigen/Core" ] || break
+done
+mkdir -p "$out" build/macos/include && ln -sfn /usr/include/doctest build/macos/include/doctest
+export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/build/macos/cache
+
+# The same warnings as elsewhere, all of them errors. The fakes' places stand in the tests; they are not opened here.
+compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
+flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -isystem "$eigen" -isystem build/macos/include
+  '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"' '-DFAKE_HD="fake_hd"'
+  '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
+
+# objects SOURCE...: compiles them, and sets `made`. What has not changed Zig takes from its cache.
+objects() {
+  local source object
+  made=()
+  for source in "$@"; do
+    object=$out/${source//\//_}.o
+    made+=("$object")
+    echo "$source"
+    "${compiler[@]}" "${flags[@]}" -c "$source" -o "$object"
+  done
+}
+
+mapfile -t runtime < <(find runtime/punctura_runtime/loop runtime/punctura_runtime/backends -name '*.cpp' | sort)
+objects runtime/punctura_runtime/os/{library,macos,posix_library,posix_socket}.cpp "${runtime[@]}"
+library=("${made[@]}")
+for fake in drd hd; do
+  objects tests/fakes/$fake/*.cpp
+  "${compiler[@]}" -shared "${made[@]}" -o "$out/fake_$fake.dylib"
+done
+mapfile -t tests < <(find tests/runtime -name '*_test.cpp' | sort)
+objects tests/core/main.cpp tests/core/support/allocations.cpp tests/runtime/support/inverse_fake.cpp "${tests[@]}"
+"${compiler[@]}" "${made[@]}" "${library[@]}" -o "$out/runtime_tests"
+echo "compiled and linked for $machine-macos, not run: $out/runtime_tests"
