@@ -1,0 +1,77 @@
+// What every operating system's file must do, on the system that the tests run on.
+#include "punctura_runtime/os/os.hpp"
+
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "punctura_runtime/os/socket.hpp"
+
+using namespace punctura;
+
+TEST_CASE("a sleep ends at its time or later, never before; one whose time has passed ends at once") {
+  for (int k = 0; k < 20; ++k) {
+    const std::int64_t until = os::now_ns() + 700'000;
+    os::sleep_until_ns(until);
+    REQUIRE(os::now_ns() >= until);
+  }
+  os::sleep_until_ns(0);
+}
+
+TEST_CASE("what the scheduler does not grant is said with the reason, and does no harm") {
+  std::thread([] {
+    const auto items = os::make_realtime({80, 0, false, true});
+    CHECK_FALSE(items.empty());
+    for (const auto& item : items) {
+      CAPTURE(item.what);
+      CHECK_FALSE(item.what.empty());
+      CHECK(item.granted == item.detail.empty());
+    }
+  }).join();
+}
+
+TEST_CASE("a library that is nowhere is told by its name, in words") {
+  const auto none = os::Library::open({"/nowhere/libnothing.so", "nothing-of-this-name"});
+  CHECK_FALSE(none);
+  CHECK(none.error().find("/nowhere/libnothing.so") != std::string::npos);
+  CHECK(none.error().find("nothing-of-this-name") != std::string::npos);
+  CHECK(none.symbol("anything") == nullptr);
+}
+
+TEST_CASE("a connection that nobody takes is refused in words, by its deadline") {
+  std::uint16_t port = 0;
+  {
+    const os::Listener listener;
+    port = listener.port();
+    REQUIRE(port != 0);
+  }
+  std::string error;
+  const auto socket = os::Socket::connect("127.0.0.1", port, os::now_ns() + 3'000'000'000, error);
+  CHECK_FALSE(socket);
+  CHECK(error.size() > 10);
+  CHECK(error.find("error 1") == std::string::npos);  // a bare number says nothing to anybody
+}
+
+TEST_CASE("sockets carry bytes both ways, end at their deadline, and say when the other side has gone") {
+  os::Listener listener;
+  const auto soon = [] { return os::now_ns() + 10'000'000'000; };
+  std::string error;
+  auto client = os::Socket::connect("127.0.0.1", listener.port(), soon(), error);
+  REQUIRE_MESSAGE(client, error);
+  auto server = listener.accept(soon());
+  REQUIRE(server);
+
+  const std::string sent(300'000, 'x');
+  std::thread sender([&] { CHECK(client.send(sent.data(), sent.size(), soon()) == os::Io::done); });
+  std::string received(sent.size(), ' ');
+  for (std::size_t at = 0, n = 0; at < received.size(); at += n)
+    REQUIRE(server.receive(received.data() + at, received.size() - at, n, soon()) == os::Io::done);
+  sender.join();
+  CHECK(received == sent);
+
+  char byte = 0;
+  std::size_t n = 0;
+  CHECK(client.receive(&byte, 1, n, os::now_ns() + 2'000'000) == os::Io::timeout);
+  server.close();
+  CHECK(client.receive(&byte, 1, n, soon()) == os::Io::closed);
+}
