@@ -5,7 +5,6 @@ The tick itself runs on the device's thread and never waits for this one.
 
 from __future__ import annotations
 
-import queue
 import threading
 import time
 from collections.abc import Callable
@@ -17,6 +16,7 @@ from punctura.exercise import Exercise, ResultStore
 from punctura.record import RecorderStatus
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording, recording_status, status_of
+from punctura.studio.jobs import Jobs
 from punctura.studio.loaded import Loaded
 from punctura.studio.practice import Practice, no_exercise
 from punctura.studio.pump import Publisher, Pump, no_fault
@@ -50,8 +50,9 @@ class Session:
         self.compare = False
         self._result_comes = False  # of an exercise that has ended, once its recording is finished
         self.failure: BaseException | None = None
+        self._defect = ""  # the last that was told
         self._takes = Takes()
-        self._jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._jobs = Jobs()
         self._target: Target | None = None
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
@@ -62,7 +63,7 @@ class Session:
     def stop(self) -> None:
         """Zero force; returns when the device is still, and a recording whole."""
         self._stopping.set()
-        self._jobs.put(lambda: None)
+        self._jobs.post(lambda: None)
         if self._thread.is_alive():
             self._thread.join()
 
@@ -72,24 +73,13 @@ class Session:
 
     def call(self, job: Callable[[], T]) -> Future[T]:
         """From any thread: `job` in the worker's, and what it gave or raised."""
-        future: Future[T] = Future()
-
-        def do() -> None:
-            if not future.set_running_or_notify_cancel():
-                return
-            try:
-                future.set_result(job())
-            except Exception as error:
-                future.set_exception(error)
-
-        self._jobs.put(do)
-        return future
+        return self._jobs.call(job)
 
     def target(self, wish: Target) -> None:
         """From any thread: where the simulated hand shall go. The last one counts."""
         waiting, self._target = self._target, wish
         if waiting is None:
-            self._jobs.put(self._take_target)
+            self._jobs.post(self._take_target)
 
     # What follows belongs to the worker's thread.
 
@@ -176,7 +166,7 @@ class Session:
             elif status.result:
                 self.out.say(Notice(text=f"The result of the exercise before is kept as {status.result}."))
 
-        self._jobs.put(tell)
+        self._jobs.post(tell)
 
     def begin_again(self) -> None:
         """The present scene as a new run, without a recording, from where the hand began."""
@@ -219,7 +209,7 @@ class Session:
             self._start_run()
             pump_at = status_at = time.monotonic()
             while not self._stopping.is_set():
-                self._wait(min(pump_at, self.hand.next_at) - time.monotonic())
+                self._jobs.do_next(min(pump_at, self.hand.next_at) - time.monotonic())
                 now = time.monotonic()
                 self.hand.drive(now)
                 if now >= pump_at:
@@ -245,16 +235,12 @@ class Session:
         if self.run.recorder and self.recording:
             self.out.say(recording_status(self.recording, self.run))
 
-    def _wait(self, seconds: float) -> None:
-        try:
-            job = self._jobs.get(timeout=seconds) if seconds > 0 else self._jobs.get_nowait()
-        except queue.Empty:
-            return
-        job()
-
     def _guarded(self, step: Callable[[], Any]) -> None:
-        """A defect in what only shows must not end the run."""
+        """A defect in what only shows must not end the run, and is told once, not sixty times a second."""
         try:
             step()
         except Exception as error:
-            self.out.say(Notice(text=f"a defect, please report it: {error!r}"))
+            text = f"a defect, please report it: {error!r}"
+            if text != self._defect:
+                self._defect = text
+                self.out.say(Notice(text=text))

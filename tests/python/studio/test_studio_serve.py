@@ -97,6 +97,7 @@ def test_each_run_has_a_token_of_its_own_and_answers_on_loopback_alone(served, t
     other.stop()
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_no_force_is_left_when_it_stops_nor_when_the_worker_fails(served, page):
     page.target([0.0, -3e-3, 0.0], [0.0, -1.0, 0.0])
     page.wait(lambda: abs(float(page.last.columns["force"][-1][1])) > 0.1)
@@ -105,7 +106,7 @@ def test_no_force_is_left_when_it_stops_nor_when_the_worker_fails(served, page):
     def fail():
         raise SystemExit("a defect")
 
-    served.session._jobs.put(fail)
+    served.session._jobs.post(fail)
     end = time.monotonic() + 20
     while served.session.running and time.monotonic() < end:
         time.sleep(0.01)

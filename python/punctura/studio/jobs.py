@@ -1,0 +1,44 @@
+"""What other threads want of one: done one after the other, in that thread."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+class Jobs:
+    """`post` and `call` from any thread, `do_next` in the one that works."""
+
+    def __init__(self) -> None:
+        self._waiting: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+
+    def post(self, job: Callable[[], None]) -> None:
+        """Whose end nobody waits for."""
+        self._waiting.put(job)
+
+    def call(self, job: Callable[[], T]) -> Future[T]:
+        """What it will have given or raised."""
+        future: Future[T] = Future()
+
+        def do() -> None:
+            if not future.set_running_or_notify_cancel():
+                return
+            try:
+                future.set_result(job())
+            except Exception as error:
+                future.set_exception(error)
+
+        self._waiting.put(do)
+        return future
+
+    def do_next(self, seconds: float) -> None:
+        """One job, if one comes within so long."""
+        try:
+            job = self._waiting.get(timeout=seconds) if seconds > 0 else self._waiting.get_nowait()
+        except queue.Empty:
+            return
+        job()
