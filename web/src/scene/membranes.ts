@@ -95,7 +95,7 @@ export class Membranes {
         grid.lay(point, slab.t1, slab.t2, faces[0], this.size, width);
         changed = true;
       }
-      if (scars.lay(membrane, old, state.phase === OUTSIDE ? faces[0].centre : null, this.diameter)) changed = true;
+      if (scars.lay(membrane, old, faces[0].centre, this.diameter)) changed = true;
     });
     return changed;
   }

@@ -1,4 +1,5 @@
 import { CircleGeometry, DoubleSide, InstancedMesh, Matrix4, MeshBasicMaterial, Vector3 } from "three";
+import { bevelSide } from "./bevel.ts";
 import type { Hole } from "./holes.ts";
 import type { Theme } from "./theme.ts";
 
@@ -26,21 +27,25 @@ export class Scars {
     this.material.color.copy(theme.color("blood")).multiplyScalar(0.6);
   }
 
-  /** open: the front of the hole that the slab itself shows, if any. */
+  /** open: the middle of the hole that the slab itself shows; it is no scar. */
   lay(
     membrane: { normal: Vector3; thickness: number },
     holes: readonly Hole[],
-    open: Vector3 | null,
+    open: Vector3,
     diameter: number,
   ): boolean {
     // biome-ignore format: one line of arguments
-    const shown = open ? holes.slice(0, -1) : holes;
-    const key = `${shown.length} ${shown.at(-1)?.tick} ${diameter}`;
+    const middle = ({ front, direction }: Hole): Vector3 =>
+      front.clone().addScaledVector(bevelSide(direction), diameter / 2);
+    const shown = holes.filter((hole) => middle(hole).distanceTo(open) > 0.6 * diameter).slice(-MOST);
+    const key = `${shown.map(({ tick }) => tick).join()} ${diameter}`;
     if (key === this.last) return false;
     this.last = key;
     const { normal, thickness } = membrane;
     let at = 0;
-    for (const { front, direction } of shown.slice(-MOST)) {
+    for (const hole of shown) {
+      const { direction } = hole;
+      const front = middle(hole);
       const slope = Math.max(0.1, direction.dot(normal));
       const back = front.clone().addScaledVector(direction, thickness / slope);
       const across = new Vector3().copy(direction).addScaledVector(normal, -slope);
