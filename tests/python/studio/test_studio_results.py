@@ -9,11 +9,13 @@ from punctura.exercise.result import Metrics, Result
 
 def result(person):
     metrics = dict.fromkeys(Metrics.model_fields) | {
-        "attempts": 1, "peak_force": 0.9, "overshoot": [], "dwell": 0.0, "longest_stay": 0.0, "total_time": 2.0, "lost_ticks": 0,
+        "attempts": 1, "peak_force": 0.9, "overshoot": [], "dwell": 0.0, "longest_stay": 0.0, "total_time": 2.0,
+        "lost_ticks": 0,
     }  # fmt: skip
     return Result(
-        exercise="venipuncture", title="Venipuncture", scene="Venipuncture", person=person, date="2026-01-02T03:04:05Z",
-        version="0", passed=False, reasons=["You did not reach the vein."], goals=[], metrics=Metrics(**metrics), events=[],
+        exercise="venipuncture", title="Venipuncture", scene="Venipuncture", person=person,
+        date="2026-01-02T03:04:05Z", version="0", passed=False, reasons=["You did not reach the vein."], goals=[],
+        metrics=Metrics(**metrics), events=[],
     )  # fmt: skip
 
 
