@@ -27,6 +27,7 @@ void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
 void bind_limits(nb::module_&);
 void bind_runtime(nb::module_&);
+void bind_given_devices(nb::module_&);
 void bind_devices(nb::module_&);
 void bind_replay(nb::module_&);
 

@@ -101,6 +101,24 @@ void bind_limits(nb::module_& m) {
   def_value(placement, {"rotation", "offset", "scale", "tip_offset"});
 
   nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.")
+      .def(
+          "__init__",
+          [](DeviceInfo* self, const std::string& backend, const std::string& model, const std::string& serial,
+             bool has_orientation, unsigned button_count, double max_force, double continuous_force,
+             double max_stiffness, double encoder_step, double rate) {
+            new (self) DeviceInfo{backend,      model,     serial,           has_orientation,
+                                  button_count, max_force, continuous_force, max_stiffness,
+                                  encoder_step, rate};
+          },
+          nb::kw_only(), nb::arg("backend") = "", nb::arg("model") = "", nb::arg("serial") = "",
+          nb::arg("has_orientation") = false, nb::arg("button_count") = 0, nb::arg("max_force") = unknown,
+          nb::arg("continuous_force") = unknown, nb::arg("max_stiffness") = unknown, nb::arg("encoder_step") = unknown,
+          nb::arg("rate") = unknown,
+          nb::sig("def __init__(self, *, backend: str = '', model: str = '', serial: str = '', "
+                  "has_orientation: bool = False, button_count: int = 0, max_force: float = ..., "
+                  "continuous_force: float = ..., max_stiffness: float = ..., encoder_step: float = ..., "
+                  "rate: float = ...) -> None"),
+          "Forces in N, max_stiffness in N/m, encoder_step in m, rate in Hz; what is not given is not known.")
       .def_ro("backend", &DeviceInfo::backend)
       .def_ro("model", &DeviceInfo::model)
       .def_ro("serial", &DeviceInfo::serial)

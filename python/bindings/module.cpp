@@ -12,6 +12,7 @@ NB_MODULE(_core, m) {
   bind_experiment(m);
   bind_limits(m);
   bind_runtime(m);
+  bind_given_devices(m);
   bind_devices(m);
   bind_replay(m);
 }

@@ -1,5 +1,18 @@
 """A scene on a device, now: what `punctura run` does, for programs."""
 
+from punctura._core import (
+    Device,
+    DeviceError,
+    DeviceInfo,
+    ForceLimits,
+    GateLimits,
+    Placement,
+    ReplayDevice,
+    ServoLoop,
+    SimulatedDevice,
+    enumerate_devices,
+    open_device,
+)
 from punctura.live.choose import fit_conditioning, fit_direction, open_for
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
@@ -8,11 +21,22 @@ from punctura.live.session import Ended, run_live
 from punctura.live.summary import RunSummary
 
 __all__ = [
+    "Device",
+    "DeviceError",
+    "DeviceInfo",
     "Ended",
+    "ForceLimits",
+    "GateLimits",
+    "Placement",
+    "ReplayDevice",
     "RunSummary",
+    "ServoLoop",
+    "SimulatedDevice",
+    "enumerate_devices",
     "fit_conditioning",
     "fit_direction",
     "load_placement",
+    "open_device",
     "open_for",
     "placement_from_pose",
     "placement_text",

@@ -12,10 +12,12 @@ from punctura.live.motion import strokes_through
 def open_for(scene: Scene, name: str = "") -> Device:
     """The device of that name, `backend` or `backend:device`; without one the first available, else the simulated.
 
-    Raises DeviceError, which says what there is, or what to do.
+    `replay:FILE` is a recorded motion. Raises DeviceError, which says what there is, or what to do.
     """
-    states = {entry["backend"]: entry for entry in enumerate_devices()}
     backend, _, device = name.partition(":")
+    if backend == "replay":
+        return _replay(device)
+    states = {entry["backend"]: entry for entry in enumerate_devices()}
     if not name:
         there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
         backend = there[0] if there else "simulated"
@@ -24,6 +26,17 @@ def open_for(scene: Scene, name: str = "") -> Device:
     if backend not in states:
         raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
     return open_device(backend, scene.servo.rate, device)
+
+
+def _replay(file: str) -> Device:
+    from punctura.record import RecordingError, replay_device  # a run on hardware does not wait for it
+
+    if not file:
+        raise DeviceError("a replay needs a recording: replay:FILE.parquet")
+    try:
+        return replay_device(file)
+    except RecordingError as bad:
+        raise DeviceError(str(bad)) from None
 
 
 def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:

@@ -3,6 +3,7 @@
 from punctura.record.errors import RecordingError
 from punctura.record.recorder import Recorder
 from punctura.record.recording import Recording, open_recording
+from punctura.record.replay_device import replay_device
 from punctura.record.run_again import ReplayResult, replay
 from punctura.record.save_as import ExportResult, export
 from punctura.record.status import RecorderStatus
@@ -17,4 +18,5 @@ __all__ = [
     "export",
     "open_recording",
     "replay",
+    "replay_device",
 ]

@@ -26,6 +26,7 @@ namespace backends {
 extern const Backend openhaptics;
 extern const Backend force_dimension;
 extern const Backend haply;
+extern const Backend replay;
 extern const Backend simulated;
 }  // namespace backends
 

@@ -8,10 +8,7 @@ namespace punctura {
 namespace {
 
 const Backend* const table[] = {
-    &backends::openhaptics,
-    &backends::force_dimension,
-    &backends::haply,
-    &backends::simulated,
+    &backends::openhaptics, &backends::force_dimension, &backends::haply, &backends::replay, &backends::simulated,
 };
 
 }  // namespace

@@ -38,8 +38,7 @@ void SimulatedDevice::stop() noexcept {
 
 std::vector<std::string> SimulatedDevice::statements() const {
   std::vector<std::string> all;
-  for (const auto& item : realtime_)
-    all.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
+  os::add_words(realtime_, all);
   return all;
 }
 

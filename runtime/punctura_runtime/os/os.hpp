@@ -31,6 +31,12 @@ struct RealtimeSettings {
 /// Makes the calling thread as punctual as the system allows. What it does not allow is said, and does no harm.
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings);
 
+/// A line each, as Device::statements() has them.
+inline void add_words(const std::vector<RealtimeItem>& items, std::vector<std::string>& lines) {
+  for (const RealtimeItem& item : items)
+    lines.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
+}
+
 // Of a shared library: the system's own calls. nullptr says that there is none, and `error` why.
 void* load_library(const char* name, std::string& error);
 void unload_library(void* handle) noexcept;

@@ -184,8 +184,7 @@ std::vector<std::string> InverseDevice::statements() const {
   if (std::abs(service_.echo() - 1) > 0.05)
     all.push_back("the service gives " + whole(100 * service_.echo()) +
                   " % of the force asked for: see its force scale and force gate");
-  for (const auto& item : realtime_)
-    all.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
+  os::add_words(realtime_, all);
   return all;
 }
 

@@ -1,0 +1,84 @@
+// runtime/backends: devices whose readings Python brings.
+#include <nanobind/stl/shared_ptr.h>
+
+#include "bindings.hpp"
+#include "punctura/scene/check.hpp"
+#include "punctura_runtime/backends/replay.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+void check_rate(double rate) {
+  std::vector<Problem> problems;
+  check_field(servo_fields[0], rate, "device", problems);
+  raise_if(problems);
+}
+
+/// A column that may be left out. Throws ValueError that names it.
+template <typename T>
+std::vector<T> column(const nb::object& given, const char* type, std::size_t n, const char* name) {
+  if (given.is_none()) return {};
+  const auto array = nb::cast<nb::ndarray<const T, nb::c_contig, nb::device::cpu>>(
+      nb::module_::import_("numpy").attr("ascontiguousarray")(given, type));
+  if (array.ndim() != 1 || array.size() != n)
+    throw nb::value_error((std::string(name) + " must have shape (" + std::to_string(n) + ",)").c_str());
+  return {array.data(), array.data() + n};
+}
+
+void make_replay(ReplayDevice* self, const nb::object& positions, const nb::object& axes, double rate,
+                 const nb::object& times, const nb::object& sequences, const nb::object& held, const nb::object& health,
+                 const nb::object& temperatures, DeviceInfo recorded, bool real_time, int priority) {
+  check_rate(rate);
+  const Input position = points(positions, "position");
+  const std::size_t n = position.shape(0);
+  const Rows axis(input(axes), n, "axis");
+  const auto time = column<double>(times, "float64", n, "time");
+  const auto sequence = column<std::uint64_t>(sequences, "uint64", n, "sequence");
+  const auto buttons = column<std::uint32_t>(held, "uint32", n, "buttons");
+  const auto healthy = column<std::uint8_t>(health, "uint8", n, "healthy");
+  const auto temperature = column<double>(temperatures, "float64", n, "motor_temperature");
+  std::vector<DeviceSample> samples(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double* p = position.data() + 3 * k;
+    samples[k].sequence = sequence.empty() ? k : sequence[k];
+    samples[k].time = time.empty() ? static_cast<double>(k) / rate : time[k];
+    samples[k].position = {p[0], p[1], p[2]};
+    samples[k].axis = plain(axis[k]);
+    samples[k].buttons = buttons.empty() ? 0 : buttons[k];
+    samples[k].healthy = healthy.empty() || healthy[k] != 0;
+    samples[k].motor_temperature = temperature.empty() ? 0 : temperature[k];
+  }
+  recorded.rate = rate;
+  ReplayOptions options;
+  options.real_time = real_time;
+  options.realtime.priority = priority;
+  new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
+}
+
+}  // namespace
+
+void bind_given_devices(nb::module_& m) {
+  nb::class_<ReplayDevice, Device>(
+      m, "ReplayDevice",
+      "A recorded motion as a device: ticks every sample as it was, ignores the force, and ends by itself.")
+      .def(
+          "__init__", &make_replay, nb::arg("position"), nb::arg("axis"), nb::arg("rate"), nb::kw_only(),
+          nb::arg("time").none() = nb::none(), nb::arg("sequence").none() = nb::none(),
+          nb::arg("buttons").none() = nb::none(), nb::arg("healthy").none() = nb::none(),
+          nb::arg("motor_temperature").none() = nb::none(), nb::arg("recorded") = DeviceInfo{},
+          nb::arg("real_time") = true, nb::arg("priority") = os::RealtimeSettings{}.priority,
+          nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, rate: float, *, "
+                  "time: numpy.typing.ArrayLike | None = None, sequence: numpy.typing.ArrayLike | None = None, "
+                  "buttons: numpy.typing.ArrayLike | None = None, healthy: numpy.typing.ArrayLike | None = None, "
+                  "motor_temperature: numpy.typing.ArrayLike | None = None, recorded: DeviceInfo = ..., "
+                  "real_time: bool = True, priority: int = 80) -> None"),
+          "position (n, 3): m. axis (n, 3) or (3,). rate: Hz, one sample a period. time (n,): s, k / rate if not given; the\n"
+          "input gate judges these times, not how punctual the replay is. recorded: the device the samples are from, whose\n"
+          "ratings limit the force. real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks\n"
+          "for none. Raises ConfigurationError for the rate, ValueError for a column's shape.")
+      .def("__len__", &ReplayDevice::size, "Samples.")
+      .def_prop_ro("finished", &ReplayDevice::finished, "The last sample has been.")
+      .def_prop_ro("behind", &ReplayDevice::behind, "Periods by which it has been held up so far.");
+}
+
+}  // namespace punctura::bindings

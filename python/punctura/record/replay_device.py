@@ -1,0 +1,60 @@
+"""A recorded motion as a device, for another scene or in front of a view."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from punctura._core import DeviceInfo, ReplayDevice
+from punctura.record.columns import NEW_SCENES, Inputs, inputs_of
+from punctura.record.errors import RecordingError
+from punctura.record.recording import Recording, open_recording
+from punctura.record.schema import numbers
+
+# What a replay says of the device that was recorded. JSON has words where a number is not known.
+_WORDS = ("backend", "model", "serial", "has_orientation", "button_count")
+_NUMBERS = ("max_force", "continuous_force", "max_stiffness", "encoder_step")
+
+
+def replay_device(path: str | os.PathLike[str], real_time: bool = True, priority: int = 80) -> ReplayDevice:
+    """Ticks what the device of a recording, finished or not, reported: every sample, at the recorded rate.
+
+    In a loop with the recording's scene and limits, armed before its start, that gives the recorded forces to the last
+    bit. What was asked of the recorded loop meanwhile (another scene, a pause) is not asked again: `replay` does that.
+    real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks for none. Holds all samples in
+    memory, 80 bytes each. Raises RecordingError.
+    """
+    recording = open_recording(path)
+    samples = _samples(recording)
+    try:
+        rate, said = float(recording.info.data["rate_hz"]), recording.info.data["device"]
+        about: dict[str, Any] = {name: said[name] for name in _WORDS}
+        about |= {name: float(said[name]) for name in _NUMBERS}
+        return ReplayDevice(
+            samples.position,
+            samples.axis,
+            rate,
+            time=samples.time,
+            sequence=samples.sequence,
+            buttons=samples.buttons,
+            healthy=samples.healthy,
+            motor_temperature=samples.motor_temperature,
+            recorded=DeviceInfo(**about),
+            real_time=real_time,
+            priority=priority,
+        )
+    except (KeyError, TypeError, ValueError) as bad:
+        raise RecordingError(f"{recording.path} does not say on which device it was made: {bad}") from None
+
+
+def _samples(recording: Recording) -> Inputs:
+    """All inputs; batch by batch, so that the other columns are not in memory at once."""
+    parts = []
+    for batch in recording.batches():
+        wanted: dict[str, Any] = {f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}
+        parts.append(inputs_of(wanted))
+    if sum(len(part.time) for part in parts) == 0:
+        raise RecordingError(f"{recording.path} holds no tick to replay")
+    return Inputs(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))

@@ -1,0 +1,64 @@
+#include "punctura_runtime/backends/replay.hpp"
+
+#include <cmath>
+#include <system_error>
+
+#include "punctura_runtime/loop/pacer.hpp"
+
+namespace punctura {
+
+ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorded, const ReplayOptions& options)
+    : samples_(std::move(samples)), info_(std::move(recorded)), options_(options) {
+  if (!(info_.rate > 0) || !std::isfinite(info_.rate))
+    throw DeviceError("a recording at " + std::to_string(info_.rate) + " Hz cannot be replayed: it must be above 0");
+  // All else is what the recorded device said: its ratings limit the force, its encoder step decides the conditioning.
+  if (info_.backend != "replay") info_.model = info_.model.empty() ? "a recorded motion" : info_.model + ", recorded";
+  info_.backend = "replay";
+}
+
+void ReplayDevice::start(Tick tick) {
+  if (thread_.joinable()) return;
+  stop_ = finished_ = ready_ = unhealthy_ = false;
+  behind_ = 0;
+  try {
+    thread_ = std::thread([this, tick] { run(tick); });
+  } catch (const std::system_error& error) {
+    throw DeviceError(std::string("no thread for the replay's ticks: ") + error.what());
+  }
+  ready_.wait(false);
+}
+
+void ReplayDevice::stop() noexcept {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+std::string ReplayDevice::trouble() const {
+  return unhealthy_ ? "the recorded device reported a fault of its own here" : "";
+}
+
+std::vector<std::string> ReplayDevice::statements() const {
+  std::vector<std::string> all{"a recorded motion does not yield to the force"};
+  if (const std::uint64_t periods = behind(); periods > 0)
+    all.push_back("the replay was held up by " + std::to_string(periods) + " periods in all; no sample is missing");
+  os::add_words(realtime_, all);
+  return all;
+}
+
+void ReplayDevice::run(Tick tick) noexcept {
+  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  ready_ = true;
+  ready_.notify_all();
+
+  Pacer<> pacer(info_.rate);
+  for (const DeviceSample& sample : samples_) {
+    if (stop_) return;
+    // A pacer leaves out times, not samples: what is late stays late.
+    if (options_.real_time) behind_.fetch_add(pacer.wait(), std::memory_order_relaxed);
+    if (!sample.healthy) unhealthy_ = true;
+    tick(sample);
+  }
+  finished_ = true;
+}
+
+}  // namespace punctura

@@ -1,0 +1,27 @@
+// Replay in the registry: there is always one, but never without a recording.
+#include "punctura_runtime/backends/backend.hpp"
+
+namespace punctura {
+
+namespace {
+
+BackendStatus status() {
+  return {"replay",
+          BackendStatus::State::no_device,
+          "A recorded motion in place of a hand. It needs a recording: punctura run SCENE --headless --device "
+          "replay:FILE.parquet.",
+          {}};
+}
+
+/// Recordings are Parquet and Arrow files; their reader is Python's.
+std::shared_ptr<Device> open(const OpenOptions&) {
+  throw DeviceError(
+      "a recording is opened by `--device replay:FILE.parquet` or punctura.record.replay_device(FILE) in Python; in C++, "
+      "give its samples to ReplayDevice");
+}
+
+}  // namespace
+
+const Backend backends::replay{"replay", &status, &open};
+
+}  // namespace punctura
