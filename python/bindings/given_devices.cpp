@@ -1,9 +1,11 @@
-// runtime/backends: devices whose readings Python brings.
+// runtime/backends: devices whose readings Python brings, all at once or one by one.
 #include <nanobind/stl/shared_ptr.h>
 
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura_runtime/backends/fed.hpp"
 #include "punctura_runtime/backends/replay.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -55,6 +57,22 @@ void make_replay(ReplayDevice* self, const nb::object& positions, const nb::obje
   new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
 }
 
+void make_fed(FedDevice* self, double rate, DeviceInfo info, bool real_time) {
+  check_rate(rate);
+  info.rate = rate;
+  new (self) FedDevice(std::move(info), real_time);
+}
+
+nb::tuple feed(FedDevice& device, const Triple& position, const Triple& axis, std::uint32_t buttons, bool healthy,
+               double motor_temperature) {
+  Triple force;
+  {
+    nb::gil_scoped_release release;  // no tick holds it: others may run Python meanwhile
+    force = device.feed({position, axis, buttons, healthy, motor_temperature});
+  }
+  return as_tuple(force);
+}
+
 }  // namespace
 
 void bind_given_devices(nb::module_& m) {
@@ -79,6 +97,26 @@ void bind_given_devices(nb::module_& m) {
       .def("__len__", &ReplayDevice::size, "Samples.")
       .def_prop_ro("finished", &ReplayDevice::finished, "The last sample has been.")
       .def_prop_ro("behind", &ReplayDevice::behind, "Periods by which it has been held up so far.");
+
+  const FedDevice::Reading reading{};
+  nb::class_<FedDevice, Device>(
+      m, "FedDevice", "A device that a loop in Python drives: each reading that is fed is a tick, its force the reply.")
+      .def(
+          "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
+          nb::arg("real_time") = true,
+          nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
+          "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten the\n"
+          "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not bound\n"
+          "to the clock. Raises ConfigurationError.")
+      .def(
+          "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
+          nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
+          nb::sig(
+              "def feed(self, position: collections.abc.Sequence[float], axis: collections.abc.Sequence[float] = ..., "
+              "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
+          "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
+          "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
+      .def_prop_ro("fed", &FedDevice::fed, "Readings since the loop's start.");
 }
 
 }  // namespace punctura::bindings

@@ -1,0 +1,75 @@
+// A device of your own in under 80 lines: implement Device, and call the tick whenever there is a reading.
+//
+// This one is made up, a pendulum whose bob carries the needle and swings into the tissue. Where read() and write() stand,
+// a driver's own calls would; all else is what any device with a clock of its own needs.
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "punctura_runtime/loop/servo_loop.hpp"
+
+using namespace punctura;
+
+class Pendulum : public Device {
+ public:
+  Pendulum() {
+    info_.backend = "pendulum";
+    info_.model = "Pendulum, made up";
+    info_.has_orientation = true;
+    info_.max_force = 3;  // N: the loop's limits come down to it
+    info_.rate = 1000;    // Hz, at which ticks will come
+  }
+  ~Pendulum() override { stop(); }
+
+  const DeviceInfo& info() const noexcept override { return info_; }
+  void start(Tick tick) override {
+    if (thread_.joinable()) return;
+    stop_ = false;
+    thread_ = std::thread([this, tick] { run(tick); });
+  }
+  void stop() noexcept override {  // when it returns, the force is zero and no tick comes any more
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  void run(Tick tick) noexcept {
+    const auto begin = std::chrono::steady_clock::now();
+    auto due = begin;
+    for (std::uint64_t k = 0; !stop_; ++k) {
+      std::this_thread::sleep_until(due += std::chrono::milliseconds(1));
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+      write(tick({k, time.count(), read(), {0, -1, 0}, 0, true}));
+    }
+    write({0, 0, 0});
+  }
+
+  /// In Punctura's axes, m: x right, y up, z towards the user.
+  std::array<double, 3> read() const noexcept { return {0, height_, 0}; }
+  /// Takes the force, N, and swings on for a period.
+  void write(const Tick::Force& force) noexcept {
+    speed_ += (force[1] / mass - stiffness / mass * height_) / info_.rate;
+    height_ += speed_ / info_.rate;
+  }
+
+  static constexpr double mass = 0.2, stiffness = 2;  // kg; N/m: a period of two seconds
+  DeviceInfo info_;
+  double height_ = 0.05, speed_ = 0;  // m above its lowest point, m/s
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+int main() {
+  const PlacedMembrane wall{"wall", {570, 0.41, 0.2, 1e-3}, {0, 0.02, 0}, {0, -1, 0}};
+  ServoLoop loop(std::make_shared<Pendulum>(), {"one wall", {1.08e-3, 0.28}, {400, 1}, {wall}});
+  loop.start();
+  loop.arm();
+  while (loop.report().ticks < 2000) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const Snapshot now = loop.latest();
+    std::printf("y %6.2f mm   force %6.3f N   %s\n", now.sample.position[1] * 1e3, now.force[1], describe(now.fault));
+  }
+  loop.stop();
+}

@@ -1,0 +1,63 @@
+"""A device of your own in under 80 lines: feed what it reports, and give it the force that comes back.
+
+This one is made up, a pendulum whose bob carries the needle and swings into the tissue. Where read() and write()
+stand, a driver's own calls would. The tick itself is compiled and never waits for Python; when it comes is up to us.
+"""
+
+import threading
+import time
+
+import punctura as pn
+from punctura.live import DeviceInfo, FedDevice, run_live
+
+RATE = 1000.0  # Hz, at which readings will be fed
+
+
+class Pendulum:
+    """Stands for the hardware. Punctura's axes: x right, y up, z towards the user; m, N."""
+
+    mass, stiffness = 0.2, 2.0  # kg; N/m: a period of two seconds
+    height, speed = 0.05, 0.0  # m above its lowest point, m/s
+
+    def read(self) -> tuple[float, float, float]:
+        return 0.0, self.height, 0.0
+
+    def write(self, force: tuple[float, float, float]) -> None:
+        """Takes the force, and swings on for a period."""
+        self.speed += (force[1] - self.stiffness * self.height) / self.mass / RATE
+        self.height += self.speed / RATE
+
+
+class Driver(threading.Thread):
+    """The device's own clock: a reading in, the force out, and zero force at the end, whatever ended it."""
+
+    def __init__(self, hardware: Pendulum, device: FedDevice) -> None:
+        super().__init__(daemon=True)
+        self.hardware, self.device = hardware, device
+        self.over = threading.Event()
+
+    def run(self) -> None:
+        begin, k = time.perf_counter(), 0
+        try:
+            while not self.over.is_set():
+                k += 1
+                time.sleep(max(0.0, begin + k / RATE - time.perf_counter()))
+                self.hardware.write(self.device.feed(self.hardware.read()))
+        finally:
+            self.hardware.write((0.0, 0.0, 0.0))
+
+
+hardware = Pendulum()
+device = FedDevice(RATE, info=DeviceInfo(model="Pendulum, made up", has_orientation=True, max_force=3.0))
+wall = pn.PlacedMembrane("wall", pn.Membrane(570, 0.41, 0.2, 1e-3), [0, 0.02, 0], [0, -1, 0])
+scene = pn.Scene("one wall", pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1), [wall])
+
+driver = Driver(hardware, device)
+driver.start()
+try:
+    summary = run_live(device, scene, duration=2)
+finally:
+    driver.over.set()
+    driver.join()
+print(f"{summary.ticks} ticks, {summary.late} late, strongest force {summary.strongest_N:.3f} N {summary.fault}")
+print(*summary.statements, sep="\n")

@@ -1,0 +1,105 @@
+"""A device that a loop in Python drives."""
+
+import threading
+import time
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.live import DeviceInfo, FedDevice, GateLimits, ReplayDevice, ServoLoop, run_live
+
+SCENE = pn.load_scene("k06-fig10")
+# Outside of tissue for the ramp, then through the membrane.
+HEIGHT = np.concatenate([np.full(1600, 5e-3), np.linspace(5e-3, -6e-3, 2400)])
+PATH = np.stack([np.zeros_like(HEIGHT), HEIGHT, np.zeros_like(HEIGHT)], axis=1)
+
+
+def fed_forces(device, path):
+    loop = ServoLoop(device, SCENE)
+    loop.arm()
+    loop.start()
+    forces = [device.feed(p) for p in path]
+    loop.stop()
+    return np.array(forces), loop
+
+
+def test_the_reply_to_a_reading_is_the_force_of_its_tick():
+    forces, loop = fed_forces(FedDevice(1600, real_time=False), PATH)
+    replayed = ReplayDevice(PATH, [0, -1, 0], 1600, real_time=False)
+    other = ServoLoop(replayed, SCENE)
+    listener = other.listen(len(PATH))
+    other.arm()
+    other.start()
+    while not replayed.finished:
+        time.sleep(1e-3)
+    other.stop()
+    assert np.array_equal(forces, listener.read()["force"])
+    assert forces[:, 1].max() == pytest.approx(0.73, abs=0.01)
+    assert loop.report()["ticks"] == loop.device.fed == len(PATH)
+
+
+def test_without_a_running_loop_there_is_no_tick_and_no_force():
+    device = FedDevice(1000)
+    assert device.feed([0, 0, 0]) == (0.0, 0.0, 0.0) and device.fed == 0
+    _, loop = fed_forces(device, PATH[:10])
+    assert device.feed([0, 0, 0]) == (0.0, 0.0, 0.0) and loop.report()["ticks"] == 10
+
+
+def test_all_of_a_reading_reaches_the_tick():
+    device = FedDevice(1000, real_time=False)
+    loop = ServoLoop(device, SCENE)
+    loop.start()
+    device.feed((0, 1e-3, 0))
+    device.feed(np.array([1e-3, 2e-3, 3e-3]), axis=(0, 0, -1), buttons=3, motor_temperature=0.5)
+    last = loop.latest()
+    assert (last["sequence"][0], last["time"][0], last["buttons"][0]) == (1, 1e-3, 3)
+    assert last["position"][0].tolist() == [1e-3, 2e-3, 3e-3] and last["axis"][0].tolist() == [0, 0, -1]
+    assert last["motor_temperature"][0] == 0.5
+    device.feed((0, 0, 0), healthy=False)
+    assert loop.latest()["fault"][0] and "not healthy" in device.trouble()
+
+
+def test_what_the_device_says_of_itself_limits_the_force():
+    info = DeviceInfo(model="mine", max_force=0.4, encoder_step=1e-5)
+    forces, loop = fed_forces(FedDevice(1600, info=info, real_time=False), PATH)
+    assert np.linalg.norm(forces, axis=1).max() == pytest.approx(0.4)
+    assert (loop.device.info.backend, loop.device.info.model, loop.device.info.rate) == ("fed", "mine", 1600.0)
+    assert np.isnan(loop.device.info.continuous_force)
+
+
+def test_a_pause_of_the_feeder_is_a_fault_at_its_next_reading():
+    device = FedDevice(1000)
+    loop = ServoLoop(device, SCENE, GateLimits(deadline=1e-3))
+    loop.start()
+    device.feed((0, 5e-3, 0))
+    time.sleep(2e-3)
+    device.feed((0, 5e-3, 0))
+    assert loop.latest()["fault"][0]
+
+
+def test_a_feeder_that_does_not_keep_to_its_rate_is_told():
+    _, loop = fed_forces(FedDevice(100), PATH[:100])
+    assert "not at the rate that it was opened with" in loop.device.statements()[0]
+
+
+def test_a_live_run_goes_on_beside_the_thread_that_feeds():
+    device = FedDevice(1600, real_time=False)
+    over = threading.Event()
+
+    def feed():
+        while not over.is_set():
+            device.feed((0, 5e-3, 0))
+            time.sleep(1e-4)
+
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    summary = run_live(device, SCENE, 0.5)
+    over.set()
+    feeder.join()
+    assert summary.ticks > 100 and (summary.gaps, summary.fault) == (0, "")
+
+
+def test_a_rate_that_cannot_be_is_refused():
+    with pytest.raises(pn.ConfigurationError) as error:
+        FedDevice(0)
+    assert error.value.problems[0].path == "device.rate"

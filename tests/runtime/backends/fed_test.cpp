@@ -1,0 +1,134 @@
+#include "punctura_runtime/backends/fed.hpp"
+
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "core/support/allocations.hpp"
+#include "punctura_runtime/loop/servo_loop.hpp"
+#include "runtime/support/hand_cranked.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+const Tick::Force zero{0, 0, 0};
+
+DeviceInfo at(double rate) {
+  DeviceInfo info;
+  info.rate = rate;
+  return info;
+}
+
+/// On its way through the membrane, from 2 mm above it: out of tissue while the force is ramped in.
+double height(int k) { return k < 1600 ? 2e-3 : 2e-3 - 4e-6 * (k - 1600); }
+}  // namespace
+
+TEST_CASE("every reading that is fed is one tick, and its force is the reply") {
+  auto device = std::make_shared<FedDevice>(at(1600), false);
+  ServoLoop loop(device, paper_scene());
+  auto other = std::make_shared<HandCranked>(1600);
+  ServoLoop reference(other, paper_scene());
+  for (ServoLoop* each : {&loop, &reference}) {
+    each->arm();
+    each->start();
+  }
+  bool same = true;
+  double strongest = 0;
+  for (int k = 0; k < 3200; ++k) {
+    const Tick::Force force = device->feed({{0, height(k), 0}});
+    same = same && force == other->tick(height(k));
+    strongest = std::max(strongest, force[1]);
+  }
+  CHECK(same);
+  CHECK(strongest > 0.3);
+  CHECK(loop.report().ticks == 3200);
+  CHECK(device->fed() == 3200);
+}
+
+TEST_CASE("before start and after stop there is no tick, and no force") {
+  auto device = std::make_shared<FedDevice>(at(1600));
+  ServoLoop loop(device, paper_scene());
+  CHECK(device->feed({{0, 0, 0}}) == zero);
+  CHECK(loop.report().ticks == 0);
+  loop.start();
+  device->feed({{0, 0, 0}});
+  loop.stop();
+  CHECK(device->feed({{0, 0, 0}}) == zero);
+  CHECK(loop.report().ticks == 1);
+}
+
+TEST_CASE("what is fed reaches the tick: axis, buttons, temperature, health, and a count of its own") {
+  auto device = std::make_shared<FedDevice>(at(1000), false);
+  ServoLoop loop(device, paper_scene());
+  loop.start();
+  device->feed({{0, 1e-3, 0}});
+  device->feed({{1e-3, 2e-3, 3e-3}, {0, 0, -1}, 5, true, 0.25});
+  const DeviceSample sample = loop.latest().sample;
+  CHECK(sample.sequence == 1);
+  CHECK(sample.time == 1e-3);
+  CHECK(sample.position == std::array<double, 3>{1e-3, 2e-3, 3e-3});
+  CHECK(sample.axis == std::array<double, 3>{0, 0, -1});
+  CHECK(sample.buttons == 5);
+  CHECK(sample.motor_temperature == 0.25);
+  CHECK(device->trouble().empty());
+  device->feed({{0, 0, 0}, {0, -1, 0}, 0, false});
+  CHECK(loop.latest().fault == Fault::device);
+  CHECK_FALSE(device->trouble().empty());
+}
+
+TEST_CASE("in real time a feeder that pauses for too long meets a fault at its next reading") {
+  LoopSettings settings;
+  settings.gate.deadline = 1e-4;
+  auto device = std::make_shared<FedDevice>(at(1000));
+  ServoLoop loop(device, paper_scene(), settings);
+  loop.start();
+  device->feed({{0, 2e-3, 0}});
+  const std::int64_t then = os::now_ns();
+  while (os::now_ns() - then < 1'000'000) std::this_thread::yield();
+  CHECK(device->feed({{0, 2e-3, 0}}) == zero);
+  CHECK(loop.latest().fault == Fault::missed_deadline);
+  const auto said = device->statements();
+  REQUIRE(said.size() == 1);
+}
+
+TEST_CASE("a feeder that does not keep to the rate is told which one it kept") {
+  auto device = std::make_shared<FedDevice>(at(100));
+  ServoLoop loop(device, paper_scene());
+  loop.start();
+  for (int k = 0; k < 10; ++k) device->feed({{0, 2e-3, 0}});
+  REQUIRE(device->statements().size() == 1);
+  CHECK(device->statements()[0].find("not at the rate") != std::string::npos);
+}
+
+TEST_CASE("stop waits for the tick of another thread, and the next reading finds no loop") {
+  auto device = std::make_shared<FedDevice>(at(1600), false);
+  std::atomic<bool> enough{false};
+  auto loop = std::make_unique<ServoLoop>(device, paper_scene());
+  loop->start();
+  std::thread feeder([&] {
+    while (!enough) device->feed({{0, 2e-3, 0}});
+  });
+  while (loop->report().ticks < 1000) std::this_thread::yield();
+  loop.reset();  // stopped and gone, while the feeder goes on
+  enough = true;
+  feeder.join();
+  CHECK(device->feed({{0, 2e-3, 0}}) == zero);
+}
+
+TEST_CASE("feeding takes no memory") {
+  auto device = std::make_shared<FedDevice>(at(1600), false);
+  ServoLoop loop(device, paper_scene());
+  loop.arm();
+  loop.start();
+  device->feed({{0, 2e-3, 0}});
+  const std::size_t before = allocations();
+  for (int k = 0; k < 2000; ++k) device->feed({{0, height(k), 0}});
+  CHECK(allocations() == before);
+}
+
+TEST_CASE("a rate that cannot be is refused") {
+  CHECK_THROWS_AS(FedDevice(at(0)), DeviceError);
+  CHECK_THROWS_AS(FedDevice(at(unknown)), DeviceError);
+  CHECK(FedDevice(at(500)).info().backend == "fed");
+}

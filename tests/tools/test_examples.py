@@ -1,0 +1,33 @@
+"""The examples keep what their first lines promise."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+@pytest.mark.parametrize("name", ["cpp/06_own_device.cpp", "python/06_own_device.py"])
+def test_a_device_of_your_own_takes_under_80_lines(name):
+    assert len((EXAMPLES / name).read_text().splitlines()) < 80
+
+
+def test_a_servo_loop_takes_ten_lines_in_cpp():
+    body = (EXAMPLES / "cpp/05_servo_loop.cpp").read_text().split("int main() {\n")[1].split("\n}\n")[0]
+    assert sum(not line.lstrip().startswith("//") for line in body.splitlines()) == 10
+
+
+def test_a_servo_loop_takes_ten_lines_in_python():
+    text = (EXAMPLES / "python/05_servo_loop.py").read_text()
+    lines = {node.lineno for node in ast.walk(ast.parse(text)) if isinstance(node, ast.stmt)}
+    docstring_and_imports = {node.lineno for node in ast.parse(text).body[:4]}
+    assert len(lines - docstring_and_imports) <= 10
+
+
+def test_every_numbered_example_is_in_the_table():
+    table = (EXAMPLES / "README.md").read_text()
+    for path in [*EXAMPLES.glob("cpp/*.cpp"), *EXAMPLES.glob("python/*.py")]:
+        assert f"({path.parent.name}/{path.name})" in table
