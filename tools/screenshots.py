@@ -77,7 +77,7 @@ def exercise(page: Page) -> None:
     expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     for _ in range(100):
-        push(page, "ArrowDown", 5)
+        push(page, "Shift+ArrowDown", 5)
         if page.get_by_role("dialog").count():
             break
     expect(page.get_by_role("dialog")).to_contain_text("Peak force", timeout=PATIENCE)

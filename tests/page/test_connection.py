@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
     ready(page)
     assert studio.end() in (0, 130)
-    expect(page.locator(".header")).to_contain_text("Not connected", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("No connection", timeout=PATIENCE)
     token = studio.address.split("token=")[1]
     again = start_studio(tmp_path, "k06-fig10", port=studio.port, token=token)
     try:
@@ -22,7 +22,7 @@ def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, stu
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
-    second.goto(studio.address)
+    second.goto(studio.address, timeout=PATIENCE)
     expect(second.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)
     second.get_by_role("button", name="Take control").first.click()
     expect(page.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)

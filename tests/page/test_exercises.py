@@ -17,7 +17,7 @@ def begin(page):
 def test_going_through_the_back_wall_is_told(page):
     begin(page)
     for _ in range(60):
-        push(page, "ArrowDown", 5)
+        push(page, "Shift+ArrowDown", 5)
         if page.get_by_role("dialog").count():
             break
     dialog = page.get_by_role("dialog")

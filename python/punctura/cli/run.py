@@ -25,7 +25,10 @@ def command(
     ] = 0,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Only print the page's address.")] = False,
     device: Annotated[
-        str, typer.Option("--device", help="As punctura devices names it, or replay:FILE.parquet; without it the best there is.")
+        str,
+        typer.Option(
+            "--device", help="As punctura devices names it, or replay:FILE.parquet; without it the best there is."
+        ),
     ] = "",
     duration: Annotated[
         float | None, typer.Option("--duration", help="How long, s; without it until Ctrl-C.", min=0.0)
