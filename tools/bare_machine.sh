@@ -36,7 +36,7 @@ carry() {
   if [ -d /usr/local/share/ca-certificates ]; then cp -rL /usr/local/share/ca-certificates "$into/usr/local/share/"; fi
   chroot "$into" update-ca-certificates >/dev/null 2>&1
   settings=()
-  for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_CERT SSL_CERT_FILE REQUESTS_CA_BUNDLE; do
+  for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_CERT SSL_CERT_FILE REQUESTS_CA_BUNDLE NODE_EXTRA_CA_CERTS; do
     if [ -n "${!name:-}" ]; then settings+=("$name=${!name}"); fi
   done
 }
@@ -87,8 +87,10 @@ carry "$place/base"
 # As root; called from another folder, in a path with a space.
 system=$(a_system root)
 inside "$system" root "git clone -q /srv/punctura.git 'a clone'"
-timed "$system" root "run, first time" "'a clone/run'" 0
-timed "$system" root "run, second time" "'a clone/run'" 0
+# The studio would go on until Ctrl-C: one second of it is enough to have been there.
+timed "$system" root "run, first time, to the studio's page" "'a clone/run' run --no-browser --duration 1" 0
+timed "$system" root "run, second time" "'a clone/run' run --no-browser --duration 1" 0
+timed "$system" root "run reproduce" "'a clone/run' reproduce" 0
 timed "$system" root "test, after run" "'a clone/test'" 0
 timed "$system" root "test, second time" "'a clone/test'" 0
 installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
@@ -96,10 +98,10 @@ sizes=$(inside "$system" root 'cd "a clone" && du -sh .venv build | tr "\t\n" " 
 
 # Someone who is not root and has no sudo: told the one line, which root then types.
 system=$(a_system user)
-timed "$system" ann "run, by a user without rights" "git clone -q /srv/punctura.git punctura && punctura/run" 1
+timed "$system" ann "run, by a user without rights" "git clone -q /srv/punctura.git punctura && punctura/run run --no-browser --duration 1" 1
 line=$(grep -m 1 -o 'apt-get update && apt-get install .*' "$log/user-run,-by-a-user-without-rights.log")
 inside "$system" root "$line" >"$log/line.log" 2>&1
-timed "$system" ann "run, by that user, after root typed the line" "punctura/run" 0
+timed "$system" ann "run, by that user, after root typed the line" "punctura/run run --no-browser --duration 1" 0
 
 printf 'Debian %s (debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
 printf '| what | by the clock | of the processor |\n|---|---|---|\n%s\n' "$table"
