@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
+import logging
 import random
 import socket
 import sys
@@ -168,6 +169,7 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=10.0)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    logging.getLogger("websockets").setLevel(logging.CRITICAL + 1)  # of the fuzzers' own end
     with tempfile.TemporaryDirectory() as folder:
         return fuzz(60 * options.minutes, options.seed, Path(folder))
 
