@@ -158,7 +158,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
     print(f"{recording.rows} ticks recorded, {recording.lost} lost; page: {page.gaps} gaps, {status['lost']} not shown")
     growth = memory.growth()
     print(f"memory {memory.samples[-1] if memory.samples else 0:.1f} MB, grown by {growth:+.1%}; ended with {code}")
-    good = good and code == 130 and not growth > MOST_GROWTH and recording.lost == page.gaps == status["lost"] == 0
+    good = good and code == 130 and memory.flat(MOST_GROWTH) and recording.lost == page.gaps == status["lost"] == 0
     good = good and "Traceback" not in said and sum(ends.values()) > 0
     print("passed" if good else f"FAILED {said[-3000:]}")
     return 0 if good else 1

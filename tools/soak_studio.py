@@ -72,9 +72,15 @@ def soak(seconds: float, folder: Path) -> int:
     print(
         f"memory: {memory.samples[0] if memory.samples else 0:.1f} MB, at most {largest:.1f} MB, grown by {growth:+.1%}"
     )
-    flat = not growth > MOST_GROWTH  # NaN: this system does not tell
     good = answer["ok"] and stopped["ok"] and recording.finished and status["viewers"] == 4 and code == 130
-    good = good and flat and recording.lost == 0 and gaps == 0 and status["lost"] == 0 and "Traceback" not in said
+    good = (
+        good
+        and memory.flat(MOST_GROWTH)
+        and recording.lost == 0
+        and gaps == 0
+        and status["lost"] == 0
+        and "Traceback" not in said
+    )
     print("passed" if good else f"FAILED {said[-2000:]}")
     return 0 if good else 1
 

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 from types import TracebackType
 
+SHORT_S = 120.0
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
 
 
@@ -72,12 +73,17 @@ class Memory:
     """Samples over a run, of which the first share is warming up."""
 
     def __init__(self, seconds: float, warm: float = 0.1) -> None:
+        self._seconds = seconds
         self._from = time.monotonic() + warm * seconds
         self.samples: list[float] = []
 
     def add(self, megabytes: float) -> None:
         if time.monotonic() >= self._from:
             self.samples.append(megabytes)
+
+    def flat(self, most: float) -> bool:
+        """Whether it has grown by no more than this share. A short run is all warming up, and says nothing."""
+        return self._seconds < SHORT_S or not self.growth() > most  # NaN: this system does not tell
 
     def growth(self) -> float:
         """From the first tenth of the samples to the last, by their medians; NaN without samples."""
