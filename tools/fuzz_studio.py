@@ -131,7 +131,7 @@ class Fuzzer(threading.Thread):
 def fuzz(seconds: float, seed: int, folder: Path) -> int:
     memory = Memory(seconds, warm=0.2)
     with StudioProcess(folder) as studio:
-        page = StudioClient(studio.url)
+        page = StudioClient(studio.url, patience=600)  # a long recording takes a while to finish
         page.wait(lambda: page.last)
         good = page.ask(do="start_recording", name="fuzz")["ok"]
         page.ask(do="strokes", period=2.0)

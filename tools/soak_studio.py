@@ -40,7 +40,7 @@ def stalled_viewer(page: StudioClient) -> socket.socket:
 def soak(seconds: float, folder: Path) -> int:
     memory = Memory(seconds)
     with StudioProcess(folder) as studio:
-        pages = [StudioClient(studio.url) for _ in range(3)]
+        pages = [StudioClient(studio.url, patience=600) for _ in range(3)]
         holder = pages[0]
         stalled = stalled_viewer(holder)
         holder.wait(lambda: holder.last)

@@ -57,7 +57,7 @@ class StudioProcess:
         """As Ctrl-C does; the exit code."""
         if self.running:
             self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
-        return self._process.wait(60)
+        return self._process.wait(600)
 
     def __enter__(self) -> StudioProcess:
         return self

@@ -32,8 +32,12 @@ class StudioClient:
         page.wait(lambda: page.of("event"))
     """
 
-    def __init__(self, url: str, keep_frames: bool = False) -> None:
-        """keep_frames: all of them stand in `frames`. Raises OSError, websockets' exceptions."""
+    def __init__(self, url: str, keep_frames: bool = False, patience: float = PATIENCE_S) -> None:
+        """keep_frames: all of them stand in `frames`. patience: s that `ask` and `wait` wait at most.
+
+        Raises OSError, websockets' exceptions.
+        """
+        self._patience = patience
         parts = urlsplit(url)
         self.host = f"{parts.hostname}:{parts.port}"
         self.token = parse_qs(parts.query)["token"][0]
@@ -81,9 +85,9 @@ class StudioClient:
         n = len(self.of("status"))
         return self.wait(lambda: self.of("status")[n:])[0]
 
-    def wait(self, ready: Callable[[], T | None], seconds: float = PATIENCE_S) -> T:
+    def wait(self, ready: Callable[[], T | None], seconds: float | None = None) -> T:
         """What `ready` gives, as soon as that is true. Raises TimeoutError; ConnectionError when it is closed."""
-        end = time.monotonic() + seconds
+        end = time.monotonic() + (self._patience if seconds is None else seconds)
         while True:
             found = ready()
             if found:
