@@ -1,0 +1,77 @@
+"""The studio on a device that is not simulated by us: an Inverse3, whose service stands in."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+from punctura.record import open_recording
+from punctura.studio.client import StudioClient
+from punctura.studio.loaded import from_name
+from punctura.studio.run import Settings
+from punctura.studio.serve import StudioServer
+
+FAKE = Path(__file__).parents[2] / "fakes" / "inverse_service.py"
+
+
+def fake_service():
+    spec = importlib.util.spec_from_file_location("inverse_service", FAKE)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["inverse_service"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def haply(monkeypatch, tmp_path):
+    """Its service, and the page of a studio that runs on it."""
+    fake = fake_service()
+    service = fake.InverseService()
+    with fake.Running(service) as url:
+        monkeypatch.setenv("PUNCTURA_INVERSE_URL", url)
+        server = StudioServer(from_name("k06-fig10"), Settings(device="haply"), page=tmp_path, folder=tmp_path / "kept")
+        server.start()
+        try:
+            with StudioClient(server.address.url) as page:
+                page.wait(lambda: page.last)
+                yield service, server, page
+        finally:
+            server.stop()
+
+
+def test_it_is_shown_as_what_it_is_and_its_hand_is_left_alone(haply):
+    _, _, page = haply
+    device = page.of("hello")[0]["device"]
+    assert device["model"] == "Inverse3" and not device["simulated"]
+    assert page.status()["hand"] == "device"
+    page.target([0.0, 0.0, 0.0], [0.0, -1.0, 0.0])
+    for request in ({"do": "strokes", "period": 2.0}, {"do": "trip_fault"}):
+        answer = page.ask(**request)
+        assert not answer["ok"] and "simulated" in answer["text"]
+
+
+def test_it_stays_open_from_run_to_run_and_is_recorded(haply):
+    _, server, page = haply
+    assert page.ask(do="start_recording", name="arm")["ok"]
+    page.wait(lambda: page.last.run == 1 and page.ticks > 100)
+    stopped = page.ask(do="stop_recording")
+    assert stopped["ok"] and stopped["data"]["lost"] == 0, stopped
+    page.wait(lambda: page.last.run == 2)
+    assert open_recording(server.session.shelf.find("arm")).info.data["device"]["model"] == "Inverse3"
+    assert page.ask(do="load", scene="venipuncture")["ok"]
+    page.wait(lambda: page.last.run == 3 and page.last.membranes == 3)
+
+
+def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
+    service, _, page = haply
+    service.removed = True
+    fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
+    assert fault["fault"] == "device" and fault["trouble"]
+    assert service.idle.wait(5)
+    assert page.ask(do="pause")["ok"]
+    refused = page.ask(do="load", scene="k06-fig10")
+    assert not refused["ok"] and refused["text"]
+    page.status()
+    service.removed, before = False, page.last.run
+    page.wait(lambda: page.ask(do="load", scene="k06-fig10")["ok"])
+    page.wait(lambda: page.last.run > before)
