@@ -1,4 +1,4 @@
-import { FrontSide, MeshLambertMaterial, type Vector3 } from "three";
+import { FrontSide, MeshBasicMaterial, type Vector3 } from "three";
 import type { Membranes, Placed } from "./membranes.ts";
 import type { Moment } from "./moment.ts";
 import { OUTSIDE } from "./moment.ts";
@@ -7,7 +7,8 @@ import type { Theme } from "./theme.ts";
 
 /** The lumen: blood between two membranes, which give way and carry its surfaces along. */
 export class Blood {
-  private readonly material = new MeshLambertMaterial({
+  private readonly material = new MeshBasicMaterial({
+    vertexColors: true,
     transparent: true, opacity: 0.5, depthWrite: false, side: FrontSide,
   }); // biome-ignore format: short
   readonly slab = new Slab(this.material);

@@ -1,4 +1,4 @@
-import { CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshPhongMaterial, Vector2 } from "three";
+import { CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshLambertMaterial, Vector2 } from "three";
 import type { Theme } from "./theme.ts";
 
 const LENGTH = 9;
@@ -7,13 +7,13 @@ const FLOW_MS = 350;
 /** The hub behind the shaft: clear plastic, in whose chamber blood shows once the tip is in the lumen. mm. */
 export class Hub {
   readonly group = new Group();
-  private readonly plastic = new MeshPhongMaterial({
+  private readonly plastic = new MeshLambertMaterial({
     transparent: true,
     opacity: 0.42,
     depthWrite: false,
     side: DoubleSide,
   });
-  private readonly blood = new MeshPhongMaterial();
+  private readonly blood = new MeshLambertMaterial();
   private readonly body = new Mesh(new LatheGeometry(), this.plastic);
   private readonly fill = new Mesh(new CylinderGeometry(1.6, 1.6, 1, 32).translate(0, 0.5, 0), this.blood);
   private level = 0;

@@ -1,4 +1,4 @@
-import { FrontSide, Group, MeshLambertMaterial, Vector3 } from "three";
+import { FrontSide, Group, MeshBasicMaterial, Vector3 } from "three";
 import type { SceneView } from "../wire/messages.ts";
 import { bevelSide } from "./bevel.ts";
 import { Grid } from "./grid.ts";
@@ -16,7 +16,7 @@ export interface Placed {
   readonly thickness: number;
   readonly faces: readonly [FaceState, FaceState];
   readonly slab: Slab;
-  readonly material: MeshLambertMaterial;
+  readonly material: MeshBasicMaterial;
   readonly scars: Scars;
   readonly grid: Grid;
 }
@@ -42,7 +42,8 @@ export class Membranes {
     this.diameter = scene.diameter * MM;
     this.tipAngle = scene.tip_angle;
     this.placed = scene.membranes.map((membrane) => {
-      const material = new MeshLambertMaterial({
+      const material = new MeshBasicMaterial({
+        vertexColors: true,
         transparent: true, depthWrite: false, side: FrontSide,
       }); // biome-ignore format: short
       const slab = new Slab(material);

@@ -10,6 +10,8 @@ import {
 } from "three";
 import { AROUND, CORNERS, carried, RINGS, slabEdges, slabTriangles, tangents } from "./slab_shape.ts";
 
+const LIGHT = new Vector3(0.35, 0.8, 0.5).normalize();
+
 /** What a needle does to one face of a slab. mm, in the slab's own plane where there are two numbers. */
 export interface FaceState {
   /** Where the tissue's own points meet the needle, before it gave way. */
@@ -32,6 +34,7 @@ export class Slab {
   private readonly edges: LineSegments;
   private readonly positions: Float32Array;
   private readonly attribute: BufferAttribute;
+  private readonly colors: BufferAttribute;
   readonly t1 = new Vector3();
   readonly t2 = new Vector3();
   private last = "";
@@ -43,6 +46,8 @@ export class Slab {
     this.positions = new Float32Array(3 * vertices);
     this.attribute = new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage);
     geometry.setAttribute("position", this.attribute);
+    this.colors = new BufferAttribute(new Float32Array(3 * vertices), 3).setUsage(DynamicDrawUsage);
+    geometry.setAttribute("color", this.colors);
     geometry.setIndex(slabTriangles());
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
@@ -86,7 +91,22 @@ export class Slab {
     });
     this.attribute.needsUpdate = true;
     this.mesh.geometry.computeVertexNormals();
+    this.shade();
     return true;
+  }
+
+  /** Light from above, laid into the colours: a translucent face of many pixels is then cheap to draw, also without a graphics card. */
+  private shade(): void {
+    const normals = this.mesh.geometry.getAttribute("normal").array;
+    const colors = this.colors.array;
+    for (let i = 0; i < colors.length; i += 3) {
+      const towards = normals[i]! * LIGHT.x + normals[i + 1]! * LIGHT.y + normals[i + 2]! * LIGHT.z;
+      const level = towards > 0 ? 0.86 + 0.3 * towards : 0.86 + 0.26 * towards;
+      colors[i] = level;
+      colors[i + 1] = level;
+      colors[i + 2] = level;
+    }
+    this.colors.needsUpdate = true;
   }
 
   private layFace(at: number, origin: Vector3, face: FaceState, size: number, width: number, needle: Vector3): void {

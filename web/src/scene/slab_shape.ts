@@ -1,7 +1,7 @@
 import { Vector3 } from "three";
 
-export const AROUND = 72;
-export const RINGS = 22;
+export const AROUND = 60;
+export const RINGS = 15;
 /** Of the rounded square that a slab is: 2 would be a circle. */
 export const CORNERS = 5;
 

@@ -84,7 +84,10 @@ export const view: Panel = (host, app) => {
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
     const changed = world.lay(source, hand.target.value, orbit.camera, elapsed, pixel);
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
-    if (!turned && !changed && !stage.stale) return;
+    if (!turned && !changed && !stage.stale) {
+      stage.rest(orbit.camera, now);
+      return;
+    }
     stage.draw(orbit.camera, now);
     world.name(orbit.camera);
     drawScale(pixel);

@@ -1,7 +1,7 @@
 import { MeshBasicMaterial, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { Slab, untouched } from "../../src/scene/slab.ts";
-import { carried, slabEdges, slabTriangles } from "../../src/scene/slab_shape.ts";
+import { AROUND, carried, slabEdges, slabTriangles } from "../../src/scene/slab_shape.ts";
 
 const DOWN = new Vector3(0, -1, 0);
 const ORIGIN = new Vector3();
@@ -41,7 +41,7 @@ describe("a slab", () => {
     const slant = new Vector3(Math.sin(1), -Math.cos(1), 0);
     const front = { ...untouched(), hole: 0.5 };
     slab.lay(ORIGIN, DOWN, 1, 10, [front, untouched()], 2, slant);
-    for (const p of points(slab).slice(0, 73)) {
+    for (const p of points(slab).slice(0, AROUND + 1)) {
       const across = p.clone().addScaledVector(slant, -p.dot(slant));
       expect(across.length()).toBeCloseTo(0.5, 4);
     }
