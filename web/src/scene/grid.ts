@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineBasicMaterial, L
 import type { FaceState } from "./slab.ts";
 import { CORNERS, carried } from "./slab_shape.ts";
 
-const STEPS_PER_CELL = 8;
+const STEPS_PER_CELL = 4;
 
 /** Lines on a face that go with the tissue: they show its size, and where it gives way. */
 export class Grid {
