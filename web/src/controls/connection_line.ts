@@ -7,9 +7,11 @@ const LOOK_MS = 250;
 
 /** A line that says how the page stands with the studio; also when the studio has gone silent. */
 export function connectionLine(app: App): HTMLElement {
-  const dot = element("span", { class: "dot", "aria-hidden": true });
-  const words = element("span", { class: "connection-words", role: "status" });
-  const line = element("span", { class: "connection" }, dot, words);
+  const dot = element("span", { class: "dot", "aria-hidden": "true" });
+  // What counts down is to be seen; read out is only what has changed.
+  const words = element("span", { class: "connection-words", "aria-hidden": "true" });
+  const spoken = element("span", { class: "only-read", role: "status" });
+  const line = element("span", { class: "connection" }, dot, words, spoken);
   let since = performance.now();
   let end = -1;
   let lastTick = performance.now();
@@ -24,6 +26,9 @@ export function connectionLine(app: App): HTMLElement {
     const left = now.state === "lost" ? now.retryInMs - (performance.now() - since) : 0;
     const text = connectionWords(now, silent, left);
     if (words.textContent !== text) words.textContent = text;
+    const state = now.state === "lost" ? "No connection; the page tries again by itself" : text;
+    const steady = now.state === "connecting" && now.attempt > 1 ? spoken.textContent : state;
+    if (spoken.textContent !== steady) spoken.textContent = steady;
     line.dataset.state = silent ? "lost" : now.state;
     line.title = now.state === "lost" ? now.reason : "";
   };

@@ -21,7 +21,7 @@ export const faultBanner: Panel = (host, app) => {
     reset.disabled = !app.control.value.you;
     if (reset.disabled) reset.title = "Another page has control";
     host.replaceChildren(
-      element("span", { class: "fault-mark", "aria-hidden": true }, "▲"),
+      element("span", { class: "fault-mark", "aria-hidden": "true" }, "▲"),
       element(
         "div",
         { class: "fault-words" },

@@ -6,7 +6,7 @@ const FAULTED = 3;
 
 /** What each tick says of the force, and the button that arms or pauses. */
 export function stateButton(app: App): HTMLElement {
-  const mark = element("span", { "aria-hidden": true });
+  const mark = element("span", { "aria-hidden": "true" });
   const words = element("span", {});
   const state = element("span", { class: "servo-state", role: "status" }, mark, words);
   const button = element("button", { type: "button", class: "button arm" }, "Arm");
