@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 # Of one tick of one membrane in one dimension.
 MOST_OVER_FUSED = {"paper": 1.5, "exact": 2.5}
 LEAST_UNDER_NUMPY = 300.0
+# Of the wake-ups' latency that 99.9 % do not exceed.
+MOST_OVER_CYCLICTEST = 1.3
 
 
 class Ratio(NamedTuple):
@@ -56,5 +59,24 @@ def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) 
     return ratios
 
 
+def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
+    """Servo loop over cyclictest, all slices together; the quartiles are of neighbours. Not measured is not met."""
+    ratios = []
+    for row in wakeups["conditions"]:
+        over = row.get("over_cyclictest", dict.fromkeys(("pooled", "lower_quartile", "upper_quartile"), math.nan))
+        ratios.append(
+            Ratio(
+                f"servo loop / cyclictest, {row['name']}",
+                over["pooled"],
+                over["lower_quartile"],
+                over["upper_quartile"],
+                f"at most {MOST_OVER_CYCLICTEST:g}",
+                over["pooled"] <= MOST_OVER_CYCLICTEST,
+            )
+        )
+    return ratios
+
+
 def all_ratios(result: dict[str, Any]) -> list[Ratio]:
+    """Of a tick's time."""
     return over_fused(result["rows"]) + under_numpy(result["rows"], result["loops"])

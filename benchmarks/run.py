@@ -1,6 +1,7 @@
-"""The measurements: ns per tick of the model beside a hand-written loop and a NumPy loop. See docs/bench.md.
+"""The measurements: ns per tick of the model beside a hand-written loop and a NumPy loop, and how late the servo loop
+wakes beside cyclictest. See docs/bench.md.
 
-python benchmarks/run.py [--check] [--json FILE] [--seconds S]
+python benchmarks/run.py [--check] [--json FILE] [--seconds S] [--wakeup-seconds S]
 """
 
 from __future__ import annotations
@@ -19,8 +20,9 @@ from typing import Any
 import numpy as np
 from numpy_loop import LOOPS, Array
 from program import ROOT, ProgramError, build, call
-from ratios import Ratio, all_ratios
-from table import table, verdicts
+from ratios import Ratio, all_ratios, over_cyclictest
+from table import table, verdicts, wakeup_table
+from wakeups import CONDITIONS, measure_wakeups
 
 LOOP_TICKS = 4000  # 2.5 s of the hand: into the membrane and out again
 LOOP_REPETITIONS = 7
@@ -84,24 +86,43 @@ def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, 
     """Prints and writes everything; the exit status: 1 for a missed target where that is asked for, else 0."""
     print("\n".join(table(result)), end="\n\n")
     print("\n".join(verdicts(ratios)))
+    if wakeups := result.get("wakeups"):
+        print("\n" + "\n".join(wakeup_table(wakeups)), end="\n\n")
+        of_wakeups = over_cyclictest(wakeups)
+        print("\n".join(verdicts(of_wakeups, "Wake-up latency that 99.9 % do not exceed: all together")))
+        ratios = ratios + of_wakeups
     if json_file is not None:
-        whole = result | {"ratios": [r._asdict() for r in ratios]}
+        in_json = [{key: None if value != value else value for key, value in r._asdict().items()} for r in ratios]
+        whole = result | {"ratios": in_json}
         json_file.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
     return 1 if check and not all(r.passes for r in ratios) else 0
 
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
-        prog="./bench", description="Nanoseconds per tick, beside a hand-written loop and NumPy."
+        prog="./bench",
+        description="Nanoseconds per tick, beside a hand-written loop and NumPy; wake-up latency, beside cyclictest.",
     )
     parser.add_argument("--check", action="store_true", help="exit with 1 if a target is missed")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured, and on what")
     parser.add_argument("--seconds", type=float, default=0.5, help="for each of the 25 rows (default %(default)s)")
+    parser.add_argument(
+        "--wakeup-seconds",
+        type=float,
+        default=20,
+        metavar="S",
+        help=f"for the servo loop and for cyclictest in each of {len(CONDITIONS)} conditions; 0 leaves them out "
+        "(default %(default)s)",
+    )
     options = parser.parse_args(arguments)
     try:
         program = build(ROOT / "build/bench")
         print("Measuring, a dot for each row:", file=sys.stderr)
         result = measure(program, options.seconds)
+        if options.wakeup_seconds > 0:
+            wakeups = build(ROOT / "build/bench", "bench_wakeups")
+            print("Waking up, a dot for each condition:", file=sys.stderr)
+            result["wakeups"] = measure_wakeups(wakeups, options.wakeup_seconds)
     except ProgramError as error:
         print(error, file=sys.stderr)
         return 3

@@ -52,8 +52,26 @@ def table(result: dict[str, Any]) -> Iterator[str]:
         yield f"  {'1-D':11} {'double':7} {1:9} {'encoder':8}  {name} loop: {time(timing)}"
 
 
-def verdicts(ratios: list[Ratio]) -> Iterator[str]:
-    yield "One tick, one membrane, 1-D: median [quartiles]"
+def wakeup_table(wakeups: dict[str, Any]) -> Iterator[str]:
+    priority = wakeups["priority"]
+    how = f"first-in-first-out priority {priority}" if priority else "no real-time priority, which was not granted"
+    yield f"Wake-up latency at {wakeups['rate_hz']:g} Hz, {how}, us"
+    heads = "".join(f"{head:>10}" for head in ("median", "99 %", "99.9 %", "largest"))
+    yield f"  {'':14} {'':10}{heads}"
+    for row in wakeups["conditions"]:
+        for name in ("loop", "cyclictest"):
+            if name in row:
+                values = (row[name][key] for key in ("p50_us", "p99_us", "p99_9_us", "largest_us"))
+                after = f"   {row[name]['missed']} left out of {row[name]['wake_ups']}" if name == "loop" else ""
+                yield f"  {row['name']:14} {name:10}" + "".join(f"{v:10.1f}" for v in values) + after
+        if row.get("stolen_s"):
+            yield f"  {'':14} a virtual machine: its host took {row['stolen_s']:.2f} s of its processors meanwhile"
+    if wakeups["cyclictest"] is None:
+        yield "  cyclictest is not on this machine: Debian and Ubuntu have it in the package rt-tests. Not compared."
+
+
+def verdicts(ratios: list[Ratio], of: str = "One tick, one membrane, 1-D: median") -> Iterator[str]:
+    yield f"{of} [quartiles]"
     for r in ratios:
         digits = 2 if r.value < 100 else 0
         quartiles = f"[{r.lower_quartile:.{digits}f}, {r.upper_quartile:.{digits}f}]"

@@ -1,4 +1,4 @@
-# What pip cannot bring: a compiler, Python's headers, and for the tests a second compiler and two packages of Debian's.
+# What pip cannot bring: a compiler, Python's headers, for the tests a second compiler and two packages of Debian's, for ./bench one.
 # Asked for by what it can do, not by name, so that other systems and hand-made set-ups count too.
 
 has_compiler() {
@@ -7,6 +7,7 @@ has_compiler() {
 }
 has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
 has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
+has_cyclictest() { command -v cyclictest >/dev/null; }
 has_siconos() { /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null; }
 
 # find_missing KIND: fills missing with Debian's names, and needs with words for people on other systems.
@@ -20,6 +21,8 @@ find_missing() {
   has_compiler "$compiler" || lack g++ "a C++20 compiler (g++ 10 or newer, clang 14 or newer; Fedora: gcc-c++; macOS: xcode-select --install)"
   case $lacking in *headers*) lack "$prefix-dev" "the headers of $python (Python.h; Fedora: python3-devel)" ;; esac
   case $lacking in *venv*) lack "$prefix-venv" "the modules venv and ensurepip of $python" ;; esac
+  # What the servo loop's wake-ups are measured against. Where no archive has it, ./bench says that it is missing and goes on.
+  if [ "$1" = bench ]; then has_cyclictest || ! known rt-tests || lack rt-tests "cyclictest, of rt-tests"; fi
   [ "$1" = test ] || return 0
   has_compiler clang++ || lack clang "clang++, for the second opinion on warnings"
   has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
