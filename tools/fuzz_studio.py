@@ -138,11 +138,14 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
         fuzzers = [Fuzzer(studio.url, page, seed + i) for i in range(2)]
         for fuzzer in fuzzers:
             fuzzer.start()
-        began = time.monotonic()
+        told = began = time.monotonic()
         while time.monotonic() - began < seconds and studio.running and page.closed is None:
             time.sleep(0.2)
             memory.add(studio.memory_mb())
             del page.messages[:-100]
+            if time.monotonic() - told > 60:
+                told = time.monotonic()
+                print(f"{told - began:.0f} s: {studio.memory_mb():.1f} MB, {page.ticks} ticks", flush=True)
         for fuzzer in fuzzers:
             fuzzer.stop = True
         for fuzzer in fuzzers:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import logging
 
+from websockets.exceptions import InvalidState
+
 _STRANGERS = ("Invalid HTTP request received", "Invalid UTF-8 sequence", "socket.send() raised exception")
 
 
 def _news(record: logging.LogRecord) -> bool:
-    return not record.getMessage().startswith(_STRANGERS)
+    error = record.exc_info[1] if record.exc_info else None
+    # The server's WebSocket answers text that is no UTF-8 also on a connection that is closing already.
+    return not (record.getMessage().startswith(_STRANGERS) or isinstance(error, InvalidState))
 
 
 def quiet_server() -> None:
