@@ -13,7 +13,7 @@ PATIENCE = 120_000  # ms, on a machine without a graphics card
 
 def ready(page: Page) -> None:
     """Past the tour, with force on."""
-    expect(page.get_by_text("Connected", exact=True)).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
     if page.get_by_role("button", name="Skip").count():
         page.get_by_role("button", name="Skip").click()
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)

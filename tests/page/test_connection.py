@@ -14,7 +14,7 @@ def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, stu
     token = studio.address.split("token=")[1]
     again = start_studio(tmp_path, "k06-fig10", port=studio.port, token=token)
     try:
-        expect(page.get_by_text("Connected", exact=True)).to_be_visible(timeout=PATIENCE)
+        expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
     finally:
         again.end()
 

@@ -14,7 +14,7 @@ from punctura._core import (
     enumerate_devices,
     open_device,
 )
-from punctura.live.choose import fit_conditioning, fit_direction, open_for
+from punctura.live.choose import fit_conditioning, fit_direction, gate_for, open_for
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
@@ -37,6 +37,7 @@ __all__ = [
     "enumerate_devices",
     "fit_conditioning",
     "fit_direction",
+    "gate_for",
     "load_placement",
     "open_device",
     "open_for",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from punctura import Scene
-from punctura._core import Device, DeviceError, SimulatedDevice, enumerate_devices, open_device
+from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
 
 
@@ -37,6 +37,14 @@ def _replay(file: str) -> Device:
         return replay_device(file)
     except RecordingError as bad:
         raise DeviceError(str(bad)) from None
+
+
+def gate_for(device: Device) -> GateLimits:
+    """The gate's limits where nobody has chosen any: the core's own, but a simulated device may be late by a second.
+
+    Nobody holds a simulated device: a computer that hangs for a moment is no reason to stop.
+    """
+    return GateLimits(stale=1.0, deadline=1.0) if isinstance(device, SimulatedDevice) else GateLimits()
 
 
 def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:

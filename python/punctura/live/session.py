@@ -11,6 +11,7 @@ from types import FrameType
 
 from punctura import Scene
 from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop
+from punctura.live.choose import gate_for
 from punctura.live.summary import RunSummary
 
 ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
@@ -63,7 +64,7 @@ def run_live(
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
     with ends_on_signals():
-        loop = ServoLoop(device, scene, gate or GateLimits(), limits or ForceLimits(), placement or Placement())
+        loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
         listener = loop.listen(int(ROOM_S * info.rate))
         finish = prepare(loop) if prepare else None
         try:

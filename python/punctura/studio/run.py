@@ -8,15 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from punctura import Scene, Target
-from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop, SimulatedDevice
-from punctura.live import fit_conditioning, fit_direction, open_for
+from punctura._core import Device, ForceLimits, Placement, ServoLoop, SimulatedDevice
+from punctura.live import fit_conditioning, fit_direction, gate_for, open_for
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
 
 RING_S = 8.0  # s of snapshots that wait for a worker who is late
-# Nobody holds a simulated device: a computer that hangs for a moment is no reason to stop.
-SIMULATED_GATE = GateLimits(stale=1.0, deadline=1.0)
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ class Run:
         self._bench = bench
         device = bench.fresh(loaded.scene, self.pose)
         scene, self.notes = bench.fit(loaded.scene)
-        gate = SIMULATED_GATE if bench.simulated else GateLimits()
+        gate = gate_for(device)
         self.loop = ServoLoop(device, scene, gate, bench.settings.limits, bench.settings.placement)
         self._listener = self.loop.listen(int(RING_S * device.info.rate))
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None

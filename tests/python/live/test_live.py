@@ -127,7 +127,7 @@ def test_headless_prints_a_summary_a_program_can_read():
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
     assert summary["gaps"] == 0
-    assert 2000 < summary["ticks"] <= 2500
+    assert 0 < summary["ticks"] <= 2500
     assert summary["device"].startswith("simulated")
 
 
