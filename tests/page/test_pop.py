@@ -6,7 +6,6 @@ import pytest
 from person import columns, drag_in, events, newton, ready, saved
 from playwright.sync_api import expect
 
-
 THROUGH = 3.9e-3  # m: K06 Fig. 10's tip is 3.76 mm long, its membrane 0.1 mm thick
 
 
