@@ -28,6 +28,7 @@ from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
 
+VERSION = version("punctura")  # read from a file: once, not for each page
 NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."
 
 
@@ -41,7 +42,7 @@ class Studio:
         info = self.session.bench.device.info
         return Hello(
             protocol=NUMBER,
-            version=version("punctura"),
+            version=VERSION,
             viewer=viewer,
             device=DevicePart(
                 backend=info.backend,

@@ -6,7 +6,12 @@ import logging
 
 from websockets.exceptions import InvalidState
 
-_STRANGERS = ("Invalid HTTP request received", "Invalid UTF-8 sequence", "socket.send() raised exception")
+_STRANGERS = (
+    "Invalid HTTP request received",
+    "Invalid UTF-8 sequence",
+    "socket.send() raised exception",
+    "ASGI callable returned without completing handshake",
+)
 
 
 def _news(record: logging.LogRecord) -> bool:
