@@ -8,11 +8,13 @@ Laptop (1440 x 900) and tablet (900 x 1200), light and dark. Look at them.
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -76,8 +78,9 @@ def exercise(page: Page) -> None:
     page.locator("article.exercise", has_text="Venipuncture").get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
-    for _ in range(100):
-        push(page, "Shift+ArrowDown", 5)
+    for _ in range(200):
+        push(page, "ArrowDown", 2)
+        page.wait_for_timeout(100)  # a hand that pushes on steadily, and does not see the flash-back
         if page.get_by_role("dialog").count():
             break
     expect(page.get_by_role("dialog")).to_contain_text("Peak force", timeout=PATIENCE)
@@ -112,7 +115,8 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
             page.goto(studio.address, timeout=PATIENCE)
             act(page)
             page.wait_for_timeout(1500)  # for plots and view to have drawn
-            page.screenshot(path=out / f"studio-{name}.png", full_page=width < 1080)
+            shot = page.screenshot(full_page=width < 1080)
+            Image.open(io.BytesIO(shot)).quantize(256).save(out / f"studio-{name}.png", optimize=True)
             context.close()
             studio.end()
         print(out / f"studio-{name}.png", flush=True)
