@@ -2,7 +2,8 @@
 
     python tools/fuzz_studio.py --minutes 10 --seed 1
 
-Passes if the studio does not end, says no traceback, its memory stays within 5 %, and no tick is lost.
+Passes if the studio does not end, says no traceback, its memory in the second half stays within 2 %, and no
+tick is lost.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ from studio_process import Memory, StudioProcess
 from websockets.frames import Opcode
 from websockets.sync.client import connect
 
-MOST_GROWTH = 0.05
+# Each thread of the server that has ever worked on a request keeps the memory that it once needed: that settles in the first
+# half of a run, and in the second there is no more of it.
+WARMING_UP, MOST_GROWTH = 0.5, 0.02
 CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
 PATHS = ("/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x")
 
@@ -129,7 +132,7 @@ class Fuzzer(threading.Thread):
 
 
 def fuzz(seconds: float, seed: int, folder: Path) -> int:
-    memory = Memory(seconds, warm=0.2)
+    memory = Memory(seconds, warm=WARMING_UP)
     with StudioProcess(folder) as studio:
         page = StudioClient(studio.url, patience=600)  # a long recording takes a while to finish
         page.wait(lambda: page.last)
