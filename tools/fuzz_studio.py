@@ -2,7 +2,7 @@
 
     python tools/fuzz_studio.py --minutes 10 --seed 1
 
-Passes if the studio does not end, says no traceback, its memory in the second half stays within 2 %, and no
+Passes if the studio does not end, says no traceback, its memory in the second half stays within 5 %, and no
 tick is lost.
 """
 
@@ -28,9 +28,8 @@ from studio_process import Memory, StudioProcess
 from websockets.frames import Opcode
 from websockets.sync.client import connect
 
-# Each thread of the server that has ever worked on a request keeps the memory that it once needed: that settles in the first
-# half of a run, and in the second there is no more of it.
-WARMING_UP, MOST_GROWTH = 0.5, 0.02
+# A thread of the server keeps the memory that it once needed for a request; that settles in the first half of a run.
+WARMING_UP, MOST_GROWTH = 0.5, 0.05
 CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
 PATHS = ("/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x")
 
