@@ -18,6 +18,7 @@ from punctura.studio.wire.messages import Control, Status
 MOST_VIEWERS = 32
 MOST_FRAMES = 60  # a second of them; then all that wait are dropped at once, which leaves one gap instead of many
 MOST_BYTES = 8_000_000  # of messages, which are never dropped: a viewer that leaves more unread is closed
+EVENTS_KEPT = 100  # of the present run, for newcomers
 # Of these the last says it all: a newer one takes the place of one that still waits.
 SUPERSEDED = ("status", "recording", "laws", "exercise")
 # What a newcomer is told, in this order; "laws" belongs to the scene before it.
@@ -117,6 +118,7 @@ class Hub:
         self.holder: int | None = None
         self._numbers = itertools.count(1)
         self._retained: dict[str, BaseModel] = {}
+        self._events: deque[BaseModel] = deque(maxlen=EVENTS_KEPT)  # of this run
         self._loop: asyncio.AbstractEventLoop | None = None
 
     def attach(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -143,8 +145,12 @@ class Hub:
         kind: str = getattr(message, "kind", "")
         if kind in RETAINED:
             self._retained[kind] = message
+        if kind == "event":
+            self._events.append(message)
         if kind == "scene":
             self._retained.pop("laws", None)
+            if getattr(message, "new_run", False):
+                self._events.clear()
         if isinstance(message, Status):
             self._tell_status(message)
             return
@@ -167,6 +173,8 @@ class Hub:
                 if kind == "scene":  # for a newcomer every run is new
                     message = message.model_copy(update={"new_run": True})
                 viewer.put(message.model_dump_json())
+        for event in self._events:
+            viewer.put(event.model_dump_json())
         if self.holder is None:
             self.take_control(viewer)
         return viewer

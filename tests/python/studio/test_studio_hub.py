@@ -1,11 +1,11 @@
 """Viewers: each with a queue of its own."""
 
 import asyncio
+import json
 
-import pytest
 from punctura.studio import hub as hubs
 from punctura.studio.hub import Hub
-from punctura.studio.wire.messages import Hello, Notice, RecordingStatus, SceneMessage
+from punctura.studio.wire.messages import Hello, MembraneEvent, Notice, RecordingStatus, SceneMessage
 from punctura.studio.wire.messages import Status as Health
 
 FRAME = b"PNT1"
@@ -117,18 +117,38 @@ def test_control_goes_to_the_first_and_when_its_holder_leaves_to_the_next_who_co
     run(test)
 
 
-@pytest.mark.parametrize("kind", ["scene"])
-def test_a_newcomer_is_told_the_scene_as_a_new_run(kind):
-    view = {
-        "number": 3, "name": "s", "diameter": 1e-3, "tip_angle": 0.3, "direction": "stylus", "solver": "exact",
-        "rate": 1600.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
-    }  # fmt: skip
+VIEW = {
+    "number": 3, "name": "s", "diameter": 1e-3, "tip_angle": 0.3, "direction": "stylus", "solver": "exact",
+    "rate": 1600.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
+}  # fmt: skip
 
+
+def test_a_newcomer_is_told_the_scene_as_a_new_run():
     async def test(hub):
-        hub.say(SceneMessage.model_validate({"scene": view, "new_run": False}))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False}))
         viewer = hub.join(hello)
         (scene,) = [d for d in await all_of(viewer) if '"scene"' in d and '"kind":"scene"' in d]
         assert '"new_run":true' in scene
+
+    run(test)
+
+
+def test_a_newcomer_is_told_what_has_happened_in_this_run_and_nothing_of_the_one_before():
+    def pop(tick):
+        return MembraneEvent(
+            what="pop", membrane=0, name="skin", tick=tick, time=tick / 1600, depth=4e-3,
+            force_before=0.7, force_after=0.4, drop=0.3,
+        )  # fmt: skip
+
+    async def test(hub):
+        hub.say(pop(1))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True}))
+        hub.say(pop(2))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False}))
+        told = [json.loads(data) for data in await all_of(hub.join(hello))]
+        kinds = [message["kind"] for message in told]
+        assert [message["tick"] for message in told if message["kind"] == "event"] == [2]
+        assert kinds.index("scene") < kinds.index("event")
 
     run(test)
 
