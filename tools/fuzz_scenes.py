@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
-import os
 import random
 import subprocess
 import sys
@@ -21,6 +20,7 @@ from typing import NamedTuple
 
 from punctura import ConfigurationError, load_scene
 from punctura.scene import scene_text
+from resident import resident_mb
 from spoil_scene import spoilt
 
 HANG_S = 10.0
@@ -66,20 +66,11 @@ def case_bytes(seed: int, case: int) -> bytes:
     return spoilt(random.Random(seed * 1_000_003 + case))
 
 
-def memory_mb() -> float:
-    """Resident now, not at most; 0 where the system does not tell in this way."""
-    try:
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
-    except OSError:
-        return 0.0
-    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
-
-
 def fuzz(folder: Path, seed: int, seconds: float = float("inf"), cases: int = sys.maxsize) -> Tally:
     """The process that may fail: it leaves the case that it was at in `folder`."""
     file, number = folder / "case.toml", folder / "case"
     scenes, slowest, grown, began = 0, (0.0, 0), 0.0, time.monotonic()
-    memory, count = memory_mb(), 0
+    memory, count = resident_mb(), 0
     while count < cases and time.monotonic() - began < seconds:
         file.write_bytes(case_bytes(seed, count))
         number.write_text(str(count))
@@ -90,9 +81,9 @@ def fuzz(folder: Path, seed: int, seconds: float = float("inf"), cases: int = sy
         slowest = max(slowest, (time.perf_counter() - start, count))
         count += 1
         if count == WARM_UP:
-            memory = memory_mb()
-    grown = memory_mb() - memory
-    assert grown < MOST_GROWTH_MB, f"memory grew by {grown:.0f} MB"
+            memory = resident_mb()
+    grown = resident_mb() - memory
+    assert not grown >= MOST_GROWTH_MB, f"memory grew by {grown:.0f} MB"
     return Tally(count, scenes, *slowest, grown)
 
 

@@ -22,20 +22,10 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import Recorder, Recording, open_recording, replay
 from punctura.record.schema import numbers
+from resident import resident_mb
 
 RATE = 1600.0
 MOST_COMPUTE = 0.02  # of the period
-
-
-def memory_mb() -> float:
-    """Resident memory of this process; NaN where the system does not tell."""
-    try:
-        for line in Path("/proc/self/status").read_text().splitlines():
-            if line.startswith("VmRSS:"):
-                return int(line.split()[1]) / 1024
-    except OSError:
-        pass
-    return float("nan")
 
 
 def stolen_s() -> float:
@@ -72,12 +62,12 @@ def soak(minutes: float, folder: Path) -> int:
                 loop.reset()
                 loop.arm()
             if memory == 0 and now - began > min(10.0, 30 * minutes):
-                memory = memory_mb()
+                memory = resident_mb()
             if now - told > 30:
                 told, status = now, recorder.status()
                 print(f"{status.rows} ticks, {status.lost} lost, {status.bytes / 1e6:.0f} MB", flush=True)
         loop.stop()
-        grown, stolen = memory_mb() - memory, stolen_s() - stolen
+        grown, stolen = resident_mb() - memory, stolen_s() - stolen
     status = recorder.status()
     report, recording = loop.report(), open_recording(path)
     compute, whole = report["compute"], gap_free(recording)

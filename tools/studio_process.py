@@ -12,6 +12,8 @@ import time
 from pathlib import Path
 from types import TracebackType
 
+from resident import resident_mb
+
 SHORT_S = 120.0
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
 
@@ -45,13 +47,7 @@ class StudioProcess:
 
     def memory_mb(self) -> float:
         """Resident; NaN where the system does not tell."""
-        try:
-            for line in Path(f"/proc/{self._process.pid}/status").read_text().splitlines():
-                if line.startswith("VmRSS:"):
-                    return int(line.split()[1]) / 1024
-        except OSError:
-            pass
-        return float("nan")
+        return resident_mb(self._process.pid)
 
     def end(self) -> int:
         """As Ctrl-C does; the exit code."""

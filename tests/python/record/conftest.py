@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -47,6 +48,14 @@ class Run:
         self.go()
         self.recorder.finish()
         return self
+
+    def killed(self, kept: Path) -> Path:
+        """The file as a process that is killed after the last tick leaves it, copied to `kept`."""
+        self.go()
+        self.wait(lambda: self.recorder.status().rows == self.ticks)
+        shutil.copy(self.recorder.status().file, kept)
+        self.recorder.finish()
+        return kept
 
     @staticmethod
     def wait(done: Callable[[], bool]) -> None:

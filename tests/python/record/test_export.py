@@ -20,12 +20,7 @@ def killed(start, tmp_path):
     """A recording as a killed process leaves it, with a scene that came before its first tick."""
     run = start()
     run.recorder.exchange(load_scene("k06-fig10"))
-    run.go()
-    run.wait(lambda: run.recorder.status().rows == run.ticks)
-    kept = tmp_path / "killed.part"
-    shutil.copy(run.recorder.status().file, kept)
-    run.recorder.finish()
-    return kept
+    return run.killed(tmp_path / "killed.part")
 
 
 def test_csv_reads_back_as_the_very_same_numbers(killed, tmp_path):

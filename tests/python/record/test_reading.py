@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,13 +17,7 @@ TOOLS = Path(__file__).parents[3] / "tools"
 @pytest.fixture
 def growing(start, tmp_path):
     """A recording of 3000 ticks as a killed process leaves it."""
-    run = start()
-    run.go()
-    run.wait(lambda: run.recorder.status().rows == run.ticks)
-    kept = tmp_path / "killed.part"
-    shutil.copy(run.recorder.status().file, kept)
-    run.recorder.finish()
-    return kept
+    return start().killed(tmp_path / "killed.part")
 
 
 def test_a_killed_recording_has_what_the_finished_one_has(growing, tmp_path):

@@ -12,7 +12,7 @@ export function eventList(app: App): HTMLElement {
   const plots = plotsOf(app);
   const list = element("ol", { class: "events-list", reversed: true });
   const empty = element("p", { class: "events-none" }, "No membrane touched yet.");
-  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
+  const spoken = element("p", { class: "only-read", "aria-live": "polite" });
 
   const row = (event: MembraneEvent): HTMLLIElement => {
     const { word, force } = eventWords(event);

@@ -1,5 +1,6 @@
 import type { Triple } from "../engine/engine.ts";
 import type { App } from "../state/app.ts";
+import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import { aiming, heightOver } from "./aim.ts";
 import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
@@ -138,14 +139,5 @@ export class Hand {
   }
 }
 
-const hands = new WeakMap<App, Hand>();
-
 /** The one hand of this page. */
-export function handOf(app: App): Hand {
-  let hand = hands.get(app);
-  if (!hand) {
-    hand = new Hand(app);
-    hands.set(app, hand);
-  }
-  return hand;
-}
+export const handOf = onePerApp((app) => new Hand(app));

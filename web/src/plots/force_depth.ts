@@ -47,7 +47,7 @@ export const forceDepthPlot: Panel = (host, app) => {
   });
   const readout = element("span", { class: "plot-readout" });
   const compared = element("span", { class: "plot-compared" });
-  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
+  const spoken = element("p", { class: "only-read", "aria-live": "polite" });
   const body = element("div", { class: "plot-body" });
   host.append(
     element(

@@ -1,4 +1,5 @@
 import type { App } from "../state/app.ts";
+import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { Source } from "../state/source.ts";
 import { frozenCopy } from "./freeze.ts";
@@ -86,14 +87,5 @@ export class Plots {
   }
 }
 
-const all = new WeakMap<App, Plots>();
-
 /** The one of this page. */
-export function plotsOf(app: App): Plots {
-  let plots = all.get(app);
-  if (!plots) {
-    plots = new Plots(app);
-    all.set(app, plots);
-  }
-  return plots;
-}
+export const plotsOf = onePerApp((app) => new Plots(app));

@@ -40,7 +40,7 @@ export const timePlots: Panel = (host, app) => {
     cursor: plots.source.cursor.value,
   });
   const body = element("div", { class: "plot-body" });
-  const spoken = element("p", { class: "plot-spoken", "aria-live": "polite" });
+  const spoken = element("p", { class: "only-read", "aria-live": "polite" });
   host.append(
     element(
       "div",

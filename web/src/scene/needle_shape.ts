@@ -6,11 +6,15 @@ const BORE = 0.62;
 /** Length of the slanted face along the needle: X of K06 (5). */
 export const tipLength = (diameter: number, tipAngle: number): number => diameter / Math.tan(tipAngle);
 
-function geometry(positions: number[], normals: number[], index: number[]): BufferGeometry {
+/** Two triangles from each pair of points to the next, once around. */
+const INDEX = Array.from({ length: AROUND }, (_, i) => [0, 2, 1, 1, 2, 3].map((k) => 2 * i + k)).flat();
+
+/** A closed ribbon of pairs of points, AROUND of them and the first once more. */
+function ribbon(positions: number[], normals: number[]): BufferGeometry {
   const made = new BufferGeometry();
   made.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
   made.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
-  made.setIndex(index);
+  made.setIndex(INDEX);
   return made;
 }
 
@@ -23,16 +27,14 @@ export function shaftShape(diameter: number, tipAngle: number, length: number): 
   const slope = tipLength(diameter, tipAngle) / diameter;
   const positions: number[] = [];
   const normals: number[] = [];
-  const index: number[] = [];
   for (let i = 0; i <= AROUND; i++) {
     const c = Math.cos((2 * Math.PI * i) / AROUND);
     const s = Math.sin((2 * Math.PI * i) / AROUND);
     const x = r + r * c;
     positions.push(x, r * s, slope * x, x, r * s, length);
     normals.push(c, s, 0, c, s, 0);
-    if (i < AROUND) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   }
-  return geometry(positions, normals, index);
+  return ribbon(positions, normals);
 }
 
 /** The slanted face, a ring round the bore; with `bore` true the bore's mouth within it. */
@@ -44,7 +46,6 @@ export function faceShape(diameter: number, tipAngle: number, bore: boolean): Bu
   const [inner, outer] = bore ? [0, BORE] : [BORE, 1];
   const positions: number[] = [];
   const normals: number[] = [];
-  const index: number[] = [];
   for (let i = 0; i <= AROUND; i++) {
     const c = Math.cos((2 * Math.PI * i) / AROUND);
     const s = Math.sin((2 * Math.PI * i) / AROUND);
@@ -53,7 +54,6 @@ export function faceShape(diameter: number, tipAngle: number, bore: boolean): Bu
       positions.push(x, r * part * s, slope * x);
       normals.push(...normal);
     }
-    if (i < AROUND) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   }
-  return geometry(positions, normals, index);
+  return ribbon(positions, normals);
 }

@@ -44,7 +44,7 @@ export function fieldFrame(field: Field, id: string): Frame {
     { class: `field kind-${field.kind}`, "data-help": helpText(field), "data-key": field.key },
     label,
     controls,
-    element("span", { id: helpId, class: "visually-hidden" }, helpText(field)),
+    element("span", { id: helpId, class: "only-read" }, helpText(field)),
     error,
   );
   let typed = "";

@@ -14,7 +14,7 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
         "li",
         { class: state },
         element("span", { class: "sign", "aria-hidden": "true" }, sign),
-        element("span", { class: "visually-hidden" }, `${word}: `),
+        element("span", { class: "only-read" }, `${word}: `),
         text,
       );
     }),
