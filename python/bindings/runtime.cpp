@@ -23,7 +23,7 @@ SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
 
 /// Snapshots of a running loop, for one reader.
 struct Listener {
-  SpscRing<Snapshot>* ring;
+  SnapshotRing* ring;
 
   nb::dict read(std::size_t limit) {
     SnapshotColumns columns;
@@ -127,7 +127,9 @@ void bind_runtime(nb::module_& m) {
            nb::sig("def read(self, limit: int = 65536) -> dict[str, typing.Any]"), columns_doc)
       .def_prop_ro(
           "lost", [](const Listener& l) { return l.ring->lost(); }, "Snapshots that found no room.")
-      .def_prop_ro("capacity", [](const Listener& l) { return l.ring->capacity(); }, "Snapshots that it holds.");
+      .def_prop_ro(
+          "capacity", [](const Listener& l) { return l.ring->capacity(); },
+          "Snapshots of the first scene that it holds.");
 
   nb::class_<ServoLoop>(m, "ServoLoop", "A scene on a device: the servo step, tick after tick, on the device's thread.")
       .def(

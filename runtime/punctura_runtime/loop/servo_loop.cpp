@@ -2,15 +2,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <thread>
 
 namespace punctura {
 
 void copy(const Snapshot& from, Snapshot& to) noexcept {
-  std::memcpy(static_cast<void*>(&to), &from,
-              offsetof(Snapshot, membranes) + from.membrane_count * sizeof(MembraneRecord));
+  std::memcpy(static_cast<void*>(&to), &from, used_bytes(from.membrane_count));
 }
 
 namespace {
@@ -46,9 +44,9 @@ std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
   return std::make_unique<ServoStep>(build(at_rate, settings_.gate, settings_.limits));
 }
 
-SpscRing<Snapshot>& ServoLoop::listen(std::size_t capacity) {
+SnapshotRing& ServoLoop::listen(std::size_t capacity) {
   if (running_) throw std::logic_error("listen() must come before start()");
-  listeners_.push_back(std::make_unique<SpscRing<Snapshot>>(capacity));
+  listeners_.push_back(std::make_unique<SnapshotRing>(capacity, scene_.membranes.size()));
   return *listeners_.back();
 }
 
@@ -130,7 +128,7 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   const Snapshot& snapshot = step_->step(placed_ ? placer_.to_scene(sample) : sample);
   remember(snapshot);
   latest_.write([&](Snapshot& to) { copy(snapshot, to); });
-  for (auto& ring : listeners_) ring->push([&](Snapshot& to) { copy(snapshot, to); });
+  for (auto& ring : listeners_) ring->push(snapshot);
 
   if (last_begin_ != 0) {
     const std::int64_t period = begin - last_begin_;

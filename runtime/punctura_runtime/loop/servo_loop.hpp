@@ -14,7 +14,7 @@
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/spsc_ring.hpp"
+#include "punctura_runtime/ring/snapshot_ring.hpp"
 
 namespace punctura {
 
@@ -50,8 +50,8 @@ class ServoLoop {
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Before start(): every tick's snapshot goes into this ring.
-  SpscRing<Snapshot>& listen(std::size_t capacity);
+  /// Before start(): every tick's snapshot goes into this ring, which has room for that many of the present scene.
+  SnapshotRing& listen(std::size_t capacity);
 
   void start();          ///< ticks come, disarmed. Throws DeviceError
   void stop() noexcept;  ///< zero force, then no tick any more
@@ -103,7 +103,7 @@ class ServoLoop {
   std::atomic<std::uint64_t> ticks_{0}, late_{0};
   Handover<ServoStep> handover_;
   Latest<Snapshot> latest_;
-  std::vector<std::unique_ptr<SpscRing<Snapshot>>> listeners_;
+  std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;
   std::mutex readers_;  ///< of those who ask, never of the tick
 };

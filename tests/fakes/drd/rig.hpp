@@ -162,7 +162,7 @@ class FakeRig {
  public:
   std::shared_ptr<force_dimension::ForceDimensionDevice> device;
   ServoLoop loop;
-  SpscRing<Snapshot>* ring = nullptr;
+  SnapshotRing* ring = nullptr;
 };
 
 }  // namespace punctura::test

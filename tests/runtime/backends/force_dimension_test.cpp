@@ -27,7 +27,7 @@ struct Record {
   Fault fault;
 };
 
-std::vector<Record> taken(SpscRing<Snapshot>& ring) {
+std::vector<Record> taken(SnapshotRing& ring) {
   std::vector<Record> all;
   ring.pop(1 << 20, [&](const Snapshot& s) { all.push_back({s.sample, s.commands, s.model_force, s.force, s.fault}); });
   return all;

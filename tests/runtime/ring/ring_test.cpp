@@ -5,45 +5,100 @@
 
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/spsc_ring.hpp"
+#include "punctura_runtime/ring/snapshot_ring.hpp"
 
 using namespace punctura;
 
+namespace {
+
+/// Every number of it can be told from tick and count, so that a reader sees what is not whole.
+Snapshot numbered(std::uint64_t tick, std::uint32_t membranes) {
+  Snapshot s{};
+  s.tick = tick;
+  s.ceiling = static_cast<double>(3 * tick);
+  s.membrane_count = membranes;
+  for (std::uint32_t i = 0; i < membranes; ++i) {
+    s.membranes[i].depth = static_cast<double>(tick + i);
+    s.membranes[i].phase = static_cast<Phase>((tick + i) % 4);
+  }
+  return s;
+}
+
+bool whole(const Snapshot& s) {
+  const Snapshot other = numbered(s.tick, s.membrane_count);
+  bool same = s.ceiling == other.ceiling;
+  for (std::uint32_t i = 0; i < s.membrane_count; ++i)
+    same = same && s.membranes[i].depth == other.membranes[i].depth && s.membranes[i].phase == other.membranes[i].phase;
+  return same;
+}
+
+using Ticks = std::vector<std::uint64_t>;
+
+Ticks taken(SnapshotRing& ring, std::size_t limit) {
+  Ticks got;
+  const std::size_t n = ring.pop(limit, [&](const Snapshot& s) {
+    CHECK(whole(s));
+    got.push_back(s.tick);
+  });
+  CHECK(n == got.size());
+  return got;
+}
+
+}  // namespace
+
 TEST_CASE("a ring hands over what was put in, in order") {
-  SpscRing<int> ring(4);
-  for (int i = 0; i < 3; ++i) CHECK(ring.push([&](int& to) { to = i; }));
-  std::vector<int> got;
-  CHECK(ring.pop(2, [&](int v) { got.push_back(v); }) == 2);
-  CHECK(ring.pop(9, [&](int v) { got.push_back(v); }) == 1);
-  CHECK(got == std::vector<int>{0, 1, 2});
+  SnapshotRing ring(40, 1);
+  for (std::uint64_t i = 0; i < 3; ++i) CHECK(ring.push(numbered(i, 1)));
+  CHECK(taken(ring, 2) == Ticks{0, 1});
+  CHECK(taken(ring, 9) == Ticks{2});
+  CHECK(taken(ring, 9).empty());
   CHECK(ring.lost() == 0);
 }
 
-TEST_CASE("a full ring loses the new record, and counts it") {
-  SpscRing<int> ring(4);
-  for (int i = 0; i < 10; ++i) ring.push([&](int& to) { to = i; });
-  CHECK(ring.lost() == 6);
-  std::vector<int> got;
-  ring.pop(99, [&](int v) { got.push_back(v); });
-  CHECK(got == std::vector<int>{0, 1, 2, 3});
+TEST_CASE("a full ring loses the new record, and counts it; it holds as many as it said") {
+  SnapshotRing ring(100, 2);
+  for (std::uint64_t i = 0; i < 110; ++i) ring.push(numbered(i, 2));
+  CHECK(ring.lost() == 10);
+  const Ticks got = taken(ring, 999);
+  REQUIRE(got.size() == 100);
+  CHECK(got.front() == 0);
+  CHECK(got.back() == 99);
+}
+
+TEST_CASE("a ring made for few membranes takes a snapshot with as many as there can be") {
+  SnapshotRing ring(1, 0);
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    CHECK(ring.push(numbered(i, i % 2 ? max_membranes : 3)));
+    CHECK(taken(ring, 9) == Ticks{i});
+  }
+  CHECK(ring.lost() == 0);
+}
+
+TEST_CASE("snapshots of any length follow each other round the ring") {
+  SnapshotRing ring(50, 3);
+  std::uint64_t next = 0, seed = 1;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    CHECK(ring.push(numbered(i, static_cast<std::uint32_t>(seed >> 58))));
+    if (i % 2 == 1)
+      for (const std::uint64_t tick : taken(ring, 9)) CHECK(tick == next++);
+  }
+  CHECK(next == 20000);
 }
 
 TEST_CASE("across two threads nothing is lost in silence, doubled or torn") {
-  struct Record {
-    std::uint64_t a, b, c;
-  };
-  SpscRing<Record> ring(64);
+  SnapshotRing ring(64, 4);
   const std::uint64_t n = 300000;
   std::thread writer([&] {
-    for (std::uint64_t i = 0; i < n; ++i) ring.push([&](Record& to) { to = {i, i * 3, ~i}; });
+    for (std::uint64_t i = 0; i < n; ++i) ring.push(numbered(i, static_cast<std::uint32_t>(i % 11)));
   });
   std::uint64_t seen = 0, last = 0;
   bool good = true, first = true;
   const auto drain = [&] {
-    return ring.pop(1000, [&](const Record& r) {
-      good = good && r.b == r.a * 3 && r.c == ~r.a && (first || r.a > last);
+    return ring.pop(1000, [&](const Snapshot& s) {
+      good = good && whole(s) && (first || s.tick > last);
       first = false;
-      last = r.a;
+      last = s.tick;
       ++seen;
     });
   };
