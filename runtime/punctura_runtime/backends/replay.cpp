@@ -18,14 +18,15 @@ ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorde
 
 void ReplayDevice::start(Tick tick) {
   if (thread_.joinable()) return;
-  stop_ = finished_ = ready_ = unhealthy_ = false;
+  stop_ = finished_ = unhealthy_ = false;
+  ready_.set_ahead();
   behind_ = 0;
   try {
     thread_ = std::thread([this, tick] { run(tick); });
   } catch (const std::system_error& error) {
     throw DeviceError(std::string("no thread for the replay's ticks: ") + error.what());
   }
-  ready_.wait(false);
+  ready_.wait();
 }
 
 void ReplayDevice::stop() noexcept {
@@ -47,8 +48,7 @@ std::vector<std::string> ReplayDevice::statements() const {
 
 void ReplayDevice::run(Tick tick) noexcept {
   if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
-  ready_ = true;
-  ready_.notify_all();
+  ready_.reach();
 
   Pacer<> pacer(info_.rate);
   for (const DeviceSample& sample : samples_) {

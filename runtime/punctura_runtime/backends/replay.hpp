@@ -7,6 +7,7 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/os/os.hpp"
+#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura {
 
@@ -42,7 +43,8 @@ class ReplayDevice : public Device {
   std::vector<DeviceSample> samples_;
   DeviceInfo info_;
   ReplayOptions options_;
-  std::atomic<bool> stop_{false}, finished_{false}, ready_{false}, unhealthy_{false};
+  std::atomic<bool> stop_{false}, finished_{false}, unhealthy_{false};
+  Milestone ready_;
   std::atomic<std::uint64_t> behind_{0};
   std::vector<os::RealtimeItem> realtime_;
   std::thread thread_;

@@ -26,9 +26,9 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
 void SimulatedDevice::start(Tick tick) {
   if (thread_.joinable()) return;
   stop_ = false;
-  ready_ = false;
+  ready_.set_ahead();
   thread_ = std::thread([this, tick] { run(tick); });
-  ready_.wait(false);
+  ready_.wait();
 }
 
 void SimulatedDevice::stop() noexcept {
@@ -55,8 +55,7 @@ void SimulatedDevice::point(const std::array<double, 3>& axis, std::uint32_t but
 
 void SimulatedDevice::run(Tick tick) noexcept {
   if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
-  ready_ = true;
-  ready_.notify_all();
+  ready_.reach();
 
   Pacer<> pacer(options_.rate);
   const std::int64_t start = os::now_ns();

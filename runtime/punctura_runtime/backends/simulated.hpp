@@ -11,6 +11,7 @@
 #include "punctura/plant/plant.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/latest.hpp"
+#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura {
 
@@ -66,7 +67,8 @@ class SimulatedDevice : public Device {
   Latest<Wish> wishes_;
   Latest<std::array<double, 3>> last_force_;
   std::atomic<void (*)(DeviceSample&)> spoiler_{nullptr};
-  std::atomic<bool> stop_{false}, finished_{false}, ready_{false};
+  std::atomic<bool> stop_{false}, finished_{false};
+  Milestone ready_;
   std::atomic<std::uint64_t> missed_{0};
   std::vector<os::RealtimeItem> realtime_;
   std::thread thread_;

@@ -37,29 +37,36 @@ RealtimeItem item(const char* what, bool granted) {
   return {what, granted, granted ? "" : windows_words(GetLastError())};
 }
 
-/// A timer that wakes within a fraction of a millisecond, one a thread; without it Windows wakes at its 15.6 ms, or at 1 ms
-/// where somebody asks for that.
-class PreciseTimer {
- public:
-  PreciseTimer() noexcept
-      : handle_(CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS)) {
-    if (!handle_) timeBeginPeriod(1);
-  }
-  ~PreciseTimer() {
-    if (handle_) CloseHandle(handle_);
-  }
-  void sleep(std::int64_t ns) noexcept {
-    LARGE_INTEGER due;
-    due.QuadPart = -(ns / 100);  // relative, in 100 ns
-    if (handle_ && SetWaitableTimer(handle_, &due, 0, nullptr, nullptr, FALSE))
-      WaitForSingleObject(handle_, INFINITE);
-    else
-      Sleep(static_cast<DWORD>(ns / 1'000'000));
-  }
+void WINAPI close_timer(void* timer) {
+  if (timer) CloseHandle(timer);
+}
 
- private:
-  HANDLE handle_;
-};
+/// This thread's timer, which wakes within a fraction of a millisecond; nullptr before Windows 10, version 1803. It is closed when
+/// the thread ends: by Windows itself, since mingw-w64 destroys a thread_local object when its memory has been freed already.
+HANDLE precise_timer() noexcept {
+  static const DWORD slot = FlsAlloc(close_timer);
+  if (slot == FLS_OUT_OF_INDEXES) return nullptr;
+  HANDLE timer = FlsGetValue(slot);
+  if (!timer) {
+    timer = CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS);
+    FlsSetValue(slot, timer);
+  }
+  return timer;
+}
+
+/// Without a precise timer Windows wakes at its 15.6 ms, or at 1 ms where somebody asks for that.
+void sleep_for(std::int64_t ns) noexcept {
+  HANDLE timer = precise_timer();
+  LARGE_INTEGER due;
+  due.QuadPart = -(ns / 100);  // relative, in 100 ns
+  if (timer && SetWaitableTimer(timer, &due, 0, nullptr, nullptr, FALSE)) {
+    WaitForSingleObject(timer, INFINITE);
+    return;
+  }
+  static const MMRESULT fine = timeBeginPeriod(1);
+  static_cast<void>(fine);
+  Sleep(static_cast<DWORD>(ns / 1'000'000));
+}
 
 }  // namespace
 
@@ -75,10 +82,9 @@ std::int64_t now_ns() noexcept {
 }
 
 void sleep_until_ns(std::int64_t time) noexcept {
-  thread_local PreciseTimer timer;
   for (std::int64_t left = time - now_ns(); left > 0; left = time - now_ns()) {
     if (left > 100'000)
-      timer.sleep(left - 50'000);
+      sleep_for(left - 50'000);
     else
       YieldProcessor();  // the last tenth of a millisecond, which no timer hits
   }

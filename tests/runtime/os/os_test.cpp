@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <thread>
+#include <vector>
 
 #include "punctura_runtime/os/socket.hpp"
 
@@ -19,15 +20,14 @@ TEST_CASE("a sleep ends at its time or later, never before; one whose time has p
 }
 
 TEST_CASE("what the scheduler does not grant is said with the reason, and does no harm") {
-  std::thread([] {
-    const auto items = os::make_realtime({80, 0, false, true});
-    CHECK_FALSE(items.empty());
-    for (const auto& item : items) {
-      CAPTURE(item.what);
-      CHECK_FALSE(item.what.empty());
-      CHECK(item.granted == item.detail.empty());
-    }
-  }).join();
+  std::vector<os::RealtimeItem> items;
+  std::thread([&] { items = os::make_realtime({80, 0, false, true}); }).join();
+  CHECK_FALSE(items.empty());
+  for (const auto& item : items) {
+    CAPTURE(item.what);
+    CHECK_FALSE(item.what.empty());
+    CHECK(item.granted == item.detail.empty());
+  }
 }
 
 TEST_CASE("a library that is nowhere is told by its name, in words") {

@@ -53,7 +53,8 @@ void ForceDimensionDevice::open() {
 void ForceDimensionDevice::start(Tick tick) {
   if (thread_.joinable()) return;
   if (!connection_) open();
-  stop_ = finished_ = ready_ = false;
+  stop_ = finished_ = false;
+  ready_.set_ahead();
   trouble_ = Trouble::none;
   saturated_ = repeated_ = missed_ = 0;
   sample_ = {};
@@ -76,7 +77,7 @@ void ForceDimensionDevice::start(Tick tick) {
     silence();
     throw DeviceError(std::string("no thread for the device's ticks: ") + error.what());
   }
-  ready_.wait(false);
+  ready_.wait();
 }
 
 void ForceDimensionDevice::stop() noexcept {
@@ -87,8 +88,7 @@ void ForceDimensionDevice::stop() noexcept {
 
 void ForceDimensionDevice::run(Tick tick) noexcept {
   realtime_ = os::make_realtime(options_.realtime);
-  ready_ = true;
-  ready_.notify_all();
+  ready_.reach();
 
   Pacer<LoopClock> pacer(info_.rate, options_.clock);
   const std::int64_t start = options_.clock.now();

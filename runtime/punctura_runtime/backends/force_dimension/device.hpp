@@ -13,6 +13,7 @@
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
 #include "punctura_runtime/os/os.hpp"
+#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura::force_dimension {
 
@@ -83,7 +84,8 @@ class ForceDimensionDevice : public Device {
   std::atomic<Trouble> trouble_{Trouble::none};
   std::atomic<int> code_{0};
   std::atomic<std::uint64_t> saturated_{0}, repeated_{0}, missed_{0};
-  std::atomic<bool> stop_{false}, finished_{false}, ready_{false};
+  std::atomic<bool> stop_{false}, finished_{false};
+  Milestone ready_;
   std::vector<os::RealtimeItem> realtime_;
   std::thread thread_;
 };

@@ -68,12 +68,12 @@ void InverseDevice::start(Tick tick) {
       throw DeviceError("The Inverse Service at " + url_.text() + " has ceased to answer");
   }
   stop_ = false;
-  ready_ = false;
+  ready_.set_ahead();
   trouble_ = Trouble::none;
   gripless_ = 0;
   running_ = true;
   thread_ = std::thread([this, tick] { run(tick); });
-  ready_.wait(false);
+  ready_.wait();
 }
 
 void InverseDevice::stop() noexcept {
@@ -84,8 +84,7 @@ void InverseDevice::stop() noexcept {
 
 void InverseDevice::run(Tick tick) noexcept {
   if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
-  ready_ = true;
-  ready_.notify_all();
+  ready_.reach();
 
   DeviceSample sample{0, 0, {0, 0, 0}, {0, -1, 0}, 0, true};
   Pacer<> pacer(info_.rate);

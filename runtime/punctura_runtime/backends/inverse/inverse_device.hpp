@@ -10,6 +10,7 @@
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/backends/inverse/service.hpp"
 #include "punctura_runtime/os/os.hpp"
+#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura::inverse {
 
@@ -69,7 +70,8 @@ class InverseDevice : public Device {
   double fastest_ = unknown;    ///< round trips a second
   std::uint64_t gripless_ = 0;  ///< answers in a row without a grip
   std::vector<os::RealtimeItem> realtime_;
-  std::atomic<bool> stop_{false}, ready_{false}, running_{false};
+  std::atomic<bool> stop_{false}, running_{false};
+  Milestone ready_;
   std::atomic<Trouble> trouble_{Trouble::none};  ///< close_reason() may be read once this says why
   std::thread thread_;
 };
