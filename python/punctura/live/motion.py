@@ -6,38 +6,53 @@ import math
 
 import numpy as np
 
-from punctura import Scene, Strokes
+from punctura import Hand, PlacedMembrane, Scene, Strokes, ThickLaw
 
 CLEARANCE = 5e-3  # m in front of the first surface, where force may be switched on
-BEYOND = 3e-3  # m of shaft behind the last wall
+BEYOND = 3e-3  # m of shaft behind the last wall, and for the friction of the device itself
+STEEPEST = math.radians(80)  # a wall that lies almost along the strokes cannot be gone through that way
+SAMPLES = 64
 
-
+Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 Triple = tuple[float, float, float]
 
 
-def stroke_ends(scene: Scene) -> tuple[Triple, Triple]:
-    """Where strokes through the scene begin and end, m: in front of all membranes, and behind the last."""
-    first = scene.membranes[0]
-    inward = np.array(first.inward_normal) / np.linalg.norm(first.inward_normal)
-    depths, ends = [], []
-    for placed in scene.membranes:
-        depth = float((np.array(placed.point) - np.array(first.point)) @ inward)
-        tip = scene.needle.diameter / math.tan(scene.needle.tip_angle)
-        depths.append(depth)
-        ends.append(depth + tip + placed.membrane.thickness)
-    start = np.array(first.point) + (min(depths) - CLEARANCE) * inward
-    end = np.array(first.point) + (max(ends) + BEYOND) * inward
-    return _triple(start), _triple(end)
+def stroke_ends(scene: Scene, hand: Hand | None = None) -> tuple[Triple, Triple]:
+    """Where the hand's strokes through the scene begin and end, m: in front of all membranes, and beyond the last.
+
+    Beyond it by as much as the walls' greatest forces F hold the tip back: each its own by F / K in the coupling, and
+    all together by sum(F) / k in the hand's spring k, so that the tip itself comes out behind.
+    """
+    first = np.array(scene.membranes[0].point)
+    inward = _unit(scene.membranes[0].inward_normal)
+    walls = [_wall(scene, placed, first, inward) for placed in scene.membranes]
+    held_back = sum(peak for _, _, peak in walls) / (hand or Hand()).stiffness
+    start = min(begin for begin, _, _ in walls) - CLEARANCE
+    end = max(begin + through + peak / scene.coupling.stiffness for begin, through, peak in walls) + held_back + BEYOND
+    return _triple(first + start * inward), _triple(first + end * inward)
+
+
+def _wall(scene: Scene, placed: PlacedMembrane, origin: Array, way: Array) -> tuple[float, float, float]:
+    """Along a way: where its surface is, how far it is through, m; and its greatest force, N."""
+    normal = _unit(placed.inward_normal)
+    cosine = max(abs(float(normal @ way)), math.cos(STEEPEST))
+    law = ThickLaw(scene.needle, placed.membrane, math.acos(min(1.0, cosine)))
+    through = law.X + law.U
+    lower, upper = law.bounds(np.linspace(0, through, SAMPLES))
+    peak = float(np.maximum(-lower, upper).max())
+    return float((np.array(placed.point) - origin) @ normal) / cosine, through, peak
 
 
 def strokes_through(scene: Scene, count: int = 1000, duration: float = 2.0) -> Strokes:
-    """Strokes along the first membrane's normal, from in front of all membranes to behind the last.
-
-    The hand wants to go farther than the tip shall come, by what the stiffest wall's force stretches it.
-    """
+    """Strokes along the first membrane's normal, from in front of all membranes to behind the last."""
     start, end = stroke_ends(scene)
     return Strokes(start, end, count=count, duration=duration, rest=0.7, variation=0.05)
 
 
-def _triple(v: np.ndarray) -> Triple:
+def _unit(v: Triple | list[float]) -> Array:
+    unit: Array = np.array(v) / np.linalg.norm(v)
+    return unit
+
+
+def _triple(v: Array) -> Triple:
     return float(v[0]), float(v[1]), float(v[2])
