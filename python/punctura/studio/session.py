@@ -5,13 +5,14 @@ The tick itself runs on the device's thread and never waits for this one.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
-from punctura._core import DeviceError
+from punctura._core import DeviceError, ReplayDevice
 from punctura.exercise import Exercise, ResultStore
 from punctura.record import RecorderStatus
 from punctura.studio.hand import Hand, Pose
@@ -32,6 +33,7 @@ Then = Callable[[str, RecorderStatus], None]  # name of a recording, and how it 
 
 PUMP_S = 1 / 60
 STATUS_S = 0.25
+ROUND_REST_S = 2.0  # between two rounds of a recorded motion
 
 
 class Session:
@@ -54,6 +56,7 @@ class Session:
         self._takes = Takes()
         self._jobs = Jobs()
         self._target: Target | None = None
+        self._over_at = math.inf  # when a recorded motion had ended
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
 
@@ -220,6 +223,7 @@ class Session:
                 if now >= status_at:
                     status_at = now + STATUS_S
                     self._guarded(self._tell_status)
+                    self._guarded(self._go_round)
         except DeviceError as error:
             self.failure = error
         except BaseException as error:
@@ -229,6 +233,16 @@ class Session:
             self.run.stop()
             self._guarded(self.end_run)
             self._takes.wait()
+
+    def _go_round(self) -> None:
+        """A device that plays a recorded motion plays it again, unless it is being recorded."""
+        now = time.monotonic()
+        device = self.run.loop.device
+        over = isinstance(device, ReplayDevice) and device.finished and not self.recording
+        self._over_at = min(self._over_at, now) if over else math.inf
+        if now - self._over_at >= ROUND_REST_S:
+            self._over_at = math.inf
+            self.begin_again()
 
     def _tell_status(self) -> None:
         self.out.say(status_of(self))

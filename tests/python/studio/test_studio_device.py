@@ -1,11 +1,14 @@
-"""The studio on a device that is not simulated by us: an Inverse3, whose service stands in."""
+"""The studio on a device that is not simulated by us: an Inverse3, whose service stands in; a recorded motion."""
 
 import importlib.util
 import sys
 from pathlib import Path
 
 import pytest
-from punctura.record import open_recording
+from punctura import load_scene
+from punctura._core import ServoLoop, SimulatedDevice
+from punctura.live import strokes_through
+from punctura.record import Recorder, open_recording
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
@@ -75,3 +78,31 @@ def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
     service.removed, before = False, page.last.run
     page.wait(lambda: page.ask(do="load", scene="k06-fig10")["ok"])
     page.wait(lambda: page.last.run > before)
+
+
+def recorded_motion(path, ticks=1200):
+    scene = load_scene("k06-fig10")
+    device = SimulatedDevice(strokes_through(scene, 1, 0.5), real_time=False, ticks=ticks)
+    loop = ServoLoop(device, scene)
+    with Recorder(loop, path, ticks):
+        loop.arm()
+        loop.start()
+        while not device.finished:
+            pass
+        loop.stop()
+    return path
+
+
+def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 0.1)
+    settings = Settings(device=f"replay:{recorded_motion(tmp_path / 'motion.parquet')}")
+    server = StudioServer(from_name("k06-fig10"), settings, page=tmp_path, folder=tmp_path / "kept")
+    server.start()
+    try:
+        with StudioClient(server.address.url) as page:
+            page.wait(lambda: page.last)
+            assert "recorded" in page.of("hello")[0]["device"]["model"]
+            assert not page.ask(do="strokes", period=2.0)["ok"]
+            page.wait(lambda: page.last.run >= 2)
+    finally:
+        server.stop()
