@@ -24,7 +24,7 @@ from typing import Any
 
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
-from studio_process import Memory, StudioProcess
+from studio_process import Memory, StudioProcess, blank_page
 from websockets.frames import Opcode
 from websockets.sync.client import connect
 
@@ -132,7 +132,7 @@ class Fuzzer(threading.Thread):
 
 def fuzz(seconds: float, seed: int, folder: Path) -> int:
     memory = Memory(seconds, warm=WARMING_UP)
-    with StudioProcess(folder) as studio:
+    with StudioProcess(folder, page=blank_page(folder)) as studio:
         page = StudioClient(studio.url, patience=600)  # a long recording takes a while to finish
         page.wait(lambda: page.last)
         # A small recording to read, again and again: of the one that grows, more would be read each time.

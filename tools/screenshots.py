@@ -14,13 +14,14 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from chromium import launch
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
+from studio_process import StudioProcess
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "page"))
 
-from conftest import launch, start_studio  # noqa: E402
 from person import PATIENCE, drag_in, push, ready, tab  # noqa: E402
 
 LAPTOP, TABLET = (1440, 900), (900, 1200)
@@ -107,12 +108,12 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
         if wanted and name not in wanted:
             continue
         with tempfile.TemporaryDirectory() as folder:
-            studio = start_studio(Path(folder), scene)
+            studio = StudioProcess(Path(folder), scene)
             context = browser.new_context(
                 viewport={"width": width, "height": height}, color_scheme=colours, reduced_motion="reduce"
             )
             page = context.new_page()
-            page.goto(studio.address, timeout=PATIENCE)
+            page.goto(studio.url, timeout=PATIENCE)
             act(page)
             page.wait_for_timeout(1500)  # for plots and view to have drawn
             shot = page.screenshot(full_page=width < 1080)

@@ -1,8 +1,10 @@
-"""Runs a studio for minutes with four viewers, one of whom never reads, while every tick is recorded.
+"""Runs a studio for minutes with four viewers, while every tick is recorded: the page in Chromium without a graphics
+card, two that only read, and one that never reads.
 
     python tools/soak_studio.py --minutes 30
 
-Passes if no tick is lost in the recording nor at the viewers who read, and if the server's memory stays within 5 %.
+Passes if no tick is lost in the recording nor at the viewers who read, if the server's memory and the heap of the page
+stay within 5 %, and if a plot is drawn more than 20 times a second.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ import argparse
 import base64
 import os
 import socket
+import statistics
 import sys
 import tempfile
 import time
@@ -18,9 +21,11 @@ from pathlib import Path
 
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
-from studio_process import Memory, StudioProcess
+from studio_process import SHORT_S, Memory, StudioProcess
+from watched_page import WatchedPage
 
 MOST_GROWTH = 0.05
+LEAST_PLOTS = 20.0  # a second, drawn by the processor
 
 
 def stalled_viewer(page: StudioClient) -> socket.socket:
@@ -37,60 +42,97 @@ def stalled_viewer(page: StudioClient) -> socket.socket:
     return raw
 
 
-def soak(seconds: float, folder: Path) -> int:
-    memory = Memory(seconds)
+class Watched:
+    """What the browser's viewer showed, minute by minute."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        self.heap = Memory(seconds)
+        self.rates: list[dict[str, float]] = []
+
+    def look(self, page: WatchedPage) -> str:
+        rates, heap = page.rates(), page.heap_mb()
+        page.rates()  # what collecting the garbage took is not the page's
+        self.rates.append(rates)
+        self.heap.add(heap)
+        frames = ", ".join(f"{name} {rate:.1f}" for name, rate in rates.items())
+        return f"browser: {frames} a second, heap {heap:.1f} MB"
+
+    def fluent(self) -> bool:
+        """Whether a plot was drawn often enough. As with memory, a short run says nothing."""
+        return self.seconds < SHORT_S or self.median("plots") > LEAST_PLOTS
+
+    def median(self, name: str) -> float:
+        return statistics.median(rates[name] for rates in self.rates) if self.rates else float("nan")
+
+
+def soak(seconds: float, folder: Path, picture: Path | None) -> int:
+    memory, watched = Memory(seconds), Watched(seconds)
+    every = min(60.0, seconds / 4)
     with StudioProcess(folder) as studio:
-        pages = [StudioClient(studio.url, patience=600) for _ in range(3)]
+        pages = [StudioClient(studio.url, patience=600) for _ in range(2)]
         holder = pages[0]
         stalled = stalled_viewer(holder)
         holder.wait(lambda: holder.last)
-        answer = holder.ask(do="start_recording", name="soak")
-        holder.ask(do="strokes", period=4.0)
-        told = began = time.monotonic()
-        while (now := time.monotonic()) - began < seconds and studio.running:
-            time.sleep(0.5)
-            memory.add(studio.memory_mb())
-            for page in pages:
-                del page.messages[:-100]  # or the soak itself would grow
-            if now - told > 60:
-                told = now
-                print(f"{now - began:.0f} s: {studio.memory_mb():.1f} MB, {[p.ticks for p in pages]} ticks", flush=True)
-        status = holder.status()
+        with WatchedPage(studio.url) as browser:
+            answer = holder.ask(do="start_recording", name="soak")
+            holder.ask(do="strokes", period=4.0)
+            browser.rates()
+            told = began = time.monotonic()
+            while (now := time.monotonic()) - began < seconds and studio.running:
+                browser.pause(0.5)
+                memory.add(studio.memory_mb())
+                for page in pages:
+                    del page.messages[:-100]  # or the soak itself would grow
+                if now - told > every:
+                    told = now
+                    ticks = [page.ticks for page in pages]
+                    print(
+                        f"{now - began:.0f} s: {studio.memory_mb():.1f} MB, {ticks} ticks; {watched.look(browser)}",
+                        flush=True,
+                    )
+            status = holder.status()
+            if picture:
+                browser.picture(picture)
+            errors = browser.errors
+        asked = time.monotonic()
         stopped = holder.ask(do="stop_recording")
+        finished_s = time.monotonic() - asked
         stalled.close()
         for page in pages:
             page.close()
         code = studio.end()
         recording = open_recording(folder / "recordings" / "soak.parquet")
         gaps, said = sum(page.gaps for page in pages), studio.said()
-    growth = memory.growth()
     print(
         f"{status['viewers']} viewers; {recording.rows} ticks recorded, {recording.lost} lost; gaps at viewers: {gaps}"
     )
     print(f"late {status['late']}, not shown {status['lost']}; the studio ended with {code}")
+    print(f"the recording was finished in {finished_s:.1f} s")
     largest = max(memory.samples, default=float("nan"))
     print(
-        f"memory: {memory.samples[0] if memory.samples else 0:.1f} MB, at most {largest:.1f} MB, grown by {growth:+.1%}"
+        f"memory: {memory.samples[0] if memory.samples else 0:.1f} MB, at most {largest:.1f} MB, "
+        f"grown by {memory.growth():+.1%}"
+    )
+    print(
+        f"browser: heap grown by {watched.heap.growth():+.1%}; a second, at the median of the minutes: "
+        f"{watched.median('plots'):.1f} of a plot, {watched.median('view'):.1f} of the 3-D view"
     )
     good = answer["ok"] and stopped["ok"] and recording.finished and status["viewers"] == 4 and code == 130
-    good = (
-        good
-        and memory.flat(MOST_GROWTH)
-        and recording.lost == 0
-        and gaps == 0
-        and status["lost"] == 0
-        and "Traceback" not in said
-    )
-    print("passed" if good else f"FAILED {said[-2000:]}")
+    good = good and memory.flat(MOST_GROWTH) and watched.heap.flat(MOST_GROWTH) and not errors
+    good = good and watched.fluent()
+    good = good and recording.lost == 0 and gaps == 0 and status["lost"] == 0 and "Traceback" not in said
+    print("passed" if good else f"FAILED {errors} {said[-2000:]}")
     return 0 if good else 1
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--minutes", type=float, default=30.0)
-    minutes = parser.parse_args().minutes
+    parser.add_argument("--picture", type=Path, help="a PNG of the page at the end")
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        return soak(60 * minutes, Path(folder))
+        return soak(60 * options.minutes, Path(folder), options.picture)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""`punctura run` in a process of its own, with a page that is only a word, for soak_studio.py and fuzz_studio.py."""
+"""`punctura run` in a process of its own: for the page's tests and pictures, for soaks and fuzzers."""
 
 from __future__ import annotations
 
@@ -11,35 +11,44 @@ import sys
 import time
 from pathlib import Path
 from types import TracebackType
+from typing import TextIO
 
 from resident import resident_mb
 
 SHORT_S = 120.0
-ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
+PATIENCE_S = 120.0  # for the address, on a busy computer
+ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 
 
 class StudioProcess:
-    """A studio on the simulated device; `url` has its token. Its memory is read from /proc."""
+    """A studio on the simulated device; `url` has its token. Its recordings and results stay in `folder`."""
 
-    def __init__(self, folder: Path, scene: str = "k06-fig12") -> None:
-        self.folder = folder
-        page = folder / "page"
-        page.mkdir()
-        (page / "index.html").write_text("<!doctype html><title>page</title>")
+    def __init__(
+        self, folder: Path, scene: str = "k06-fig12", page: Path | None = None, port: int = 0, token: str = ""
+    ) -> None:
+        """page: a folder to serve in place of the studio's own page. token: given, or one of its own."""
+        self.recordings = folder / "recordings"
         command = [sys.executable, "-m", "punctura.cli", "run", scene, "--no-browser", "--device", "simulated"]
-        command += ["--page", str(page), "--recordings", str(folder / "recordings")]
-        self._said = (folder / "said.txt").open("w+")
-        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self._said, text=True)
-        assert self._process.stdout is not None
-        found = ADDRESS.search(self._process.stdout.readline())
-        if not found:
-            raise RuntimeError(f"the studio did not start: {self.said()}")
-        self.url = found[0]
+        command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
+        home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
+        self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "said.txt").open("w+")
+        self._process = subprocess.Popen(
+            command, stdout=self._out, stderr=self._errors, env={**os.environ, **home}, cwd=folder
+        )
+        self.url, self.port = self._address()
+
+    def _address(self) -> tuple[str, int]:
+        end = time.monotonic() + PATIENCE_S
+        while self.running and time.monotonic() < end:
+            if found := ADDRESS.search(_whole(self._out)):
+                return found[0], int(found[1])
+            time.sleep(0.02)
+        self.end()
+        raise RuntimeError(f"the studio did not start: {self.said()}")
 
     def said(self) -> str:
         """On standard error."""
-        self._said.seek(0)
-        return self._said.read()
+        return _whole(self._errors)
 
     @property
     def running(self) -> bool:
@@ -62,7 +71,20 @@ class StudioProcess:
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.end()
-        self._said.close()
+        self._out.close()
+        self._errors.close()
+
+
+def _whole(file: TextIO) -> str:
+    return Path(file.name).read_text()
+
+
+def blank_page(folder: Path) -> Path:
+    """A page that is only a word: nothing has to be built for it."""
+    page = folder / "page"
+    page.mkdir()
+    (page / "index.html").write_text("<!doctype html><title>page</title>")
+    return page
 
 
 class Memory:

@@ -2,27 +2,24 @@
 
 import time
 
-from conftest import start_studio
 from person import PATIENCE, ready
 from playwright.sync_api import expect
+from studio_process import StudioProcess
 
 
 def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
     ready(page)
     assert studio.end() in (0, 130)
     expect(page.locator(".header")).to_contain_text("No connection", timeout=PATIENCE)
-    token = studio.address.split("token=")[1]
-    again = start_studio(tmp_path, "k06-fig10", port=studio.port, token=token)
-    try:
+    token = studio.url.split("token=")[1]
+    with StudioProcess(tmp_path, "k06-fig10", port=studio.port, token=token):
         expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
-    finally:
-        again.end()
 
 
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
-    second.goto(studio.address, timeout=PATIENCE)
+    second.goto(studio.url, timeout=PATIENCE)
     expect(second.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)
     second.get_by_role("button", name="Take control").first.click()
     expect(page.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)

@@ -1,0 +1,76 @@
+"""The studio's page in Chromium without a graphics card, watched: pictures a second and the memory of its script."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from types import TracebackType
+
+from chromium import launch
+from playwright.sync_api import sync_playwright
+
+# Counts what is drawn where it is drawn, so that a frame in which the page had nothing new to show does not count.
+COUNT = """
+window.drawn = { frames: 0, plots: 0, view: 0 };
+const frame = () => { window.drawn.frames++; requestAnimationFrame(frame); };
+requestAnimationFrame(frame);
+const picture = CanvasRenderingContext2D.prototype.drawImage;
+let plot;
+CanvasRenderingContext2D.prototype.drawImage = function (...of) {
+  if (this.canvas.className === 'plot-canvas') {
+    plot ??= this.canvas;
+    if (this.canvas === plot) window.drawn.plots++;
+  }
+  return picture.apply(this, of);
+};
+const clear = WebGL2RenderingContext.prototype.clear;
+WebGL2RenderingContext.prototype.clear = function (...of) { window.drawn.view++; return clear.apply(this, of); };
+"""
+
+
+class WatchedPage:
+    """A viewer at `url`. `rates` since it was last asked; `heap_mb` after the garbage has been collected."""
+
+    def __init__(self, url: str, width: int = 1440, height: int = 900) -> None:
+        self.errors: list[str] = []
+        self._playwright = sync_playwright().start()
+        self._browser = launch(self._playwright)
+        self._page = self._browser.new_page(viewport={"width": width, "height": height})
+        self._page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self._page.add_init_script(COUNT)
+        self._page.goto(url, timeout=120_000)
+        self._page.wait_for_function("window.drawn.plots > 0", timeout=120_000)
+        self._page.keyboard.press("Escape")  # the tour
+        self._tools = self._page.context.new_cdp_session(self._page)
+        self._before, self._at = self._drawn(), time.monotonic()
+
+    def _drawn(self) -> dict[str, int]:
+        counts: dict[str, int] = self._page.evaluate("({...window.drawn})")
+        return counts
+
+    def rates(self) -> dict[str, float]:
+        """Frames of the browser, of the first plot and of the 3-D view, a second."""
+        now, drawn = time.monotonic(), self._drawn()
+        rates = {name: (drawn[name] - self._before[name]) / (now - self._at) for name in drawn}
+        self._before, self._at = drawn, now
+        return rates
+
+    def heap_mb(self) -> float:
+        self._tools.send("HeapProfiler.collectGarbage")
+        return float(self._tools.send("Runtime.getHeapUsage")["usedSize"]) / 1e6
+
+    def picture(self, path: Path) -> None:
+        self._page.screenshot(path=str(path))
+
+    def pause(self, seconds: float) -> None:
+        """Waits, and lets the browser's messages in meanwhile."""
+        self._page.wait_for_timeout(1e3 * seconds)
+
+    def __enter__(self) -> WatchedPage:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._browser.close()
+        self._playwright.stop()
