@@ -1,5 +1,7 @@
 """The studio as a program: what it prints, how it ends, and that the force is off then."""
 
+import asyncio
+import gc
 import os
 import signal
 import socket
@@ -130,3 +132,11 @@ def test_figures_are_served_once_they_are_made_and_nothing_else_of_their_folder(
 
 def test_recordings_are_kept_where_a_person_s_data_is():
     assert default_folder().parts[-2:] == ("punctura", "recordings")
+
+
+def test_no_frame_is_held_back_for_an_acknowledgement(page, served):
+    """A connection with Nagle's delay gives each frame after a message 40 ms late, and then three at once."""
+    transports = [one for one in gc.get_objects() if issubclass(type(one), asyncio.Transport)]
+    sockets = [transport.get_extra_info("socket") for transport in transports]
+    own = [one for one in sockets if one and one.fileno() >= 0 and one.getsockname()[1] == served.address.port]
+    assert own and all(one.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY) for one in own)
