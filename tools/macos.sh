@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Core, runtime and the runtime's tests, compiled and linked for macOS from Linux. Nothing is run: there is no macOS here.
+# Core, runtime and their tests, compiled and linked for macOS from Linux. Nothing is run: there is no macOS here.
 #   tools/macos.sh [aarch64|x86_64]     aarch64 when nothing is said
 # The compiler is Zig's Clang from PyPI, which brings the system's public headers; it goes into build/macos/. What came of it: docs/windows-and-macos.md.
 set -euo pipefail
@@ -20,7 +20,7 @@ export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/bu
 # The same warnings as elsewhere, all of them errors. The fakes' places stand in the tests; they are not opened here. doctest asks
 # for a constant of <cfloat>, which it counts on some other header to include, and for __COUNTER__, which this Clang calls an extension.
 compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
-flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -isystem "$eigen" -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
+flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core -isystem "$eigen" -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
   '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"' '-DFAKE_HD="fake_hd"'
   '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
 
@@ -43,7 +43,13 @@ for fake in drd hd; do
   objects tests/fakes/$fake/*.cpp
   "${compiler[@]}" -shared "${made[@]}" -o "$out/fake_$fake.dylib"
 done
+# program NAME SOURCE...: links it with what every program of tests has.
+program() {
+  objects tests/core/main.cpp tests/core/support/allocations.cpp "${@:2}"
+  "${compiler[@]}" "${made[@]}" "${library[@]}" -o "$out/$1"
+  echo "compiled and linked for $machine-macos, not run: $out/$1"
+}
 mapfile -t tests < <(find tests/runtime -name '*_test.cpp' | sort)
-objects tests/core/main.cpp tests/core/support/allocations.cpp tests/runtime/support/inverse_fake.cpp "${tests[@]}"
-"${compiler[@]}" "${made[@]}" "${library[@]}" -o "$out/runtime_tests"
-echo "compiled and linked for $machine-macos, not run: $out/runtime_tests"
+program runtime_tests tests/runtime/support/inverse_fake.cpp "${tests[@]}"
+mapfile -t tests < <(find tests/core -name '*_test.cpp' | sort)
+program core_tests "${tests[@]}"
