@@ -54,8 +54,11 @@ def of_loop(program: Path, seconds: float, priority: int, folder: Path) -> tuple
     return warm(np.fromfile(dump, np.int64)), json.loads(done.stdout)
 
 
-def of_cyclictest(cyclictest: str, seconds: float, priority: int) -> Latencies:
-    """One slice of cyclictest, one thread. Both lock their memory and keep the processor awake."""
+def of_cyclictest(cyclictest: str, seconds: float, priority: int, folder: Path) -> Latencies:
+    """One slice of cyclictest, one thread. Both lock their memory and keep the processor awake.
+
+    It writes to a file: a reader at the other end of a pipe would keep a processor from idling, for this one alone.
+    """
     loops = round((WARM_UP_S + seconds) * RATE_HZ)
     scheduling = [f"--priority={priority}", "--policy=fifo"] if priority else ["--policy=other"]
     how = [
@@ -66,13 +69,16 @@ def of_cyclictest(cyclictest: str, seconds: float, priority: int) -> Latencies:
         "--nsecs",
         "--verbose",
     ]
-    done = subprocess.run([cyclictest, *scheduling, *how], capture_output=True, text=True)
+    output = folder / "cyclictest.txt"
+    with output.open("w") as file:
+        done = subprocess.run([cyclictest, *scheduling, *how], stdout=file, stderr=subprocess.PIPE, text=True)
+    said = output.read_text()
     if done.returncode != 0:
         raise ProgramError(f"{cyclictest} ended with {done.returncode}: {done.stderr.strip()[-400:]}")
     # thread: cycle: latency
-    latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", done.stdout, re.M), np.int64)
+    latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", said, re.M), np.int64)
     if len(latencies) != loops:
-        raise ProgramError(f"{cyclictest} reported {len(latencies)} of {loops} wake-ups; it began: {done.stdout[:200]}")
+        raise ProgramError(f"{cyclictest} reported {len(latencies)} of {loops} wake-ups; it began: {said[:200]}")
     return warm(latencies)
 
 
@@ -151,7 +157,7 @@ def _condition(program: Path, cyclictest: str | None, seconds: float, priority: 
                 loops.append(latencies)
                 missed += said["missed"]
             elif cyclictest:
-                others.append(of_cyclictest(cyclictest, seconds, priority))
+                others.append(of_cyclictest(cyclictest, seconds, priority, folder))
     row: dict[str, Any] = {"loop": summary(loops) | {"missed": missed}}
     if others:
         row["cyclictest"] = summary(others)
