@@ -17,7 +17,7 @@ Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 Triple = tuple[float, float, float]
 
 
-def stroke_ends(scene: Scene, hand: Hand | None = None) -> tuple[Triple, Triple]:
+def stroke_ends(scene: Scene) -> tuple[Triple, Triple]:
     """Where the hand's strokes through the scene begin and end, m: in front of all membranes, and beyond the last.
 
     Beyond it by as much as the walls' greatest forces F hold the tip back: each its own by F / K in the coupling, and
@@ -26,7 +26,7 @@ def stroke_ends(scene: Scene, hand: Hand | None = None) -> tuple[Triple, Triple]
     first = np.array(scene.membranes[0].point)
     inward = _unit(scene.membranes[0].inward_normal)
     walls = [_wall(scene, placed, first, inward) for placed in scene.membranes]
-    held_back = sum(peak for _, _, peak in walls) / (hand or Hand()).stiffness
+    held_back = sum(peak for _, _, peak in walls) / Hand().stiffness
     start = min(begin for begin, _, _ in walls) - CLEARANCE
     end = max(begin + through + peak / scene.coupling.stiffness for begin, through, peak in walls) + held_back + BEYOND
     return _triple(first + start * inward), _triple(first + end * inward)
@@ -35,7 +35,9 @@ def stroke_ends(scene: Scene, hand: Hand | None = None) -> tuple[Triple, Triple]
 def _wall(scene: Scene, placed: PlacedMembrane, origin: Array, way: Array) -> tuple[float, float, float]:
     """Along a way: where its surface is, how far it is through, m; and its greatest force, N."""
     normal = _unit(placed.inward_normal)
-    cosine = max(abs(float(normal @ way)), math.cos(STEEPEST))
+    if normal @ way < 0:  # a back wall may be written with its normal the other way: it is met from its far side
+        normal = -normal
+    cosine = max(float(normal @ way), math.cos(STEEPEST))
     law = ThickLaw(scene.needle, placed.membrane, math.acos(min(1.0, cosine)))
     through = law.X + law.U
     lower, upper = law.bounds(np.linspace(0, through, SAMPLES))

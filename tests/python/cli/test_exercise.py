@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from attempts import as_a_device_runs_it, motion_of
-from punctura._core import ServoLoop, SimulatedDevice
+from punctura._core import SimulatedDevice
 from punctura.cli import main
 from punctura.exercise import load_exercise
-from punctura.record import Recorder
+from recorded import recorded
 
 
 class Done(NamedTuple):
@@ -40,14 +40,7 @@ def recording(tmp_path_factory):
     motion = motion_of(exercise, [(1.0, 0.0), (2.5, 20.0), (2.0, 33.0), (1.0, 33.0)], axis)
     device = SimulatedDevice(motion, real_time=False, ticks=12000, axis=axis)
     path = tmp_path_factory.mktemp("recordings") / "try.parquet"
-    loop = ServoLoop(device, as_a_device_runs_it(exercise.scene))
-    with Recorder(loop, path, 12000):
-        loop.arm()
-        loop.start()
-        while not device.finished:
-            pass
-        loop.stop()
-    return path
+    return recorded(path, device, as_a_device_runs_it(exercise.scene), 12000)
 
 
 def test_the_ready_exercises_are_listed(punctura):

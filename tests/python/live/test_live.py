@@ -11,7 +11,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
-from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, strokes_through
+from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -101,6 +101,15 @@ def test_strokes_go_from_in_front_of_all_membranes_to_behind_them():
         for deepest, placed in zip(summary.deepest_m, scene.membranes, strict=True):
             law = pn.ThickLaw(scene.needle, placed.membrane)
             assert deepest > law.X + law.U, f"{name}: {placed.name} is not gone through"
+
+
+def test_strokes_end_behind_a_wall_whichever_way_its_normal_is_written():
+    scene = pn.load_scene("k06-fig12")
+    front, *others = scene.membranes
+    assert others
+    turned = [pn.PlacedMembrane(w.name, w.membrane, w.point, [-c for c in w.inward_normal]) for w in others]
+    other = pn.Scene(scene.name, scene.needle, scene.coupling, [front, *turned])
+    np.testing.assert_allclose(stroke_ends(other), stroke_ends(scene), atol=1e-12)
 
 
 def test_the_summary_counts_snapshots_that_never_came():

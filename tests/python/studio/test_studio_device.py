@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 from punctura import load_scene
-from punctura._core import ServoLoop, SimulatedDevice
+from punctura._core import SimulatedDevice
 from punctura.live import strokes_through
-from punctura.record import Recorder, open_recording
+from punctura.record import open_recording
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioServer
+from recorded import recorded
 
 FAKE = Path(__file__).parents[2] / "fakes" / "inverse_service.py"
 
@@ -80,22 +81,11 @@ def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
     page.wait(lambda: page.last.run > before)
 
 
-def recorded_motion(path, ticks=1200):
-    scene = load_scene("k06-fig10")
-    device = SimulatedDevice(strokes_through(scene, 1, 0.5), real_time=False, ticks=ticks)
-    loop = ServoLoop(device, scene)
-    with Recorder(loop, path, ticks):
-        loop.arm()
-        loop.start()
-        while not device.finished:
-            pass
-        loop.stop()
-    return path
-
-
 def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 0.1)
-    settings = Settings(device=f"replay:{recorded_motion(tmp_path / 'motion.parquet')}")
+    scene = load_scene("k06-fig10")
+    device = SimulatedDevice(strokes_through(scene, 1, 0.5), real_time=False, ticks=1200)
+    settings = Settings(device=f"replay:{recorded(tmp_path / 'motion.parquet', device, scene, 1200)}")
     server = StudioServer(from_name("k06-fig10"), settings, page=tmp_path, folder=tmp_path / "kept")
     server.start()
     try:
