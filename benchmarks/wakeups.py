@@ -1,4 +1,4 @@
-"""How late the servo loop wakes, beside cyclictest: at one period and priority, in turn. See docs/bench.md."""
+"""How late the servo loop wakes, beside cyclictest: at the same time on the same processor. See docs/bench.md."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from program import ProgramError
 
 RATE_HZ, PRIORITY = 1600, 80
-SLICE_S = 1.0  # of each contestant, in turn
+SLICE_S = 5.0  # of both, on one processor; the next slice is on the next
 WARM_UP_S = 0.2  # before each slice: what a process does as it begins is not how late a loop wakes
 RESAMPLES = 400
 SHARES = {"p50_us": 0.5, "p99_us": 0.99, "p99_9_us": 0.999}
@@ -44,46 +44,72 @@ def summary(slices: list[Latencies]) -> dict[str, float]:
     return shares | {"largest_us": float(pooled.max()) / 1e3, "wake_ups": len(pooled)}
 
 
-def of_loop(program: Path, seconds: float, priority: int, folder: Path) -> tuple[Latencies, dict[str, Any]]:
-    """One slice of the servo loop, and what its program says of it."""
-    dump = folder / "loop.i64"
-    command = [program, "--seconds", WARM_UP_S + seconds, "--rate", RATE_HZ, "--priority", priority, "--dump", dump]
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        raise ProgramError(f"{program.name} ended with {done.returncode}; its message stands above")
-    return warm(np.fromfile(dump, np.int64)), json.loads(done.stdout)
+class Slice(NamedTuple):
+    """When and where a contestant runs."""
+
+    seconds: float
+    priority: int  # 0: none
+    processor: int
+    folder: Path
+
+    @property
+    def wake_ups(self) -> int:
+        return round((WARM_UP_S + self.seconds) * RATE_HZ)
 
 
-def of_cyclictest(cyclictest: str, seconds: float, priority: int, folder: Path) -> Latencies:
-    """One slice of cyclictest, one thread. Both lock their memory and keep the processor awake.
+def begin_loop(program: Path, of: Slice) -> Callable[[], tuple[Latencies, dict[str, Any]]]:
+    """Starts the servo loop. What is returned waits for its end: its latencies, and what its program says of it."""
+    dump = of.folder / "loop.i64"
+    command = [program, "--seconds", WARM_UP_S + of.seconds, "--rate", RATE_HZ, "--priority", of.priority]
+    where = ["--processor", of.processor, "--dump", dump]
+    process = subprocess.Popen([str(word) for word in command + where], stdout=subprocess.PIPE, text=True)
+
+    def end() -> tuple[Latencies, dict[str, Any]]:
+        said, _ = process.communicate()
+        if process.returncode != 0:
+            raise ProgramError(f"{program.name} ended with {process.returncode}; its message stands above")
+        return warm(np.fromfile(dump, np.int64)), json.loads(said)
+
+    return end
+
+
+def begin_cyclictest(cyclictest: str, of: Slice) -> Callable[[], Latencies]:
+    """Starts cyclictest, one thread. Both lock their memory and keep the processor awake.
 
     It writes to a file: a reader at the other end of a pipe would keep a processor from idling, for this one alone.
     """
-    loops = round((WARM_UP_S + seconds) * RATE_HZ)
-    scheduling = [f"--priority={priority}", "--policy=fifo"] if priority else ["--policy=other"]
+    scheduling = [f"--priority={of.priority}", "--policy=fifo"] if of.priority else ["--policy=other"]
     how = [
         "--threads=1",
         f"--interval={1_000_000 // RATE_HZ}",
-        f"--loops={loops}",
+        f"--loops={of.wake_ups}",
+        f"--affinity={of.processor}",
         "--mlockall",
         "--nsecs",
         "--verbose",
     ]
-    output = folder / "cyclictest.txt"
+    output = of.folder / "cyclictest.txt"
     with output.open("w") as file:
-        done = subprocess.run([cyclictest, *scheduling, *how], stdout=file, stderr=subprocess.PIPE, text=True)
-    said = output.read_text()
-    if done.returncode != 0:
-        raise ProgramError(f"{cyclictest} ended with {done.returncode}: {done.stderr.strip()[-400:]}")
-    # thread: cycle: latency
-    latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", said, re.M), np.int64)
-    if len(latencies) != loops:
-        raise ProgramError(f"{cyclictest} reported {len(latencies)} of {loops} wake-ups; it began: {said[:200]}")
-    return warm(latencies)
+        process = subprocess.Popen([cyclictest, *scheduling, *how], stdout=file, stderr=subprocess.PIPE, text=True)
+
+    def end() -> Latencies:
+        _, complaint = process.communicate()
+        said = output.read_text()
+        if process.returncode != 0:
+            raise ProgramError(f"{cyclictest} ended with {process.returncode}: {complaint.strip()[-400:]}")
+        # thread: cycle: latency
+        latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", said, re.M), np.int64)
+        if len(latencies) != of.wake_ups:
+            raise ProgramError(
+                f"{cyclictest} reported {len(latencies)} of {of.wake_ups} wake-ups; it began: {said[:200]}"
+            )
+        return warm(latencies)
+
+    return end
 
 
 def interval(loops: list[Latencies], others: list[Latencies]) -> tuple[float, float]:
-    """Quartiles of the pooled ratio over runs that might have been: slices, with their neighbours, drawn anew."""
+    """Quartiles of the pooled ratio over runs that might have been: slices of both drawn anew."""
     draw = np.random.default_rng(0)
 
     def ratio() -> float:
@@ -123,19 +149,22 @@ CONDITIONS: dict[str, Callable[[], Any]] = {"nothing else": nothing_else, "one c
 
 
 def measure_wakeups(program: Path, seconds: float) -> dict[str, Any]:
-    """`seconds` of each contestant in each condition, in slices that alternate: what else goes on meets both."""
+    """`seconds` of both at once in each condition, a slice on each processor in turn: what goes on there meets both."""
     cyclictest = shutil.which("cyclictest")
-    result: dict[str, Any] = {"rate_hz": RATE_HZ, "priority": PRIORITY, "cyclictest": cyclictest, "conditions": []}
+    processors = sorted(os.sched_getaffinity(0))
+    result: dict[str, Any] = {"rate_hz": RATE_HZ, "cyclictest": cyclictest, "processors": processors}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        _, said = of_loop(program, 0.1, PRIORITY, folder)
-        result["realtime"] = said["realtime"]
-        if not said["realtime"].get(f"first-in-first-out priority {PRIORITY}", False):
-            result["priority"] = 0  # not granted: then neither gets one
+        _, said = begin_loop(program, Slice(0.1, PRIORITY, processors[0], folder))()
+        granted = said["realtime"].get(f"first-in-first-out priority {PRIORITY}", False)
+        result |= {"realtime": said["realtime"], "priority": PRIORITY if granted else 0, "conditions": []}
+        count = max(1, round(seconds / SLICE_S))
+        where = [processors[i % len(processors)] for i in range(count)]
+        slices = [Slice(min(seconds, SLICE_S), result["priority"], processor, folder) for processor in where]
         for condition, going_on in CONDITIONS.items():
             with going_on():
                 before = stolen()
-                row = _condition(program, cyclictest, seconds, result["priority"], folder)
+                row = _condition(program, cyclictest, slices)
                 after = stolen()
             row["stolen_s"] = None if before is None or after is None else after - before
             result["conditions"].append({"name": condition} | row)
@@ -144,20 +173,20 @@ def measure_wakeups(program: Path, seconds: float) -> dict[str, Any]:
     return result
 
 
-def _condition(program: Path, cyclictest: str | None, seconds: float, priority: int, folder: Path) -> dict[str, Any]:
+def _condition(program: Path, cyclictest: str | None, slices: list[Slice]) -> dict[str, Any]:
     loops: list[Latencies] = []
     others: list[Latencies] = []
     missed = 0
-    slices = max(1, round(seconds / SLICE_S))
-    seconds = min(seconds, SLICE_S)
-    for i in range(slices):
-        for loops_turn in (True, False) if i % 2 == 0 else (False, True):
-            if loops_turn:
-                latencies, said = of_loop(program, seconds, priority, folder)
-                loops.append(latencies)
-                missed += said["missed"]
-            elif cyclictest:
-                others.append(of_cyclictest(cyclictest, seconds, priority, folder))
+    for of in slices:
+        end_other = begin_cyclictest(cyclictest, of) if cyclictest else None
+        end_loop = begin_loop(program, of)
+        try:
+            if end_other:
+                others.append(end_other())
+        finally:
+            latencies, said = end_loop()
+        loops.append(latencies)
+        missed += said["missed"]
     row: dict[str, Any] = {"loop": summary(loops) | {"missed": missed}}
     if others:
         row["cyclictest"] = summary(others)

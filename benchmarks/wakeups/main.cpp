@@ -1,8 +1,8 @@
 // How late the servo loop wakes: its own pacer and real-time settings, a whole servo tick after each wake-up.
 //
-//   bench_wakeups --seconds S --rate HZ --priority P --dump FILE
+//   bench_wakeups --seconds S --rate HZ --priority P --processor N --dump FILE
 //
-// FILE: a latency for each period, ns as 64-bit integers. Prints one JSON object; see wakeups.py, which calls and reads it.
+// FILE: the latency of each wake-up, ns as 64-bit integers. Prints one JSON object; see wakeups.py, which calls and reads it.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,10 +21,10 @@ using namespace punctura;
 /// A device without hardware that notes when it was woken, and moves a needle steadily to and fro through the tissue.
 class Metronome : public Device {
  public:
-  Metronome(double rate, double seconds, int priority) : latencies_(static_cast<std::size_t>(rate * seconds)) {
+  Metronome(double rate, double seconds, const os::RealtimeSettings& settings)
+      : settings_(settings), latencies_(static_cast<std::size_t>(std::lround(rate * seconds))) {
     info_.backend = "metronome";
     info_.rate = rate;
-    settings_.priority = priority;
   }
   ~Metronome() override { stop(); }
 
@@ -44,15 +44,13 @@ class Metronome : public Device {
   void run(Tick tick) noexcept {
     realtime_ = os::make_realtime(settings_);
     Pacer<> pacer(info_.rate);
-    const double period_ns = 1e9 / info_.rate;
     auto latency = latencies_.begin();
     for (std::uint64_t k = 0; latency != latencies_.end(); ++k) {
-      const std::uint64_t missed = pacer.wait();
+      const std::int64_t asleep = os::now_ns();
+      missed_ += pacer.wait();
       const std::int64_t woken = os::now_ns();
-      // Ticks that were left out count with the time by which they were late: cyclictest, which makes up for them, counts so.
-      for (std::uint64_t m = missed; m > 0 && latency != latencies_.end(); --m, ++missed_)
-        *latency++ = woken - pacer.due() + static_cast<std::int64_t>(static_cast<double>(m) * period_ns);
-      if (latency != latencies_.end()) *latency++ = woken - pacer.due();
+      // A tick that was due already was not waited for: no wake-up, for cyclictest neither.
+      if (pacer.due() > asleep) *latency++ = woken - pacer.due();
       const double time = static_cast<double>(woken) * 1e-9;
       tick({k, time, {0, 5e-3 * std::cos(time), 0}, {0, -1, 0}, 0, true});
     }
@@ -70,16 +68,17 @@ class Metronome : public Device {
 
 int main(int argc, char** argv) {
   double seconds = 5, rate = 1600;
-  int priority = 80;
+  os::RealtimeSettings settings;
   std::string file;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--rate") == 0) rate = std::atof(argv[i + 1]);
-    if (std::strcmp(argv[i], "--priority") == 0) priority = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--priority") == 0) settings.priority = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--processor") == 0) settings.processor = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--dump") == 0) file = argv[i + 1];
   }
   const PlacedMembrane wall{"wall", {570, 0.41, 0.2, 1e-3}, {0, 0, 0}, {0, -1, 0}};
-  auto device = std::make_shared<Metronome>(rate, seconds, priority);
+  auto device = std::make_shared<Metronome>(rate, seconds, settings);
   ServoLoop loop(device, {"one wall", {1.08e-3, 0.28}, {400, 1}, {wall}});
   loop.arm();
   loop.start();

@@ -26,9 +26,12 @@ nb::list enumerated() {
 }
 
 std::shared_ptr<Device> opened(const std::string& backend, double rate, const std::string& device,
-                               const std::string& library) {
+                               const std::string& library, int priority, int processor) {
   nb::gil_scoped_release release;
-  return open_device(backend, {rate, device, library});
+  OpenOptions options{rate, device, library};
+  options.realtime.priority = priority;
+  options.realtime.processor = processor;
+  return open_device(backend, options);
 }
 
 }  // namespace
@@ -40,9 +43,11 @@ void bind_devices(nb::module_& m) {
   const OpenOptions options;
   m.def(
       "open_device", &opened, nb::arg("backend"), nb::arg("rate") = options.rate, nb::arg("device") = options.device,
-      nb::arg("library") = options.library,
+      nb::arg("library") = options.library, nb::arg("priority") = options.realtime.priority,
+      nb::arg("processor") = options.realtime.processor,
       "rate: Hz, wished for; the device's info says what came of it. device: which one, as its maker names it. library: path\n"
-      "of the maker's library. Raises DeviceError, which says what to do.");
+      "of the maker's library. priority: of real-time scheduling, 0 asks for none. processor: the one to tick on, -1 is any\n"
+      "(both where the thread is not the maker's own). Raises DeviceError, which says what to do.");
 }
 
 }  // namespace punctura::bindings

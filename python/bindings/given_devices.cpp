@@ -29,7 +29,7 @@ std::vector<T> column(const nb::object& given, const char* type, std::size_t n, 
 
 void make_replay(ReplayDevice* self, const nb::object& positions, const nb::object& axes, double rate,
                  const nb::object& times, const nb::object& sequences, const nb::object& held, const nb::object& health,
-                 const nb::object& temperatures, DeviceInfo recorded, bool real_time, int priority) {
+                 const nb::object& temperatures, DeviceInfo recorded, bool real_time, int priority, int processor) {
   check_rate(rate);
   const Input position = points(positions, "position");
   const std::size_t n = position.shape(0);
@@ -54,6 +54,7 @@ void make_replay(ReplayDevice* self, const nb::object& positions, const nb::obje
   ReplayOptions options;
   options.real_time = real_time;
   options.realtime.priority = priority;
+  options.realtime.processor = processor;
   new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
 }
 
@@ -85,11 +86,12 @@ void bind_given_devices(nb::module_& m) {
           nb::arg("buttons").none() = nb::none(), nb::arg("healthy").none() = nb::none(),
           nb::arg("motor_temperature").none() = nb::none(), nb::arg("recorded") = DeviceInfo{},
           nb::arg("real_time") = true, nb::arg("priority") = os::RealtimeSettings{}.priority,
+          nb::arg("processor") = os::RealtimeSettings{}.processor,
           nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, rate: float, *, "
                   "time: numpy.typing.ArrayLike | None = None, sequence: numpy.typing.ArrayLike | None = None, "
                   "buttons: numpy.typing.ArrayLike | None = None, healthy: numpy.typing.ArrayLike | None = None, "
                   "motor_temperature: numpy.typing.ArrayLike | None = None, recorded: DeviceInfo = ..., "
-                  "real_time: bool = True, priority: int = 80) -> None"),
+                  "real_time: bool = True, priority: int = 80, processor: int = -1) -> None"),
           "position (n, 3): m. axis (n, 3) or (3,). rate: Hz, one sample a period. time (n,): s, k / rate if not given; the\n"
           "input gate judges these times, not how punctual the replay is. recorded: the device the samples are from, whose\n"
           "ratings limit the force. real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks\n"

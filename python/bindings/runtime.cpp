@@ -85,7 +85,7 @@ void bind_runtime(nb::module_& m) {
       .def(
           "__init__",
           [](SimulatedDevice* self, const AnyMotion& motion, const DeviceDynamics& plant, const Hand& hand, double rate,
-             std::uint64_t seed, bool real_time, std::uint64_t ticks, const Triple& axis, int priority) {
+             std::uint64_t seed, bool real_time, std::uint64_t ticks, const Triple& axis, int priority, int processor) {
             SimulatedOptions made;
             made.dynamics = plant;
             made.hand = hand;
@@ -98,13 +98,16 @@ void bind_runtime(nb::module_& m) {
             made.ticks = ticks;
             made.axis = plain(unit(axis, "axis"));
             made.realtime.priority = priority;
+            made.realtime.processor = processor;
             new (self) SimulatedDevice(laid_out(motion, seed), made);
           },
           nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("rate") = options.rate, nb::arg("seed") = 0, nb::arg("real_time") = true, nb::arg("ticks") = 0,
           nb::arg("axis") = options.axis, nb::arg("priority") = options.realtime.priority,
+          nb::arg("processor") = options.realtime.processor,
           "motion: Strokes, RecordedMotion or Target. rate: Hz. real_time: False runs as fast as possible. ticks: how many; 0 is no\n"
-          "end. axis: where the stylus points. priority: of real-time scheduling, 0 asks for none.")
+          "end. axis: where the stylus points. priority: of real-time scheduling, 0 asks for none. processor: the one to tick on,\n"
+          "-1 is any.")
       .def("move_to", &SimulatedDevice::move_to, nb::arg("position"), "Of a Target: where the hand shall go, m.")
       .def(
           "point",

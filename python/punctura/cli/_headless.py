@@ -11,7 +11,7 @@ import typer
 
 from punctura._core import Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
-from punctura.live import RunSummary, fit_conditioning, fit_direction, open_for, run_live
+from punctura.live import ANY_PROCESSOR, RunSummary, fit_conditioning, fit_direction, open_for, run_live
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
@@ -26,12 +26,13 @@ class Wishes(NamedTuple):
     duration: float | None  # s
     placement: Placement | None
     scene_filter: bool
+    processor: int = ANY_PROCESSOR
 
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     """Raises DeviceError; Ended where a signal has ended it."""
     loaded = load_scene(wishes.scene)
-    opened = open_for(loaded, wishes.device)
+    opened = open_for(loaded, wishes.device, wishes.processor)
     fitted, note = fit_direction(loaded, opened)
     notes = [note]
     if not wishes.scene_filter:

@@ -19,7 +19,7 @@ def run_page(wishes: Wishes, port: int, browser: bool, recordings: Path | None, 
     folder = page or serve.PAGE
     serve.need_page(folder)
     loaded = from_name(wishes.scene)
-    settings = Settings(wishes.device, wishes.placement or Placement(), wishes.scene_filter)
+    settings = Settings(wishes.device, wishes.placement or Placement(), wishes.scene_filter, processor=wishes.processor)
     token = serve.token_from_environment()
 
     def make() -> serve.StudioServer:

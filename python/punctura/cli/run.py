@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +12,7 @@ import typer
 from punctura._core import DeviceError
 from punctura.cli._headless import Wishes, run_headless
 from punctura.cli._studio import run_page
-from punctura.live import Ended, load_placement
+from punctura.live import ANY_PROCESSOR, Ended, load_placement
 
 
 def command(
@@ -40,6 +41,10 @@ def command(
     scene_filter: Annotated[
         bool, typer.Option("--scene-filter", help="Filter positions as the scene says, not as the device needs.")
     ] = False,
+    processor: Annotated[
+        int | None,
+        typer.Option("--processor", help="The one to tick on, as the system counts them; without it any.", min=0),
+    ] = None,
     recordings: Annotated[
         Path | None,
         typer.Option("--recordings", help="Where the page's recordings are kept.", metavar="FOLDER"),
@@ -60,7 +65,7 @@ def command(
             if wrong:
                 raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
     stands = load_placement(placement) if placement else None
-    wishes = Wishes(scene, device, duration, stands, scene_filter)
+    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor))
     try:
         if headless:
             run_headless(wishes, record, as_json)
@@ -73,3 +78,16 @@ def command(
             raise KeyboardInterrupt from None  # the command line says "interrupted"
         typer.echo(f"punctura: ended by {end.name}; the force is off", err=True)
         sys.exit(128 + end.number)
+
+
+def _existing(processor: int | None) -> int:
+    """Raises typer.BadParameter for one that this computer does not have, or does not let us use."""
+    if processor is None:
+        return ANY_PROCESSOR
+    there = sorted(os.sched_getaffinity(0)) if sys.platform == "linux" else range(os.cpu_count() or 1)
+    if processor not in there:
+        names = ", ".join(str(one) for one in there)
+        raise typer.BadParameter(
+            f"processor {processor} cannot be used here; there are {names}", param_hint="--processor"
+        )
+    return processor

@@ -14,7 +14,7 @@ from punctura._core import (
     enumerate_devices,
     open_device,
 )
-from punctura.live.choose import fit_conditioning, fit_direction, gate_for, open_for
+from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
@@ -22,6 +22,7 @@ from punctura.live.session import Ended, run_live
 from punctura.live.summary import RunSummary
 
 __all__ = [
+    "ANY_PROCESSOR",
     "Device",
     "DeviceError",
     "DeviceInfo",

@@ -8,33 +8,37 @@ from punctura import Scene
 from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
 
+ANY_PROCESSOR = -1
 
-def open_for(scene: Scene, name: str = "") -> Device:
+
+def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> Device:
     """The device of that name, `backend` or `backend:device`; without one the first available, else the simulated.
 
-    `replay:FILE` is a recorded motion. Raises DeviceError, which says what there is, or what to do.
+    `replay:FILE` is a recorded motion. processor: the one to tick on, where the thread is ours. Raises DeviceError,
+    which says what there is, or what to do.
     """
     backend, _, device = name.partition(":")
     if backend == "replay":
-        return _replay(device)
+        return _replay(device, processor)
     states = {entry["backend"]: entry for entry in enumerate_devices()}
     if not name:
         there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
         backend = there[0] if there else "simulated"
     if backend == "simulated":
-        return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=scene.membranes[0].inward_normal)
+        axis = scene.membranes[0].inward_normal
+        return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
     if backend not in states:
         raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
-    return open_device(backend, scene.servo.rate, device)
+    return open_device(backend, scene.servo.rate, device, processor=processor)
 
 
-def _replay(file: str) -> Device:
+def _replay(file: str, processor: int) -> Device:
     from punctura.record import RecordingError, replay_device  # a run on hardware does not wait for it
 
     if not file:
         raise DeviceError("a replay needs a recording: replay:FILE.parquet")
     try:
-        return replay_device(file)
+        return replay_device(file, processor=processor)
     except RecordingError as bad:
         raise DeviceError(str(bad)) from None
 

@@ -18,13 +18,15 @@ _WORDS = ("backend", "model", "serial", "has_orientation", "button_count")
 _NUMBERS = ("max_force", "continuous_force", "max_stiffness", "encoder_step")
 
 
-def replay_device(path: str | os.PathLike[str], real_time: bool = True, priority: int = 80) -> ReplayDevice:
+def replay_device(
+    path: str | os.PathLike[str], real_time: bool = True, priority: int = 80, processor: int = -1
+) -> ReplayDevice:
     """Ticks what the device of a recording, finished or not, reported: every sample, at the recorded rate.
 
     In a loop with the recording's scene and limits, armed before its start, that gives the recorded forces to the last
     bit. What was asked of the recorded loop meanwhile (another scene, a pause) is not asked again: `replay` does that.
-    real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks for none. Holds all samples in
-    memory, 80 bytes each. Raises RecordingError.
+    real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks for none. processor: the one
+    to tick on, -1 is any. Holds all samples in memory, 80 bytes each. Raises RecordingError.
     """
     recording = open_recording(path)
     samples = _samples(recording)
@@ -44,6 +46,7 @@ def replay_device(path: str | os.PathLike[str], real_time: bool = True, priority
             recorded=DeviceInfo(**about),
             real_time=real_time,
             priority=priority,
+            processor=processor,
         )
     except (KeyError, TypeError, ValueError) as bad:
         raise RecordingError(f"{recording.path} does not say on which device it was made: {bad}") from None

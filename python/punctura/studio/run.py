@@ -9,7 +9,7 @@ from typing import Any
 
 from punctura import Scene, Target
 from punctura._core import Device, ForceLimits, Placement, ServoLoop, SimulatedDevice
-from punctura.live import fit_conditioning, fit_direction, gate_for, open_for
+from punctura.live import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
@@ -25,6 +25,7 @@ class Settings:
     placement: Placement = field(default_factory=Placement)
     scene_filter: bool = False  # positions are filtered as the scene says, not as the device needs
     limits: ForceLimits = field(default_factory=ForceLimits)
+    processor: int = ANY_PROCESSOR  # that ticks
 
 
 class Bench:
@@ -33,7 +34,7 @@ class Bench:
     def __init__(self, settings: Settings, scene: Scene) -> None:
         """Raises DeviceError."""
         self.settings = settings
-        self._device = open_for(scene, settings.device)
+        self._device = open_for(scene, settings.device, settings.processor)
 
     @property
     def simulated(self) -> bool:
@@ -52,7 +53,8 @@ class Bench:
     def fresh(self, scene: Scene, pose: Pose) -> Device:
         """For a new run; a simulated hand holds it in this pose."""
         if self.simulated:
-            self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1])
+            where = self.settings.processor
+            self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1], processor=where)
         return self._device
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:

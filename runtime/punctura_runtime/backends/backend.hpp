@@ -6,13 +6,15 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/backends/status.hpp"
+#include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
 struct OpenOptions {
-  double rate = 1600;   ///< Hz, wished for: the device's `info().rate` says what came of it
-  std::string device;   ///< which one, as its maker names it; empty is the first
-  std::string library;  ///< path of the maker's library; empty looks where it usually is
+  double rate = 1600;               ///< Hz, wished for: the device's `info().rate` says what came of it
+  std::string device;               ///< which one, as its maker names it; empty is the first
+  std::string library;              ///< path of the maker's library; empty looks where it usually is
+  os::RealtimeSettings realtime{};  ///< of the thread that ticks, where that is ours and not a maker's
 };
 
 struct Backend {

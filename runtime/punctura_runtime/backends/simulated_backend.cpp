@@ -13,6 +13,7 @@ BackendStatus status() {
 std::shared_ptr<Device> open(const OpenOptions& how) {
   SimulatedOptions options;
   options.rate = how.rate;
+  options.realtime = how.realtime;
   return std::make_shared<SimulatedDevice>(Target({0, 5e-3, 0}), options);
 }
 

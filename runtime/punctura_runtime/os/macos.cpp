@@ -53,7 +53,8 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
         {"time-constraint thread", result == KERN_SUCCESS, result == KERN_SUCCESS ? "" : mach_error_string(result)});
   }
   if (settings.processor >= 0)
-    items.push_back({"processor", false, "macOS does not let a thread stay on one processor"});
+    items.push_back({"processor " + std::to_string(settings.processor), false,
+                     "macOS does not let a thread stay on one processor"});
   if (settings.lock_memory) {
     const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     items.push_back({"memory locked", locked, locked ? "" : std::strerror(errno)});

@@ -99,9 +99,12 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
     items.push_back(
         item("time-critical priority", SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL) != 0));
   }
-  if (settings.processor >= 0)
-    items.push_back(
-        item("one processor", SetThreadAffinityMask(GetCurrentThread(), DWORD_PTR{1} << settings.processor) != 0));
+  if (settings.processor >= 0) {
+    const auto wanted = static_cast<unsigned>(settings.processor);
+    const DWORD_PTR mask =
+        wanted < 8 * sizeof(DWORD_PTR) ? DWORD_PTR{1} << wanted : 0;  // beyond: another processor group
+    items.push_back(item("processor " + std::to_string(wanted), SetThreadAffinityMask(GetCurrentThread(), mask) != 0));
+  }
   if (settings.lock_memory)
     items.push_back(
         {"memory locked", false, "Windows locks single pages only; the loop's own stay in use and so in memory"});

@@ -38,6 +38,7 @@ std::shared_ptr<Device> open(const OpenOptions& how) {
   options.rate = how.rate;
   options.device = how.device;
   options.library = how.library;
+  options.realtime = how.realtime;
   return std::make_shared<ForceDimensionDevice>(std::move(options));
 }
 

@@ -47,6 +47,7 @@ std::shared_ptr<Device> open(const OpenOptions& how) {
   inverse::InverseOptions options;
   options.device = how.device;
   options.rate = how.rate;
+  options.realtime = how.realtime;
   if (!how.library.empty()) options.url = how.library;  // its maker's software is a service: it has an address
   return std::make_shared<inverse::InverseDevice>(std::move(options));
 }

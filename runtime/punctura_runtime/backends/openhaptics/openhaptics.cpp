@@ -111,7 +111,7 @@ std::string OpenHapticsDevice::trouble() const {
 std::vector<std::string> OpenHapticsDevice::statements() const {
   std::vector<std::string> all{"device: opened as \"" + session_.name() + "\""};
   all.insert(all.end(), trial_.told.begin(), trial_.told.end());
-  all.push_back("thread: the HD library's own, with the priority that the library gave it");
+  all.push_back("thread: the HD library's own, with the priority and the processors that the library gave it");
   for (std::uint32_t i = 0; i < warnings_.counts.size(); ++i)
     if (const auto count = warnings_.counts[i].load(); count > 0)
       all.push_back("warned " + std::to_string(count) + " times: " + hd::describe({hd::warm_motors + i, 0, 0}));
