@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import typer
 
-from punctura._core import Placement, ServoLoop
+from punctura._core import Device, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
-from punctura.live import ANY_PROCESSOR, RunSummary, fit_conditioning, fit_direction, open_for, run_live
+from punctura.live import ANY_PROCESSOR, Limits, RunSummary, fit_conditioning, fit_direction, open_for, run_live
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
@@ -27,6 +27,7 @@ class Wishes(NamedTuple):
     placement: Placement | None
     scene_filter: bool
     processor: int = ANY_PROCESSOR
+    limits: Limits = Limits()
 
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
@@ -44,7 +45,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         recorder = Recorder(loop, record) if record else None
-        typer.echo(f"punctura: {loaded.name} on {opened.info.model}; Ctrl-C ends it", err=True)
+        typer.echo(begun(loaded.name, loop, opened), err=True)
 
         def finish() -> None:
             line.end()
@@ -53,11 +54,19 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
         return finish
 
-    summary = run_live(opened, fitted, wishes.duration, placement=wishes.placement, watch=line, prepare=begin)
+    limits = wishes.limits
+    summary = run_live(
+        opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, line, begin
+    )
     typer.echo(json.dumps(summary.to_dict(), indent=2) if as_json else in_words(summary))
     if summary.fault:
         typer.echo(f"punctura: {summary.fault}", err=True)
         raise typer.Exit(FAULTED)
+
+
+def begun(scene: str, loop: ServoLoop, device: Device) -> str:
+    """What runs on what, and how strong it may get."""
+    return f"punctura: {scene} on {device.info.model}, at most {loop.limits.max_force:.3g} N; Ctrl-C ends it"
 
 
 def _tell(status: RecorderStatus) -> None:

@@ -12,7 +12,7 @@ import typer
 from punctura._core import DeviceError
 from punctura.cli._headless import Wishes, run_headless
 from punctura.cli._studio import run_page
-from punctura.live import ANY_PROCESSOR, Ended, load_placement
+from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placement
 
 
 def command(
@@ -36,7 +36,26 @@ def command(
     ] = None,
     placement: Annotated[
         Path | None,
-        typer.Option("--placement", help="Where the device stands: punctura place.", metavar="FILE.toml"),
+        typer.Option(
+            "--placement",
+            help="Where the device stands: punctura place.",
+            metavar="FILE.toml",
+            exists=True,
+            dir_okay=False,
+        ),
+    ] = None,
+    limits: Annotated[
+        Path | None,
+        typer.Option(
+            "--limits",
+            help="Of force and readings, by their names: docs/safety.md.",
+            metavar="FILE.toml",
+            exists=True,
+            dir_okay=False,
+        ),
+    ] = None,
+    max_force: Annotated[
+        float | None, typer.Option("--max-force-N", help="The strongest force, N; instead of what --limits says.")
     ] = None,
     scene_filter: Annotated[
         bool, typer.Option("--scene-filter", help="Filter positions as the scene says, not as the device needs.")
@@ -65,7 +84,10 @@ def command(
             if wrong:
                 raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
     stands = load_placement(placement) if placement else None
-    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor))
+    allowed = load_limits(limits) if limits else Limits()
+    if max_force is not None:
+        allowed = allowed.at_most(max_force)
+    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed)
     try:
         if headless:
             run_headless(wishes, record, as_json)

@@ -15,6 +15,7 @@ from punctura._core import (
     open_device,
 )
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
+from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
@@ -30,6 +31,7 @@ __all__ = [
     "FedDevice",
     "ForceLimits",
     "GateLimits",
+    "Limits",
     "Placement",
     "ReplayDevice",
     "RunSummary",
@@ -39,6 +41,7 @@ __all__ = [
     "fit_conditioning",
     "fit_direction",
     "gate_for",
+    "load_limits",
     "load_placement",
     "open_device",
     "open_for",

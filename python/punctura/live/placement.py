@@ -3,36 +3,19 @@
 from __future__ import annotations
 
 import os
-import sys
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Placement
-from punctura.errors import ConfigurationError, Problem
+from punctura.live.tables import Key, Number, Vector, read_table
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-Vector = npt.NDArray[np.float64]
-KEYS = {"rotation": 4, "offset_mm": 3, "scale": 0, "tip_offset_mm": 0}
+KEYS: dict[str, Key] = {"rotation": Vector(4), "offset_mm": Vector(3), "scale": Number(), "tip_offset_mm": Number()}
 
 
 def load_placement(path: str | os.PathLike[str]) -> Placement:
     """Reads a placement file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
-    with open(path, "rb") as file:
-        try:
-            table = tomllib.load(file)
-        except tomllib.TOMLDecodeError as error:
-            raise ConfigurationError([Problem("", None, f"is not TOML: {error}")], str(path)) from None
-    known = f"unknown key; there are {', '.join(KEYS)}"
-    problems = [Problem(key, value, known) for key, value in table.items() if key not in KEYS]
-    problems += [p for key, size in KEYS.items() if key in table for p in _wrong(key, table[key], size)]
-    if problems:
-        raise ConfigurationError(problems, str(path))
+    table = read_table(path, KEYS)
     metres = [x * 1e-3 for x in table.get("offset_mm", (0.0, 0.0, 0.0))]
     return Placement(
         rotation=table.get("rotation", (1.0, 0.0, 0.0, 0.0)),
@@ -40,14 +23,6 @@ def load_placement(path: str | os.PathLike[str]) -> Placement:
         scale=table.get("scale", 1.0),
         tip_offset=table.get("tip_offset_mm", 0.0) * 1e-3,
     )
-
-
-def _wrong(key: str, value: Any, size: int) -> list[Problem]:
-    numbers = value if size else [value]
-    good = isinstance(numbers, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in numbers)
-    if good and len(numbers) == (size or 1):
-        return []
-    return [Problem(key, value, f"must be {f'{size} numbers' if size else 'a number'}")]
 
 
 def placement_text(placement: Placement) -> str:
@@ -94,8 +69,8 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
     return float(q[0]), float(q[1]), float(q[2]), float(q[3])
 
 
-def rotate(quaternion: tuple[float, float, float, float], v: Vector) -> Vector:
+def rotate(quaternion: tuple[float, float, float, float], v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """v turned by a unit quaternion w, x, y, z."""
     w, u = quaternion[0], np.array(quaternion[1:])
-    turned: Vector = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
+    turned: npt.NDArray[np.float64] = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
     return turned

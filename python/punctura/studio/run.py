@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from punctura import Scene, Target
-from punctura._core import Device, ForceLimits, Placement, ServoLoop, SimulatedDevice
-from punctura.live import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
+from punctura._core import Device, Placement, ServoLoop, SimulatedDevice
+from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
@@ -24,7 +24,7 @@ class Settings:
     device: str = ""
     placement: Placement = field(default_factory=Placement)
     scene_filter: bool = False  # positions are filtered as the scene says, not as the device needs
-    limits: ForceLimits = field(default_factory=ForceLimits)
+    limits: Limits = field(default_factory=Limits)
     processor: int = ANY_PROCESSOR  # that ticks
 
 
@@ -87,8 +87,8 @@ class Run:
         self._bench = bench
         device = bench.fresh(loaded.scene, self.pose)
         scene, self.notes = bench.fit(loaded.scene)
-        gate = gate_for(device)
-        self.loop = ServoLoop(device, scene, gate, bench.settings.limits, bench.settings.placement)
+        limits = bench.settings.limits
+        self.loop = ServoLoop(device, scene, limits.gate_on(device), limits.force, bench.settings.placement)
         self._listener = self.loop.listen(int(RING_S * device.info.rate))
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 

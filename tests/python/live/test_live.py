@@ -183,7 +183,9 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     heed = lambda: [signal.signal(s, signal.SIG_DFL) for s in (signal.SIGINT, signal.SIGHUP)]  # noqa: E731
     command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--scene-filter"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed)
-    assert process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated; Ctrl-C ends it\n"
+    assert (
+        process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated, at most 3.3 N; Ctrl-C ends it\n"
+    )
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=60)
     assert said == ("punctura: interrupted\n" if name == "SIGINT" else f"punctura: ended by {name}; the force is off\n")

@@ -1,0 +1,89 @@
+"""Limits files: what bounds the force on a device, and what its readings must fulfil. What is left out is default.
+
+max_force_N = 0.5           # of the force's norm
+continuous_force_N = 0.3    # rms over continuous_time_s
+dead_man_buttons = [1]      # one of them must be held for force to be given
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from punctura._core import Device, ForceLimits, GateLimits
+from punctura.errors import ConfigurationError, Problem
+from punctura.live.choose import gate_for
+from punctura.live.tables import Buttons, Number, read_table
+
+FORCE: dict[str, Number | Buttons] = {
+    "max_force_N": Number("max_force"),
+    "continuous_force_N": Number("continuous_force"),
+    "continuous_time_s": Number("continuous_time"),
+    "ramp_time_s": Number("ramp_time"),
+    "warm_motor": Number("warm_motor"),
+}
+GATE: dict[str, Number | Buttons] = {
+    "position_jump_mm": Number("position_jump", 1000),
+    "stale_ms": Number("stale", 1000),
+    "deadline_ms": Number("deadline", 1000),
+    "axis_tolerance": Number("axis_tolerance"),
+    "dead_man_buttons": Buttons("dead_man"),
+}
+
+
+class Limits(NamedTuple):
+    """force: what bounds the force. gate: those fields of GateLimits that were chosen, SI."""
+
+    force: ForceLimits = ForceLimits()
+    gate: Mapping[str, Any] = MappingProxyType({})
+
+    def gate_on(self, device: Device) -> GateLimits:
+        """What was not chosen is as gate_for has it. Raises ConfigurationError where it lacks all dead-man
+        buttons."""
+        made = gate_for(device).replace(**self.gate)
+        info = device.info
+        if made.dead_man and not made.dead_man & ((1 << info.button_count) - 1):
+            wanted = [bit + 1 for bit in range(32) if made.dead_man >> bit & 1]
+            has = f"{info.model or info.backend} has {info.button_count or 'no'} button"
+            plural = "" if info.button_count == 1 else "s"
+            problem = Problem("dead_man_buttons", wanted, f"{has}{plural}: there would never be any force")
+            raise ConfigurationError([problem])
+        return made
+
+    def at_most(self, max_force: float) -> Limits:
+        """With this greatest norm of the force, N. Raises ConfigurationError."""
+        return self._replace(force=self.force.replace(max_force=max_force))
+
+
+def load_limits(path: str | os.PathLike[str]) -> Limits:
+    """Reads a limits file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
+    table = read_table(path, FORCE | GATE)
+    problems: list[Problem] = []
+    force = _made(ForceLimits, FORCE, table, problems)
+    gate = _made(GateLimits, GATE, table, problems)
+    if problems:
+        raise ConfigurationError(problems, str(path))
+    return Limits(ForceLimits(**force), gate)
+
+
+def _made(
+    kind: Callable[..., object], keys: Mapping[str, Number | Buttons], table: dict[str, Any], problems: list[Problem]
+) -> dict[str, Any]:
+    """The fields that the table gives. What the core has against them is told of the file's own keys."""
+    fields = {key.field: _si(key, table[name]) for name, key in keys.items() if name in table}
+    try:
+        kind(**fields)
+    except ConfigurationError as error:
+        names = {key.field: name for name, key in keys.items()}
+        for problem in error.problems:
+            name = names[problem.path.rpartition(".")[2]]
+            problems.append(Problem(name, table[name], problem.reason))
+    return fields
+
+
+def _si(key: Number | Buttons, value: Any) -> Any:
+    if isinstance(key, Buttons):
+        return sum({1 << (number - 1) for number in value})
+    return float(value) / key.per_si

@@ -1,0 +1,82 @@
+"""Short TOML files of numbers: where a device stands, what is allowed on it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from punctura.errors import ConfigurationError, Problem
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number. field: what it becomes; per_si: how many of the key's own unit are one SI unit."""
+
+    field: str = ""
+    per_si: float = 1
+    words: ClassVar[str] = "a number"
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, float) or (_whole(value) and abs(value) < 2**63)
+
+
+@dataclass(frozen=True)
+class Vector:
+    """So many numbers."""
+
+    size: int
+
+    @property
+    def words(self) -> str:
+        return f"{self.size} numbers"
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, list) and len(value) == self.size and all(Number().fits(x) for x in value)
+
+
+@dataclass(frozen=True)
+class Buttons:
+    """Buttons by their numbers, the device's first being 1."""
+
+    field: str
+    words: ClassVar[str] = "a list of buttons, each 1 to 32"
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, list) and all(_whole(x) and 1 <= x <= 32 for x in value)
+
+
+def _whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+Key = Number | Vector | Buttons
+
+
+def read_table(path: str | os.PathLike[str], keys: Mapping[str, Key]) -> dict[str, Any]:
+    """What the file says, as its keys have it. Raises ConfigurationError with all that is wrong, OSError."""
+    with open(path, "rb") as file:
+        try:
+            table = tomllib.load(file)
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise ConfigurationError([Problem("", None, f"is not TOML: {error}")], str(path)) from None
+    problems = list(_problems(table, keys))
+    if problems:
+        raise ConfigurationError(problems, str(path))
+    return table
+
+
+def _problems(table: dict[str, Any], keys: Mapping[str, Key]) -> Iterator[Problem]:
+    for name, value in table.items():
+        if name not in keys:
+            yield Problem(name, value, f"unknown key; there are {', '.join(keys)}")
+    for name, key in keys.items():
+        if name in table and not key.fits(table[name]):
+            yield Problem(name, table[name], f"must be {key.words}")

@@ -1,0 +1,128 @@
+"""Limits files, and what the command line makes of them."""
+
+import json
+import os
+import subprocess
+import sys
+
+import punctura as pn
+import pytest
+from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, SimulatedDevice
+from punctura.live import Limits, load_limits, run_live
+
+ALL = """
+max_force_N = 0.5
+continuous_force_N = 0.3
+continuous_time_s = 7
+ramp_time_s = 0.25
+warm_motor = 0.7
+position_jump_mm = 2
+stale_ms = 10
+deadline_ms = 12.5
+axis_tolerance = 0.01
+dead_man_buttons = [1, 3]
+"""
+SCENE = pn.load_scene("k06-fig10")
+
+
+def limits_of(tmp_path, text):
+    path = tmp_path / "limits.toml"
+    path.write_text(text)
+    return load_limits(path)
+
+
+def with_buttons(count):
+    return FedDevice(rate=1600, info=DeviceInfo(model="a stylus", button_count=count))
+
+
+def test_a_file_sets_every_limit_in_the_units_of_its_keys(tmp_path):
+    limits = limits_of(tmp_path, ALL)
+    assert limits.force == ForceLimits(0.5, 0.3, 7, 0.25, 0.7)
+    assert limits.gate_on(with_buttons(3)) == GateLimits(2e-3, 0.010, 0.0125, 0.01, 0b101)
+
+
+def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
+    simulated = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    limits = limits_of(tmp_path, "position_jump_mm = 2")
+    assert limits.force == ForceLimits()
+    assert limits.gate_on(simulated) == GateLimits(position_jump=2e-3, stale=1.0, deadline=1.0)
+    assert limits.gate_on(with_buttons(0)) == GateLimits(position_jump=2e-3)
+    assert Limits().gate_on(with_buttons(0)) == GateLimits()
+
+
+def test_all_that_is_wrong_is_told_at_once_by_the_files_own_names(tmp_path):
+    with pytest.raises(pn.ConfigurationError) as error:
+        limits_of(tmp_path, "max_force_N = -1\nstale_ms = 0\nwarm_motor = 1.0\n")
+    told = {p.path: p.value for p in error.value.problems}
+    assert told["max_force_N"] == -1 and told["stale_ms"] == 0
+    with pytest.raises(pn.ConfigurationError) as error:
+        limits_of(tmp_path, 'max_force = 1\nramp_time_s = "long"\ndead_man_buttons = [0]\nwarm_motor = true\n')
+    assert [p.path for p in error.value.problems] == ["max_force", "ramp_time_s", "warm_motor", "dead_man_buttons"]
+    for text, reason in (
+        ("max_force_N = ", "is not TOML"),
+        ("max_force_N = inf", "finite"),
+        ("deadline_ms = nan", "finite"),
+    ):
+        with pytest.raises(pn.ConfigurationError, match=reason):
+            limits_of(tmp_path, text)
+
+
+def test_a_dead_man_button_that_the_device_does_not_have_is_refused(tmp_path):
+    limits = limits_of(tmp_path, "dead_man_buttons = [3]")
+    assert limits.gate_on(with_buttons(3)).dead_man == 0b100
+    for device, words in (
+        (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: there would never be any force"),
+        (with_buttons(0), "a stylus has no buttons"),
+        (SimulatedDevice(pn.Target([0, 5e-3, 0])), "PHANTOM Omni, simulated has 1 button:"),
+    ):
+        with pytest.raises(pn.ConfigurationError, match=words):
+            limits.gate_on(device)
+
+
+def punctura(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "punctura.cli", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env=os.environ | {"COLUMNS": "200"},
+    )
+
+
+def test_the_command_line_bounds_the_force(tmp_path):
+    path = tmp_path / "limits.toml"
+    path.write_text("max_force_N = 0.6\nramp_time_s = 0.01\n")
+    run = ("run", "--headless", "--device", "simulated", "--duration", "2.5", "--json", "--limits", str(path))
+    strongest = {}
+    for name, more in {"file": (), "option": ("--max-force-N", "0.4")}.items():
+        done = punctura(*run, *more)
+        assert done.returncode == 0, done.stderr
+        said = json.loads(done.stdout)
+        strongest[name] = said["strongest_N"]
+        assert said["limited_ticks"] > 0
+    assert strongest == pytest.approx({"file": 0.6, "option": 0.4}, rel=1e-9)
+    assert ", at most 0.4 N; " in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--max-force-N", "0"), "max_force = 0.0: must be greater than 0"),
+        (("--limits", "nowhere.toml"), "'nowhere.toml' does not exist"),
+        (("--limits", "{buttons}"), "there would never be any force"),
+    ],
+)
+def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, words):
+    path = tmp_path / "limits.toml"
+    path.write_text("dead_man_buttons = [2]\n")
+    done = punctura("run", "--headless", "--device", "simulated", *(a.format(buttons=path) for a in arguments))
+    assert done.returncode == 2
+    assert words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_run_keeps_to_a_file_of_limits(tmp_path):
+    limits = limits_of(tmp_path, "max_force_N = 0.5")
+    strokes = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+    device = SimulatedDevice(strokes, real_time=False, ticks=4000)
+    summary = run_live(device, SCENE, gate=limits.gate_on(device), limits=limits.force)
+    assert summary.strongest_N == pytest.approx(0.5, rel=1e-9)
