@@ -109,7 +109,7 @@ def messages() -> dict[str, Any]:
         "model": "M",
         "simulated": True,
         "has_orientation": True,
-        "max_force": None,
+        "max_force": 3.3,
         "rate": 1600.0,
     }
     choice = {"name": "a", "title": "A"}

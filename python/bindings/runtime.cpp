@@ -177,7 +177,8 @@ void bind_runtime(nb::module_& m) {
           "ticks, late, and of period and compute the quantiles p50, p99, p99_9, the largest (s) and the counts by bin.")
       .def(
           "latest", [](ServoLoop& loop) { return as_columns({loop.latest()}); },
-          nb::sig("def latest(self) -> dict[str, typing.Any]"), "The last tick's snapshot, as columns with one row.")
+          nb::sig("def latest(self) -> dict[str, typing.Any]"),
+          "The last tick's snapshot, as columns with one row; all zeros before the first tick.")
       .def(
           "fault_history", [](ServoLoop& loop) { return as_columns(loop.fault_history()); },
           nb::sig("def fault_history(self) -> dict[str, typing.Any]"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import math
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from importlib.metadata import version
@@ -49,7 +48,7 @@ class Studio:
                 model=info.model,
                 simulated=self.session.bench.simulated,
                 has_orientation=info.has_orientation,
-                max_force=info.max_force if math.isfinite(info.max_force) else None,
+                max_force=self.session.run.loop.limits.max_force,
                 rate=info.rate,
             ),
             scenes=ready_scenes(),

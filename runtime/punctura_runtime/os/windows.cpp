@@ -33,7 +33,7 @@ std::string windows_words(unsigned long error) {
 
 namespace {
 
-RealtimeItem item(const char* what, bool granted) {
+RealtimeItem item(const std::string& what, bool granted) {
   return {what, granted, granted ? "" : windows_words(GetLastError())};
 }
 

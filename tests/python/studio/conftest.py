@@ -7,12 +7,12 @@ from punctura.studio.run import Settings
 from punctura.studio.serve import StudioServer
 
 
-def serve(folder, scene="k06-fig12", **more):
+def serve(folder, scene="k06-fig12", settings=None, **more):
     page = folder / "page"
     (page / "assets").mkdir(parents=True, exist_ok=True)
     (page / "index.html").write_text("<!doctype html><title>page</title>")
     (page / "assets" / "a.js").write_text("1")
-    server = StudioServer(from_name(scene), Settings(), page=page, folder=folder / "kept", **more)
+    server = StudioServer(from_name(scene), settings or Settings(), page=page, folder=folder / "kept", **more)
     server.start()
     return server
 

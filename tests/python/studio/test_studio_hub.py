@@ -12,7 +12,7 @@ FRAME = b"PNT1"
 
 
 def hello(viewer):
-    device = {"backend": "", "model": "", "simulated": True, "has_orientation": True, "max_force": None, "rate": 1.0}
+    device = {"backend": "", "model": "", "simulated": True, "has_orientation": True, "max_force": 3.3, "rate": 1.0}
     return Hello.model_validate(
         {"protocol": 1, "version": "", "viewer": viewer, "device": device, "scenes": [], "exercises": [], "notes": []}
     )

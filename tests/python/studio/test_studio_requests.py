@@ -4,7 +4,11 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ServoState
+from punctura.live import Limits
 from punctura.studio.client import StudioClient
+from punctura.studio.run import Settings
+
+from .conftest import serve
 
 AXIS = [0.0, -1.0, 0.0]
 
@@ -25,6 +29,20 @@ def test_a_newcomer_is_told_everything_there_is(page):
         "second membrane",
     ]
     assert {"control", "fault", "exercise"} <= set(kinds)
+
+
+def test_the_limits_that_were_chosen_are_told_and_hold(tmp_path):
+    server = serve(tmp_path, settings=Settings(limits=Limits().at_most(0.4)))
+    try:
+        with StudioClient(server.address.url, keep_frames=True) as page:
+            page.wait(lambda: page.of("hello"))
+            assert page.of("hello")[0]["device"]["max_force"] == 0.4
+            assert page.ask(do="strokes", period=1.0)["ok"]
+            page.wait(lambda: sum(e["what"] == "out" for e in page.of("event")) >= 2)
+            strongest = np.linalg.norm(all_rows(page, "force"), axis=1).max()
+            assert strongest == pytest.approx(0.4, rel=1e-6)
+    finally:
+        server.stop()
 
 
 def test_every_tick_comes_once_and_in_order(page):

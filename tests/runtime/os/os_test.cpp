@@ -30,6 +30,17 @@ TEST_CASE("what the scheduler does not grant is said with the reason, and does n
   }
 }
 
+TEST_CASE("a processor that is not there is not granted, and said by its number") {
+  std::vector<os::RealtimeItem> items;
+  for (const int processor : {64, 4095, 1 << 20})
+    std::thread([&] {
+      for (auto& item : os::make_realtime({0, processor, false, false})) items.push_back(item);
+    }).join();
+  REQUIRE(items.size() == 3);
+  for (const auto& item : items) CHECK_FALSE(item.granted);
+  CHECK(items[1].what == "processor 4095");
+}
+
 TEST_CASE("a library that is nowhere is told by its name, in words") {
   const auto none = os::Library::open({"/nowhere/libnothing.so", "nothing-of-this-name"});
   CHECK_FALSE(none);

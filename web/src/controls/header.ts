@@ -12,9 +12,7 @@ export const headerBar: Panel = (host, app) => {
   app.hello.watch((hello) => {
     const info = hello?.device;
     device.textContent = info ? info.model : "";
-    device.title = info
-      ? `${info.backend}${info.max_force === null ? "" : `, up to ${info.max_force} N`}, ${info.rate} Hz`
-      : "";
+    device.title = info ? `${info.backend}, at most ${info.max_force} N, ${info.rate} Hz` : "";
   });
   host.append(
     element(

@@ -52,7 +52,7 @@ export interface DevicePart {
   model: string;
   simulated: boolean;
   has_orientation: boolean;
-  max_force: number | null;
+  max_force: number;
   rate: number;
 }
 /**

@@ -17,7 +17,7 @@ class DevicePart(Part):
     model: str
     simulated: bool  # the page may move its hand
     has_orientation: bool
-    max_force: Finite | None  # N
+    max_force: Finite  # N, the strongest that a run gives: by the device's rating, or a limit that was chosen
     rate: Finite  # Hz
 
 
