@@ -33,7 +33,7 @@ class Settings(ctypes.Structure):
         *((name, ctypes.c_int) for name in ("starts_forces", "repeat_every", "old_force_off_cause")),
         *((name, ctypes.c_double) for name in ("user_max_force", "motor_force", "brake_speed", "watchdog")),
         ("frame", ctypes.c_double * 9),
-        *((name, ctypes.c_double) for name in ("encoder_step", "friction", "tremor")),
+        *((name, ctypes.c_double) for name in ("encoder_step", "friction", "tremor", "transfer")),
     )
 
 

@@ -152,6 +152,16 @@ void bind_runtime(nb::module_& m) {
       .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),
            "Ticks come, disarmed. Raises DeviceError.")
       .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Zero force, then no tick any more.")
+      .def(
+          "__enter__", [](ServoLoop& loop) -> ServoLoop& { return loop; }, nb::rv_policy::reference)
+      .def(
+          "__exit__",
+          [](ServoLoop& loop, const nb::args&) {
+            nb::gil_scoped_release release;
+            loop.stop();
+          },
+          nb::sig("def __exit__(self, *how: object) -> None"),
+          "Zero force, then no tick any more, however the block has ended.")
       .def("arm", &ServoLoop::arm, "Force, once the tip is outside tissue.")
       .def("pause", &ServoLoop::pause, "No force; ticks go on.")
       .def("reset", &ServoLoop::reset, "Leaves a fault; disarmed.")
@@ -183,6 +193,10 @@ void bind_runtime(nb::module_& m) {
           "fault_history", [](ServoLoop& loop) { return as_columns(loop.fault_history()); },
           nb::sig("def fault_history(self) -> dict[str, typing.Any]"),
           "The last snapshots up to the latched fault, as columns; none without one.");
+
+  // A loop that a daemon thread or an interactive session still holds would leave its device with the last force.
+  nb::module_::import_("atexit").attr("register")(
+      nb::cpp_function(&ServoLoop::stop_all, nb::call_guard<nb::gil_scoped_release>()));
 }
 
 }  // namespace punctura::bindings

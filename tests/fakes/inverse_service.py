@@ -43,7 +43,7 @@ class Arm:
 
 @dataclass
 class InverseService:
-    """Faults by assignment while it runs: removed, silent, garbled, oversized, missing (names of arrays left out)."""
+    """Faults by assignment while it runs: removed, silent, garbled, oversized, id, missing (arrays left out)."""
 
     version: str = "3.5.2"
     takes: str = "vector"
@@ -55,6 +55,7 @@ class InverseService:
     garbled: bool = False
     oversized: bool = False
     missing: frozenset[str] = frozenset()
+    id: str = "049D"
     arm: Arm = field(default_factory=Arm)
     messages: list[dict[str, Any]] = field(default_factory=list)
     idle: threading.Event = field(default_factory=threading.Event)  # set while nobody commands a force
@@ -64,7 +65,7 @@ class InverseService:
             return dict(zip("xyz", v, strict=True))
 
         arm: dict[str, Any] = {
-            "device_id": "049D",
+            "device_id": self.id,
             "state": {
                 "cursor_position": xyz(self.arm.position),
                 "cursor_velocity": xyz(self.arm.velocity),

@@ -50,7 +50,7 @@ class Device {
   /// `info().rate` is the rate at which ticks will come.
   virtual const DeviceInfo& info() const noexcept = 0;
 
-  /// Ticks come from now on, on a thread of the device's, until stop(). Throws DeviceError.
+  /// Ticks come from now on, on a thread of the device's, until stop(). Throws DeviceError, also where it ticks already.
   virtual void start(Tick tick) = 0;
 
   /// Zero force, then no tick any more; both hold when it returns. Safe to call at any time, and twice.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from punctura.live import ANY_PROCESSOR, Limits, RunSummary, fit_conditioning, f
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
-FAULTED = 1
+FAILED = 1
 
 
 class Wishes(NamedTuple):
@@ -41,38 +42,66 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         notes.append(note)
     for note in filter(None, notes):
         typer.echo(f"punctura: note: {note}", err=True)
-    line = StatusLine()
+    tape = Tape(record)
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
-        recorder = Recorder(loop, record) if record else None
-        typer.echo(begun(loaded.name, loop, opened), err=True)
-
-        def finish() -> None:
-            line.end()
-            if recorder:
-                _tell(recorder.finish())
-
-        return finish
+        say(begun(loaded.name, loop, opened))
+        return tape.begin(loop)
 
     limits = wishes.limits
     summary = run_live(
-        opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, line, begin
+        opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
     )
-    typer.echo(json.dumps(summary.to_dict(), indent=2) if as_json else in_words(summary))
+    told = summary.to_dict() | ({"recording": tape.status.to_dict()} if tape.status else {})
+    typer.echo(json.dumps(told, indent=2) if as_json else in_words(summary))
     if summary.fault:
-        typer.echo(f"punctura: {summary.fault}", err=True)
-        raise typer.Exit(FAULTED)
+        say(f"punctura: {summary.fault}")
+    if summary.fault or not tape.whole:
+        raise typer.Exit(FAILED)
+
+
+class Tape:
+    """The recording of one run, where one is wanted, and the line that tells how both are doing."""
+
+    def __init__(self, path: Path | None) -> None:
+        self.status: RecorderStatus | None = None  # how it ended
+        self._path, self._line = path, StatusLine()
+        self._recorder: Recorder | None = None
+
+    def begin(self, loop: ServoLoop) -> Callable[[], None]:
+        """Raises RecordingError. What it returns makes the file whole before it says so: a terminal may be gone."""
+        if self._path:
+            self._recorder = Recorder(loop, self._path)
+        return self._finish
+
+    def watch(self, summary: RunSummary) -> None:
+        status = self._recorder.status() if self._recorder else None
+        self._line(summary, "" if status is None else status.trouble)
+
+    @property
+    def whole(self) -> bool:
+        return self.status is None or (self.status.finished and self.status.lost == 0)
+
+    def _finish(self) -> None:
+        if self._recorder:
+            self.status = self._recorder.finish()
+        self._line.end()
+        if self.status is None:
+            return
+        say(f"punctura: {self.status.file}: {self.status.rows} ticks recorded, {self.status.lost} lost")
+        for text in [*self.status.notes, *([self.status.trouble] if self.status.trouble else [])]:
+            say(f"punctura: recording: {text}")
+
+
+def say(text: str) -> None:
+    """To who watches, if the terminal is still there."""
+    with suppress(OSError):
+        typer.echo(text, err=True)
 
 
 def begun(scene: str, loop: ServoLoop, device: Device) -> str:
     """What runs on what, and how strong it may get."""
     return f"punctura: {scene} on {device.info.model}, at most {loop.limits.max_force:.3g} N; Ctrl-C ends it"
-
-
-def _tell(status: RecorderStatus) -> None:
-    typer.echo(f"punctura: {status.file}: {status.rows} ticks recorded, {status.lost} lost", err=True)
-    for text in [*status.notes, *([status.trouble] if status.trouble else [])]:
-        typer.echo(f"punctura: recording: {text}", err=True)
 
 
 def in_words(summary: RunSummary) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from contextlib import suppress
 from typing import TextIO
 
 from punctura.live import RunSummary
@@ -19,20 +20,24 @@ class StatusLine:
         self._next = 0.0
         self._width = 0
 
-    def __call__(self, summary: RunSummary) -> None:
+    def __call__(self, summary: RunSummary, trouble: str = "") -> None:
+        """trouble: of the recording, in words."""
         now = time.monotonic()
-        if not self._stream.isatty() or now < self._next:
+        if now < self._next:
             return
         self._next = now + EVERY_S
-        text = status_text(summary)
-        self._stream.write("\r" + text.ljust(self._width))
-        self._stream.flush()
-        self._width = len(text)
+        text = status_text(summary) + (f"  RECORDING: {trouble}" if trouble else "")
+        with suppress(OSError, ValueError):  # the terminal may be gone
+            if self._stream.isatty():
+                self._stream.write("\r" + text.ljust(self._width))
+                self._stream.flush()
+                self._width = len(text)
 
     def end(self) -> None:
-        if self._width:
-            self._stream.write("\r" + " " * self._width + "\r")
-            self._stream.flush()
+        with suppress(OSError, ValueError):
+            if self._width:
+                self._stream.write("\r" + " " * self._width + "\r")
+                self._stream.flush()
 
 
 def status_text(summary: RunSummary) -> str:

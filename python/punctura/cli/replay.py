@@ -33,7 +33,8 @@ def command(
     if as_json:
         typer.echo(json.dumps(result.to_dict(), indent=2))
     elif result.first_difference is None:
-        typer.echo(f"{result.file}: {result.ticks} ticks, identical")
+        rest = "" if result.complete else "; the others could not be computed"
+        typer.echo(f"{result.file}: {result.ticks} ticks, identical{rest}")
     else:
         first = result.first_difference
         typer.echo(

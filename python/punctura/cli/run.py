@@ -10,9 +10,11 @@ from typing import Annotated
 import typer
 
 from punctura._core import DeviceError
-from punctura.cli._headless import Wishes, run_headless
+from punctura.cli._headless import Wishes, run_headless, say
 from punctura.cli._studio import run_page
+from punctura.errors import ConfigurationError
 from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placement
+from punctura.live.signals import ignore_more_signals
 
 
 def command(
@@ -79,14 +81,21 @@ def command(
 
     The simulated device's hand follows the mouse in the page; with --headless it makes strokes through the scene.
     """
-    if not headless:
-        for wrong, name in ((record, "--record"), (as_json, "--json")):
-            if wrong:
-                raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
+    for wrong, name in ((record, "--record"), (as_json, "--json")):
+        if wrong and not headless:
+            raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
+    for given, name in ((port, "--port"), (no_browser, "--no-browser"), (recordings, "--recordings")):
+        if given and headless:
+            raise typer.BadParameter("is of the page, and --headless has none", param_hint=name)
+    if placement and device.startswith("replay:"):
+        raise typer.BadParameter("recorded positions stand in the scene already", param_hint="--placement")
     stands = load_placement(placement) if placement else None
     allowed = load_limits(limits) if limits else Limits()
     if max_force is not None:
-        allowed = allowed.at_most(max_force)
+        try:
+            allowed = allowed.at_most(max_force)
+        except ConfigurationError as error:
+            raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed)
     try:
         if headless:
@@ -96,9 +105,10 @@ def command(
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None
     except Ended as end:
+        ignore_more_signals()
         if end.name == "SIGINT":
             raise KeyboardInterrupt from None  # the command line says "interrupted"
-        typer.echo(f"punctura: ended by {end.name}; the force is off", err=True)
+        say(f"punctura: ended by {end.name}; the force is off")
         sys.exit(128 + end.number)
 
 

@@ -19,7 +19,9 @@ from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
-from punctura.live.session import Ended, run_live
+from punctura.live.session import run_live
+from punctura.live.signals import Ended
+from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 
 __all__ = [
@@ -36,6 +38,7 @@ __all__ = [
     "ReplayDevice",
     "RunSummary",
     "ServoLoop",
+    "SilenceWatch",
     "SimulatedDevice",
     "enumerate_devices",
     "fit_conditioning",

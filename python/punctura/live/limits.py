@@ -40,16 +40,21 @@ class Limits(NamedTuple):
     gate: Mapping[str, Any] = MappingProxyType({})
 
     def gate_on(self, device: Device) -> GateLimits:
-        """What was not chosen is as gate_for has it. Raises ConfigurationError where it lacks all dead-man
-        buttons."""
+        """What was not chosen is as gate_for has it. Raises ConfigurationError where the device cannot keep to it."""
         made = gate_for(device).replace(**self.gate)
         info = device.info
-        if made.dead_man and not made.dead_man & ((1 << info.button_count) - 1):
-            wanted = [bit + 1 for bit in range(32) if made.dead_man >> bit & 1]
+        problems = []
+        missing = [bit + 1 for bit in range(32) if made.dead_man >> bit & 1 and bit >= info.button_count]
+        if missing:
             has = f"{info.model or info.backend} has {info.button_count or 'no'} button"
             plural = "" if info.button_count == 1 else "s"
-            problem = Problem("dead_man_buttons", wanted, f"{has}{plural}: there would never be any force")
-            raise ConfigurationError([problem])
+            problems.append(Problem("dead_man_buttons", missing, f"{has}{plural}: it can never be held"))
+        for name, limit in (("stale_ms", made.stale), ("deadline_ms", made.deadline)):
+            if limit < 1 / info.rate:
+                reason = f"a period of {info.model or info.backend} is longer, {1e3 / info.rate:.3g} ms"
+                problems.append(Problem(name, limit * 1e3, reason))
+        if problems:
+            raise ConfigurationError(problems)
         return made
 
     def at_most(self, max_force: float) -> Limits:
@@ -59,28 +64,30 @@ class Limits(NamedTuple):
 
 def load_limits(path: str | os.PathLike[str]) -> Limits:
     """Reads a limits file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
-    table = read_table(path, FORCE | GATE)
-    problems: list[Problem] = []
-    force = _made(ForceLimits, FORCE, table, problems)
-    gate = _made(GateLimits, GATE, table, problems)
-    if problems:
-        raise ConfigurationError(problems, str(path))
-    return Limits(ForceLimits(**force), gate)
+    table = read_table(path, FORCE | GATE, _refused)
+    return Limits(ForceLimits(**_fields(FORCE, table)), _fields(GATE, table))
 
 
-def _made(
-    kind: Callable[..., object], keys: Mapping[str, Number | Buttons], table: dict[str, Any], problems: list[Problem]
-) -> dict[str, Any]:
-    """The fields that the table gives. What the core has against them is told of the file's own keys."""
-    fields = {key.field: _si(key, table[name]) for name, key in keys.items() if name in table}
-    try:
-        kind(**fields)
-    except ConfigurationError as error:
-        names = {key.field: name for name, key in keys.items()}
-        for problem in error.problems:
-            name = names[problem.path.rpartition(".")[2]]
-            problems.append(Problem(name, table[name], problem.reason))
-    return fields
+def _fields(keys: Mapping[str, Number | Buttons], table: dict[str, Any]) -> dict[str, Any]:
+    return {key.field: _si(key, table[name]) for name, key in keys.items() if name in table}
+
+
+def _refused(table: dict[str, Any]) -> list[Problem]:
+    """What the core has against the values, told of the file's own keys."""
+    problems = []
+    kinds: tuple[tuple[Callable[..., object], Mapping[str, Number | Buttons]], ...] = (
+        (ForceLimits, FORCE),
+        (GateLimits, GATE),
+    )
+    for kind, keys in kinds:
+        try:
+            kind(**_fields(keys, table))
+        except ConfigurationError as error:
+            names = {key.field: name for name, key in keys.items()}
+            for problem in error.problems:
+                name = names[problem.path.rpartition(".")[2]]
+                problems.append(Problem(name, table[name], problem.reason))
+    return problems
 
 
 def _si(key: Number | Buttons, value: Any) -> Any:

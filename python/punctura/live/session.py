@@ -2,48 +2,18 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from types import FrameType
+from collections.abc import Callable
 
 from punctura import Scene
 from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop
 from punctura.live.choose import gate_for
+from punctura.live.signals import ends_on_signals
+from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 
 ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
 POLL_S = 0.05
-
-
-class Ended(BaseException):
-    """A signal asked the run to end. Not an Exception: nothing on the way may take it for an error and go on."""
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-        self.name = signal.Signals(number).name
-        super().__init__(self.name)
-
-
-@contextmanager
-def ends_on_signals() -> Iterator[None]:
-    """Turns an interrupt, a termination and a closed terminal into Ended: the force ends before the program does."""
-    wanted = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)]
-
-    def end(number: int, _frame: FrameType | None) -> None:
-        raise Ended(number)
-
-    if threading.current_thread() is not threading.main_thread():  # only the main thread may take signals
-        yield
-        return
-    before = {number: signal.signal(number, end) for number in wanted}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def run_live(
@@ -56,7 +26,7 @@ def run_live(
     watch: Callable[[RunSummary], None] | None = None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
 ) -> RunSummary:
-    """Ticks until `duration` (s) is over, a fault is latched, the device has ended, or a signal comes.
+    """Ticks until `duration` (s) is over, a fault is latched, ticks cease, the device has ended, or a signal comes.
 
     A signal raises Ended, after the stop. watch: called some 20 times a second with the summary. prepare: called
     with the loop before it starts, to add listeners; what it returns is called after the stop.
@@ -66,17 +36,19 @@ def run_live(
     with ends_on_signals():
         loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
         listener = loop.listen(int(ROOM_S * info.rate))
-        finish = prepare(loop) if prepare else None
+        finish: Callable[[], None] | None = None
         try:
+            finish = prepare(loop) if prepare else None
             loop.arm()
             loop.start()
-            began = time.monotonic()
+            silence, began = SilenceWatch(loop), time.monotonic()
             while not summary.fault and not getattr(device, "finished", False):
                 left = POLL_S if duration is None else min(POLL_S, duration - (time.monotonic() - began))
                 if left <= 0:
                     break
                 time.sleep(left)
                 summary.add(listener.read())
+                summary.fault = summary.fault or silence.ceased()
                 if watch:
                     watch(summary)
         finally:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -60,14 +60,21 @@ def _whole(value: Any) -> bool:
 Key = Number | Vector | Buttons
 
 
-def read_table(path: str | os.PathLike[str], keys: Mapping[str, Key]) -> dict[str, Any]:
-    """What the file says, as its keys have it. Raises ConfigurationError with all that is wrong, OSError."""
+def read_table(
+    path: str | os.PathLike[str], keys: Mapping[str, Key], more: Callable[[dict[str, Any]], list[Problem]] | None = None
+) -> dict[str, Any]:
+    """What the file says, as its keys have it. more: what else is wrong with the values that fit their keys.
+
+    Raises ConfigurationError with all that is wrong, OSError.
+    """
     with open(path, "rb") as file:
         try:
             table = tomllib.load(file)
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise ConfigurationError([Problem("", None, f"is not TOML: {error}")], str(path)) from None
     problems = list(_problems(table, keys))
+    if more:
+        problems += more({name: table[name] for name, key in keys.items() if name in table and key.fits(table[name])})
     if problems:
         raise ConfigurationError(problems, str(path))
     return table

@@ -24,6 +24,7 @@ class PartFile:
         self._size = path.stat().st_size
         self.survey = Survey()
         self.notes: list[str] = []
+        self.damaged = False  # ticks are missing that were on the disk
         with pa.OSFile(str(path), "rb") as file:
             decoder = Decoder(file, self._size)
             for batch in decoder:
@@ -63,7 +64,12 @@ class PartFile:
 
     def _note(self, decoder: Decoder) -> None:
         whole = f"whole up to tick {self.survey.last_tick}" if self.survey.rows else "without a tick"
-        if decoder.broken:
+        self.damaged = decoder.broken_inside or decoder.damaged > 0
+        if decoder.broken_inside:
+            self.notes.append(
+                f"the file is damaged inside, and what comes after was left out; the recording is {whole}"
+            )
+        elif decoder.broken:
             self.notes.append(f"the end of the file is cut off or damaged and was left out; the recording is {whole}")
         elif not self._ended():
             self.notes.append(f"the recording was not finished; it is {whole}")

@@ -58,8 +58,8 @@ class Recorder:
         self._header = describe_run(loop) | ({"about": about} if about else {})
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
-        self._file = self._open()
         self._listener = loop.listen(capacity or int(_RING_S * loop.scene.servo.rate))
+        self._file = self._open()
         self._backlog = Backlog(_BACKLOG_BYTES)
         self._next_tick = int(loop.report()["ticks"])  # that none is missing before
         self._width = len(loop.scene.membranes)  # that the present stream has columns for
@@ -69,9 +69,14 @@ class Recorder:
         self._final: RecorderStatus | None = None
         self._stop = threading.Event()
         self._reader = threading.Thread(target=self._read, name="punctura-recorder-reader", daemon=True)
-        self._begin()
-        self._writer = Writer(self._file, self._backlog, self._part)
-        self._reader.start()
+        try:
+            self._begin()
+            self._writer = Writer(self._file, self._backlog, self._part)
+            self._reader.start()
+        except BaseException:  # a signal among them: a file without a beginning would only be in the way
+            self._file.close()
+            self._part.unlink(missing_ok=True)
+            raise
 
     def exchange(self, scene: Scene) -> None:
         """loop.exchange(scene), remembered: the recording holds the scene from the tick that takes it."""
@@ -138,8 +143,6 @@ class Recorder:
         try:
             self._file.write(self._encoder.begin(batch.schema))
         except OSError as bad:
-            self._file.close()
-            self._part.unlink(missing_ok=True)
             raise RecordingError(f"{self._part} cannot be written: {bad.strerror}") from None
 
     def _read(self) -> None:

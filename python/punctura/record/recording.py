@@ -46,6 +46,11 @@ class Recording:
         return int(self.summary.get("lost", 0))
 
     @property
+    def damaged(self) -> bool:
+        """Ticks are missing that had been written: the file is not as it was."""
+        return self._source.damaged if isinstance(self._source, PartFile) else bool(self.summary.get("damaged"))
+
+    @property
     def faults(self) -> list[dict[str, Any]]:
         """The first thousand, each with its tick, name and meaning."""
         return list(self.summary.get("faults", []))

@@ -20,6 +20,7 @@ from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
 from punctura.record.scene_text import from_text
 from punctura.record.schema import membranes_in, numbers, raw_batch, worded
+from punctura.record.target import check_target
 
 _COMMAND_SCENE = 8
 
@@ -49,8 +50,10 @@ def replay(
     """Computes every tick of a recording again from its inputs, and compares all columns bit for bit.
 
     A replay ends where ticks are missing: the state after them cannot be known. out: where the computed ticks go, a
-    recording themselves. Raises RecordingError.
+    recording themselves. Raises RecordingError, ConfigurationError for an `out` that cannot be.
     """
+    if out is not None:
+        check_target(Path(path), Path(out), (".parquet",))
     recording = open_recording(path)
     result = ReplayResult(str(recording.path), notes=list(recording.notes))
     if recording.info.build != build_id():
@@ -68,6 +71,8 @@ def replay(
                 output.write(worded(computed, recording.schema))
             if not result.complete:
                 break
+    if recording.damaged:
+        result.complete = False
     if result.complete and recording.lost:
         result.notes.append(f"{recording.lost} ticks are missing at the end of the recording")
     return result

@@ -10,11 +10,11 @@ from typing import Any
 
 import pyarrow as pa
 
-from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.record.columns import NEW_SCENES
 from punctura.record.mcap_file import write_mcap
 from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
+from punctura.record.target import check_target
 from punctura.simulation.output import open_output
 
 SUFFIXES = (".csv", ".parquet", ".mcap")
@@ -37,12 +37,12 @@ class ExportResult:
 
 
 def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: Progress | None = None) -> ExportResult:
-    """Writes all ticks to `out`; what stood there is replaced when the new file is whole. Constant memory.
+    """Writes all ticks to `out`; a file there, unless it is a recording, is replaced when the new one is whole.
 
     Raises RecordingError, ConfigurationError for an `out` that cannot be, ModuleNotFoundError without the mcap package.
     """
     target = Path(out)
-    _check_target(Path(path), target)
+    check_target(Path(path), target, SUFFIXES)
     recording = open_recording(path)
     result = ExportResult(str(recording.path), str(target), recording.rows, recording.lost, list(recording.notes))
     suffix = target.suffix.lower()
@@ -57,20 +57,6 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     return result
 
 
-def _check_target(source: Path, target: Path) -> None:
-    problems = []
-    if target.suffix.lower() not in SUFFIXES:
-        problems.append(Problem(f"out {target}", MISSING, f"must end in {', '.join(SUFFIXES)}"))
-    if target.is_dir():
-        problems.append(Problem(f"out {target}", MISSING, "is a folder"))
-    elif not target.parent.is_dir():
-        problems.append(Problem(f"out {target}", MISSING, f"there is no folder {target.parent}"))
-    elif source.exists() and target.exists() and source.samefile(target):
-        problems.append(Problem(f"out {target}", MISSING, "is the recording itself"))
-    if problems:
-        raise ConfigurationError(problems)
-
-
 def _to_csv(recording: Recording, target: Path, progress: Progress | None) -> None:
     schema = pa.schema([f for f in recording.schema if f.name != NEW_SCENES])
     with open_output(target, schema) as output:
@@ -79,7 +65,7 @@ def _to_csv(recording: Recording, target: Path, progress: Progress | None) -> No
 
 
 def _to_parquet(recording: Recording, target: Path, progress: Progress | None) -> None:
-    summary = {"summary": recording.summary | {"notes": list(recording.notes)}}
+    summary = {"summary": recording.summary | {"notes": list(recording.notes), "damaged": recording.damaged}}
     with parquet_output(target, recording.schema, recording.info.data | summary) as output:
         for batch in recording.batches(progress):
             output.write(batch)

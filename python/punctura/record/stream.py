@@ -64,6 +64,7 @@ class Decoder:
         self._file, self._size = file, size
         self.damaged = 0
         self.broken = ""
+        self._sound_to = self._largest = 0  # bytes: where the last part that could be read ends, and the largest
         self.schemas: list[pa.Schema] = []
 
     def __iter__(self) -> Iterator[pa.RecordBatch]:
@@ -72,6 +73,11 @@ class Decoder:
                 yield from self._stream()
         except BROKEN as bad:
             self.broken = str(bad).splitlines()[0] if str(bad) else type(bad).__name__
+
+    @property
+    def broken_inside(self) -> bool:
+        """More is left than one part that was being written when the process ended."""
+        return bool(self.broken) and self._size - self._sound_to > 2 * self._largest
 
     def _stream(self) -> Iterator[pa.RecordBatch]:
         reader = pa.ipc.open_stream(self._file)
@@ -83,6 +89,8 @@ class Decoder:
                 batch, metadata = reader.read_next_batch_with_custom_metadata()
             except StopIteration:
                 return
+            end = self._file.tell()
+            self._sound_to, self._largest = end, max(self._largest, end - self._sound_to)
             if self._sound(batch, metadata):
                 yield batch
             else:

@@ -17,7 +17,7 @@ import uvicorn
 
 from punctura._core import DeviceError
 from punctura.exercise import ResultStore
-from punctura.live.session import ends_on_signals
+from punctura.live.signals import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.figures import likely_folders
 from punctura.studio.hub import Hub

@@ -12,8 +12,9 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
-from punctura._core import DeviceError, ReplayDevice
+from punctura._core import DeviceError, Fault, ReplayDevice, describe
 from punctura.exercise import Exercise, ResultStore
+from punctura.live import SilenceWatch
 from punctura.record import RecorderStatus
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording, recording_status, status_of
@@ -25,7 +26,7 @@ from punctura.studio.run import Bench, Run, Settings
 from punctura.studio.shelf import Shelf
 from punctura.studio.takes import Takes
 from punctura.studio.view import scene_view
-from punctura.studio.wire.messages import Notice, SceneMessage
+from punctura.studio.wire.messages import FaultMessage, Notice, SceneMessage
 from punctura.studio.wire.requests import Target
 
 T = TypeVar("T")
@@ -121,6 +122,10 @@ class Session:
         self.armed = False
 
     def reset(self) -> None:
+        """Leaves a fault. Where ticks had ceased, by a new run, which is armed only where the hand asks for it."""
+        if not self.run.loop.running:
+            self.begin_again()
+            self.run.loop.pause()
         self.run.loop.reset()
         self.armed = False
 
@@ -185,6 +190,13 @@ class Session:
             self.out.say(no_exercise())
         self._say_scene(new_run=True)
         self.run.start()
+        self._silence = SilenceWatch(self.run.loop)
+
+    def _end_silence(self) -> None:
+        """A device without ticks keeps its last force: the run is stopped, which takes it away."""
+        if self.run.loop.running and (words := self._silence.ceased()):
+            self.end_run()
+            self.out.say(FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0))
 
     def _say_scene(self, new_run: bool) -> None:
         view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())
@@ -217,6 +229,7 @@ class Session:
                 self.hand.drive(now)
                 if now >= pump_at:
                     self._guarded(self._turn)
+                    self._guarded(self._end_silence)
                     pump_at = max(pump_at + PUMP_S, now)  # a turn takes all there is
                 if self.practice and self.practice.end_at and now >= self.practice.end_at:
                     self._guarded(self.begin_again)

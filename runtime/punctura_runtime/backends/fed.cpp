@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
@@ -19,7 +20,7 @@ FedDevice::FedDevice(DeviceInfo info, bool real_time) : info_(std::move(info)), 
 
 void FedDevice::start(Tick tick) {
   const std::lock_guard lock(one_at_a_time_);
-  if (tick_.call != nullptr) return;
+  refuse_second_loop(tick_.call != nullptr);
   tick_ = tick;
   fed_ = 0;
   unhealthy_ = false;

@@ -1,8 +1,8 @@
 #include "punctura_runtime/backends/replay.hpp"
 
 #include <cmath>
-#include <system_error>
 
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura {
@@ -17,15 +17,11 @@ ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorde
 }
 
 void ReplayDevice::start(Tick tick) {
-  if (thread_.joinable()) return;
+  refuse_second_loop(thread_.joinable());
   stop_ = finished_ = unhealthy_ = false;
   ready_.set_ahead();
   behind_ = 0;
-  try {
-    thread_ = std::thread([this, tick] { run(tick); });
-  } catch (const std::system_error& error) {
-    throw DeviceError(std::string("no thread for the replay's ticks: ") + error.what());
-  }
+  thread_ = ticking_thread([this, tick] { run(tick); });
   ready_.wait();
 }
 

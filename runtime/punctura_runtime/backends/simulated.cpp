@@ -1,5 +1,6 @@
 #include "punctura_runtime/backends/simulated.hpp"
 
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura {
@@ -24,10 +25,11 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
 }
 
 void SimulatedDevice::start(Tick tick) {
-  if (thread_.joinable()) return;
-  stop_ = false;
+  refuse_second_loop(thread_.joinable());
+  stop_ = finished_ = false;
+  missed_ = 0;
   ready_.set_ahead();
-  thread_ = std::thread([this, tick] { run(tick); });
+  thread_ = ticking_thread([this, tick] { run(tick); });
   ready_.wait();
 }
 

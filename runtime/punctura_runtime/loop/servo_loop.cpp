@@ -16,6 +16,16 @@ namespace {
 /// A limit is never above what the device's maker allows; NaN (not known) leaves it.
 double tighter(double limit, double rating) noexcept { return rating < limit ? rating : limit; }
 
+/// The loops of this program that run. None is destroyed while somebody has the lock.
+struct Running {
+  std::recursive_mutex mutex;
+  std::vector<ServoLoop*> loops;
+};
+Running& running_loops() {
+  static auto& all = *new Running;  // outlives every other static object
+  return all;
+}
+
 }  // namespace
 
 ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
@@ -53,19 +63,49 @@ SnapshotRing& ServoLoop::listen(std::size_t capacity) {
 void ServoLoop::start() {
   if (running_.exchange(true)) return;
   last_begin_ = 0;
+  if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
   try {
     device_->start({&ServoLoop::call, this});
   } catch (...) {
     running_ = false;
     throw;
   }
+  auto& [mutex, loops] = running_loops();
+  const std::lock_guard lock(mutex);
+  loops.push_back(this);
 }
 
 void ServoLoop::stop() noexcept {
+  end_run();
+  auto& [mutex, loops] = running_loops();
+  const std::lock_guard lock(mutex);
+  std::erase(loops, this);
+}
+
+void ServoLoop::end_run() noexcept {
+  const std::lock_guard lock(ending_);
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
   running_ = false;
+  asked_.fetch_and(~(arm_bit | pause_bit));  // of the run that is over
+  handover_.collect();
+  take();
+}
+
+void ServoLoop::stop_all() noexcept {
+  auto& [mutex, loops] = running_loops();
+  const std::lock_guard lock(mutex);
+  for (const auto all = loops; ServoLoop* loop : all) loop->stop();
+}
+
+/// A new scene, between two ticks or without any.
+void ServoLoop::take() noexcept {
+  if (ServoStep* next = handover_.take()) {
+    next->resume(*step_);
+    handover_.retire(step_);
+    step_ = next;
+  }
 }
 
 void ServoLoop::reset() noexcept {
@@ -106,7 +146,8 @@ Snapshot ServoLoop::latest() {
 std::vector<Snapshot> ServoLoop::fault_history() {
   const std::lock_guard lock(readers_);
   std::vector<Snapshot> all;
-  if (!frozen_.load(std::memory_order_acquire) || (asked_.load() & reset_bit) != 0) return all;
+  // In this order: a tick that obeys a reset takes `frozen_` away before the asking.
+  if ((asked_.load(std::memory_order_acquire) & reset_bit) != 0 || !frozen_.load(std::memory_order_acquire)) return all;
   const std::uint64_t kept = std::min<std::uint64_t>(remembered_, history_.size());
   for (std::uint64_t i = remembered_ - kept; i < remembered_; ++i) all.push_back(history_[i % history_.size()]);
   return all;
@@ -118,11 +159,7 @@ Tick::Force ServoLoop::call(void* self, const DeviceSample& sample) noexcept {
 
 Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   const std::int64_t begin = settings_.now_ns();
-  if (ServoStep* next = handover_.take()) {
-    next->resume(*step_);
-    handover_.retire(step_);
-    step_ = next;
-  }
+  take();
   obey();
 
   const Snapshot& snapshot = step_->step(placed_ ? placer_.to_scene(sample) : sample);
@@ -143,11 +180,13 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
 }
 
 void ServoLoop::obey() noexcept {
-  const std::uint32_t asked = asked_.exchange(0, std::memory_order_acq_rel);
+  const std::uint32_t asked = asked_.load(std::memory_order_acquire);
   if (asked == 0) return;
+  if (asked & reset_bit)
+    frozen_.store(false, std::memory_order_relaxed);  // before the asking is taken: fault_history()
+  asked_.fetch_and(~asked, std::memory_order_acq_rel);
   if (asked & reset_bit) {
     step_->reset();
-    frozen_.store(false, std::memory_order_release);
     remembered_ = 0;
   }
   if (asked & arm_bit) step_->arm();

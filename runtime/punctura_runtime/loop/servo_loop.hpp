@@ -56,6 +56,7 @@ class ServoLoop {
   void start();          ///< ticks come, disarmed. Throws DeviceError
   void stop() noexcept;  ///< zero force, then no tick any more
   bool running() const noexcept { return running_; }
+  static void stop_all() noexcept;  ///< every loop of this program: for its end, whoever still holds them
 
   void arm() noexcept { ask(arm_bit); }      ///< force, once the tip is outside tissue
   void pause() noexcept { ask(pause_bit); }  ///< no force; ticks go on
@@ -76,6 +77,8 @@ class ServoLoop {
  private:
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
   Tick::Force tick(const DeviceSample& sample) noexcept;
+  void end_run() noexcept;
+  void take() noexcept;
   void obey() noexcept;
   void remember(const Snapshot& snapshot) noexcept;
   void ask(std::uint32_t bit) noexcept { asked_.fetch_or(bit, std::memory_order_release); }
@@ -105,6 +108,7 @@ class ServoLoop {
   Latest<Snapshot> latest_;
   std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;
+  std::mutex ending_;   ///< one thread at a time stops
   std::mutex readers_;  ///< of those who ask, never of the tick
 };
 

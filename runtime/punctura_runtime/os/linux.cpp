@@ -47,8 +47,8 @@ int keep_awake() {
 /// The first time, everything there is is brought in; from then on, a page stays from its first use on. Without that difference,
 /// each new run would bring in the gigabyte that an allocator of a library has reserved meanwhile, and never uses.
 int lock_memory() {
-  static const bool brought_in = mlockall(MCL_CURRENT) == 0;
-  if (!brought_in) return errno != 0 ? errno : EPERM;
+  static const int refused = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
+  if (refused != 0) return refused;
   return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
 }
 

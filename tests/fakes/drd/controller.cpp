@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <thread>
 
 namespace punctura::fake_drd {
 
@@ -74,6 +75,12 @@ std::int64_t Controller::now() {
 /// In real time the plant has moved on by itself since the last call.
 void Controller::catch_up() {
   if (!virtual_) advance(steady_ns() - real_offset_);
+}
+
+void Controller::wait(double seconds) {
+  if (seconds <= 0) return;
+  if (!virtual_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  virtual_ ? advance(time_ + static_cast<std::int64_t>(seconds * 1e9)) : catch_up();
 }
 
 void Controller::advance(std::int64_t to) {
@@ -164,6 +171,7 @@ int Controller::close(int device) {
 
 int Controller::read(double (&position)[3]) {
   catch_up();
+  wait(settings.transfer);
   if (!plugged_) return fail(communication);
   if (once(failing_read)) return fail(timeout);
   ++reads_;
@@ -182,6 +190,7 @@ int Controller::write(const double (&force)[3]) {
   if (!plugged_) return fail(communication);
   if (once(failing_write)) return fail(timeout);
   ++writes_;
+  writer_ = std::this_thread::get_id();
   last_write_ = time_;
   sent_ = Vector3d(force);
   return sent_.norm() > settings.motor_force ? 2 : 0;
@@ -195,6 +204,7 @@ int Controller::enable_force(bool on) {
     return 0;
   }
   if (reset_mode_) return fail(not_ready);
+  switcher_ = std::this_thread::get_id();
   if (settings.starts_forces) {
     force_on_ = true;
     braking_ = false;
@@ -251,6 +261,7 @@ Report Controller::report() {
   r.force_on = force_on_;
   r.open = is_open;
   r.calibrations = calibrations;
+  r.switched_on_by_writer = switcher_ == writer_;
   r.touched_safety = safety_touched;
   return r;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <variant>
 
 #include "fake_drd.hpp"
@@ -57,6 +58,7 @@ class Controller {
   void force_off(int cause);
   void happen();
   void step();
+  void wait(double seconds);
   void catch_up();
 
   bool virtual_ = false;
@@ -67,6 +69,7 @@ class Controller {
   int cause_ = 0, once_ = -1;
   bool nan_ = false, leap_ = false, frozen_ = false;
   std::uint64_t reads_ = 0, writes_ = 0;
+  std::thread::id writer_, switcher_;
   Vector3d sent_ = Vector3d::Zero(), given_ = Vector3d::Zero(), reading_ = Vector3d::Zero();
   DeviceDynamics dynamics_{};
   std::optional<Plant> plant_;

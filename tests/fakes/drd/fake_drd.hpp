@@ -41,6 +41,7 @@ struct Settings {
   double watchdog = 0.010;      ///< s without a force command after which forces go off
   double frame[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double encoder_step = 0.055e-3, friction = 0.26, tremor = 3e-5;  ///< of the plant: m, N, m rms
+  double transfer = 0;                                             ///< s that a reading takes
 };
 
 /// The hand's strokes, as in punctura::Strokes, from a moment on.
@@ -61,7 +62,8 @@ struct Report {
   double position[3];           ///< of the tip, m
   std::uint64_t reads, writes;  ///< calls
   int force_on, open, calibrations;
-  int touched_safety;  ///< calls that change velocity threshold, watchdog, brakes or expert mode
+  int switched_on_by_writer;  ///< force was switched on by the thread that gave the last command
+  int touched_safety;         ///< calls that change velocity threshold, watchdog, brakes or expert mode
 };
 
 /// The exported functions, by their names in the library.

@@ -76,6 +76,22 @@ def test_after_a_fault_the_arm_is_idle_and_the_trouble_is_in_words(fault):
         loop.stop()
 
 
+def test_after_a_stop_it_is_the_same_arm_again_or_none():
+    service = fake.InverseService()
+    with fake.Running(service) as url:
+        device = _core.open_device("haply", library=url)
+        loop = _core.ServoLoop(device, paper_scene())
+        for _ in range(2):
+            loop.start()
+            until(lambda: loop.report()["ticks"] > 0 and loop.latest()["sequence"][0] > 20)
+            assert loop.latest()["fault"][0] == 0
+            loop.stop()
+        service.id = "BEEF"
+        with pytest.raises(_core.DeviceError, match="049D"):
+            loop.start()
+        assert service.idle.wait(5)
+
+
 def paper_scene():
     from punctura import Coupling, Membrane, Needle, PlacedMembrane, Scene
 

@@ -67,12 +67,25 @@ def test_all_that_is_wrong_is_told_at_once_by_the_files_own_names(tmp_path):
             limits_of(tmp_path, text)
 
 
+def test_what_the_core_refuses_is_told_together_with_what_does_not_fit(tmp_path):
+    with pytest.raises(pn.ConfigurationError) as error:
+        limits_of(tmp_path, 'max_force_N = nan\nfoo = 1\nramp_time_s = "a"\nstale_ms = -1\n')
+    assert {p.path for p in error.value.problems} == {"max_force_N", "foo", "ramp_time_s", "stale_ms"}
+
+
+def test_a_limit_shorter_than_a_period_of_the_device_is_refused(tmp_path):
+    limits = limits_of(tmp_path, "deadline_ms = 0.5\nstale_ms = 0.7")
+    with pytest.raises(pn.ConfigurationError, match=r"deadline_ms = 0.5: a period of a stylus is longer, 0.625 ms"):
+        limits.gate_on(with_buttons(0))
+
+
 def test_a_dead_man_button_that_the_device_does_not_have_is_refused(tmp_path):
     limits = limits_of(tmp_path, "dead_man_buttons = [3]")
     assert limits.gate_on(with_buttons(3)).dead_man == 0b100
     for device, words in (
-        (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: there would never be any force"),
+        (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: it can never be held"),
         (with_buttons(0), "a stylus has no buttons"),
+        (with_buttons(1), r"dead_man_buttons = \[3\]: a stylus has 1 button:"),
         (SimulatedDevice(pn.Target([0, 5e-3, 0])), "PHANTOM Omni, simulated has 1 button:"),
     ):
         with pytest.raises(pn.ConfigurationError, match=words):
@@ -107,9 +120,9 @@ def test_the_command_line_bounds_the_force(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--max-force-N", "0"), "max_force = 0.0: must be greater than 0"),
+        (("--max-force-N", "0"), "for --max-force-N: must be greater than 0"),
         (("--limits", "nowhere.toml"), "'nowhere.toml' does not exist"),
-        (("--limits", "{buttons}"), "there would never be any force"),
+        (("--limits", "{buttons}"), "it can never be held"),
     ],
 )
 def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, words):

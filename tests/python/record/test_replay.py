@@ -9,10 +9,10 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from punctura import load_scene
+from punctura import ConfigurationError, load_scene
 from punctura._core import GateLimits
 from punctura.cli import main
-from punctura.record import RecordingError, open_recording, replay
+from punctura.record import RecordingError, export, open_recording, replay
 
 
 def test_a_minute_at_1600_hz_is_identical(start):
@@ -164,3 +164,40 @@ def test_the_command_says_what_differs(start, capsys):
     with pytest.raises(SystemExit):
         main(["replay", str(path), "--json"])
     assert json.loads(capsys.readouterr().out)["first_difference"]["tick"] == 7
+
+
+def test_a_file_that_is_damaged_inside_is_not_called_identical(start, tmp_path):
+    """One bit of a part's length: what comes after cannot be found, and it is most of the file."""
+    kept = tmp_path / "kept.parquet.part"
+    start(ticks=20_000).killed(kept)
+    data = bytearray(kept.read_bytes())
+    third = len(data) // 3
+    at = data.index(b"crc32", third) - 104
+    data[at : at + 8] = b"\xff" * 8
+    kept.write_bytes(data)
+    recording = open_recording(kept)
+    assert recording.damaged and 0 < recording.rows < 15_000
+    result = replay(kept)
+    assert result.identical and not result.complete
+    assert any("damaged" in note for note in result.notes)
+    out = tmp_path / "saved.parquet"
+    export(kept, out)
+    assert open_recording(out).damaged and not replay(out).complete
+
+
+def test_the_computed_ticks_overwrite_no_recording(start, tmp_path):
+    run = start(ticks=500).record()
+    other = tmp_path / "other.parquet"
+    shutil.copy(run.path, other)
+    before = other.read_bytes()
+    for out, words in (
+        (run.path, "is the recording itself"),
+        (other, "is a recording already"),
+        (tmp_path / "x.csv", "must end in .parquet"),
+        (tmp_path / "no" / "x.parquet", "there is no folder"),
+    ):
+        with pytest.raises(ConfigurationError, match=words):
+            replay(run.path, out)
+    with pytest.raises(ConfigurationError, match="is a recording already"):
+        export(run.path, other)
+    assert other.read_bytes() == before

@@ -203,6 +203,21 @@ TEST_CASE("a device says of itself what its library and its maker say") {
   CHECK(falcon.loop.limits().max_force == 2.5);
 }
 
+TEST_CASE("a device that cannot be read so fast ticks at the rate that it can be, and T with it") {
+  auto settings = upright();
+  settings.transfer = 0.9e-3;
+  FakeRig rig(settings);
+  CHECK(rig.device->info().rate == doctest::Approx(0.95 / 0.9e-3).epsilon(1e-6));
+  rig.push_in();
+  CHECK(rig.loop.latest().force[1] > 0.2);
+  CHECK(rig.loop.scene().servo.rate == rig.device->info().rate);
+  CHECK(rig.device->missed() <= 1);
+  const auto said = rig.device->statements();
+  CHECK(std::any_of(said.begin(), said.end(), [](const auto& s) {
+    return s == "rate 1056 Hz, the most at which it can be read, instead of 1600 Hz";
+  }));
+}
+
 TEST_CASE("force is sent in every tick, zeros too, and nothing that guards the hand is touched") {
   FakeRig rig;
   rig.start();  // not armed
@@ -213,6 +228,8 @@ TEST_CASE("force is sent in every tick, zeros too, and nothing that guards the h
   CHECK(at.force_on == 1);
   CHECK(at.last_force == 0);
   CHECK(at.touched_safety == 0);
+  CHECK(at.switched_on_by_writer ==
+        1);  // and so after what that thread does first, which may take longer than the watchdog
   CHECK(rig.device->trouble() == "");
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
+#include "punctura_runtime/backends/force_dimension/measured_rate.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::force_dimension {
@@ -46,12 +47,13 @@ void ForceDimensionDevice::open() {
     throw;
   }
   options_.device = label;  // after stop() it is this one again
-  info_.rate = std::min(options_.rate, fastest);
   id_ = connection_->id();
+  info_.rate = std::min(options_.rate, fastest);
+  if (const double measured = measured_rate(api, id_, options_.clock); measured < info_.rate) info_.rate = measured;
 }
 
 void ForceDimensionDevice::start(Tick tick) {
-  if (thread_.joinable()) return;
+  refuse_second_loop(thread_.joinable());
   if (!connection_) open();
   stop_ = finished_ = false;
   ready_.set_ahead();
@@ -68,16 +70,11 @@ void ForceDimensionDevice::start(Tick tick) {
   int status[status_size] = {};
   if (api.status(status, id_) < 0) throw DeviceError(info_.model + ": " + words_for(api, api.last_error()));
   error_at_start_ = status[status_error] != 0;
-  api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, and is harmless then
-  if (api.enable_force(1, id_) < 0)
-    throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, api.last_error()));
-  try {
-    thread_ = std::thread([this, tick] { run(tick); });
-  } catch (const std::system_error& error) {
-    silence();
-    throw DeviceError(std::string("no thread for the device's ticks: ") + error.what());
-  }
+  thread_ = ticking_thread([this, tick] { run(tick); });
   ready_.wait();
+  if (!refused_) return;
+  thread_.join();
+  throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
 }
 
 void ForceDimensionDevice::stop() noexcept {
@@ -88,7 +85,9 @@ void ForceDimensionDevice::stop() noexcept {
 
 void ForceDimensionDevice::run(Tick tick) noexcept {
   realtime_ = os::make_realtime(options_.realtime);
+  switch_on();
   ready_.reach();
+  if (refused_) return;
 
   Pacer<LoopClock> pacer(info_.rate, options_.clock);
   const std::int64_t start = options_.clock.now();
@@ -96,6 +95,16 @@ void ForceDimensionDevice::run(Tick tick) noexcept {
     missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (!one_tick(tick, static_cast<double>(options_.clock.now() - start) * 1e-9)) break;
   }
+  silence();
+  finished_ = true;
+}
+
+/// Not before locking memory, which may take longer than the device's watchdog waits for a command.
+void ForceDimensionDevice::switch_on() noexcept {
+  library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, and is harmless then
+  refused_ = library_.api.enable_force(1, id_) < 0;
+  if (!refused_) return;
+  code_ = library_.api.last_error();
   silence();
   finished_ = true;
 }

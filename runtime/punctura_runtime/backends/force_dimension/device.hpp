@@ -67,6 +67,7 @@ class ForceDimensionDevice : public Device {
   bool one_tick(Tick tick, double time) noexcept;
   bool read() noexcept;
   bool watch(double time) noexcept;
+  void switch_on() noexcept;
   void silence() noexcept;
   void fail(Trouble what, int code) noexcept;
 
@@ -79,7 +80,7 @@ class ForceDimensionDevice : public Device {
   // Of the ticking thread.
   DeviceSample sample_{};
   std::uint64_t ticks_ = 0, status_every_ = 1;
-  bool force_seen_ = false, error_at_start_ = false;
+  bool force_seen_ = false, error_at_start_ = false, refused_ = false;
 
   std::atomic<Trouble> trouble_{Trouble::none};
   std::atomic<int> code_{0};

@@ -51,8 +51,9 @@ std::vector<std::string> ForceDimensionDevice::statements() const {
   library_.api.version(&major, &minor, &release, &revision);
   all.push_back("library " + library_.path + ", version " + std::to_string(major) + "." + std::to_string(minor) + "." +
                 std::to_string(release) + "." + std::to_string(revision));
-  if (options_.rate > fastest)
-    all.push_back("rate " + rounded(fastest) + " Hz, the most its USB connection carries, instead of " +
+  if (info_.rate < options_.rate)
+    all.push_back("rate " + rounded(info_.rate) + " Hz, the most " +
+                  (info_.rate < fastest ? "at which it can be read" : "its USB connection carries") + ", instead of " +
                   rounded(options_.rate) + " Hz");
   if (!info_.has_orientation)
     all.push_back("no wrist: set direction = \"motion\" in the scene, or the needle points away from you");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/inverse/axes.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::inverse {
@@ -23,6 +24,7 @@ InverseDevice::InverseDevice(InverseOptions options) : options_(std::move(option
   info_.backend = "haply";
   info_.model = "Inverse3";
   info_.serial = service_.device().view();
+  options_.device = info_.serial;  // a later start drives this arm or none
   info_.has_orientation = service_.state().has_grip;
   info_.button_count = info_.has_orientation ? 3 : 0;
   info_.max_force = options_.max_force;
@@ -59,7 +61,7 @@ double InverseDevice::measured_rate() {
 }
 
 void InverseDevice::start(Tick tick) {
-  if (running_) return;
+  refuse_second_loop(running_);
   if (thread_.joinable()) thread_.join();  // it had ended by itself
   // A connection that has stood idle may have been closed meanwhile.
   if (!service_.is_open() || service_.exchange({0, 0, 0}, ns(1)) != Received::message) {
@@ -71,8 +73,7 @@ void InverseDevice::start(Tick tick) {
   ready_.set_ahead();
   trouble_ = Trouble::none;
   gripless_ = 0;
-  running_ = true;
-  thread_ = std::thread([this, tick] { run(tick); });
+  thread_ = ticking_thread([this, tick] { run(tick); });
   ready_.wait();
 }
 
@@ -84,6 +85,7 @@ void InverseDevice::stop() noexcept {
 
 void InverseDevice::run(Tick tick) noexcept {
   if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  running_ = true;
   ready_.reach();
 
   DeviceSample sample{0, 0, {0, 0, 0}, {0, -1, 0}, 0, true};

@@ -12,6 +12,8 @@ namespace {
 
 using State = BackendStatus::State;
 
+constexpr const char* default_name = "Default Device";
+
 std::atomic<bool> taken{false};
 
 /// A device that must not be closed, between two sessions. Guarded by `taken`.
@@ -71,15 +73,17 @@ Session::~Session() {
   take_errors(hd_);
 }
 
-void Session::open(const std::string& name) {
-  if (Kept& k = kept(); k.handle != no_device && k.hd == &hd_ && k.asked == name) {
+void Session::open(const std::string& wish) {
+  // As a device is listed that answered to no name at all.
+  const std::string name = wish == default_name ? "" : wish;
+  if (Kept& k = kept(); k.handle != no_device && k.hd == &hd_ && (k.asked == name || k.name == name)) {
     handle_ = k.handle;
     name_ = k.name;
     k.handle = no_device;
     return;
   }
   // Which of these the default device answers to differs from one driver to the next.
-  const std::array<const char*, 3> usual{nullptr, "Default Device", "Default PHANToM"};
+  const std::array<const char*, 3> usual{nullptr, default_name, "Default PHANToM"};
   const std::array<const char*, 1> wanted{name.c_str()};
   const char* const* first = name.empty() ? usual.data() : wanted.data();
   const std::size_t count = name.empty() ? usual.size() : wanted.size();
@@ -91,7 +95,7 @@ void Session::open(const std::string& name) {
     handle_ = hd_.init_device(first[i]);
     ErrorInfo error = take_errors(hd_);
     if (handle_ != no_device && error.code == success) {
-      name_ = first[i] ? first[i] : "Default Device";
+      name_ = first[i] ? first[i] : default_name;
       if (keep_) kept() = {&hd_, name, name_, no_device};
       return;
     }

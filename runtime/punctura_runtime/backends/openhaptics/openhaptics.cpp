@@ -5,6 +5,7 @@
 
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_words.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 
 namespace punctura {
 
@@ -44,7 +45,7 @@ OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
 
 void OpenHapticsDevice::start(Tick tick) {
   const std::lock_guard lock(control_);
-  if (running_) return;
+  refuse_second_loop(running_);
   tick_ = tick;
   stopping_ = ended_ = inside_ = false;
   ticks_ = 0;

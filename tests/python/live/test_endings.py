@@ -1,0 +1,165 @@
+"""Every way out of a run: the force ends, and its recording is whole."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+
+import punctura as pn
+import pytest
+from punctura._core import DeviceInfo, FedDevice, ServoLoop
+from punctura.live import SilenceWatch, run_live
+from punctura.record import open_recording
+
+SCENE = pn.load_scene("k06-fig10")
+RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+
+
+def running(path, **more):
+    """A run that records, once ticks are on the disk."""
+    command = [*RUN, "--record", str(path)]
+    process = subprocess.Popen(command, text=True, **({"stderr": subprocess.PIPE, "stdout": subprocess.PIPE} | more))
+    part = path.with_name(path.name + ".part")
+    begun = time.monotonic()
+    while not part.exists() or part.stat().st_size < 60_000:
+        assert process.poll() is None and time.monotonic() - begun < 30
+        time.sleep(0.01)
+    return process
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP"])
+def test_a_signal_ends_the_run_and_a_second_one_cuts_nothing_short(tmp_path, name):
+    path = tmp_path / "run.parquet"
+    process = running(path)
+    number = getattr(signal, name)
+    for _ in range(3):
+        process.send_signal(number)
+        time.sleep(0.02)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 128 + number
+    assert " 0 lost" in said and "leaked" not in said and "Traceback" not in said
+    assert open_recording(path).finished
+
+
+def test_another_signal_right_after_the_first_cuts_nothing_short(tmp_path):
+    path = tmp_path / "run.parquet"
+    process = running(path)
+    process.send_signal(signal.SIGHUP)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    assert process.returncode in (128 + signal.SIGHUP, 128 + signal.SIGTERM)
+    assert open_recording(path).finished
+
+
+def test_what_the_caller_ignores_does_not_end_the_run(tmp_path):
+    path = tmp_path / "run.parquet"
+    process = running(path, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    process.send_signal(signal.SIGHUP)
+    time.sleep(0.3)
+    assert process.poll() is None
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    assert process.returncode == 128 + signal.SIGTERM
+
+
+def test_a_closed_terminal_ends_the_run_and_its_recording_is_whole(tmp_path):
+    path = tmp_path / "run.parquet"
+    master, slave = pty.openpty()
+    process = running(path, stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
+    os.close(slave)
+    os.close(master)  # what is written from now on fails, as after a window was closed
+    process.send_signal(signal.SIGHUP)
+    assert process.wait(60) == 128 + signal.SIGHUP
+    assert open_recording(path).finished
+
+
+def full_disk():
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+
+
+def test_a_recording_that_lost_ticks_fails_the_command_and_is_in_its_summary(tmp_path):
+    command = [*RUN, "--record", str(tmp_path / "run.parquet"), "--duration", "2", "--json"]
+    done = subprocess.run(command, text=True, capture_output=True, timeout=90, preexec_fn=full_disk)
+    assert done.returncode == 1
+    told = json.loads(done.stdout)["recording"]
+    assert told["lost"] > 0 and not told["finished"] and told["trouble"]
+    assert f"{told['lost']} lost" in done.stderr
+
+
+class Silent:
+    """A loop on hardware of which the test says how many ticks there were."""
+
+    def __init__(self, deadline=0.02):
+        self.ticks, self.gate = 0, pn.live.GateLimits(deadline=deadline)
+        self.device = self
+
+    def report(self):
+        return {"ticks": self.ticks}
+
+    def trouble(self):
+        return "The cable is out."
+
+
+def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("punctura.live.silence.time.monotonic", lambda: now[0])
+    for deadline, longest in ((0.02, 0.1), (0.1, 0.5)):
+        loop = Silent(deadline)
+        watch = SilenceWatch(loop)
+        for _ in range(20):
+            now[0] += 0.05
+            loop.ticks += 80
+            assert watch.ceased() == ""
+        now[0] += 0.9 * longest
+        assert watch.ceased() == ""
+        now[0] += 0.2 * longest
+        assert watch.ceased().startswith("the device's ticks have ceased, for ")
+        assert watch.ceased().endswith("with the force off. The cable is out")
+
+
+def test_a_run_whose_ticks_cease_ends_with_a_fault(monkeypatch):
+    device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
+    assert run_live(device, SCENE, duration=0.3).fault == ""  # who feeds it knows
+    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
+    began = time.monotonic()
+    summary = run_live(device, SCENE, duration=60)
+    assert summary.fault.startswith("the device's ticks have ceased") and time.monotonic() - began < 30
+    assert device.feed([0, 0, 0]) == (0, 0, 0)  # no loop takes it any more
+
+
+def test_a_loop_in_a_with_block_is_stopped_however_the_block_ends():
+    device = FedDevice(rate=1600)
+    with pytest.raises(KeyError), ServoLoop(device, SCENE) as loop:
+        loop.start()
+        assert loop.running
+        raise KeyError
+    assert not loop.running
+
+
+def test_the_end_of_a_program_stops_a_loop_that_a_daemon_thread_still_holds():
+    program = """
+import atexit, threading, time
+gone = threading.Event()
+atexit.register(lambda: print("stopped" if gone.wait(20) else "runs on", flush=True))  # called last
+import punctura as pn
+from punctura.live import ServoLoop, SimulatedDevice
+
+held = threading.Event()
+def hold():
+    loop = ServoLoop(SimulatedDevice(pn.Target([0, 5e-3, 0])), pn.load_scene("k06-fig10"))
+    loop.start()
+    held.set()
+    while loop.running:
+        time.sleep(1e-3)
+    gone.set()
+threading.Thread(target=hold, daemon=True).start()
+held.wait()
+"""
+    done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "stopped\n"
