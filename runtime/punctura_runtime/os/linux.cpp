@@ -8,6 +8,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <utility>
 
 #include "punctura_runtime/os/os.hpp"
@@ -44,11 +47,45 @@ int keep_awake() {
   return result;
 }
 
-/// The first time, everything there is is brought in; from then on, a page stays from its first use on. Without that difference,
-/// each new run would bring in the gigabyte that an allocator of a library has reserved meanwhile, and never uses.
+struct Mapping {
+  std::uintptr_t begin, end;
+  bool executable;
+  std::string file;
+};
+
+/// Of files, in this process.
+std::vector<Mapping> mappings() {
+  std::vector<Mapping> all;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream words(line);
+    Mapping m{};
+    char dash;
+    std::string permissions, offset, device, inode;
+    if (words >> std::hex >> m.begin >> dash >> m.end >> permissions >> offset >> device >> inode >> m.file &&
+        permissions[0] == 'r' && m.file[0] == '/') {
+      m.executable = permissions[2] == 'x';
+      all.push_back(std::move(m));
+    }
+  }
+  return all;
+}
+
+/// Program and libraries are brought in whole: what a fault needs is on the disk otherwise, until there is one. What may be refused
+/// is so by lock_memory(), too.
+void bring_in_programs() {
+  const auto all = mappings();
+  std::set<std::string> programs;
+  for (const Mapping& m : all)
+    if (m.executable) programs.insert(m.file);
+  for (const Mapping& m : all)
+    if (programs.count(m.file) != 0) mlock(reinterpret_cast<const void*>(m.begin), m.end - m.begin);
+}
+
+/// Beside programs, a page stays from its first use on: allocators of libraries reserve a gigabyte and never use it.
 int lock_memory() {
-  static const int refused = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
-  if (refused != 0) return refused;
+  static const bool once = (bring_in_programs(), true);
+  static_cast<void>(once);
   return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
 }
 
