@@ -54,6 +54,8 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     )
     told = summary.to_dict() | ({"recording": tape.status.to_dict()} if tape.status else {})
     typer.echo(json.dumps(told, indent=2) if as_json else in_words(summary))
+    if summary.state == "waiting" and wishes.limits.gate.get("dead_man"):
+        say("punctura: note: no force at the end: the dead-man button was not held, or the tip was not in front")
     if summary.fault:
         say(f"punctura: {summary.fault}")
     if summary.fault or not tape.whole:
@@ -113,5 +115,5 @@ def in_words(summary: RunSummary) -> str:
         f"  strongest force {summary.strongest_N:.3g} N, limited in {summary.limited_ticks} ticks",
     ]
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
-        lines.append(f"  {name}: {depth * 1e3:.3g} mm deep")
+        lines.append(f"  {name}: {depth * 1e3:.3g} mm deep" if depth > 0 else f"  {name}: not reached")
     return "\n".join(lines + [f"  {text}" for text in summary.statements])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -26,6 +27,12 @@ def command(
     ),
 ) -> None:
     """Asks for one pose, and writes the placement that `punctura run --placement` takes. No force is given."""
+    if device.startswith("replay:"):
+        raise typer.BadParameter("a recorded motion is held by nobody", param_hint="--device")
+    if not out.parent.is_dir() or out.is_dir():
+        raise typer.BadParameter(f"{out} cannot be written: no such folder, or a folder itself", param_hint="--out")
+    if not math.isfinite(tip_offset_mm):
+        raise typer.BadParameter("must be a finite number", param_hint="--tip-offset-mm")
     loaded = load_scene(scene)
     try:
         opened = open_for(loaded, device)

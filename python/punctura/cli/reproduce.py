@@ -20,7 +20,7 @@ def command(
     ),
     as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
 ) -> None:
-    """K06 Figs. 3, 5, 10, 11 and 12 as PNG, SVG and CSV, and one page that shows them."""
+    """Figures 3, 5, 10, 11 and 12 of K06 as PNG, SVG and CSV, and one page that shows them."""
     from punctura.reproduce import reproduce  # it needs the drawing library, which the other verbs need not wait for
 
     with progress_bar("reproduce") as tell:

@@ -123,6 +123,9 @@ def test_the_command_line_bounds_the_force(tmp_path):
         (("--max-force-N", "0"), "for --max-force-N: must be greater than 0"),
         (("--limits", "nowhere.toml"), "'nowhere.toml' does not exist"),
         (("--limits", "{buttons}"), "it can never be held"),
+        (("--port", "8080"), "--headless has none"),
+        (("--device", "simulated:another"), "one simulated device only"),
+        (("--device", "replay:x.parquet", "--placement", "{buttons}"), "stand in the scene already"),
     ],
 )
 def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, words):

@@ -127,3 +127,18 @@ def test_place_writes_what_run_takes(tmp_path):
     # The simulated hand rests 5 mm above the surface, pointing in: it is taken 15 mm higher, and not turned.
     assert placement.offset[1] == pytest.approx(15e-3, abs=1e-3)
     assert placement.rotation == pytest.approx((1, 0, 0, 0))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--device", "replay:x.parquet"), "held by nobody"),
+        (("--out", "nowhere/p.toml"), "cannot be written"),
+        (("--tip-offset-mm", "nan"), "finite"),
+    ],
+)
+def test_place_says_what_cannot_be_before_anybody_holds_anything(arguments, words):
+    command = [sys.executable, "-m", "punctura.cli", "place", "--device", "simulated", *arguments]
+    done = subprocess.run(command, input="\n", capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and words in " ".join(done.stderr.split())
+    assert "Hold the stylus" not in done.stdout

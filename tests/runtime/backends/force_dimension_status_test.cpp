@@ -49,6 +49,7 @@ TEST_CASE("a library that is not there: where it was looked for, and what to do"
 TEST_CASE("without an override the library is looked for in the SDK, then elsewhere, the robotics library first") {
   const Environment sdk("FDSDK", "/opt/sdk-of-nobody");
   const auto names = force_dimension::candidates();
+  CHECK(force_dimension::searched_folders().front().find("sdk-of-nobody") != std::string::npos);
   const auto first = [&](const char* what) {
     return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.find(what) != std::string::npos; });
   };

@@ -73,10 +73,15 @@ void resolve(Loaded& loaded, const os::Library& library) {
 
 /// What was tried, and what the system said of the files that are there and yet do not open.
 std::string not_found(const std::vector<std::string>& names, const std::string& complaints, bool named) {
-  std::string tried;
-  for (const auto& name : names) tried += (tried.empty() ? "" : ", ") + name;
+  const auto joined = [](const std::vector<std::string>& all) {
+    std::string text;
+    for (const auto& one : all) text += (text.empty() ? "" : ", ") + one;
+    return text;
+  };
+  const std::string tried = joined(names);
   std::string text = named ? "The library named for Force Dimension's devices does not open: " + tried + "."
-                           : "Force Dimension's library was not found; tried: " + tried + ".";
+                           : "Force Dimension's library was not found; tried: " + tried +
+                                 ", and looked for files of such names in " + joined(searched_folders()) + ".";
   if (!complaints.empty()) text += " The system says: " + complaints + ".";
   return text + (named ? " Name another one" : " Install Force Dimension's SDK and libusb-1.0, or name the library") +
          " with " + override_name + "=/path/to/library.";

@@ -24,5 +24,7 @@ Loaded load(const std::string& path = {});
 
 /// The files and names that are tried, in this order.
 std::vector<std::string> candidates();
+/// The folders in which files of such names are looked for, whether they exist or not.
+std::vector<std::string> searched_folders();
 
 }  // namespace punctura::force_dimension

@@ -80,6 +80,12 @@ Places places() {
 
 }  // namespace
 
+std::vector<std::string> searched_folders() {
+  std::vector<std::string> all;
+  for (const auto& folder : places().folders) all.push_back(folder.string());
+  return all;
+}
+
 std::vector<std::string> candidates() {
 #if defined(_WIN32)
   const std::string stem;
