@@ -27,7 +27,7 @@ def save_finished(
 ) -> None:
     """Parquet from what a growing file holds. Constant memory."""
     summary = part.survey.to_dict()
-    summary["notes"] = part.notes
+    summary |= {"notes": part.notes, "damaged": part.damaged}
     lost = more.get("lost", {})
     summary["lost"] = max(summary["lost"], sum(lost.values()))
     with parquet_output(path, part.schema, part.info.data | {"summary": summary} | more) as output:

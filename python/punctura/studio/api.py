@@ -81,6 +81,15 @@ class Api:
         if kind not in FORMATS:
             return _sentence(400, f"There is {', '.join(FORMATS)}.")
         path = self._shelf.find(name)
+        try:
+            return self._file(path, name, kind)
+        except (RecordingError, OSError):
+            finished = self._shelf.find(name)
+            if finished == path:
+                raise
+            return self._file(finished, name, kind)  # it has been made whole while it was being read
+
+    def _file(self, path: Path, name: str, kind: str) -> Response:
         if kind == "parquet" and path.suffix == SUFFIX:
             return FileResponse(path, media_type=FORMATS[kind], filename=path.name)
         if not self._exporting.acquire(blocking=False):

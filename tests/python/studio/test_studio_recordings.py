@@ -185,3 +185,20 @@ def test_who_comes_during_an_exercise_is_told_of_it(served, page):
     with StudioClient(served.address.url) as other:
         other.wait(lambda: any(e["running"] for e in other.of("exercise")))
         assert other.of("scene")[0]["scene"]["name"] == "Venipuncture"
+
+
+@pytest.mark.parametrize("kind", ["parquet", "csv"])
+def test_a_recording_that_is_made_whole_while_it_is_downloaded_comes_all_the_same(served, page, monkeypatch, kind):
+    record(page, "one", edit=False)
+    shelf = served.session.shelf
+    find, asked = shelf.find, []
+
+    def just_before(name):
+        asked.append(name)
+        path = find(name)
+        return path.with_name(f"{path.name}.part") if len(asked) == 1 else path
+
+    monkeypatch.setattr(shelf, "find", just_before)
+    status, body = page.get(f"/api/recordings/one/download?format={kind}")
+    assert (status, len(asked)) == (200, 2)
+    assert len(body) > 10_000
