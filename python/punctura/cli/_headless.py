@@ -56,8 +56,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     typer.echo(json.dumps(told, indent=2) if as_json else in_words(summary))
     if summary.state == "waiting" and wishes.limits.gate.get("dead_man"):
         say("punctura: note: no force at the end: the dead-man button was not held, or the tip was not in front")
-    if summary.fault:
-        say(f"punctura: {summary.fault}")
+    tape.tell_fault(summary.fault)
     if summary.fault or not tape.whole:
         raise typer.Exit(FAILED)
 
@@ -68,6 +67,7 @@ class Tape:
     def __init__(self, path: Path | None) -> None:
         self.status: RecorderStatus | None = None  # how it ended
         self._path, self._line = path, StatusLine()
+        self._fault = ""  # that was told
         self._recorder: Recorder | None = None
 
     def begin(self, loop: ServoLoop) -> Callable[[], None]:
@@ -79,6 +79,14 @@ class Tape:
     def watch(self, summary: RunSummary) -> None:
         status = self._recorder.status() if self._recorder else None
         self._line(summary, "" if status is None else status.trouble)
+        self.tell_fault(summary.fault)
+
+    def tell_fault(self, fault: str) -> None:
+        """At once, and once: a call of the maker's that never returns would hold up the end of the run."""
+        if fault and not self._fault:
+            self._fault = fault
+            self._line.end()
+            say(f"punctura: {fault}")
 
     @property
     def whole(self) -> bool:

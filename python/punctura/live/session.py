@@ -49,6 +49,8 @@ def run_live(
                 time.sleep(left)
                 summary.add(listener.read())
                 summary.fault = summary.fault or silence.ceased()
+                if summary.fault:
+                    summary.blame(device)
                 if watch:
                     watch(summary)
         finally:

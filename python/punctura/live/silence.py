@@ -30,5 +30,6 @@ class SilenceWatch:
             return ""
         if now - self._since < self._longest:
             return ""
-        words = f"the device's ticks have ceased, for {now - self._since:.1f} s: the run is stopped, with the force off"
-        return f"{words}. {self._loop.device.trouble()}".rstrip(". ")
+        words = f"the device's ticks have ceased, for {now - self._since:.1f} s, and the run is stopped"
+        advice = "should the device still pull, switch it off"
+        return f"{words}: {advice}. {self._loop.device.trouble()}".rstrip(". ")

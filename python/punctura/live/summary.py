@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from punctura import Phase, Scene
-from punctura._core import Fault, ServoLoop, ServoState, describe
+from punctura._core import Device, Fault, ServoLoop, ServoState, describe
 
 Columns = dict[str, Any]
 
@@ -75,7 +75,12 @@ class RunSummary:
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
         self.statements = loop.device.statements()
-        if trouble := loop.device.trouble():
+        self.blame(loop.device)
+
+    def blame(self, device: Device) -> None:
+        """What the device has to say of a fault, or of trouble that no tick has told."""
+        trouble = device.trouble()
+        if trouble.rstrip(". ") not in self.fault:
             self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
 
     def to_dict(self) -> dict[str, Any]:

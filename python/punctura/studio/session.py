@@ -195,8 +195,9 @@ class Session:
     def _end_silence(self) -> None:
         """A device without ticks keeps its last force: the run is stopped, which takes it away."""
         if self.run.loop.running and (words := self._silence.ceased()):
-            self.end_run()
+            # Told first: a call of the maker's that never returns would hold up the stop as well.
             self.out.say(FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0))
+            self.end_run()
 
     def _say_scene(self, new_run: bool) -> None:
         view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())

@@ -119,7 +119,7 @@ def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
         assert watch.ceased() == ""
         now[0] += 0.2 * longest
         assert watch.ceased().startswith("the device's ticks have ceased, for ")
-        assert watch.ceased().endswith("with the force off. The cable is out")
+        assert watch.ceased().endswith("still pull, switch it off. The cable is out")
 
 
 def test_a_run_whose_ticks_cease_ends_with_a_fault(monkeypatch):
