@@ -33,7 +33,12 @@ class StudioProcess:
         home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
         self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "said.txt").open("w+")
         self._process = subprocess.Popen(
-            command, stdout=self._out, stderr=self._errors, env={**os.environ, **home}, cwd=folder
+            command,
+            stdout=self._out,
+            stderr=self._errors,
+            env={**os.environ, **home},
+            cwd=folder,
+            preexec_fn=_heed_interrupts if os.name == "posix" else None,
         )
         self.url, self.port = self._address()
 
@@ -73,6 +78,11 @@ class StudioProcess:
         self.end()
         self._out.close()
         self._errors.close()
+
+
+def _heed_interrupts() -> None:
+    """As in a terminal, also where a script has started this one in the background."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _whole(file: TextIO) -> str:

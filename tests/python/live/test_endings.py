@@ -10,6 +10,7 @@ import time
 
 import punctura as pn
 import pytest
+from heed import heed_signals
 from punctura._core import DeviceInfo, FedDevice, ServoLoop
 from punctura.live import SilenceWatch, run_live
 from punctura.record import open_recording
@@ -21,7 +22,11 @@ RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "s
 def running(path, **more):
     """A run that records, once ticks are on the disk."""
     command = [*RUN, "--record", str(path)]
-    process = subprocess.Popen(command, text=True, **({"stderr": subprocess.PIPE, "stdout": subprocess.PIPE} | more))
+    process = subprocess.Popen(
+        command,
+        text=True,
+        **({"stderr": subprocess.PIPE, "stdout": subprocess.PIPE, "preexec_fn": heed_signals} | more),
+    )
     part = path.with_name(path.name + ".part")
     begun = time.monotonic()
     while not part.exists() or part.stat().st_size < 60_000:
@@ -54,9 +59,14 @@ def test_another_signal_right_after_the_first_cuts_nothing_short(tmp_path):
     assert open_recording(path).finished
 
 
+def ignore_hangup():
+    heed_signals()
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
 def test_what_the_caller_ignores_does_not_end_the_run(tmp_path):
     path = tmp_path / "run.parquet"
-    process = running(path, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    process = running(path, preexec_fn=ignore_hangup)
     process.send_signal(signal.SIGHUP)
     time.sleep(0.3)
     assert process.poll() is None

@@ -10,6 +10,7 @@ import time
 import numpy as np
 import punctura as pn
 import pytest
+from heed import heed_signals
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 
@@ -180,9 +181,10 @@ def test_an_unknown_device_is_a_usage_error():
 @pytest.mark.skipif(os.name != "posix", reason="sends signals")
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
 def test_a_signal_ends_the_run_with_the_force_off(name):
-    heed = lambda: [signal.signal(s, signal.SIG_DFL) for s in (signal.SIGINT, signal.SIGHUP)]  # noqa: E731
     command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--scene-filter"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed)
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed_signals
+    )
     assert (
         process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated, at most 3.3 N; Ctrl-C ends it\n"
     )

@@ -10,6 +10,7 @@ import sys
 import time
 
 import pytest
+from heed import heed_signals
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
@@ -22,18 +23,13 @@ def start(tmp_path, *more, **environment):
     (tmp_path / "page" / "index.html").write_text("<!doctype html>")
     command = [sys.executable, "-m", "punctura.cli", "run", "k06-fig10", "--no-browser", "--device", "simulated"]
     command += ["--page", str(tmp_path / "page"), "--recordings", str(tmp_path / "kept"), *more]
-    heed = (
-        (lambda: [signal.signal(s, signal.SIG_DFL) for s in (signal.SIGINT, signal.SIGHUP)])
-        if os.name == "posix"
-        else None
-    )
     return subprocess.Popen(
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, **environment},
-        preexec_fn=heed,
+        preexec_fn=heed_signals if os.name == "posix" else None,
     )
 
 
