@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -105,8 +107,13 @@ class Tape:
 
 def say(text: str) -> None:
     """To who watches, if the terminal is still there."""
-    with suppress(OSError):
+    try:
         typer.echo(text, err=True)
+    except OSError:  # what waits in the streams would fail at the very end, and change the exit status
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                os.dup2(nowhere, stream.fileno())
 
 
 def begun(scene: str, loop: ServoLoop, device: Device) -> str:

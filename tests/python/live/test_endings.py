@@ -78,7 +78,8 @@ def test_what_the_caller_ignores_does_not_end_the_run(tmp_path):
 def test_a_closed_terminal_ends_the_run_and_its_recording_is_whole(tmp_path):
     path = tmp_path / "run.parquet"
     master, slave = pty.openpty()
-    process = running(path, stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    process = running(path, stdin=slave, stdout=slave, stderr=slave, start_new_session=True, env=buffered)
     os.close(slave)
     os.close(master)  # what is written from now on fails, as after a window was closed
     process.send_signal(signal.SIGHUP)
