@@ -6,15 +6,20 @@ from punctura._core import ServoLoop
 from punctura.record import Recorder
 
 
+def run_to_end(loop):
+    """Armed, started, and stopped once its device has ended by itself."""
+    loop.arm()
+    loop.start()
+    deadline = time.monotonic() + 120
+    while not loop.device.finished:
+        assert time.monotonic() < deadline, "waited in vain"
+        time.sleep(1e-3)
+    loop.stop()
+
+
 def recorded(path, device, scene, ticks):
     """Every tick of an armed loop, in `path`."""
     loop = ServoLoop(device, scene)
     with Recorder(loop, path, ticks):
-        loop.arm()
-        loop.start()
-        deadline = time.monotonic() + 120
-        while not device.finished:
-            assert time.monotonic() < deadline, "waited in vain"
-            time.sleep(1e-3)
-        loop.stop()
+        run_to_end(loop)
     return path

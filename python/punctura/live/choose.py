@@ -24,9 +24,9 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
     if not name:
         there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
         backend = there[0] if there else "simulated"
-    if backend == "simulated" and device:
-        raise DeviceError(f"there is one simulated device only, and none of the name {device!r}: simulated")
     if backend == "simulated":
+        if device:
+            raise DeviceError(f"there is one simulated device only, and none of the name {device!r}: simulated")
         axis = scene.membranes[0].inward_normal
         return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
     if backend not in states:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -13,19 +12,14 @@ from punctura._core import DeviceError, GateLimits, ReplayDevice, ServoLoop
 from punctura.cli import main
 from punctura.live import fit_conditioning, open_for, run_live
 from punctura.record import RecordingError, open_recording, replay_device
+from recorded import run_to_end
 
 
 def snapshots(device, scene, gate=None):
     """Every tick of an armed loop on a device that ends by itself."""
     loop = ServoLoop(device, scene, gate or GateLimits())
     listener = loop.listen(len(device))
-    loop.arm()
-    loop.start()
-    deadline = time.monotonic() + 120
-    while not device.finished:
-        assert time.monotonic() < deadline, "waited in vain"
-        time.sleep(1e-3)
-    loop.stop()
+    run_to_end(loop)
     return listener.read(len(device))
 
 

@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -81,38 +82,37 @@ def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
     page.wait(lambda: page.last.run > before)
 
 
-def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 0.1)
+@contextmanager
+def playing(folder):
+    """A studio on a recorded motion, and its page."""
     scene = load_scene("k06-fig10")
     device = SimulatedDevice(strokes_through(scene, 1, 0.5), real_time=False, ticks=1200)
-    settings = Settings(device=f"replay:{recorded(tmp_path / 'motion.parquet', device, scene, 1200)}")
-    server = StudioServer(from_name("k06-fig10"), settings, page=tmp_path, folder=tmp_path / "kept")
+    settings = Settings(device=f"replay:{recorded(folder / 'motion.parquet', device, scene, 1200)}")
+    server = StudioServer(from_name("k06-fig10"), settings, page=folder, folder=folder / "kept")
     server.start()
     try:
         with StudioClient(server.address.url) as page:
-            page.wait(lambda: page.last)
-            assert "recorded" in page.of("hello")[0]["device"]["model"]
-            assert not page.ask(do="strokes", period=2.0)["ok"]
-            page.wait(lambda: page.last.run >= 2)
+            yield server, page
     finally:
         server.stop()
+
+
+def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 0.1)
+    with playing(tmp_path) as (_, page):
+        page.wait(lambda: page.last)
+        assert "recorded" in page.of("hello")[0]["device"]["model"]
+        assert not page.ask(do="strokes", period=2.0)["ok"]
+        page.wait(lambda: page.last.run >= 2)
 
 
 def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())  # as hardware, whose driver calls no more
     monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 1e9)
-    scene = load_scene("k06-fig10")
-    device = SimulatedDevice(strokes_through(scene, 1, 0.5), real_time=False, ticks=1200)
-    settings = Settings(device=f"replay:{recorded(tmp_path / 'motion.parquet', device, scene, 1200)}")
-    server = StudioServer(from_name("k06-fig10"), settings, page=tmp_path, folder=tmp_path / "kept")
-    server.start()
-    try:
-        with StudioClient(server.address.url) as page:
-            told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])[-1]
-            assert told["trouble"].startswith("the device's ticks have ceased")
-            assert not server.session.run.loop.running
-            run = server.session.run.number
-            assert page.ask(do="reset")["ok"]
-            page.wait(lambda: page.last and page.last.run == run + 1)
-    finally:
-        server.stop()
+    with playing(tmp_path) as (server, page):
+        told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])[-1]
+        assert told["trouble"].startswith("the device's ticks have ceased")
+        page.wait(lambda: not server.session.run.loop.running)  # it is told before it is stopped
+        run = server.session.run.number
+        assert page.ask(do="reset")["ok"]
+        page.wait(lambda: page.last and page.last.run == run + 1)
