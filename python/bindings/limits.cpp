@@ -26,27 +26,34 @@ void bind_limits(nb::module_& m) {
       .value("active", ServoState::active, "Forces go out, ramped in at first.")
       .value("faulted", ServoState::faulted, "A fault is latched, the force is zero.");
 
+  nb::enum_<Limit>(m, "Limit", nb::is_arithmetic(),
+                   "The limit that makes the force of a tick smaller than the model's.")
+      .value("none", Limit::none, "The whole force goes out.")
+      .value("ramp", Limit::ramp, "The force still grows after arming.")
+      .value("peak", Limit::peak, "max_force.")
+      .value("continuous", Limit::continuous, "continuous_force: the budget is used up.")
+      .value("temperature", Limit::temperature, "The device reports warm motors.");
+
   const GateLimits gate;
   auto gate_class =
       nb::class_<GateLimits>(m, "GateLimits", "What a sample must fulfil before the model sees it.")
           .def(
               "__init__",
-              [](GateLimits* self, double jump, double stale, double deadline, double axis, std::uint32_t dead_man) {
-                const GateLimits made{jump, stale, deadline, axis, dead_man};
+              [](GateLimits* self, double speed, double stale, double deadline, double axis, std::uint32_t dead_man) {
+                const GateLimits made{speed, stale, deadline, axis, dead_man};
                 raise_if(check(made, ForceLimits{}));
                 new (self) GateLimits(made);
               },
-              nb::arg("position_jump") = gate.position_jump, nb::arg("stale") = gate.stale,
-              nb::arg("deadline") = gate.deadline, nb::arg("axis_tolerance") = gate.axis_tolerance,
-              nb::arg("dead_man") = gate.dead_man,
-              "position_jump: m from one reading to the next. stale: s without a new reading. deadline: s between ticks.\n"
+              nb::arg("max_speed") = gate.max_speed, nb::arg("stale") = gate.stale, nb::arg("deadline") = gate.deadline,
+              nb::arg("axis_tolerance") = gate.axis_tolerance, nb::arg("dead_man") = gate.dead_man,
+              "max_speed: m/s from one reading to the next. stale: s without a new reading. deadline: s between ticks.\n"
               "axis_tolerance: of the axis' length from 1. dead_man: buttons (bits) of which one must be held; 0 is none.")
-          .def_ro("position_jump", &GateLimits::position_jump, "m")
+          .def_ro("max_speed", &GateLimits::max_speed, "m/s")
           .def_ro("stale", &GateLimits::stale, "s")
           .def_ro("deadline", &GateLimits::deadline, "s")
           .def_ro("axis_tolerance", &GateLimits::axis_tolerance)
           .def_ro("dead_man", &GateLimits::dead_man);
-  def_value(gate_class, {"position_jump", "stale", "deadline", "axis_tolerance", "dead_man"});
+  def_value(gate_class, {"max_speed", "stale", "deadline", "axis_tolerance", "dead_man"});
 
   const ForceLimits limits;
   auto limits_class =
@@ -61,7 +68,7 @@ void bind_limits(nb::module_& m) {
               nb::arg("max_force") = limits.max_force, nb::arg("continuous_force") = limits.continuous_force,
               nb::arg("continuous_time") = limits.continuous_time, nb::arg("ramp_time") = limits.ramp_time,
               nb::arg("warm_motor") = limits.warm_motor,
-              "max_force: N, norm. continuous_force: N rms over continuous_time (s). ramp_time: s from none to full force.\n"
+              "max_force: N, norm. continuous_force: N rms in any continuous_time (s). ramp_time: s from none to full force.\n"
               "warm_motor: motor temperature (0 to 1) above which the force comes down, to none at 1.")
           .def_ro("max_force", &ForceLimits::max_force, "N")
           .def_ro("continuous_force", &ForceLimits::continuous_force, "N rms")

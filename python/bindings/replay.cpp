@@ -36,8 +36,10 @@ std::string compiler() {
 /// A servo step that is given what another one was given, in the order in which the loop gives it.
 class Replay {
  public:
-  Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits)
-      : rate_(scene.servo.rate), gate_(gate), limits_(limits), step_(built(scene)) {}
+  Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent)
+      : rate_(scene.servo.rate), gate_(gate), limits_(limits), step_(built(scene)) {
+    step_->set_spent(spent);
+  }
 
   nb::dict run(const Scalars<std::uint64_t>& sequence, const Scalars<double>& time, const Triples& position,
                const Triples& axis, const Scalars<std::uint32_t>& buttons, const Scalars<std::uint8_t>& healthy,
@@ -104,12 +106,13 @@ void bind_replay(nb::module_& m) {
   nb::class_<Replay>(m, "Replay", "The servo step of a loop, given again what it was given.")
       .def(
           "__init__",
-          [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits) {
+          [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent) {
             raise_if(check(scene));
-            new (self) Replay(scene, gate, limits);
+            new (self) Replay(scene, gate, limits, spent);
           },
-          nb::arg("scene"), nb::arg("gate"), nb::arg("limits"),
-          "scene: at the device's rate. Starts as a loop does before its first tick.")
+          nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0,
+          "scene: at the device's rate. spent: what the motors had given before, N^2 s. Starts as a loop does before its\n"
+          "first tick.")
       .def(
           "run", &Replay::run, nb::arg("sequence"), nb::arg("time"), nb::arg("position"), nb::arg("axis"),
           nb::arg("buttons"), nb::arg("healthy"), nb::arg("motor_temperature"), nb::arg("commands"), nb::arg("scenes"),

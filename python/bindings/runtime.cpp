@@ -67,7 +67,8 @@ nb::dict as_columns(const std::vector<Snapshot>& snapshots) {
 constexpr const char* columns_doc =
     "A dict of arrays, one row a tick: tick, sequence, time (s), position and axis (n, 3), buttons, healthy, motor_temperature,\n"
     "tip, model_force, force (n, 3), ceiling (N), peak_limited, continuous_limited, temperature_limited, ramp_limited (counts so\n"
-    "far), state, fault, commands; of each membrane depth, axial_force, lower, upper, phase (n, m), proxy, direction (n, m, 3).";
+    "far), state, fault, limit (what cut this tick's force), commands; of each membrane depth, axial_force, lower, upper,\n"
+    "phase (n, m), proxy, direction (n, m, 3).";
 
 }  // namespace
 
@@ -76,6 +77,11 @@ void bind_runtime(nb::module_& m) {
 
   nb::class_<Device>(m, "Device", "An open haptic device. It calls the tick from a thread of its own.")
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
+      .def_prop_rw(
+          "spent", [](const Device& d) { return d.exertion.spent; },
+          [](Device& d, double spent) { d.exertion = {spent, unknown}; },
+          "What its motors had given at the end of the last run and not recovered from, N^2 s. The next run goes on with\n"
+          "it: the limit on continuous force holds across runs. Set it where one device object takes another's place.")
       .def("trouble", &Device::trouble, "What went wrong, in words; empty if nothing did.")
       .def("statements", &Device::statements, "What its user should know of how it runs. After the loop's start.");
 
@@ -181,6 +187,7 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "As it runs, at the device's rate.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
+      .def_prop_ro("spent", &ServoLoop::spent, "What the device's motors have given before the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy, "As they act, with the device's ratings.")
       .def(
           "report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),

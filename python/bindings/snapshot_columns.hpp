@@ -14,8 +14,8 @@ class SnapshotColumns {
  public:
   void reserve(std::size_t n) { rows_.reserve(n); }
   void add(const Snapshot& s) {
-    rows_.push_back({s.tick, s.sample, s.tip, s.model_force, s.force, s.ceiling, s.limits, s.state, s.fault, s.commands,
-                     membranes_.size(), s.membrane_count});
+    rows_.push_back({s.tick, s.sample, s.tip, s.model_force, s.force, s.ceiling, s.limits, s.state, s.fault, s.limit,
+                     s.commands, membranes_.size(), s.membrane_count});
     membranes_.insert(membranes_.end(), s.membranes.begin(), s.membranes.begin() + s.membrane_count);
     most_ = std::max<std::size_t>(most_, s.membrane_count);
   }
@@ -42,6 +42,7 @@ class SnapshotColumns {
     column<std::uint64_t>(d, "ramp_limited", [](const Row& r) { return r.limits.ramp; });
     column<std::uint8_t>(d, "state", [](const Row& r) { return static_cast<std::uint8_t>(r.state); });
     column<std::uint8_t>(d, "fault", [](const Row& r) { return static_cast<std::uint8_t>(r.fault); });
+    column<std::uint8_t>(d, "limit", [](const Row& r) { return static_cast<std::uint8_t>(r.limit); });
     column<std::uint32_t>(d, "commands", [](const Row& r) { return r.commands; });
     membrane<double>(d, "depth", nan, [](const MembraneRecord& m) { return m.depth; });
     membrane<double>(d, "axial_force", nan, [](const MembraneRecord& m) { return m.axial_force; });
@@ -62,6 +63,7 @@ class SnapshotColumns {
     LimitCounters limits;
     ServoState state;
     Fault fault;
+    Limit limit;
     std::uint32_t commands;
     std::size_t first_membrane;
     std::uint32_t membrane_count;

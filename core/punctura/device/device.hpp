@@ -30,6 +30,12 @@ class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What the motors of a device have given lately: runs come and go, and the motors stay warm.
+struct Exertion {
+  double spent = 0;       ///< N^2 s, see ForceBudget::spent
+  double time = unknown;  ///< s, on the clock of the loop that was stopped then; NaN: no time counts as rest
+};
+
 /// What a device calls once per reading: a reading in, the force for the device out (N). It never throws and never waits.
 struct Tick {
   using Force = std::array<double, 3>;
@@ -61,6 +67,9 @@ class Device {
 
   /// What its user should know of how it runs: priorities granted and refused, rates, labels. Valid after start().
   virtual std::vector<std::string> statements() const { return {}; }
+
+  /// Read and written by the loops that run on the device, while it does not tick.
+  Exertion exertion{};
 };
 
 }  // namespace punctura

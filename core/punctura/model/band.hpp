@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "punctura/model/finite_math.hpp"
+
 namespace punctura {
 
 /// [Phi_I, Phi_O] at one depth, N. Positive forces push the needle out. K06 (12), (16).

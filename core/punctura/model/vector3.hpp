@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "punctura/model/finite_math.hpp"
+
 namespace punctura {
 
 template <typename Scalar>

@@ -54,12 +54,14 @@ class BasicInsertion {
     force_.setZero();
   }
 
-  /// Goes on from where another insertion of the same period is, which loses its history. Takes no memory.
+  /// Goes on from where another insertion of the same period is, which loses its history. Each membrane goes on from the
+  /// one in the same place, whatever its number; a membrane in a new place starts afresh. Takes no memory.
   void resume(BasicInsertion& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
-    for (std::size_t i = 0; i < std::min(proxies_.size(), previous.proxies_.size()); ++i)
-      proxies_[i].resume(previous.proxies_[i]);
+    for (Proxy& proxy : proxies_)
+      for (Proxy& other : previous.proxies_)
+        if (proxy.resume(other)) break;
   }
 
   /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).

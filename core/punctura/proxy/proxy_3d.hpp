@@ -1,6 +1,8 @@
 // K06 section 3.2: one proxy, one membrane, in space.
 #pragma once
 
+#include <limits>
+
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/coupling.hpp"
 #include "punctura/proxy/exact_friction.hpp"
@@ -35,10 +37,11 @@ class Proxy3d {
     axial_force_ = 0;
   }
 
-  /// Goes on from where another proxy is in the same place, under its own law and coupling. A membrane in another place is a new
-  /// one: it starts afresh.
-  void resume(const Proxy3d& previous) noexcept {
-    if (previous.a_ != a_ || previous.n_ != n_) return;
+  /// Goes on from where another proxy is, under its own law and coupling. False, with nothing changed, where that one is
+  /// at another membrane: a_ and n_ tell. Else it loses its place, so that no second proxy goes on from it.
+  bool resume(Proxy3d& previous) noexcept {
+    if (previous.a_ != a_ || previous.n_ != n_) return false;
+    previous.a_.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
     started_ = previous.started_;
     contact_ = previous.contact_;
     phase_ = previous.phase_;
@@ -48,6 +51,7 @@ class Proxy3d {
     b_ = previous.b_;
     cos_beta_ = previous.cos_beta_;
     if (contact_ == Contact::inside) law_.set_obliquity(cos_beta_);
+    return true;
   }
 
   /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41).

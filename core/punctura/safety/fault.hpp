@@ -10,7 +10,7 @@ enum class Fault : std::uint8_t {
   none,
   non_finite_input,  ///< the device reported NaN or infinity
   bad_axis,          ///< the reported needle direction is not of length 1
-  position_jump,     ///< the position moved farther in one tick than a hand can
+  position_jump,     ///< the position moved faster than a hand can
   stale_sample,      ///< the device repeated the same sample for too long
   missed_deadline,   ///< the tick came too late
   clock,             ///< time went back
@@ -27,7 +27,7 @@ constexpr const char* describe(Fault fault) noexcept {
     case Fault::bad_axis:
       return "the device reported a needle direction that is not of length 1: check its orientation sensors, or set direction = \"motion\" in the scene";
     case Fault::position_jump:
-      return "the device moved farther in one tick than a hand can: calibrate it, then reset with the tip outside tissue";
+      return "the device's position moved faster than a hand can: check its cable, calibrate it, then reset with the tip outside tissue";
     case Fault::stale_sample: return "the device sent no new sample in time: check its connection, then reset";
     case Fault::missed_deadline: return "a tick came too late: close programs that keep the processor busy, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";

@@ -1,4 +1,4 @@
-// What leaves for the device is bounded here, and every bound that acts is counted.
+// What leaves for the device is bounded here. Every bound that acts is counted and named.
 #pragma once
 
 #include <algorithm>
@@ -6,15 +6,25 @@
 #include <cstdint>
 
 #include "punctura/model/vector3.hpp"
+#include "punctura/safety/force_budget.hpp"
 
 namespace punctura {
 
 struct ForceLimits {
   double max_force = 3.3;          ///< N, norm. A PHANTOM Omni's peak, by its maker's data sheet
-  double continuous_force = 0.88;  ///< N rms over continuous_time. The Omni's rating, by its maker's data sheet
+  double continuous_force = 0.88;  ///< N rms in any continuous_time. The Omni's rating, by its maker's data sheet
   double continuous_time = 10;     ///< s. A choice: no data sheet gives the motors' thermal time constant
   double ramp_time = 0.5;          ///< s from zero to full force after arming
   double warm_motor = 0.8;         ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
+};
+
+/// The limit that makes the force of a tick smaller than the model's.
+enum class Limit : std::uint8_t {
+  none,         ///< the whole force goes out
+  ramp,         ///< the force still grows after arming
+  peak,         ///< max_force
+  continuous,   ///< continuous_force: the budget is used up
+  temperature,  ///< the device reports warm motors
 };
 
 /// How often each limit has acted, in ticks.
@@ -24,14 +34,17 @@ struct LimitCounters {
 
 /// Clamp by norm (never per axis: that would turn the force), budget for continuous force, ramp in.
 ///
-/// The budget is the mean square of the force given out, averaged exponentially over continuous_time. From 80 % of the
-/// permitted mean square on, the ceiling goes from max_force down to continuous_force, which it reaches at 100 %: the mean
-/// can never exceed the rating, and the ceiling moves over seconds. There is no limit on the rate of change: the pop is
-/// an intended step.
+/// While more than half of the budget is left, the ceiling is max_force. Then it comes down evenly, to the force that may
+/// be given without end. It comes up again only while the force is below that, so a force that a limit holds never rises
+/// by itself. There is no limit on the rate of change: the pop is an intended step.
 class ForceLimiter {
  public:
   ForceLimiter(const ForceLimits& limits, double period) noexcept
-      : limits_(limits), forget_(std::exp(-period / limits.continuous_time)), ramp_step_(period / limits.ramp_time) {}
+      : limits_(limits),
+        budget_(limits.continuous_time, limits.continuous_force),
+        period_(period),
+        ramp_step_(period / limits.ramp_time),
+        ceiling_(permitted(0)) {}
 
   /// Starts a new ramp. The budget and the counters stay: motors do not cool by a reset.
   void reset() noexcept { gain_ = 0; }
@@ -39,45 +52,71 @@ class ForceLimiter {
   /// Goes on from where another limiter is, with its own limits: ramp, budget and counters.
   void resume(const ForceLimiter& previous) noexcept {
     gain_ = previous.gain_;
-    mean_square_ = previous.mean_square_;
     counters_ = previous.counters_;
+    budget_.set_spent(previous.budget_.spent());
   }
 
   /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1.
   Vector3d step(const Vector3d& wanted, double motor_temperature = 0) noexcept {
     gain_ = std::min(1.0, gain_ + ramp_step_);
-    if (gain_ < 1) ++counters_.ramp;
+    limit_ = Limit::none;
+    if (gain_ < 1) act(Limit::ramp, counters_.ramp);
     Vector3d force = gain_ * wanted;
 
-    const double cool =
-        motor_temperature <= limits_.warm_motor ? 1 : std::max(0.0, (1 - motor_temperature) / (1 - limits_.warm_motor));
-    const double norm = force.norm(), ceiling = cool * this->ceiling();
-    if (norm > ceiling) {
-      force *= ceiling / norm;
-      ++(cool < 1 ? counters_.temperature : ceiling < limits_.max_force ? counters_.continuous : counters_.peak);
+    ceiling_ = permitted(motor_temperature);
+    if (const double norm = force.stableNorm(); norm > ceiling_) {
+      force = force / norm * ceiling_;
+      if (cool(motor_temperature) < 1)
+        act(Limit::temperature, counters_.temperature);
+      else if (ceiling_ < limits_.max_force)
+        act(Limit::continuous, counters_.continuous);
+      else
+        act(Limit::peak, counters_.peak);
     }
-    spend(force.squaredNorm());
+    budget_.spend(force.squaredNorm(), period_);
     return force;
   }
 
   /// One tick without force.
-  void rest() noexcept { spend(0); }
-
-  double ceiling() const noexcept {
-    const double permitted = limits_.continuous_force * limits_.continuous_force;
-    const double used = std::clamp((mean_square_ / permitted - 0.8) / 0.2, 0.0, 1.0);
-    const double floor = std::min(limits_.continuous_force, limits_.max_force);
-    return limits_.max_force + used * (floor - limits_.max_force);
+  void rest(double motor_temperature = 0) noexcept {
+    limit_ = Limit::none;
+    ceiling_ = permitted(motor_temperature);
+    budget_.spend(0, period_);
   }
-  double gain() const noexcept { return gain_; }
+
+  double ceiling() const noexcept { return ceiling_; }  ///< the greatest force that the last tick permitted, N
+  Limit limit() const noexcept { return limit_; }       ///< what cut the force of the last tick
+  double gain() const noexcept { return gain_; }        ///< of the ramp, 0 to 1
   const LimitCounters& counters() const noexcept { return counters_; }
 
+  const ForceBudget& budget() const noexcept { return budget_; }
+  /// Goes on with a device whose motors have given that much, N^2 s, see ForceBudget::spent.
+  void set_spent(double spent) noexcept { budget_.set_spent(spent); }
+
  private:
-  void spend(double square) noexcept { mean_square_ = forget_ * mean_square_ + (1 - forget_) * square; }
+  /// By how much warm motors bring the ceiling down: 1 is not at all.
+  double cool(double temperature) const noexcept {
+    if (temperature <= limits_.warm_motor) return 1;
+    return std::max(0.0, (1 - temperature) / (1 - limits_.warm_motor));
+  }
+
+  double permitted(double temperature) const noexcept {
+    const double steady = std::min(limits_.max_force, std::sqrt(budget_.rate()));
+    const double share = std::min(1.0, 2 * budget_.left());
+    const double wanted = steady + share * (limits_.max_force - steady);
+    return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(period_)));
+  }
+
+  void act(Limit limit, std::uint64_t& counter) noexcept {
+    limit_ = limit;
+    ++counter;
+  }
 
   ForceLimits limits_;
-  double forget_, ramp_step_;
-  double gain_ = 0, mean_square_ = 0;
+  ForceBudget budget_;
+  double period_, ramp_step_;
+  double gain_ = 0, ceiling_;
+  Limit limit_ = Limit::none;
   LimitCounters counters_{};
 };
 

@@ -1,6 +1,7 @@
 // What a sample must fulfil before the model sees it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,7 +12,7 @@
 namespace punctura {
 
 struct GateLimits {
-  double position_jump = 5e-3;   ///< m from one reading to the next; 8 m/s at 1600 Hz
+  double max_speed = 8;          ///< m/s from one reading to the next: 5 mm at 1600 Hz
   double stale = 0.015;          ///< s without a new reading
   double deadline = 0.020;       ///< s from one tick to the next
   double axis_tolerance = 1e-3;  ///< of the axis' length from 1
@@ -21,7 +22,9 @@ struct GateLimits {
 /// Judges one sample after the other. Each comparison is written so that NaN fails it.
 class InputGate {
  public:
-  InputGate(const GateLimits& limits, bool axis_is_used) noexcept : limits_(limits), axis_is_used_(axis_is_used) {}
+  /// period: T, s.
+  InputGate(const GateLimits& limits, double period, bool axis_is_used) noexcept
+      : limits_(limits), period_(period), axis_is_used_(axis_is_used) {}
 
   void reset() noexcept { started_ = false; }
 
@@ -50,7 +53,9 @@ class InputGate {
     if (started_) {
       if (!(s.time >= time_)) return Fault::clock;
       if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
-      if (!((position - position_).norm() <= limits_.position_jump)) return Fault::position_jump;
+      // Two readings that come close together may still be a period apart: T is the least time taken.
+      const double since_reading = std::max(period_, s.time - fresh_time_);
+      if (!((position - position_).norm() <= limits_.max_speed * since_reading)) return Fault::position_jump;
     }
     if (!started_ || s.sequence != sequence_) fresh_time_ = s.time;
     if (!(s.time - fresh_time_ <= limits_.stale)) return Fault::stale_sample;
@@ -64,6 +69,7 @@ class InputGate {
 
  private:
   GateLimits limits_;
+  double period_;
   bool axis_is_used_;
   bool started_ = false;
   double time_ = 0, fresh_time_ = 0;

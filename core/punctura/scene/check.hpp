@@ -35,7 +35,7 @@ inline constexpr Field servo_fields[] = {
 };
 
 inline constexpr Field gate_fields[] = {
-    {"position_jump", "-", "m", {0, no_bound, true, true, "must be greater than 0"}},
+    {"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}},
     {"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
     {"deadline", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
     {"axis_tolerance", "-", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"}},
@@ -110,7 +110,7 @@ inline std::vector<Problem> check(const Placement& placement) {
 /// All problems of the safety limits.
 inline std::vector<Problem> check(const GateLimits& gate, const ForceLimits& limits) {
   std::vector<Problem> problems;
-  const double gate_values[] = {gate.position_jump, gate.stale, gate.deadline, gate.axis_tolerance};
+  const double gate_values[] = {gate.max_speed, gate.stale, gate.deadline, gate.axis_tolerance};
   const double limit_values[] = {limits.max_force, limits.continuous_force, limits.continuous_time, limits.ramp_time,
                                  limits.warm_motor};
   for (std::size_t i = 0; i < 4; ++i) check_field(gate_fields[i], gate_values[i], "gate", problems);

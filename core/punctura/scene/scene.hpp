@@ -16,9 +16,9 @@ namespace punctura {
 
 struct PlacedMembrane {
   std::string name;
-  Membrane membrane;
-  std::array<double, 3> point;          ///< any point of the surface, m
-  std::array<double, 3> inward_normal;  ///< a direction of any length but 0
+  Membrane membrane{};                    ///< has no default: check() names what is missing
+  std::array<double, 3> point{};          ///< any point of the surface, m
+  std::array<double, 3> inward_normal{};  ///< a direction of any length but 0
 };
 
 struct ServoSettings {
@@ -31,8 +31,8 @@ struct ServoSettings {
 
 struct Scene {
   std::string name;
-  Needle needle;
-  Coupling coupling;
+  Needle needle{};      ///< has no default: all 0 is a problem that check() names
+  Coupling coupling{};  ///< likewise
   std::vector<PlacedMembrane> membranes;
   ServoSettings servo{};
   Direction direction = Direction::stylus;

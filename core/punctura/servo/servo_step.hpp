@@ -22,7 +22,7 @@ class ServoStep {
   /// period: T, s. Made by build() (scene/build.hpp), which checks the scene first.
   ServoStep(Insertion insertion, double period, const GateLimits& gate = {}, const ForceLimits& limits = {})
       : insertion_(std::move(insertion)),
-        gate_(gate, insertion_.uses_axis()),
+        gate_(gate, period, insertion_.uses_axis()),
         limiter_(limits, period),
         fade_step_(period / fade_time) {
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
@@ -95,13 +95,17 @@ class ServoStep {
         force.setZero();
       }
     } else {
-      limiter_.rest();
+      limiter_.rest(sample.motor_temperature);
       wanted_.setZero();
       fade_ = 0;
     }
     record(sample, model_force, force);
     return snapshot_;
   }
+
+  /// What the device's motors have given and not yet recovered from, N^2 s: see ForceBudget. A run goes on with it.
+  double spent() const noexcept { return limiter_.budget().spent(); }
+  void set_spent(double spent) noexcept { limiter_.set_spent(spent); }
 
   const Snapshot& snapshot() const noexcept { return snapshot_; }
   const Insertion& insertion() const noexcept { return insertion_; }
@@ -126,6 +130,7 @@ class ServoStep {
     snapshot_.force = plain(force);
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
+    snapshot_.limit = limiter_.limit();
     snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;

@@ -40,10 +40,11 @@ struct Snapshot {
   std::array<double, 3> tip;          ///< the conditioned position, m
   std::array<double, 3> model_force;  ///< the sum of all membranes, N
   std::array<double, 3> force;        ///< what goes to the device, N
-  double ceiling;                     ///< the largest force permitted in this tick, N
+  double ceiling;                     ///< the largest force permitted in this tick, by all limits, N
   LimitCounters limits;
   ServoState state;
   Fault fault;
+  Limit limit;             ///< what makes `force` smaller than `model_force`
   std::uint32_t commands;  ///< bits of Command, obeyed in the order reset, arm, disarm
   std::uint32_t membrane_count;
   std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are filled

@@ -127,7 +127,8 @@ def in_words(summary: RunSummary) -> str:
         f"{summary.scene} on {summary.device}",
         f"  {summary.ticks} ticks at {summary.rate_Hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
         f"99.9 % were computed within {summary.compute_p99_9_s * 1e6:.3g} us",
-        f"  strongest force {summary.strongest_N:.3g} N, limited in {summary.limited_ticks} ticks",
+        f"  strongest force {summary.strongest_N:.3g} N, "
+        + (f"cut by {summary.limits_in_words}" if summary.limited_ticks else "never cut by a limit"),
     ]
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
         lines.append(f"  {name}: {depth * 1e3:.3g} mm deep" if depth > 0 else f"  {name}: not reached")

@@ -15,10 +15,11 @@ from punctura.events.finder import Columns, EventFinder
 from punctura.record import Recording
 from punctura.record.columns import AXES, NEW_SCENES
 from punctura.record.scene_text import from_text
+from punctura.record.schema import NO_PHASE as NO_WORD
 from punctura.record.schema import membranes_in, numbers
 
 _SCALARS = {"tick": "tick", "time": "time_s", "ceiling": "ceiling_N"}
-_PLAIN = ("state", "fault", "commands", "buttons", "lost")
+_PLAIN = ("state", "fault", "limit", "commands", "buttons", "lost")
 _VECTORS = {"position": "{}_m", "axis": "axis_{}", "tip": "tip_{}_m", "force": "f{}_N", "model_force": "model_f{}_N"}
 _EACH = {"depth": "depth_{}_m", "axial_force": "force_{}_N", "lower": "lower_{}_N", "upper": "upper_{}_N",
          "phase": "phase_{}"}  # fmt: skip
@@ -35,6 +36,7 @@ def snapshot_columns(batch: pa.RecordBatch) -> Columns:
 
     columns: Columns = {name: column(flat) for name, flat in _SCALARS.items() if flat in names}
     columns.update({name: column(name) for name in _PLAIN if name in names})
+    columns.setdefault("limit", np.full(len(batch), NO_WORD, np.uint8))  # recordings of format 1 do not say
     for name, pattern in _VECTORS.items():
         if pattern.format("x") in names:
             columns[name] = np.stack([column(pattern.format(a)) for a in AXES], axis=1)

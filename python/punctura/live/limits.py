@@ -25,7 +25,7 @@ FORCE: dict[str, Number | Buttons] = {
     "warm_motor": Number("warm_motor"),
 }
 GATE: dict[str, Number | Buttons] = {
-    "position_jump_mm": Number("position_jump", 1000),
+    "max_speed_m_per_s": Number("max_speed"),
     "stale_ms": Number("stale", 1000),
     "deadline_ms": Number("deadline", 1000),
     "axis_tolerance": Number("axis_tolerance"),

@@ -8,9 +8,12 @@ from typing import Any
 import numpy as np
 
 from punctura import Phase, Scene
-from punctura._core import Device, Fault, ServoLoop, ServoState, describe
+from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
 
 Columns = dict[str, Any]
+
+# The limits that cut a force; the ramp after arming is no news.
+LIMIT_WORDS = {"peak": "peak limit", "continuous": "long-run limit", "temperature": "warm motors"}
 
 
 @dataclass
@@ -26,6 +29,7 @@ class RunSummary:
     strongest_N: float = 0.0
     deepest_m: list[float] = field(default_factory=list)
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
+    limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names of LIMIT_WORDS
     fault: str = ""
     late: int = 0
     compute_p99_9_s: float = 0.0
@@ -33,6 +37,8 @@ class RunSummary:
     statements: list[str] = field(default_factory=list)
     # The last tick, for a status line.
     force_N: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    model_force_N: float = 0.0  # before the limits, norm
+    limit: str = ""  # which limit cuts the force, in words
     depth_m: list[float] = field(default_factory=list)
     phases: list[str] = field(default_factory=list)
     state: str = "disarmed"
@@ -56,11 +62,12 @@ class RunSummary:
         self.strongest_N = max(self.strongest_N, float(np.linalg.norm(columns["force"], axis=1).max()))
         deepest = columns["depth"].max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
-        self.limited_ticks = int(
-            columns["peak_limited"][-1] + columns["continuous_limited"][-1] + columns["temperature_limited"][-1]
-        )
+        self.limited_by = {name: int(columns[f"{name}_limited"][-1]) for name in LIMIT_WORDS}
+        self.limited_ticks = sum(self.limited_by.values())
         x, y, z = columns["force"][-1]
         self.force_N = (float(x), float(y), float(z))
+        self.model_force_N = float(np.linalg.norm(columns["model_force"][-1]))
+        self.limit = LIMIT_WORDS.get(Limit(int(columns["limit"][-1])).name, "")
         self.depth_m = [float(d) for d in columns["depth"][-1]]
         self.phases = [Phase(int(p)).name for p in columns["phase"][-1]]
         self.state = ServoState(int(columns["state"][-1])).name
@@ -82,6 +89,12 @@ class RunSummary:
         trouble = device.trouble()
         if trouble.rstrip(". ") not in self.fault:
             self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
+
+    @property
+    def limits_in_words(self) -> str:
+        """Which limits have cut the force, and for how long: "the long-run limit for 1.2 s"; empty without any."""
+        acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
+        return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)
 
     def to_dict(self) -> dict[str, Any]:
         return {key: value for key, value in asdict(self).items() if not key.startswith("_")}

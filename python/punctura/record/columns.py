@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura._core import Fault, Phase, ServoState
+from punctura._core import Fault, Limit, Phase, ServoState
 from punctura.record.errors import RecordingError
 
 Columns = dict[str, NDArray[Any]]
@@ -31,11 +31,13 @@ _VECTORS = {
 _MEMBRANE = {"depth": "depth_{}_m", "axial_force": "force_{}_N", "lower": "lower_{}_N", "upper": "upper_{}_N"}
 _MEMBRANE_VECTORS = {"proxy": "proxy_{}_{}_m", "direction": "direction_{}_{}"}
 # What a person looks for first stands first.
-_ORDER = ("tick", "time", "position", "axis", "force", "membranes", "model_force", "tip", "state", "fault", "commands")
+_ORDER = ("tick", "time", "position", "axis", "force", "membranes", "model_force", "tip", "state", "fault", "limit",
+          "commands")  # fmt: skip
 
 WORDS = {
     "state": [ServoState(i).name for i in range(len(ServoState))],
     "fault": [Fault(i).name for i in range(len(Fault))],
+    "limit": [Limit(i).name for i in range(len(Limit))],
     "phase": [Phase(i).name for i in range(len(Phase))],
 }
 

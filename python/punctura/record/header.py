@@ -18,7 +18,8 @@ from punctura.record.build_id import build_id, machine
 from punctura.record.errors import RecordingError
 from punctura.record.scene_text import from_text, to_text
 
-FORMAT = 1
+FORMAT = 2
+READABLE = (1, 2)  # 1 had the gate's limit on motion as a distance from one reading to the next, and no `spent_N2s`
 KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
@@ -37,6 +38,7 @@ def describe_run(loop: ServoLoop) -> dict[str, Any]:
         "device": _fields(loop.device.info),
         "gate": _fields(loop.gate),
         "limits": _fields(loop.limits),
+        "spent_N2s": loop.spent,
         "scene": to_text(loop.scene, rate),
         "libraries": {"pyarrow": pa.__version__, "numpy": np.__version__},
     }
@@ -71,12 +73,20 @@ class RecordingInfo:
 
     @property
     def gate(self) -> GateLimits:
-        return GateLimits(**self._limits("gate"))
+        values = self._limits("gate")
+        if "position_jump" in values:  # format 1: m from one reading to the next
+            values["max_speed"] = values.pop("position_jump") * float(self._need("rate_hz", float))
+        return GateLimits(**values)
 
     @property
     def limits(self) -> ForceLimits:
         """As they acted, with the device's ratings."""
         return ForceLimits(**self._limits("limits"))
+
+    @property
+    def spent(self) -> float:
+        """What the device's motors had given before the run, N^2 s: with it the limits act again as they did."""
+        return float(self.data.get("spent_N2s", 0.0))
 
     @property
     def build(self) -> str:
@@ -118,9 +128,9 @@ def from_metadata(schema: pa.Schema, path: Path) -> RecordingInfo:
     if not is_sound(schema):
         raise RecordingError(f"{path} is damaged: the description of the run is not as it was written")
     data = json.loads(text)
-    if data.get("format") != FORMAT:
+    if data.get("format") not in READABLE:
         raise RecordingError(
-            f"{path} has format {data.get('format')!r}, and this Punctura reads format {FORMAT}; "
+            f"{path} has format {data.get('format')!r}, and this Punctura reads {' and '.join(map(str, READABLE))}; "
             f"use the one that wrote it: {data.get('build', 'unknown')}"
         )
     return RecordingInfo(data, path)

@@ -34,7 +34,7 @@ def replay_device(
         rate, said = float(recording.info.data["rate_hz"]), recording.info.data["device"]
         about: dict[str, Any] = {name: said[name] for name in _WORDS}
         about |= {name: float(said[name]) for name in _NUMBERS}
-        return ReplayDevice(
+        device = ReplayDevice(
             samples.position,
             samples.axis,
             rate,
@@ -48,6 +48,8 @@ def replay_device(
             priority=priority,
             processor=processor,
         )
+        device.spent = recording.info.spent
+        return device
     except (KeyError, TypeError, ValueError) as bad:
         raise RecordingError(f"{recording.path} does not say on which device it was made: {bad}") from None
 

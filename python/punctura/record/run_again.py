@@ -86,7 +86,7 @@ class _Again:
         self._path = recording.path
         self._result = result
         self._width = membranes_in(recording.schema)
-        self._step = Replay(info.scene, info.gate, info.limits)
+        self._step = Replay(info.scene, info.gate, info.limits, info.spent)
 
     def run(self, batch: pa.RecordBatch) -> pa.RecordBatch | None:
         """Computes as many of the ticks as can be known; None where that is none."""

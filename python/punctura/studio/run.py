@@ -53,8 +53,9 @@ class Bench:
     def fresh(self, scene: Scene, pose: Pose) -> Device:
         """For a new run; a simulated hand holds it in this pose."""
         if self.simulated:
-            where = self.settings.processor
+            where, spent = self.settings.processor, self._device.spent
             self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1], processor=where)
+            self._device.spent = spent  # it stands for the same device, whose motors do not cool by a new run
         return self._device
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:

@@ -40,6 +40,7 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
   step_ = built(scene_).release();
   scene_.servo.rate = device_->info().rate;
+  rest_motors();
   history_.resize(settings_.history);
 }
 
@@ -63,6 +64,7 @@ SnapshotRing& ServoLoop::listen(std::size_t capacity) {
 void ServoLoop::start() {
   if (running_.exchange(true)) return;
   last_begin_ = 0;
+  step_->set_spent(device_->exertion.spent);
   if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
   try {
     device_->start({&ServoLoop::call, this});
@@ -88,9 +90,21 @@ void ServoLoop::end_run() noexcept {
   ask(pause_bit);
   device_->stop();
   running_ = false;
+  device_->exertion = {step_->spent(), seconds()};
   asked_.fetch_and(~(arm_bit | pause_bit));  // of the run that is over
   handover_.collect();
   take();
+}
+
+/// The time since the last run on this device counts as rest. It counts here and not in start(), so that who records can
+/// say what the run begins with.
+void ServoLoop::rest_motors() noexcept {
+  Exertion& motors = device_->exertion;
+  ForceBudget budget(settings_.limits.continuous_time, settings_.limits.continuous_force);
+  budget.set_spent(motors.spent);
+  const double now = seconds();
+  if (motors.time <= now) budget.spend(0, now - motors.time);
+  motors = {budget.spent(), now};
 }
 
 void ServoLoop::stop_all() noexcept {

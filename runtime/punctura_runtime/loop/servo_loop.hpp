@@ -69,6 +69,8 @@ class ServoLoop {
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
+  /// What the device's motors have given before the next start(), N^2 s: see ForceBudget.
+  double spent() const noexcept { return device_->exertion.spent; }
   LoopReport report() const noexcept;
   Snapshot latest();  ///< the last tick's
   std::vector<Snapshot>
@@ -78,6 +80,8 @@ class ServoLoop {
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
   Tick::Force tick(const DeviceSample& sample) noexcept;
   void end_run() noexcept;
+  void rest_motors() noexcept;
+  double seconds() const noexcept { return static_cast<double>(settings_.now_ns()) * 1e-9; }
   void take() noexcept;
   void obey() noexcept;
   void remember(const Snapshot& snapshot) noexcept;

@@ -13,14 +13,14 @@ DeviceSample sample(std::uint64_t k) { return {k, static_cast<double>(k) * T, {0
 
 /// A gate that has seen one good sample, and its verdict on the next.
 Fault second(DeviceSample s, bool axis_is_used = true) {
-  InputGate gate({}, axis_is_used);
+  InputGate gate({}, T, axis_is_used);
   CHECK(gate.step(sample(0)) == Fault::none);
   return gate.step(s);
 }
 }  // namespace
 
 TEST_CASE("ordinary samples pass") {
-  InputGate gate({}, true);
+  InputGate gate({}, T, true);
   for (std::uint64_t k = 0; k < 1000; ++k) REQUIRE(gate.step(sample(k)) == Fault::none);
 }
 
@@ -52,19 +52,62 @@ TEST_CASE("an axis must have length 1") {
   CHECK(second(s) == Fault::none);
 }
 
-TEST_CASE("a jump of more than 5 mm in one tick is refused, the first sample apart") {
+TEST_CASE("a position that moves faster than 8 m/s is refused, the first sample apart") {
   auto s = sample(1);
   s.position[1] += 5.1e-3;
   CHECK(second(s) == Fault::position_jump);
   s.position[1] = 1e-3 + 4.9e-3;
   CHECK(second(s) == Fault::none);
-  InputGate gate({}, true);
+  InputGate gate({}, T, true);
   s.position[1] = 0.3;
   CHECK(gate.step(s) == Fault::none);
 }
 
+namespace {
+/// The verdict on a hand that moves at a speed (m/s), with readings every `between` seconds.
+Fault moving(double speed, double between, double period) {
+  InputGate gate({}, period, true);
+  Fault fault = Fault::none;
+  for (std::uint64_t k = 0; k < 20 && fault == Fault::none; ++k) {
+    auto s = sample(k);
+    s.time = static_cast<double>(k) * between;
+    s.position[0] = speed * s.time;
+    fault = gate.step(s);
+  }
+  return fault;
+}
+}  // namespace
+
+TEST_CASE("speed is judged, not distance: a slow device and an allowed gap are no jump") {
+  CHECK(moving(1.5, 1 / 300.0, 1 / 300.0) == Fault::none);  // 5 mm from one reading to the next
+  CHECK(moving(0.3, 0.019, T) == Fault::none);              // 5.7 mm in a gap that the deadline allows
+  CHECK(moving(8.1, 1 / 300.0, 1 / 300.0) == Fault::position_jump);
+  CHECK(moving(8.1, 0.019, T) == Fault::position_jump);
+}
+
+TEST_CASE("readings that come close together are taken to be a period apart") {
+  auto s = sample(1);
+  s.time = 1e-5;
+  s.position[1] += 4.9e-3;
+  CHECK(second(s) == Fault::none);
+}
+
+TEST_CASE("while the same reading repeats, the time since it was new counts") {
+  InputGate gate({}, T, true);
+  CHECK(gate.step(sample(0)) == Fault::none);
+  auto s = sample(0);
+  for (int k = 1; k <= 10; ++k) {
+    s.time = k * T;
+    CHECK(gate.step(s) == Fault::none);
+  }
+  s.sequence = 1;
+  s.time = 11 * T;
+  s.position[1] += 0.040;  // 5.8 m/s over eleven periods
+  CHECK(gate.step(s) == Fault::none);
+}
+
 TEST_CASE("the same reading for longer than 15 ms is stale") {
-  InputGate gate({}, true);
+  InputGate gate({}, T, true);
   auto s = sample(0);
   int k = 0;
   Fault fault = Fault::none;
@@ -97,7 +140,7 @@ TEST_CASE("a back-end that reports a fault is believed") {
 }
 
 TEST_CASE("after a reset the first sample is judged by itself") {
-  InputGate gate({}, true);
+  InputGate gate({}, T, true);
   gate.step(sample(0));
   gate.reset();
   auto s = sample(100000);

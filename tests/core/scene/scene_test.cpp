@@ -59,7 +59,7 @@ TEST_CASE("safety limits that would switch safety off are refused, together with
   auto scene = paper_scene();
   scene.needle.diameter = 0;
   GateLimits gate;
-  gate.position_jump = 0;
+  gate.max_speed = 0;
   gate.axis_tolerance = 1;
   ForceLimits limits{0, 0, -1, 0};
   try {

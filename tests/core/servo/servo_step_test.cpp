@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <string>
 
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
@@ -134,18 +135,32 @@ TEST_CASE("a reading that never changes ends in the fault that says so") {
   CHECK(step.fault() == Fault::stale_sample);
 }
 
-TEST_CASE("a model that overflows is a fault, not a force") {
+TEST_CASE("a model whose force is not a number is a fault, not a force") {
   auto scene = paper_scene();
-  scene.membranes[0].point = {0, 1e308, 0};
-  scene.membranes[0].inward_normal = {1, -1, 0};
-  scene.needle.diameter = 1e300;
-  scene.membranes[0].membrane.stiffness = 1e300;
+  scene.coupling.damping = 1e307;  // B / T is infinite
   auto step = build(scene);
   step.arm();
-  for (std::uint64_t k = 0; k < 100; ++k) {
-    const Snapshot& s = step.step(reading(k, 1e-3 - 1e-4 * static_cast<double>(k)));
-    for (double f : s.force) REQUIRE(std::isfinite(f));
-  }
+  Driver drive(step);
+  REQUIRE(drive.stay(1e-3, 1600).state == ServoState::active);
+  const Snapshot& s = drive.to(-3e-3, 100, 1e-3);
+  CHECK(s.fault == Fault::non_finite_force);
+  CHECK(s.state == ServoState::faulted);
+  CHECK(s.force == zero);
+  CHECK(s.model_force == zero);
+}
+
+TEST_CASE("a scene that was filled in by nobody is refused, and says which fields are missing") {
+  const Scene empty;
+  std::string missing;
+  for (const Problem& problem : check(empty)) missing += problem.path + " ";
+  CHECK(missing == "needle.diameter needle.tip_angle coupling.stiffness membrane ");
+  Scene one;
+  one.membranes.emplace_back();
+  missing.clear();
+  for (const Problem& problem : check(one)) missing += problem.path + " ";
+  CHECK(missing ==
+        "needle.diameter needle.tip_angle coupling.stiffness membrane[0].stiffness membrane[0].friction "
+        "membrane[0].inward_normal ");
 }
 
 TEST_CASE("the snapshot tells the whole tick") {
@@ -162,6 +177,69 @@ TEST_CASE("the snapshot tells the whole tick") {
   CHECK(s.membranes[0].depth == doctest::Approx(-s.membranes[0].proxy[1]));
   CHECK(s.membranes[0].direction == std::array<double, 3>{0, -1, 0});
   CHECK(s.sample.position[1] == doctest::Approx(-3e-3));
+}
+
+namespace {
+/// Three walls along the way, 4 mm apart.
+Scene three_walls() {
+  auto scene = paper_scene();
+  scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -4e-3, 0}, {0, -1, 0}});
+  scene.membranes.push_back({"third", paper_membrane(0.2e-3), {0, -8e-3, 0}, {0, -1, 0}});
+  return scene;
+}
+Scene without(Scene scene, std::ptrdiff_t i) {
+  scene.membranes.erase(scene.membranes.begin() + i);
+  return scene;
+}
+}  // namespace
+
+TEST_CASE("a membrane that is taken away takes only its own force with it") {
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    auto scene = three_walls();
+    scene.servo.solver = solver;
+    auto step = build(scene);
+    step.arm();
+    Driver drive(step);
+    drive.stay(1e-3, 1600);
+    const Snapshot before = drive.to(-5e-3, 1600, 1e-3);
+    REQUIRE(before.membranes[1].axial_force < -0.1);
+
+    auto next = build(without(scene, 0));
+    next.resume(step);
+    Driver after(next);
+    const Snapshot& s = next.step(reading(drive.next(), -5e-3));
+    CHECK(s.membranes[0].phase == Phase::sticking);
+    CHECK(s.membranes[0].axial_force == doctest::Approx(before.membranes[1].axial_force).epsilon(0.05));
+    CHECK(s.membranes[1].phase == Phase::outside);
+    CHECK((vector(s.force) - vector(before.force)).norm() < 0.02);  // the rest is faded out
+  }
+}
+
+TEST_CASE("membranes may change their order, and two may stand in one place") {
+  auto scene = three_walls();
+  scene.membranes[2].point = scene.membranes[1].point;
+  auto step = build(scene);
+  step.arm();
+  Driver drive(step);
+  drive.stay(1e-3, 1600);
+  const Snapshot before = drive.to(-5e-3, 1600, 1e-3);
+  std::swap(scene.membranes[0], scene.membranes[2]);
+  auto next = build(scene);
+  next.resume(step);
+  const Snapshot& s = next.step(reading(drive.next(), -5e-3));
+  CHECK(s.membranes[2].axial_force == doctest::Approx(before.membranes[0].axial_force).epsilon(0.05));
+  for (std::size_t i : {0, 1}) CHECK(s.membranes[i].phase != Phase::barred);
+}
+
+TEST_CASE("a run goes on with what the motors have given before") {
+  auto step = build(paper_scene());
+  step.set_spent(3);
+  CHECK(step.spent() == 3);
+  step.step(reading(0, 1e-3));
+  CHECK(step.snapshot().ceiling == doctest::Approx(0.88 * std::sqrt(0.75)));
+  auto next = build(paper_scene());
+  next.resume(step);
+  CHECK(next.spent() == step.spent());
 }
 
 TEST_CASE("a million ticks take no memory and end where they began to the last bit") {

@@ -179,7 +179,7 @@ int Controller::read(double (&position)[3]) {
   const bool repeated = frozen_ || (every > 0 && reads_ % every == 0);
   if (!repeated) reading_ = plant_->measured();
   for (int i = 0; i < 3; ++i) {
-    position[i] = reading_[i] + (leap_ && i == 2 ? 0.02 : 0);
+    position[i] = reading_[i] + (leap_ && i == 2 ? 0.25 : 0);
     if (nan_) position[i] = std::numeric_limits<double>::quiet_NaN();
   }
   return repeated ? 1 : 0;

@@ -20,7 +20,7 @@ enum Injected : int {
   failing_write,  ///< one force returns -1
   failing_status,
   nan_position,  ///< from then on
-  leap,          ///< the position is 20 mm off from then on
+  leap,          ///< the position is 250 mm off from then on
   freeze,        ///< readings are not new any more
 
 };

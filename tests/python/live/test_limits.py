@@ -16,7 +16,7 @@ continuous_force_N = 0.3
 continuous_time_s = 7
 ramp_time_s = 0.25
 warm_motor = 0.7
-position_jump_mm = 2
+max_speed_m_per_s = 3.2
 stale_ms = 10
 deadline_ms = 12.5
 axis_tolerance = 0.01
@@ -38,15 +38,15 @@ def with_buttons(count):
 def test_a_file_sets_every_limit_in_the_units_of_its_keys(tmp_path):
     limits = limits_of(tmp_path, ALL)
     assert limits.force == ForceLimits(0.5, 0.3, 7, 0.25, 0.7)
-    assert limits.gate_on(with_buttons(3)) == GateLimits(2e-3, 0.010, 0.0125, 0.01, 0b101)
+    assert limits.gate_on(with_buttons(3)) == GateLimits(3.2, 0.010, 0.0125, 0.01, 0b101)
 
 
 def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
     simulated = SimulatedDevice(pn.Target([0, 5e-3, 0]))
-    limits = limits_of(tmp_path, "position_jump_mm = 2")
+    limits = limits_of(tmp_path, "max_speed_m_per_s = 3.2")
     assert limits.force == ForceLimits()
-    assert limits.gate_on(simulated) == GateLimits(position_jump=2e-3, stale=1.0, deadline=1.0)
-    assert limits.gate_on(with_buttons(0)) == GateLimits(position_jump=2e-3)
+    assert limits.gate_on(simulated) == GateLimits(max_speed=3.2, stale=1.0, deadline=1.0)
+    assert limits.gate_on(with_buttons(0)) == GateLimits(max_speed=3.2)
     assert Limits().gate_on(with_buttons(0)) == GateLimits()
 
 

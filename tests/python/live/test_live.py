@@ -12,6 +12,8 @@ import punctura as pn
 import pytest
 from heed import heed_signals
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
+from punctura.cli._headless import in_words
+from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 
 SCENE = pn.load_scene("k06-fig10")
@@ -56,7 +58,30 @@ def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
 def test_a_limit_that_acts_is_counted_and_told():
     summary = run_live(simulated(), SCENE, limits=ForceLimits(max_force=0.5))
     assert summary.strongest_N == pytest.approx(0.5)
-    assert summary.limited_ticks > 100
+    assert summary.limited_ticks == summary.limited_by["peak"] > 100
+    assert summary.limits_in_words.startswith("the peak limit for ")
+
+
+def test_the_limit_that_cuts_the_force_is_told_in_the_line_and_at_the_end():
+    limits = ForceLimits(continuous_force=0.1, continuous_time=2)
+    summary = run_live(simulated(ticks=2400), SCENE, limits=limits)  # ends while the needle is inside
+    assert summary.limited_by["continuous"] > 0 and summary.limited_by["peak"] == 0
+    assert "the long-run limit for " in in_words(summary)
+    assert summary.limit == "long-run limit" and summary.model_force_N > np.linalg.norm(summary.force_N)
+    assert f"N (of {summary.model_force_N:.2f} N: long-run limit)" in status_text(summary)
+
+
+def test_a_new_run_goes_on_with_what_the_motors_have_given():
+    device = SimulatedDevice(STROKES, seed=3, real_time=False, ticks=4000)
+    assert device.spent == 0
+    limits = ForceLimits(continuous_force=0.1, continuous_time=60)
+    run_live(device, SCENE, limits=limits)
+    spent = device.spent
+    assert spent > 0.05
+    loop = ServoLoop(device, SCENE, limits=limits)
+    assert 0 < loop.spent <= spent
+    device.spent = 123.0
+    assert ServoLoop(device, SCENE, limits=limits).spent == 123.0
 
 
 def test_a_dead_man_button_that_nobody_holds_gives_no_force():
@@ -65,7 +90,7 @@ def test_a_dead_man_button_that_nobody_holds_gives_no_force():
 
 
 def test_a_fault_ends_the_run_and_says_what_to_do():
-    summary = run_live(simulated(ticks=0), SCENE, gate=GateLimits(position_jump=1e-6))
+    summary = run_live(simulated(ticks=0), SCENE, gate=GateLimits(max_speed=1.6e-3))
     assert summary.fault == describe(Fault.position_jump)
     assert "calibrate" in summary.fault
     assert summary.force_N == (0.0, 0.0, 0.0)

@@ -53,7 +53,7 @@ def test_its_maker_may_say_more_of_a_run(tmp_path):
 
 
 def test_the_description_holds_scene_limits_device_and_build(start):
-    gate = GateLimits(position_jump=0.02, dead_man=1)
+    gate = GateLimits(max_speed=32.0, dead_man=1)
     run = start(gate=gate).record()
     info = open_recording(run.path).info
     assert info.scene == load_scene("k06-fig12")
@@ -90,7 +90,7 @@ def test_a_run_without_a_tick_is_a_recording_too(start):
 
 
 def test_a_fault_is_in_the_file_with_its_tick(start):
-    run = start(gate=GateLimits(position_jump=2e-5)).record()
+    run = start(gate=GateLimits(max_speed=0.032)).record()
     recording = open_recording(run.path)
     fault = recording.column("fault")
     (told,) = recording.faults

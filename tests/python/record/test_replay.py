@@ -24,7 +24,7 @@ def test_a_minute_at_1600_hz_is_identical(start):
 
 
 def test_scenes_commands_and_faults_are_obeyed_again_at_their_ticks(start):
-    run = start(ticks=0, device={}, gate=GateLimits(position_jump=2e-3), capacity=1 << 16)
+    run = start(ticks=0, device={}, gate=GateLimits(max_speed=3.2), capacity=1 << 16)
     loop, recorder = run.loop, run.recorder
     first, wider = load_scene("k06-fig12"), load_scene("epidural")
     recorder.exchange(wider)  # before the first tick: taken by it
@@ -60,7 +60,7 @@ def test_scenes_commands_and_faults_are_obeyed_again_at_their_ticks(start):
 
 
 def test_a_fault_and_what_follows_it_are_identical(start):
-    run = start(gate=GateLimits(position_jump=2e-5)).record()
+    run = start(gate=GateLimits(max_speed=0.032)).record()
     assert len(open_recording(run.path).faults) == 1
     assert replay(run.path).identical
 

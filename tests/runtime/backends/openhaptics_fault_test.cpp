@@ -49,8 +49,8 @@ const Trouble troubles[] = {
     {"the scheduler does not keep up", FAKE_HD_ERROR_AT_BEGIN, 0x304, 1, Fault::device, "TIMER_ERROR"},
     {"an error of which we do not know", FAKE_HD_ERROR_AT_BEGIN, 0x777, 1, Fault::device, "0x777"},
     {"the cable is pulled", FAKE_HD_UNPLUG, 0, for_ever, Fault::device, "COMM_ERROR"},
-    {"the position jumps", FAKE_HD_JUMP, 10, for_ever, Fault::position_jump, ""},
-    {"the position jumps and comes back", FAKE_HD_JUMP, 10, 1, Fault::position_jump, ""},
+    {"the position jumps", FAKE_HD_JUMP, 250, for_ever, Fault::position_jump, ""},
+    {"the position jumps and comes back", FAKE_HD_JUMP, 250, 1, Fault::position_jump, ""},
     {"the position is no number", FAKE_HD_NOT_A_NUMBER, 0, 1, Fault::non_finite_input, ""},
 };
 

@@ -13,6 +13,13 @@ export const STATES: readonly {
   { name: "faulted", mark: "▲", words: "Fault", why: "The force is zero until the fault is reset." },
 ];
 
+/** In place of "Force on" while a limit cuts the force: what comes to the hand, and which limit it is. */
+export const CUT = {
+  name: "cut",
+  mark: "◐",
+  why: "The hand gets less than the model's force. Limits protect the hand and the motors of the device; docs/safety.md has them.",
+} as const;
+
 /** How the page stands with the studio, in a few words. leftMs: until the next attempt. */
 export function connectionWords(now: Connection, silent: boolean, leftMs: number): string {
   switch (now.state) {

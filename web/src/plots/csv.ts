@@ -1,4 +1,5 @@
 import type { History } from "../state/history.ts";
+import { LIMITS } from "../state/limits.ts";
 import { isCompared } from "./gather.ts";
 
 const ROWS_A_PART = 4096;
@@ -54,7 +55,7 @@ export function csv(
   const vector = (name: string, unit: string): string[] => ["x", "y", "z"].map((axis) => `${name}_${axis}_${unit}`);
   const compared = isCompared(history, first, end);
   const head = [
-    "tick", "time_s", "state", ...vector("position", "m"), ...vector("force", "N"), ...vector("model_force", "N"),
+    "tick", "time_s", "state", "limit", ...vector("position", "m"), ...vector("force", "N"), ...vector("model_force", "N"),
     ...(compared ? vector("other_solver_force", "N") : []),
     ...wanted.flatMap(({ name }) => [
       `depth_${name}_m`, `axial_force_${name}_N`, `lower_${name}_N`, `upper_${name}_N`, `phase_${name}`,
@@ -70,11 +71,17 @@ export function csv(
     history.column("upper"),
   ];
   const state = history.byteColumn("state");
+  const limit = history.byteColumn("limit");
   const phase = history.byteColumn("phase");
   let rows: string[] = [];
   for (let tick = first; tick < end; tick++) {
     const slot = history.slot(tick);
-    const row = [String(tick), history.timeOf(tick).toFixed(9), STATES[state[slot]!] ?? String(state[slot])];
+    const row = [
+      String(tick),
+      history.timeOf(tick).toFixed(9),
+      STATES[state[slot]!] ?? String(state[slot]),
+      LIMITS[limit[slot]!] ?? "",
+    ];
     for (const triple of triples) for (let k = 0; k < 3; k++) row.push(exactF32(triple[3 * slot + k]!));
     for (const { i } of wanted) {
       for (const cell of cells) row.push(exactF32(cell[slot * m + i]!));

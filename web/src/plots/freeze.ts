@@ -1,13 +1,12 @@
 import type { History } from "../state/history.ts";
 import { Source } from "../state/source.ts";
-import type { ByteColumn, FloatColumn, TickBatch } from "../wire/ticks.ts";
+import { BYTE_COLUMNS, type ByteColumn, type FloatColumn, type TickBatch } from "../wire/ticks.ts";
 
 const CHUNK = 1024; // ticks; times are f32 from the first of a chunk, so that they keep their nanoseconds
 
 const FLOATS = [
   "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy", "direction",
 ] as const; // biome-ignore format: a table
-const BYTES = ["state", "fault", "phase"] as const;
 
 /** A copy of all that a source has now: the live one goes on and forgets, the copy stays. */
 export function frozenCopy(source: Source): Source {
@@ -41,7 +40,7 @@ function batchOf(history: History, first: number, n: number): TickBatch {
   const floats = { time } as Record<Exclude<FloatColumn, "other_force">, Float32Array>;
   for (const name of FLOATS) floats[name] = rows(name);
   const bytes = {} as Record<ByteColumn, Uint8Array>;
-  for (const name of BYTES) bytes[name] = byteRows(name);
+  for (const name of BYTE_COLUMNS) bytes[name] = byteRows(name);
   return {
     firstTick: first,
     firstTime,

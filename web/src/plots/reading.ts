@@ -1,3 +1,5 @@
+import type { History } from "../state/history.ts";
+import { cutFigures, cuts, LIMIT_WORDS, limitOf } from "../state/limits.ts";
 import type { Source } from "../state/source.ts";
 import type { Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
@@ -19,7 +21,14 @@ export function reading(source: Source, tick: number): string {
     const force = (-history.row("axial_force", tick)[i]!).toFixed(3);
     return `${names[i]?.name ?? `membrane ${i + 1}`} ${depth} mm, ${force} N`;
   });
-  return `${history.timeOf(tick).toFixed(4)} s, ${STATE_WORDS[stateOf(history, tick)]}: ${parts.join("; ")}`;
+  return `${history.timeOf(tick).toFixed(4)} s, ${forceWords(history, tick)}: ${parts.join("; ")}`;
+}
+
+/** Whether the hand gets the force, and which limit cuts it. */
+function forceWords(history: History, tick: number): string {
+  return cuts(limitOf(history, tick))
+    ? `cut to ${cutFigures(history, tick)} by the ${LIMIT_WORDS[limitOf(history, tick)]}`
+    : STATE_WORDS[stateOf(history, tick)];
 }
 
 /** A small table beside the cursor: time, and depth and force of every membrane. */
@@ -35,7 +44,8 @@ export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, 
   pen.segment(left, bottom, left + WIDTH, bottom, edge);
   pen.segment(left, top + 2, left, bottom, edge);
   pen.segment(left + WIDTH, top + 2, left + WIDTH, bottom, edge);
-  const words = `${history.timeOf(tick).toFixed(4)} s  ${STATE_WORDS[stateOf(history, tick)]}`;
+  const limit = limitOf(history, tick);
+  const words = `${history.timeOf(tick).toFixed(4)} s  ${cuts(limit) ? LIMIT_WORDS[limit] : STATE_WORDS[stateOf(history, tick)]}`;
   pen.text(left + 8, top + 13, words, { colour: theme.text, bold: true });
   for (let i = 0; i < history.membranes; i++) {
     const y = top + 13 + ROW * (i + 1);

@@ -1,4 +1,5 @@
 import type { History } from "../state/history.ts";
+import { LIMITS, type Limit } from "../state/limits.ts";
 
 /** ServoState of core/punctura/servo/snapshot.hpp. */
 export const STATES = ["disarmed", "waiting", "active", "faulted"] as const;
@@ -22,12 +23,32 @@ export function eachState(
   end: number,
   use: (state: State, first: number, end: number) => void,
 ): void {
-  const states = history.byteColumn("state");
+  eachStretch(history, "state", first, end, (state, from, to) => use(STATES[state] ?? "disarmed", from, to));
+}
+
+/** Calls with every stretch of ticks in which one limit acts. */
+export function eachLimit(
+  history: History,
+  first: number,
+  end: number,
+  use: (limit: Limit, first: number, end: number) => void,
+): void {
+  eachStretch(history, "limit", first, end, (limit, from, to) => use(LIMITS[limit] ?? "unknown", from, to));
+}
+
+function eachStretch(
+  history: History,
+  column: "state" | "limit",
+  first: number,
+  end: number,
+  use: (value: number, first: number, end: number) => void,
+): void {
+  const values = history.byteColumn(column);
   for (let from = first; from < end; ) {
-    const state = states[history.slot(from)]!;
+    const value = values[history.slot(from)]!;
     let to = from + 1;
-    while (to < end && states[history.slot(to)] === state) to++;
-    use(STATES[state] ?? "disarmed", from, to);
+    while (to < end && values[history.slot(to)] === value) to++;
+    use(value, from, to);
     from = to;
   }
 }

@@ -11,7 +11,7 @@ import { Polyline } from "./polyline.ts";
 import { drawReading } from "./reading.ts";
 import type { Scale } from "./scale.ts";
 import { colourOf, type Theme } from "./theme.ts";
-import { drawMarks, drawStates } from "./time_marks.ts";
+import { drawLimits, drawMarks, drawStates } from "./time_marks.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
@@ -82,6 +82,7 @@ export class TimeDrawing {
   drawBack(pen: Pen, picture: TimePicture, theme: Theme): void {
     const { source, window } = picture;
     drawStates(pen, this.force, this.depth, source.history, window, theme);
+    drawLimits(pen, this.force, source.history, window, theme);
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     drawMarks(pen, this.force, this.depth, source, window, theme);

@@ -1,10 +1,11 @@
 import type { History } from "../state/history.ts";
+import { cuts, LIMIT_WORDS } from "../state/limits.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { MARGIN, type Pane } from "./axes.ts";
 import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
-import { eachState, STATE_WORDS, type State } from "./states.ts";
+import { eachLimit, eachState, STATE_WORDS, type State } from "./states.ts";
 import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
 
@@ -31,6 +32,20 @@ export function drawStates(pen: Pen, force: Pane, depth: Pane, history: History,
         const ink = state === "faulted" ? theme.danger : theme.quiet;
         pen.text(from + 4, bottom - 8, STATE_WORDS[state], { colour: ink, size: 10 });
       }
+    }),
+  );
+}
+
+/** Shades the ticks in which a limit cuts the force, over the force alone, and names the limit where there is room. */
+export function drawLimits(pen: Pen, force: Pane, history: History, window: Window, theme: Theme): void {
+  const { x, left, top, width, height } = force;
+  pen.within(left, top, width, height, () =>
+    eachLimit(history, window.first, window.end, (limit, first, end) => {
+      if (!cuts(limit)) return;
+      const from = Math.max(left, x.px(history.timeOf(first)));
+      const to = x.px(end < history.end ? history.timeOf(end) : history.timeOf(end - 1));
+      pen.box(from, top, Math.max(1, to - from), height, theme.danger, 0.12);
+      if (to - from > 84) pen.text(from + 4, top + height - 8, LIMIT_WORDS[limit], { colour: theme.danger, size: 10 });
     }),
   );
 }

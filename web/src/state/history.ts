@@ -1,11 +1,10 @@
 import type { ByteColumn, FloatColumn, TickBatch } from "../wire/ticks.ts";
-import { rowWidth } from "../wire/ticks.ts";
+import { BYTE_COLUMNS, rowWidth } from "../wire/ticks.ts";
 
 const KEPT: readonly Exclude<FloatColumn, "time">[] = [
   "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy",
   "direction", "other_force",
 ]; // biome-ignore format: a table
-const KEPT_BYTES: readonly ByteColumn[] = ["state", "fault", "phase"];
 
 /**
  * Every tick of the last while, at full rate: rings of columns, addressed by tick number.
@@ -68,7 +67,7 @@ export class History {
     this.membranes = membranes;
     this.time = new Float64Array(this.capacity);
     this.floats = new Map(KEPT.map((name) => [name, new Float32Array(this.capacity * rowWidth(name, membranes))]));
-    this.bytes = new Map(KEPT_BYTES.map((name) => [name, new Uint8Array(this.capacity * rowWidth(name, membranes))]));
+    this.bytes = new Map(BYTE_COLUMNS.map((name) => [name, new Uint8Array(this.capacity * rowWidth(name, membranes))]));
   }
 
   push(batch: TickBatch): void {
@@ -98,7 +97,7 @@ export class History {
       if (source) to.set(source.subarray(from * width, (from + n) * width), slot * width);
       else to.fill(Number.NaN, slot * width, (slot + n) * width);
     }
-    for (const name of KEPT_BYTES) {
+    for (const name of BYTE_COLUMNS) {
       const width = this.width(name);
       this.bytes.get(name)!.set(batch.bytes[name].subarray(from * width, (from + n) * width), slot * width);
     }

@@ -23,11 +23,14 @@ const FLOATS = [
 const BYTES = [
   ["state", false],
   ["fault", false],
+  ["limit", false],
   ["phase", true],
 ] as const;
 
 export type FloatColumn = (typeof FLOATS)[number][0] | "other_force";
 export type ByteColumn = (typeof BYTES)[number][0];
+
+export const BYTE_COLUMNS: readonly ByteColumn[] = BYTES.map(([name]) => name);
 
 export class FrameError extends Error {}
 

@@ -8,21 +8,22 @@ describe("a table of ticks", () => {
     axial_force: () => [-0.1, 0],
     phase: () => [2, 0],
     state: () => [2],
+    limit: () => [3],
   });
 
   it("has every tick, SI, with the unit in every column's name", () => {
     const lines = csv(run, 3, 45, ["skin", "front vein wall"], null).join("").trimEnd().split("\n");
     const head = lines[0]!.split(",");
     expect(lines.length).toBe(1 + 42);
-    expect(head.slice(0, 4)).toEqual(["tick", "time_s", "state", "position_x_m"]);
+    expect(head.slice(0, 4)).toEqual(["tick", "time_s", "state", "limit"]);
     expect(head).toContain("depth_front_vein_wall_m");
     expect(head).toContain("axial_force_skin_N");
-    expect(head.filter((name) => !/^(tick|state|phase_.*)$/.test(name)).every((name) => /_(s|m|N)$/.test(name))).toBe(
-      true,
-    );
+    expect(
+      head.filter((name) => !/^(tick|state|limit|phase_.*)$/.test(name)).every((name) => /_(s|m|N)$/.test(name)),
+    ).toBe(true);
     const row = lines[1]!.split(",");
     expect(row.length).toBe(head.length);
-    expect(row.slice(0, 3)).toEqual(["3", "0.003000000", "active"]);
+    expect(row.slice(0, 4)).toEqual(["3", "0.003000000", "active", "continuous"]);
   });
 
   it("keeps all digits of what was sent", () => {

@@ -77,7 +77,12 @@ export class FakeEngine implements Engine {
     const m = this.membranes.length;
     const floats = {} as Record<Exclude<FloatColumn, "other_force">, Float32Array>;
     for (const name of COLUMNS) floats[name] = new Float32Array(count * rowWidth(name, m));
-    const bytes = { state: new Uint8Array(count), fault: new Uint8Array(count), phase: new Uint8Array(count * m) };
+    const bytes = {
+      state: new Uint8Array(count),
+      fault: new Uint8Array(count),
+      limit: new Uint8Array(count),
+      phase: new Uint8Array(count * m),
+    };
     const other = this.compare ? new Float32Array(3 * count) : null;
     const firstTick = this.tick;
     const events: MembraneEvent[] = [];

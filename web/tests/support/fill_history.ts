@@ -25,10 +25,12 @@ export function batch(first: number, count: number, membranes: number, cells: Ce
   const bytes = {
     state: new Uint8Array(count),
     fault: new Uint8Array(count),
+    limit: new Uint8Array(count),
     phase: new Uint8Array(count * membranes),
   };
   for (let i = 0; i < count; i++) {
     bytes.state.set(cells.state?.(first + i) ?? [], i);
+    bytes.limit.set(cells.limit?.(first + i) ?? [], i);
     bytes.phase.set(cells.phase?.(first + i) ?? [], i * membranes);
   }
   return {

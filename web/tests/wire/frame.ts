@@ -5,7 +5,7 @@ const FLOATS: readonly FloatColumn[] = [
   "time", "position", "axis", "tip", "model_force", "force", "ceiling",
   "depth", "axial_force", "lower", "upper", "proxy", "direction",
 ]; // biome-ignore format: a table
-const BYTES: readonly ByteColumn[] = ["state", "fault", "phase"];
+const BYTES: readonly ByteColumn[] = ["state", "fault", "limit", "phase"];
 
 /** The number that `makeFrame` writes: another one for each column, tick and place in the row. */
 export const expected = (column: FloatColumn, row: number, place: number): number =>

@@ -37,7 +37,8 @@ COLUMNS: dict[str, tuple[int, bool]] = {
     "direction": (3, True),
 }  # fmt: skip
 OTHER = "other_force"  # (n, 3), only with the flag
-BYTES: dict[str, bool] = {"state": False, "fault": False, "phase": True}  # name -> one for each membrane
+# name -> one for each membrane
+BYTES: dict[str, bool] = {"state": False, "fault": False, "limit": False, "phase": True}
 
 Columns = dict[str, npt.NDArray[Any]]
 

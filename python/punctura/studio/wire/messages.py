@@ -9,7 +9,7 @@ from pydantic import Field
 from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView
 from punctura.studio.wire.requests import Request, parse_request
 
-PROTOCOL = 1  # counts up when an old page could not read a new server
+PROTOCOL = 2  # counts up when an old page could not read a new server
 
 
 class DevicePart(Part):

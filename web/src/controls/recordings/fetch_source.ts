@@ -2,7 +2,7 @@ import { Source } from "../../state/source.ts";
 import type { Api } from "../../wire/api.ts";
 import { type RecordingEntry, type RecordingOverview, recordingPath } from "../../wire/files.ts";
 import { FrameSplitter } from "../../wire/length_prefixed.ts";
-import { decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
+import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 import { gapBefore } from "./gap.ts";
 
 /** More would not fit a page's memory: 11 minutes at 1600 Hz. The rest is in the file. */
@@ -72,5 +72,5 @@ function tickBytes(membranes: number): number {
   const floats = ["time", "position", "axis", "tip", "model_force", "force", "ceiling"] as const;
   const each = ["depth", "axial_force", "lower", "upper", "proxy", "direction"] as const;
   const numbers = [...floats, ...each].reduce((sum, name) => sum + rowWidth(name, membranes), 0);
-  return 4 * numbers + 2 + membranes;
+  return 4 * numbers + BYTE_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);
 }

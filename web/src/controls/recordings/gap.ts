@@ -1,10 +1,9 @@
-import { type ByteColumn, type FloatColumn, rowWidth, type TickBatch } from "../../wire/ticks.ts";
+import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 
 const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
   "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy",
   "direction",
 ]; // biome-ignore format: a table
-const BYTES: readonly ByteColumn[] = ["state", "fault", "phase"];
 
 /** Ticks that a recording lost, in front of `next`: no numbers, but each its place in time, so that the gap is seen. */
 export function gapBefore(next: TickBatch, from: number, period: number): TickBatch {
@@ -14,7 +13,7 @@ export function gapBefore(next: TickBatch, from: number, period: number): TickBa
   ) as TickBatch["floats"];
   for (let i = 0; i < count; i++) floats.time[i] = i * period;
   const bytes = Object.fromEntries(
-    BYTES.map((name) => [name, new Uint8Array(count * rowWidth(name, next.membranes))]),
+    BYTE_COLUMNS.map((name) => [name, new Uint8Array(count * rowWidth(name, next.membranes))]),
   ) as TickBatch["bytes"];
   const { run, lost, membranes } = next;
   const firstTime = next.firstTime - count * period;

@@ -1,4 +1,4 @@
-import { expect, test } from "vitest";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Draft } from "../../../src/controls/editor/draft.ts";
 import { App } from "../../../src/state/app.ts";
 import type { SceneView } from "../../../src/wire/messages.ts";
@@ -7,7 +7,10 @@ import { fakeFiles } from "../support/fake_files.ts";
 import scene from "../support/scene.json";
 
 const FRICTION = ["membrane", 1, "friction"];
-const settle = (): Promise<void> => new Promise((done) => setTimeout(done, 20));
+const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(20);
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
 
 function begin(): { app: App; engine: FakeEngine; draft: Draft } {
   const engine = new FakeEngine(scene as unknown as SceneView, 1);

@@ -1,0 +1,48 @@
+// How much force a device's motors have given lately, and how much they may still give.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace punctura {
+
+/// A token bucket of squared force, N^2 s, which is what heats motors. It keeps this promise: in no interval of length
+/// `window` is the force above `rating` N rms.
+///
+/// A quarter of what the promise permits in a window is the bucket's depth, for bursts. The rest comes back evenly, at
+/// `rate` N^2. So an interval of any length t holds at most depth + rate * t, and for t = window that is
+/// rating^2 * window. A force that lasts is held at sqrt(rate), 87 % of the rating.
+///
+/// The budget belongs to a device: motors do not cool because a new run begins.
+class ForceBudget {
+ public:
+  static constexpr double burst_share = 0.25;
+
+  /// window: s. rating: N rms.
+  ForceBudget(double window, double rating) noexcept
+      : depth_(burst_share * rating * rating * window), rate_((1 - burst_share) * rating * rating) {}
+
+  /// Counts a force, squared, N^2, that was given for a time, s.
+  void spend(double square, double time) noexcept { spent_ = std::max(0.0, spent_ + (square - rate_) * time); }
+
+  /// The square, N^2, of the greatest force that the promise permits for a time, s.
+  double permitted_square(double time) const noexcept { return rate_ + std::max(0.0, depth_ - spent_) / time; }
+
+  /// What is left of the bucket, 0 to 1.
+  double left() const noexcept { return std::clamp(1 - spent_ / depth_, 0.0, 1.0); }
+
+  /// The square, N^2, of the force that may be given without end.
+  double rate() const noexcept { return rate_; }
+
+  /// What was taken from the bucket and has not come back yet, N^2 s.
+  double spent() const noexcept { return spent_; }
+  void set_spent(double spent) noexcept {
+    spent_ = spent > 0 ? std::min(spent, std::numeric_limits<double>::max()) : 0;
+  }
+
+ private:
+  double depth_, rate_;
+  double spent_ = 0;
+};
+
+}  // namespace punctura

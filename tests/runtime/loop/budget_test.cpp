@@ -1,0 +1,124 @@
+// Motors do not cool because a new run begins.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "punctura_runtime/loop/servo_loop.hpp"
+#include "runtime/support/hand_cranked.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+/// A clock that only the test moves, and the settings of a loop that goes by it.
+std::int64_t clock_ns = 0;
+LoopSettings by_test_clock() {
+  LoopSettings settings;
+  settings.now_ns = []() noexcept { return clock_ns; };
+  return settings;
+}
+
+/// A wall so stiff that the force reaches every limit.
+Scene stiff_scene() {
+  Scene scene = paper_scene();
+  scene.membranes[0].membrane.stiffness *= 20;
+  scene.membranes[0].membrane.precompression *= 20;
+  return scene;
+}
+
+/// Forces that went to a device over many runs, one a tick.
+class Felt {
+ public:
+  void add(const Tick::Force& force) { squares_.push_back(vector(force).squaredNorm()); }
+  /// The greatest rms over any 10 s, N.
+  double worst(double rate = 1600) const {
+    const auto window = static_cast<std::size_t>(10 * rate);
+    double sum = 0, worst = 0;
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+      sum += squares_[k] - (k >= window ? squares_[k - window] : 0);
+      worst = std::max(worst, sum);
+    }
+    return std::sqrt(worst / static_cast<double>(window));
+  }
+
+ private:
+  std::vector<double> squares_;
+};
+}  // namespace
+
+TEST_CASE("through 1,000 random runs on one device no 10 s exceed its rating") {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> share(0, 1);
+  auto device = std::make_shared<HandCranked>();
+  Felt felt;
+  double y = 2e-3;
+  const auto move = [&](double to, int ticks) {
+    for (int i = 1; i <= ticks; ++i) {
+      felt.add(device->tick(y + (to - y) * i / ticks));
+      clock_ns += 625'000;
+    }
+    y = to;
+  };
+  for (int run = 0; run < 1000; ++run) {
+    ServoLoop loop(device, stiff_scene(), by_test_clock());
+    loop.start();
+    loop.arm();
+    move(1e-3, 20);
+    const int strokes = static_cast<int>(3 * share(random));
+    for (int stroke = 0; stroke <= strokes; ++stroke) {
+      move(-2e-3 - 6e-3 * share(random), 100 + static_cast<int>(1500 * share(random)));
+      if (share(random) < 0.2) loop.exchange(stiff_scene());
+      if (share(random) < 0.1) loop.reset();
+      if (share(random) < 0.3) move(1e-3, 200);
+      loop.arm();
+    }
+    loop.stop();
+  }
+  CHECK(felt.worst() <= 0.88 * (1 + 1e-9));
+  CHECK(felt.worst() > 0.6);
+}
+
+TEST_CASE("time between two runs is rest, and a run that follows at once has none") {
+  auto device = std::make_shared<HandCranked>();
+  {
+    ServoLoop loop(device, stiff_scene(), by_test_clock());
+    CHECK(loop.spent() == 0);
+    loop.start();
+    loop.arm();
+    device->move(2e-3, 1e-3, 1600);
+    device->move(1e-3, -6e-3, 1600);
+    device->move(-6e-3, -6e-3, 1600);
+  }
+  const double spent = device->exertion.spent;
+  CHECK(spent > 1);
+  ServoLoop at_once(device, stiff_scene(), by_test_clock());
+  CHECK(at_once.spent() == spent);
+  clock_ns += 1'000'000'000;
+  ServoLoop later(device, stiff_scene(), by_test_clock());
+  CHECK(later.spent() == doctest::Approx(spent - 0.75 * 0.88 * 0.88));
+  clock_ns += 60'000'000'000;
+  ServoLoop much_later(device, stiff_scene(), by_test_clock());
+  CHECK(much_later.spent() == 0);
+}
+
+TEST_CASE("a loop that starts again goes on with what its device has given") {
+  auto device = std::make_shared<HandCranked>();
+  ServoLoop loop(device, stiff_scene(), by_test_clock());
+  for (int run = 0; run < 2; ++run) {
+    loop.start();
+    loop.arm();
+    device->move(2e-3, 1e-3, 1600);
+    device->move(1e-3, -6e-3, 800);
+    loop.stop();
+  }
+  const double both = loop.spent();
+  device->exertion.spent = 0;
+  loop.start();
+  loop.arm();
+  device->move(2e-3, 1e-3, 1600);
+  device->move(1e-3, -6e-3, 800);
+  loop.stop();
+  CHECK(loop.spent() < both);
+}

@@ -1,0 +1,39 @@
+import type { History } from "./history.ts";
+
+/** Limit of core/punctura/safety/force_limits.hpp. */
+export const LIMITS = ["none", "ramp", "peak", "continuous", "temperature"] as const;
+export type Limit = (typeof LIMITS)[number] | "unknown";
+
+/** The limit that cut the force, in a word or two. */
+export const LIMIT_WORDS: Readonly<Record<Limit, string>> = {
+  none: "",
+  ramp: "growing after it was turned on",
+  peak: "peak limit",
+  continuous: "long-run limit",
+  temperature: "warm motors",
+  unknown: "",
+};
+
+/** Whether a limit holds the force below the model's. A force that grows after arming is no news. */
+export const cuts = (limit: Limit): boolean => limit === "peak" || limit === "continuous" || limit === "temperature";
+
+/** The limit that acted in a tick; recordings of earlier versions do not say. */
+export const limitOf = (history: History, tick: number): Limit =>
+  LIMITS[history.byteRow("limit", tick)[0] ?? 0] ?? "unknown";
+
+/** The last of the ticks from `first` on in which a limit cut the force; null without one. */
+export function lastCut(history: History, first: number): number | null {
+  const limits = history.byteColumn("limit");
+  for (let tick = history.end - 1; tick >= Math.max(first, history.first); tick--)
+    if (cuts(LIMITS[limits[history.slot(tick)]!] ?? "unknown")) return tick;
+  return null;
+}
+
+/** "0.76 of 2.19 N": what the hand gets of the model's force in a tick. */
+export function cutFigures(history: History, tick: number): string {
+  const norm = (column: "force" | "model_force"): string => {
+    const [x, y, z] = history.row(column, tick);
+    return Math.hypot(x!, y!, z!).toFixed(2);
+  };
+  return `${norm("force")} of ${norm("model_force")} N`;
+}
