@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,12 +15,7 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.exercise import Exercise, start_axis
 from punctura.exercise.schema import ExerciseFile
 from punctura.scene import load_scene, scene_names
-from punctura.scene.parse import read_text
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from punctura.scene.parse import read_tables
 
 _FOLDER = Path(__file__).parents[1] / "exercises"
 
@@ -39,7 +33,7 @@ def exercises() -> list[Exercise]:
 def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
     """A ready exercise by its name, or one from a file. Raises ConfigurationError with everything that is wrong."""
     path = _path_of(name_or_path)
-    tables = _tables(path)
+    tables = read_tables(path, "exercise")
     file, problems = _checked(tables)
     scene, scene_name, scene_problems = _scene_of(tables.get("scene"), path)
     problems += scene_problems
@@ -59,13 +53,6 @@ def _path_of(name_or_path: str | os.PathLike[str]) -> Path:
         reason = f"there is no ready exercise of this name; ready exercises: {known}"
         raise ConfigurationError([Problem("", MISSING, reason)], name_or_path)
     return path
-
-
-def _tables(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as bad:
-        raise ConfigurationError([Problem("", MISSING, f"is not TOML: {bad}")], str(path)) from None
 
 
 def _checked(tables: dict[str, Any]) -> tuple[ExerciseFile | None, list[Problem]]:

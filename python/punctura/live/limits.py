@@ -63,8 +63,8 @@ class Limits(NamedTuple):
 
 
 def load_limits(path: str | os.PathLike[str]) -> Limits:
-    """Reads a limits file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
-    table = read_table(path, FORCE | GATE, _refused)
+    """Reads a limits file. Raises ConfigurationError with all of its problems."""
+    table = read_table(path, "limits", FORCE | GATE, _refused)
     return Limits(ForceLimits(**_fields(FORCE, table)), _fields(GATE, table))
 
 

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Placement
+from punctura.errors import ConfigurationError, Problem
 from punctura.live.tables import Key, Number, Vector, read_table
 
 KEYS: dict[str, Key] = {"rotation": Vector(4), "offset_mm": Vector(3), "scale": Number(), "tip_offset_mm": Number()}
 
 
 def load_placement(path: str | os.PathLike[str]) -> Placement:
-    """Reads a placement file. Raises ConfigurationError with all of its problems, OSError where it cannot be read."""
-    table = read_table(path, KEYS)
+    """Reads a placement file. Raises ConfigurationError with all of its problems."""
+    return _placement(read_table(path, "placement", KEYS, _refused))
+
+
+def _placement(table: dict[str, Any]) -> Placement:
     metres = [x * 1e-3 for x in table.get("offset_mm", (0.0, 0.0, 0.0))]
     return Placement(
         rotation=table.get("rotation", (1.0, 0.0, 0.0, 0.0)),
@@ -23,6 +28,17 @@ def load_placement(path: str | os.PathLike[str]) -> Placement:
         scale=table.get("scale", 1.0),
         tip_offset=table.get("tip_offset_mm", 0.0) * 1e-3,
     )
+
+
+def _refused(table: dict[str, Any]) -> list[Problem]:
+    """What the core has against the values, told of the file's own keys."""
+    try:
+        _placement(table)
+    except ConfigurationError as error:
+        names = {name.removesuffix("_mm"): name for name in KEYS}
+        keys = [names[problem.path.rpartition(".")[2]] for problem in error.problems]
+        return [Problem(key, table[key], problem.reason) for key, problem in zip(keys, error.problems, strict=True)]
+    return []
 
 
 def placement_text(placement: Placement) -> str:

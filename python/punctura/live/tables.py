@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 from punctura.errors import ConfigurationError, Problem
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from punctura.scene.parse import read_tables
 
 
 @dataclass(frozen=True)
@@ -61,17 +57,16 @@ Key = Number | Vector | Buttons
 
 
 def read_table(
-    path: str | os.PathLike[str], keys: Mapping[str, Key], more: Callable[[dict[str, Any]], list[Problem]] | None = None
+    path: str | os.PathLike[str],
+    what: str,
+    keys: Mapping[str, Key],
+    more: Callable[[dict[str, Any]], list[Problem]] | None = None,
 ) -> dict[str, Any]:
-    """What the file says, as its keys have it. more: what else is wrong with the values that fit their keys.
+    """What the file says, under the file's keys. more: what else is wrong with the values that fit their keys.
 
-    Raises ConfigurationError with all that is wrong, OSError.
+    what: kind of file, for the messages. Raises ConfigurationError with all that is wrong.
     """
-    with open(path, "rb") as file:
-        try:
-            table = tomllib.load(file)
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise ConfigurationError([Problem("", None, f"is not TOML: {error}")], str(path)) from None
+    table = read_tables(Path(path), what)
     problems = list(_problems(table, keys))
     if more:
         problems += more({name: table[name] for name, key in keys.items() if name in table and key.fits(table[name])})

@@ -1,4 +1,7 @@
-"""What the reader of scene files takes on. TOML knows no bounds; beyond these a file could take a reader hours."""
+"""Bounds of what the reader of TOML files takes on: scenes, limits, placements, exercises.
+
+TOML itself has no bounds; beyond these a file could take a reader hours.
+"""
 
 from __future__ import annotations
 

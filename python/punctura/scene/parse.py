@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import stat
 import sys
+from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
@@ -21,23 +23,33 @@ def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
     return ConfigurationError([Problem(where, MISSING, reason)], str(path))
 
 
-def read_text(path: Path) -> str:
-    """The text of a scene file; a byte-order mark is passed over."""
+def read_text(path: Path, what: str = "scene") -> str:
+    """The text of a TOML file of ours; a byte-order mark is skipped. what: kind of file, for the messages.
+
+    Raises ConfigurationError, also for a device, a pipe, and a file of more than MOST_BYTES.
+    """
     try:
+        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # before it is opened: a pipe could block
+            raise _error(path, f"is a device or a pipe, not a {what} file; save its text in a file")
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
         if len(data) > MOST_BYTES:
-            raise _error(path, f"is larger than {MOST_BYTES // 1024} KiB: no scene needs that")
+            raise _error(path, f"is larger than {MOST_BYTES // 1024} KiB: no {what} needs that")
         return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise _error(path, "there is no such file") from None
     except IsADirectoryError:
-        raise _error(path, "is a folder, not a scene file") from None
+        raise _error(path, f"is a folder, not a {what} file") from None
     except UnicodeDecodeError as bad:
         line = bad.object[: bad.start].count(b"\n") + 1
         raise _error(path, "is not UTF-8 text; save it as UTF-8", f"line {line}") from None
     except OSError as bad:
         raise _error(path, f"cannot be read: {bad.strerror}") from None
+
+
+def read_tables(path: Path, what: str) -> dict[str, Any]:
+    """The tables of a TOML file, with fractions as float. Raises ConfigurationError."""
+    return parse_toml(read_text(path, what), path, float)
 
 
 def _decimal(text: str) -> Decimal:
@@ -47,13 +59,13 @@ def _decimal(text: str) -> Decimal:
         return Decimal(float(text))
 
 
-def parse_toml(text: str, path: Path) -> dict[str, Any]:
-    """The tables of a TOML text. Fractions stay the decimals that were written."""
+def parse_toml(text: str, path: Path, parse_float: Callable[[str], Any] = _decimal) -> dict[str, Any]:
+    """The tables of a TOML text. Without parse_float, fractions stay the decimals that were written."""
     beyond = excess(text)
     if beyond:
         raise _error(path, beyond.reason, f"line {beyond.line}")
     try:
-        return tomllib.loads(text, parse_float=_decimal)
+        return tomllib.loads(text, parse_float=parse_float)
     except tomllib.TOMLDecodeError as bad:
         message = str(bad)
         found = re.search(r" \(at (line \d+, column \d+|end of document)\)$", message)

@@ -29,6 +29,7 @@ class Evenness:
         self.count = 0
         self.first = self.last = 0.0
         self._step: float | None = None  # of the first block
+        self._gap: MotionError | None = None  # a gap, unless a later row turns out to lie in it
 
     @property
     def step(self) -> float | None:
@@ -43,8 +44,15 @@ class Evenness:
             self.first = float(time[0])
         self.count += len(time) - (1 if self.count else 0)
         self.last = float(time[-1])
+        if self._gap:
+            self._raise_gap(first_line, time)
         if len(time) > 1:
             self._check(first_line, time)
+
+    def finish(self) -> None:
+        """After the last block. Raises MotionError for a gap near the end."""
+        if self._gap:
+            raise self._gap
 
     def _check(self, first_line: int, time: NDArray[np.float64]) -> None:
         steps = np.diff(time)
@@ -54,7 +62,12 @@ class Evenness:
         bad = np.flatnonzero(~((steps > usual / 2) & (steps < 1.5 * usual)))
         if len(bad):
             i = int(bad[0]) + 1
-            raise MotionError(self.file, first_line + i, _step_problem(float(time[i - 1]), float(time[i]), usual))
+            error = MotionError(self.file, first_line + i, _step_problem(float(time[i - 1]), float(time[i]), usual))
+            if steps[i - 1] <= usual:
+                raise error
+            self._gap = error
+            self._raise_gap(first_line + i, time[i:], wait=True)
+            return
         index = np.arange(len(time))
         mean = float(time[-1] - time[0]) / (len(time) - 1)
         off = np.abs(time - (time[0] + index * mean))
@@ -74,6 +87,15 @@ class Evenness:
                 first_line,
                 f"time_s changes its step from {self._step:.6g} s to {mean:.6g} s here; {_ADVICE}",
             )
+
+    def _raise_gap(self, first_line: int, time: NDArray[np.float64], wait: bool = False) -> None:
+        """Where time goes back after a gap, rows are exchanged and none is missing. wait: for the next block, too."""
+        back = np.flatnonzero(np.diff(time) < 0)
+        if len(back):
+            i = int(back[0]) + 1
+            raise MotionError(self.file, first_line + i, _step_problem(float(time[i - 1]), float(time[i]), 1.0))
+        if self._gap and not wait:
+            raise self._gap
 
 
 def _step_problem(before: float, now: float, usual: float) -> str:

@@ -25,6 +25,7 @@ from punctura.simulation.table import output_schema, output_table
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
+SLOWEST_STEP = 0.1  # s between rows; what lies between rows further apart would be made up by the resampling
 _SURVEY_SHARE = 0.2  # of the progress is the first reading
 
 
@@ -104,6 +105,7 @@ def _survey(motion: MotionFile, tell: Progress) -> Evenness:
                 line = block.first_line + int(nowhere[0])
                 raise MotionError(motion.path, line, "axis_x, axis_y, axis_z are all 0; they must give a direction")
         tell(_SURVEY_SHARE * block.bytes_read / motion.size)
+    even.finish()
     if not even.count:
         raise MotionError(motion.path, 2, "there is no motion below the column names")
     return even
@@ -114,6 +116,14 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
     period = 1 / scene.servo.rate
     if even.step is None:
         return None
+    if even.step > SLOWEST_STEP:
+        raise MotionError(
+            even.file,
+            0,
+            f"time_s grows by {even.step:.6g} s from row to row, and a motion must have {1 / SLOWEST_STEP:g} rows a "
+            "second or more; where time_s is in another unit, write seconds, else sample the motion more often "
+            "(numpy.interp does it)",
+        )
     summary.motion_rate_hz = 1 / even.step
     if abs(even.step - period) * (even.count - 1) <= TOLERANCE * period:
         return None

@@ -54,9 +54,11 @@ def test_all_that_is_wrong_with_a_file_is_told_at_once(tmp_path):
     with pytest.raises(pn.ConfigurationError) as error:
         load_placement(path)
     assert [p.path for p in error.value.problems] == ["offset", "rotation", "scale"]
-    path.write_text("scale = 0\n")
-    with pytest.raises(pn.ConfigurationError, match=r"placement\.scale"):
+    path.write_text("scale = 0\ntip_offset_mm = inf\n")
+    with pytest.raises(pn.ConfigurationError) as error:
         load_placement(path)
+    assert [(p.path, p.value) for p in error.value.problems] == [("scale", 0), ("tip_offset_mm", float("inf"))]
+    assert str(error.value).startswith(f"{path}: 2 problems")
     path.write_text("scale = \n")
     with pytest.raises(pn.ConfigurationError, match="is not TOML"):
         load_placement(path)

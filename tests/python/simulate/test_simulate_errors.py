@@ -141,6 +141,38 @@ def test_a_gap_is_told_with_the_line_after_it(tmp_path, monkeypatch, block_bytes
     assert "(20 samples missing at" in error_of(tmp_path, [HEADER, *LINES[:60], *LINES[80:]])
 
 
+@pytest.mark.parametrize("block_bytes", [300, 1 << 20])
+@pytest.mark.parametrize(("first", "second"), [(57, 58), (57, 63), (10, 90)])
+def test_exchanged_rows_are_time_that_goes_back_not_a_gap(tmp_path, monkeypatch, first, second, block_bytes):
+    monkeypatch.setattr("punctura.simulation.motion_file.BLOCK_BYTES", block_bytes)
+    rows = list(LINES)
+    rows[first - 2], rows[second - 2] = rows[second - 2], rows[first - 2]
+    before, now = (rows[line - 2].split(",")[0] for line in (first, first + 1))
+    assert error_of(tmp_path, [HEADER, *rows]) == (
+        f"line {first + 1}: time_s goes back, from {before} s to {now} s; sort the rows, or cut the motion there"
+    )
+
+
+@pytest.mark.parametrize("block_bytes", [300, 1 << 20])
+def test_a_part_of_the_motion_that_comes_too_late_is_time_that_goes_back(tmp_path, monkeypatch, block_bytes):
+    monkeypatch.setattr("punctura.simulation.motion_file.BLOCK_BYTES", block_bytes)
+    message = error_of(tmp_path, [HEADER, *LINES[:50], *LINES[55:60], *LINES[50:55], *LINES[60:]])
+    assert message.startswith("line 57: time_s goes back")
+
+
+@pytest.mark.parametrize("rows", [98, 99])
+def test_a_gap_at_the_end_is_told_with_the_line_after_it(tmp_path, rows):
+    assert error_of(tmp_path, [HEADER, *LINES[: rows - 1], *LINES[rows:]]).startswith(f"line {rows + 1}: a gap from")
+
+
+@pytest.mark.parametrize(("factor", "step"), [(1000, "0.625"), (1.6e6, "1000")])
+def test_stamps_in_another_unit_are_refused_not_filled_up_with_made_up_rows(tmp_path, factor, step):
+    assert error_of(tmp_path, [HEADER, *rows_of(TIME * factor, POSITION)]) == (
+        f": time_s grows by {step} s from row to row, and a motion must have 10 rows a second or more; where time_s is "
+        "in another unit, write seconds, else sample the motion more often (numpy.interp does it)"
+    )
+
+
 def test_time_that_goes_back_or_stands_is_told(tmp_path):
     assert error_of(tmp_path, [HEADER, *LINES[:60], *LINES[50:]]) == (
         "line 62: time_s goes back, from 0.036875 s to 0.03125 s; sort the rows, or cut the motion there"
