@@ -1,4 +1,6 @@
-"""Opens recordings that were cut off or have bits flipped: no crash, no hang, no growth, and never a wrong number.
+"""Opens recordings that were cut off, have bits flipped, or say of their run what cannot be, under a right check sum.
+
+No crash, no hang, no growth, no error but RecordingError, and never a wrong number.
 
 python tools/fuzz_recordings.py --minutes 10
 """
@@ -7,18 +9,23 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import json
 import random
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import asdict
 from pathlib import Path
 
 import pyarrow as pa
 from punctura import Strokes, load_scene
 from punctura._core import ServoLoop, SimulatedDevice
-from punctura.record import Recorder, RecordingError, open_recording
+from punctura.record import Recorder, RecordingError, export, open_recording, replay, replay_device
+from punctura.studio.recorded import overview
+from punctura.studio.shelf import entry_of
+from spoil_recording import description_of, rewrite, spoil_description
 
 HANG_S = 30
 MOST_GROWTH_MB = 100.0
@@ -84,6 +91,23 @@ def read_all(path: Path, whole: pa.Table) -> int:
         return 0
 
 
+def use_all(path: Path) -> None:
+    """All that punctura does with a recording. Raises AssertionError for an error that is none of recordings."""
+    uses = (
+        lambda: json.dumps(asdict(entry_of("case", open_recording(path))), allow_nan=False).encode(),
+        lambda: json.dumps(overview(open_recording(path)), allow_nan=False).encode(),
+        lambda: replay(path),
+        lambda: replay_device(path),
+        lambda: export(path, path.with_suffix(".csv")),
+        lambda: export(path, path.with_suffix(".mcap")),
+    )
+    for use in uses:
+        try:
+            use()
+        except RecordingError as bad:
+            assert str(path) in str(bad), f"does not name its file: {bad}"
+
+
 def memory_mb() -> float:
     import resource
 
@@ -94,16 +118,23 @@ def fuzz(seconds: float, seed: int, folder: Path) -> None:
     """The process that may crash: it says which case it is at before each."""
     files = originals(folder)
     contents = [file.read_bytes() for file in files]
+    described = [description_of(file) for file in files]
     whole = open_recording(files[1]).table()
     assert [read_all(file, whole) for file in files] == [1500, 1500]
     case = folder / "case.parquet"
     began, count, memory = time.monotonic(), 0, 0.0
     while time.monotonic() - began < seconds:
         chance = random.Random(seed * 1_000_003 + count)
-        case.write_bytes(spoil(contents[count % 2], chance))
+        wrong = count % 4 >= 2  # two cases of each kind in turn
+        if wrong:
+            rewrite(files[count % 2], case, spoil_description(described[count % 2], chance))
+        else:
+            case.write_bytes(spoil(contents[count % 2], chance))
         print(f"case {count} of seed {seed}", file=sys.stderr, flush=True)
         faulthandler.dump_traceback_later(HANG_S, exit=True)
         read_all(case, whole)
+        if wrong:
+            use_all(case)
         faulthandler.cancel_dump_traceback_later()
         count += 1
         if count == 200:

@@ -7,19 +7,23 @@ import json
 import math
 import time
 import zlib
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar
 
 import numpy as np
 import pyarrow as pa
 
 from punctura._core import Device, ForceLimits, GateLimits, Scene, ServoLoop
 from punctura.record.build_id import build_id, machine
+from punctura.record.description import FORMATS, Description, read_description
 from punctura.record.errors import RecordingError
 from punctura.record.scene_text import from_text, to_text
+from punctura.record.schema import check_columns
 
-FORMAT = 2
-READABLE = (1, 2)  # 1 had the gate's limit on motion as a distance from one reading to the next, and no `spent_N2s`
+T = TypeVar("T")
+
+FORMAT = FORMATS[-1]
 KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
@@ -60,63 +64,71 @@ def _plain(value: Any) -> Any:
 
 
 class RecordingInfo:
-    """The description of a recorded run. `data` is all of it, as JSON has it."""
+    """The description of a recorded run. `data` is all of it as JSON has it; `said` the same, checked and typed."""
 
-    def __init__(self, data: dict[str, Any], path: Path) -> None:
-        self.data = data
+    def __init__(self, data: dict[str, Any], said: Description, path: Path) -> None:
+        self.data, self.said = data, said
         self._path = path
 
     @property
     def scene(self) -> Scene:
-        """The one that the run began with, at the device's rate."""
-        return from_text(self._need("scene", str), self._path)
+        """The one that the run began with, at the device's rate. Raises RecordingError."""
+        return from_text(self.said.scene, self._path)
 
     @property
     def gate(self) -> GateLimits:
-        values = self._limits("gate")
+        """Raises RecordingError."""
+        values = dict(self.said.gate)
         if "position_jump" in values:  # format 1: m from one reading to the next
-            values["max_speed"] = values.pop("position_jump") * float(self._need("rate_hz", float))
-        return GateLimits(**values)
+            values["max_speed"] = _number(values.pop("position_jump")) * self.said.rate_hz
+        return self._struct(GateLimits, "gate", values)
 
     @property
     def limits(self) -> ForceLimits:
-        """As they acted, with the device's ratings."""
-        return ForceLimits(**self._limits("limits"))
+        """As they acted, with the device's ratings. Raises RecordingError."""
+        return self._struct(ForceLimits, "limits", self.said.limits)
 
     @property
     def spent(self) -> float:
         """What the device's motors had given before the run, N^2 s: with it the limits act again as they did."""
-        return float(self.data.get("spent_N2s", 0.0))
+        return self.said.spent_N2s
 
     @property
     def build(self) -> str:
-        return cast(str, self._need("build", str))
+        return self.said.build
 
     @property
     def about(self) -> dict[str, Any]:
         """What else its maker had to say; empty if nothing."""
-        about = self.data.get("about", {})
-        return about if isinstance(about, dict) else {}
+        return self.said.about
 
     @property
     def began_ns(self) -> int:
         """Of the clock on the wall, ns since 1970."""
-        return cast(int, self._need("began_ns", int))
+        return self.said.began_ns
 
-    def _limits(self, name: str) -> dict[str, Any]:
-        values = self._need(name, dict)
-        return {key: float(value) if isinstance(value, str) else value for key, value in values.items()}
+    def _struct(self, kind: Callable[..., T], name: str, values: dict[str, Any]) -> T:
+        try:
+            return kind(**{key: _number(value) for key, value in values.items()})
+        except TypeError:
+            reason = f"it holds {', '.join(values)}, not all of which this version knows, or with another type"
+        except ValueError as bad:
+            reason = " ".join(str(bad).split())
+        raise RecordingError(f"{self._path}: {name} in the description of the run cannot be used: {reason}")
 
-    def _need(self, name: str, kind: type) -> Any:
-        value = self.data.get(name)
-        if not isinstance(value, kind):
-            raise RecordingError(f"{self._path}: the recording does not say its {name}")
-        return value
+
+def _number(value: Any) -> Any:
+    """The number that a word stands for; see _plain."""
+    return float(value) if isinstance(value, str) else value
 
 
 def to_metadata(data: dict[str, Any], schema: pa.Schema) -> dict[bytes, bytes]:
     """For a schema's metadata, with a check sum over description and columns."""
-    text = json.dumps(data, ensure_ascii=False).encode()
+    return with_check_sum(json.dumps(data, ensure_ascii=False).encode(), schema)
+
+
+def with_check_sum(text: bytes, schema: pa.Schema) -> dict[bytes, bytes]:
+    """The metadata of a schema whose description is this text."""
     return {KEY: text, CHECK: str(_check(text, schema)).encode()}
 
 
@@ -127,13 +139,8 @@ def from_metadata(schema: pa.Schema, path: Path) -> RecordingInfo:
         raise RecordingError(f"{path} is not a recording of Punctura")
     if not is_sound(schema):
         raise RecordingError(f"{path} is damaged: the description of the run is not as it was written")
-    data = json.loads(text)
-    if data.get("format") not in READABLE:
-        raise RecordingError(
-            f"{path} has format {data.get('format')!r}, and this Punctura reads {' and '.join(map(str, READABLE))}; "
-            f"use the one that wrote it: {data.get('build', 'unknown')}"
-        )
-    return RecordingInfo(data, path)
+    check_columns(schema, path)
+    return RecordingInfo(*read_description(text, path), path)
 
 
 def is_sound(schema: pa.Schema) -> bool:

@@ -9,7 +9,7 @@ import pyarrow as pa
 
 from punctura.record.errors import RecordingError
 from punctura.record.header import from_metadata
-from punctura.record.schema import read_schema, worded
+from punctura.record.schema import check_columns, read_schema, worded
 from punctura.record.stream import BROKEN, END, Decoder
 from punctura.record.survey import Survey
 
@@ -27,12 +27,18 @@ class PartFile:
         self.damaged = False  # ticks are missing that were on the disk
         with pa.OSFile(str(path), "rb") as file:
             decoder = Decoder(file, self._size)
+            checked = 0
             for batch in decoder:
+                if checked < len(decoder.schemas):  # a stream begins
+                    checked = len(decoder.schemas)
+                    self.info = from_metadata(decoder.schemas[0], path)
+                    check_columns(decoder.schemas[-1], path)
                 self._check_order(batch)
                 self.survey.add(batch)
         if not decoder.schemas:
             raise RecordingError(f"{path} is not a recording of Punctura, or is damaged at its beginning")
-        self.info = from_metadata(decoder.schemas[0], path)
+        if not checked:
+            self.info = from_metadata(decoder.schemas[0], path)
         self.schema = read_schema(max(decoder.schemas, key=len))
         self._note(decoder)
 
@@ -43,10 +49,16 @@ class PartFile:
             for batch in Decoder(file, self._size):
                 if left <= 0:
                     return
-                yield worded(batch[:left], self.schema)
+                yield self._worded(batch[:left])
                 left -= len(batch)
                 if progress:
                     progress(min(1.0, file.tell() / max(1, self._size)))
+
+    def _worded(self, batch: pa.RecordBatch) -> pa.RecordBatch:
+        try:
+            return worded(batch, self.schema)
+        except BROKEN as bad:
+            raise RecordingError(f"{self.path} is damaged: a state, fault or phase cannot be: {bad}") from None
 
     def _check_order(self, batch: pa.RecordBatch) -> None:
         try:

@@ -31,29 +31,29 @@ class Recording:
         self.info: RecordingInfo = source.info
         self.schema: pa.Schema = source.schema
         self.summary: dict[str, Any] = (
-            source.survey.to_dict() if isinstance(source, PartFile) else source.info.data.get("summary", {})
+            source.survey.to_dict() if isinstance(source, PartFile) else source.info.said.summary.model_dump()
         )
         self.notes: tuple[str, ...] = tuple(source.notes) + tuple(self._earlier_notes())
 
     @property
     def rows(self) -> int:
         """Ticks in the file."""
-        return int(self.summary.get("ticks", 0))
+        return self._source.survey.rows if isinstance(self._source, PartFile) else self._source.rows
 
     @property
     def lost(self) -> int:
         """Ticks that are known to be missing."""
-        return int(self.summary.get("lost", 0))
+        return int(self.summary["lost"])
 
     @property
     def damaged(self) -> bool:
         """Ticks are missing that had been written: the file is not as it was."""
-        return self._source.damaged if isinstance(self._source, PartFile) else bool(self.summary.get("damaged"))
+        return self._source.damaged if isinstance(self._source, PartFile) else bool(self.summary["damaged"])
 
     @property
     def faults(self) -> list[dict[str, Any]]:
         """The first thousand, each with its tick, name and meaning."""
-        return list(self.summary.get("faults", []))
+        return list(self.summary["faults"])
 
     def batches(self, progress: Callable[[float], None] | None = None) -> Iterator[pa.RecordBatch]:
         """All ticks in turn, in constant memory. progress is told the share done."""
@@ -72,7 +72,7 @@ class Recording:
 
     def _earlier_notes(self) -> list[str]:
         """What was noted when an unfinished file was turned into this one."""
-        return list(self.summary.get("notes", [])) if self.finished else []
+        return list(self.summary["notes"]) if self.finished else []
 
 
 def open_recording(path: str | os.PathLike[str]) -> Recording:

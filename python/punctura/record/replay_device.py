@@ -31,9 +31,9 @@ def replay_device(
     recording = open_recording(path)
     samples = _samples(recording)
     try:
-        rate, said = float(recording.info.data["rate_hz"]), recording.info.data["device"]
-        about: dict[str, Any] = {name: said[name] for name in _WORDS}
-        about |= {name: float(said[name]) for name in _NUMBERS}
+        rate, said = recording.info.said.rate_hz, recording.info.said.device
+        about: dict[str, Any] = {name: getattr(said, name) for name in _WORDS}
+        about |= {name: float(getattr(said, name)) for name in _NUMBERS}
         device = ReplayDevice(
             samples.position,
             samples.axis,
@@ -50,8 +50,8 @@ def replay_device(
         )
         device.spent = recording.info.spent
         return device
-    except (KeyError, TypeError, ValueError) as bad:
-        raise RecordingError(f"{recording.path} does not say on which device it was made: {bad}") from None
+    except (TypeError, ValueError) as bad:
+        raise RecordingError(f"{recording.path}: its motion cannot be played as a device: {bad}") from None
 
 
 def _samples(recording: Recording) -> Inputs:

@@ -47,7 +47,7 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     result = ExportResult(str(recording.path), str(target), recording.rows, recording.lost, list(recording.notes))
     suffix = target.suffix.lower()
     if suffix == ".csv":
-        if recording.summary.get("new_scenes"):
+        if recording.summary["new_scenes"]:
             result.notes.append("a CSV has no place for the scenes; commands has bit 8 where a new one was taken")
         _to_csv(recording, target, progress)
     elif suffix == ".parquet":

@@ -26,4 +26,4 @@ def from_text(text: str, path: Path) -> Scene:
             raise ConfigurationError(problems, str(path))
         return build_scene(scene_file)
     except ConfigurationError as bad:
-        raise RecordingError(f"a scene in the recording cannot be used: {bad}") from None
+        raise RecordingError(f"{path}: a scene in the recording cannot be used: {bad}") from None

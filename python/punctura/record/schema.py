@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from punctura.record.columns import LOST, NEW_SCENES, Columns, words_of
+from punctura.record.columns import AXES, LOST, NEW_SCENES, Columns, words_of
+from punctura.record.errors import RecordingError
 
 SCENES_TYPE = pa.list_(pa.string())
 _WORD = pa.dictionary(pa.int8(), pa.string())
@@ -41,6 +43,41 @@ def of_membrane(name: str) -> bool:
 def membranes_in(schema: pa.Schema) -> int:
     """How many membranes the columns are for."""
     return sum(name.startswith("phase_") for name in schema.names)
+
+
+# Columns that every recording has; a membrane's are there once for each.
+_INTEGERS = ("tick", "commands", "sequence", "buttons", LOST)
+_FLOATS = (
+    "time_s",
+    "motor_temperature",
+    "ceiling_N",
+    *(p.format(a) for a in AXES for p in ("{}_m", "axis_{}", "f{}_N")),
+)
+_OTHERS = ("healthy", "state", "fault", NEW_SCENES)
+_EACH = ("depth_{}_m", "force_{}_N", "lower_{}_N", "upper_{}_N", "phase_{}")
+
+
+def check_columns(schema: pa.Schema, path: Path) -> None:
+    """Raises RecordingError where columns of a recording are missing or hold something else than they should."""
+    each = [pattern.format(i) for i in range(membranes_in(schema)) for pattern in _EACH]
+    missing = [name for name in (*_INTEGERS, *_FLOATS, *_OTHERS, *each) if schema.names.count(name) != 1]
+    wrong = [f"{field.name} ({field.type})" for field in schema if not _fits(field)]
+    if missing or wrong:
+        reasons = [f"without {', '.join(missing)}"] * bool(missing) + [f"with {', '.join(wrong)}"] * bool(wrong)
+        raise RecordingError(f"{path}: the columns are not those of a recording: {' and '.join(reasons)}")
+
+
+def _fits(field: pa.Field) -> Any:
+    if field.name == NEW_SCENES:
+        return pa.types.is_list(field.type) and pa.types.is_string(field.type.value_type)
+    if words_of(field.name):
+        kind = field.type.value_type if pa.types.is_dictionary(field.type) else field.type
+        return pa.types.is_uint8(kind) or pa.types.is_string(kind)
+    if field.name in _INTEGERS:
+        return pa.types.is_integer(field.type)
+    if field.name in _FLOATS or of_membrane(field.name):
+        return pa.types.is_float64(field.type)
+    return pa.types.is_primitive(field.type)
 
 
 def read_schema(raw: pa.Schema) -> pa.Schema:

@@ -47,8 +47,7 @@ class Survey:
         for k in np.flatnonzero((fault != 0) & (fault != before)):
             self.fault_count += 1
             if len(self.faults) < _MOST_FAULTS:
-                kind = Fault(int(fault[k]))
-                self.faults.append({"tick": int(tick[k]), "fault": kind.name, "meaning": describe(kind)})
+                self.faults.append({"tick": int(tick[k])} | _named(int(fault[k])))
 
     def to_dict(self) -> dict[str, Any]:
         """For a finished recording's description."""
@@ -61,3 +60,10 @@ class Survey:
             "fault_count": self.fault_count,
             "faults": self.faults,
         }
+
+
+def _named(fault: int) -> dict[str, str]:
+    if fault >= len(Fault):
+        return {"fault": str(fault), "meaning": "unknown to this version"}
+    kind = Fault(fault)
+    return {"fault": kind.name, "meaning": describe(kind)}

@@ -37,8 +37,8 @@ def loaded_of(recording: Recording) -> Loaded:
         except ConfigurationError:
             pass  # of another version; the scene itself is always there
     try:
-        return from_text(info.data["scene"])
-    except (ConfigurationError, KeyError, TypeError):
+        return from_text(info.said.scene)
+    except ConfigurationError:
         return from_text(_text_of(recording))
 
 
@@ -60,7 +60,7 @@ def overview(recording: Recording) -> dict[str, Any]:
         "scene": view.model_dump(mode="json"),
         "events": events,
         "ticks": recording.rows,
-        "first_tick": int(recording.summary.get("first_tick", 0)),
+        "first_tick": max(0, int(recording.summary["first_tick"])),
     }
 
 

@@ -6,7 +6,6 @@ import datetime
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.studio.names import LONGEST, BadName, safe_name
@@ -131,14 +130,13 @@ class Shelf:
 def entry_of(name: str, recording: Recording) -> Entry:
     """Raises RecordingError."""
     info = recording.info
-    data: dict[str, Any] = info.data
     about = info.about
-    ticks = recording.summary.get("last_tick", -1) - recording.summary.get("first_tick", 0) + 1
+    ticks = recording.summary["last_tick"] - recording.summary["first_tick"] + 1 if recording.rows else 0
     return Entry(
         name=name,
         title=str(about.get("title") or name),
-        started=str(data.get("began", "")),
-        seconds=max(0, ticks) * float(data.get("period_s", 0.0)),
+        started=info.said.began,
+        seconds=max(0, ticks) * info.said.period_s,
         ticks=recording.rows,
         lost=recording.lost,
         scene=info.scene.name,

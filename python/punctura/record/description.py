@@ -1,0 +1,161 @@
+"""What the description of a recording must be. It is checked once, when a file is opened; no reader checks it again.
+
+A new field of the header gets a line here. Keys that are not known here are kept and left alone, since another version
+may have written them.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from punctura.record.errors import RecordingError
+
+# That this version reads, the last of which it writes. In 1 the gate limited the distance from one reading to the next, and
+# there was no `spent_N2s`.
+FORMATS = (1, 2)
+_MOST_NESTED = 64
+_MOST_TOLD = 5  # problems in one message
+
+Count = Annotated[int, Field(ge=0, lt=2**63)]
+Tick = Annotated[int, Field(ge=-1, lt=2**63)]  # -1: there is none
+Positive = Annotated[float, Field(gt=0, le=1e9)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Whole = Annotated[int, Field(ge=-(2**63), lt=2**63)]
+Value = Whole | Number | Literal["nan", "inf", "-inf"]  # JSON has no number for these
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(strict=True, extra="allow", frozen=True)
+
+
+class DeviceSaid(_Part):
+    """What the device said of itself before the run: DeviceInfo."""
+
+    backend: str = ""
+    model: str = ""
+    serial: str = ""
+    has_orientation: bool = False
+    button_count: Count = 0
+    rate: Value = "nan"
+    max_force: Value = "nan"
+    continuous_force: Value = "nan"
+    max_stiffness: Value = "nan"
+    encoder_step: Value = "nan"
+
+
+class DeviceAfter(_Part):
+    """What it said after the run."""
+
+    statements: list[str] = []
+    trouble: str = ""
+
+
+class FaultAt(_Part):
+    """A fault and its tick."""
+
+    tick: Count
+    fault: str
+    meaning: str
+
+
+class Summary(_Part):
+    """Of a finished recording."""
+
+    ticks: Count = 0
+    first_tick: Tick = -1
+    last_tick: Tick = -1
+    lost: Count = 0
+    new_scenes: Count = 0
+    fault_count: Count = 0
+    faults: list[FaultAt] = []
+    notes: list[str] = []
+    damaged: bool = False
+
+
+class Description(_Part):
+    """The header of a recording."""
+
+    format: int
+    build: str
+    machine: str = ""
+    began: str = ""
+    began_ns: Count
+    rate_hz: Positive
+    period_s: Positive
+    device: DeviceSaid
+    gate: dict[str, Value]
+    limits: dict[str, Value]
+    spent_N2s: NotNegative = 0.0  # noqa: N815  the unit is in the name
+    scene: str
+    libraries: dict[str, str] = {}
+    about: dict[str, Any] = {}
+    summary: Summary = Summary()
+    lost: dict[str, Count] = {}
+    device_after: DeviceAfter = DeviceAfter()
+    replayed_from: str = ""
+    replayed_by: str = ""
+
+
+def read_description(text: bytes, path: Path) -> tuple[dict[str, Any], Description]:
+    """The JSON as it is, and checked. Raises RecordingError, which names the file and each field that is wrong."""
+    data = _json(text, path)
+    if data.get("format") not in FORMATS or isinstance(data["format"], bool):
+        known = " and ".join(str(number) for number in FORMATS)
+        raise RecordingError(
+            f"{path} has format {_brief(data.get('format'))}, and this Punctura reads format {known}; "
+            f"use the one that wrote it: {_brief(data.get('build', 'unknown'))}"
+        )
+    try:
+        return data, Description.model_validate(data)
+    except ValidationError as bad:
+        raise RecordingError(f"{path}: the description of the run cannot be used: {_told(bad)}") from None
+
+
+def _json(text: bytes, path: Path) -> dict[str, Any]:
+    try:
+        data = json.loads(text.decode(), parse_float=_finite, parse_constant=_finite)
+        json.dumps(data, ensure_ascii=False).encode()  # half a surrogate pair can be read, and not written again
+    except (ValueError, RecursionError) as bad:
+        raise RecordingError(f"{path}: the description of the run cannot be used: it is no JSON ({bad})") from None
+    if not isinstance(data, dict):
+        raise RecordingError(f"{path}: the description of the run cannot be used: it is no JSON object")
+    if _nested(data) > _MOST_NESTED:
+        raise RecordingError(f"{path}: the description of the run cannot be used: it is nested too deeply")
+    return data
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text} is no finite number")
+    return value
+
+
+def _nested(value: Any) -> int:
+    depth, level = 0, [value]
+    while level and depth <= _MOST_NESTED:
+        inner = [v.values() if isinstance(v, dict) else v for v in level if isinstance(v, dict | list)]
+        level = [child for children in inner for child in children]
+        depth += 1
+    return depth
+
+
+def _told(error: ValidationError) -> str:
+    problems = []
+    for one in error.errors(include_url=False)[:_MOST_TOLD]:
+        where = ".".join(str(part) for part in one["loc"])
+        given = "" if one["type"] == "missing" else f" = {_brief(one['input'])}"
+        problems.append(f"{where}{given}: {one['msg'][:1].lower()}{one['msg'][1:]}")
+    more = error.error_count() - len(problems)
+    return "; ".join(problems) + (f"; and {more} more" if more else "")
+
+
+def _brief(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 80 else f"{text[:70]} ..."
