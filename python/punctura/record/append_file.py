@@ -2,16 +2,41 @@
 
 from __future__ import annotations
 
+import errno
 import os
+from contextlib import suppress
 from pathlib import Path
+from typing import NamedTuple
+
+from punctura.record.new_file import make_file
+
+_OPEN_FILES = "/proc/self/fd"  # on Linux
+
+
+class Amiss(NamedTuple):
+    """What others did to the file. lost: what had been written to it is gone, in part or as a whole."""
+
+    words: str
+    lost: bool
 
 
 class AppendFile:
-    """Made anew; what stands there already is never overwritten. A write that fails can be tried again."""
+    """Made anew with its first bytes, and locked; what stands there already is never overwritten.
 
-    def __init__(self, path: Path) -> None:
-        self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    A write that fails can be tried again.
+    """
+
+    def __init__(self, path: Path, first: bytes = b"") -> None:
+        """Raises FileExistsError, OSError."""
+        self._path = path
         self.size = 0  # of what was written in whole
+        self._descriptor = make_file(path, lambda descriptor: self._begin(descriptor, first))
+        self._counts_names = os.fstat(self._descriptor).st_nlink > 0
+        self._folder = os.open(path.parent, os.O_RDONLY) if os.name == "posix" else None  # to follow it
+
+    def _begin(self, descriptor: int, first: bytes) -> None:
+        self._descriptor, self.size = descriptor, 0
+        self.write(first)
 
     def write(self, data: bytes) -> None:
         """All of it, or an OSError; what a failed write has left is overwritten by the next."""
@@ -21,9 +46,51 @@ class AppendFile:
             rest = rest[os.write(self._descriptor, rest) :]
         self.size += len(data)
 
-    def close(self) -> None:
-        """Cuts off what a failed write has left."""
+    def amiss(self) -> Amiss | None:
+        """Whether the file is still the one at its path, and as long as it was written."""
+        mine = os.fstat(self._descriptor)
+        if self._counts_names and mine.st_nlink == 0:
+            return Amiss(f"{self._path} was removed or replaced by another program while it was being recorded", True)
+        if mine.st_size < self.size:
+            return Amiss(f"{self._path} was cut off by another program while it was being recorded", True)
         try:
+            if os.path.samestat(mine, os.stat(self._path)):
+                return None
+        except OSError:
+            pass
+        place = self.place()
+        where = f"it goes on in {place}" if place else "it goes on under a name that is not known here"
+        return Amiss(f"{self._path} was moved while it was being recorded; {where}", False)
+
+    def place(self) -> Path | None:
+        """Where the file is now; None where that is not known."""
+        folders = [self._path.parent]
+        if self._folder is not None and os.path.isdir(_OPEN_FILES):
+            folders.append(Path(os.readlink(f"{_OPEN_FILES}/{self._folder}")))
+        for folder in folders:
+            with suppress(OSError):
+                if os.path.samestat(os.fstat(self._descriptor), os.stat(folder / self._path.name)):
+                    return folder / self._path.name
+        return None
+
+    def source(self) -> Path:
+        """Where to read it from, also where its name is not known. Raises FileNotFoundError where it has none."""
+        here = Path(f"{_OPEN_FILES}/{self._descriptor}")
+        named = os.fstat(self._descriptor).st_nlink > 0 or not self._counts_names
+        place = self.place() or (here if named and here.exists() else None)
+        if place is None:
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(self._path))
+        return place
+
+    def settle(self) -> None:
+        """Cuts off what a failed write has left."""
+        if os.fstat(self._descriptor).st_size > self.size:
             os.ftruncate(self._descriptor, self.size)
-        finally:
+
+    def close(self) -> None:
+        """Releases the lock, too."""
+        if self._descriptor >= 0:
             os.close(self._descriptor)
+            if self._folder is not None:
+                os.close(self._folder)
+            self._descriptor = -1

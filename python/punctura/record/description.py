@@ -91,7 +91,7 @@ class Description(_Part):
     device: DeviceSaid
     gate: dict[str, Value]
     limits: dict[str, Value]
-    spent_N2s: NotNegative = 0.0  # noqa: N815  the unit is in the name
+    spent_N2s: NotNegative = 0.0  
     scene: str
     libraries: dict[str, str] = {}
     about: dict[str, Any] = {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -27,29 +28,67 @@ def save_finished(
 ) -> None:
     """Parquet from what a growing file holds. Constant memory."""
     summary = part.survey.to_dict()
-    summary |= {"notes": part.notes, "damaged": part.damaged}
-    lost = more.get("lost", {})
-    summary["lost"] = max(summary["lost"], sum(lost.values()))
-    with parquet_output(path, part.schema, part.info.data | {"summary": summary} | more) as output:
+    summary |= {"notes": [*part.notes, *more.pop("notes", [])], "damaged": part.damaged}
+    summary["lost"] = max(summary["lost"], sum(more.get("lost", {}).values()))
+    with parquet_output(path, part.schema, part.info.data | {"summary": summary} | more, replace=False) as output:
         for batch in part.batches(progress):
             output.write(batch)
 
 
-def finish_recording(path: Path, file: AppendFile, status: RecorderStatus, more: dict[str, Any]) -> RecorderStatus:
-    """Closes the file and turns it into Parquet; whatever fails, the ticks that are on the disk stay there."""
-    part = part_path(path)
-    trouble = status.trouble
+def finish_recording(
+    path: Path, file: AppendFile, made: int, status: RecorderStatus, after: dict[str, Any]
+) -> RecorderStatus:
+    """Turns the file into Parquet and closes it; whatever fails, the ticks that are on the disk stay there.
+
+    made: ticks of the loop since the recording began. Those that cannot be read in the end are lost, whatever the
+    reason is. after: what the header says besides.
+    """
+    trouble, part = status.trouble, None
     try:
-        file.close()
-        if not trouble and path.exists():
-            trouble = f"{path} has appeared meanwhile"
+        file.settle()
+        amiss = file.amiss()
+        trouble = amiss.words if amiss else trouble
+        part = PartFile(file.source())
+        status = replace(_counted(status, part, made), file=file.place() or status.file)
         if not trouble:
-            lost = {"ring": status.lost_in_ring, "backlog": status.lost_in_backlog}
-            save_finished(PartFile(part), path, more | {"lost": lost})
-            size = path.stat().st_size
-            part.unlink()
-            return replace(status, file=path, finished=True, bytes=size)
-    except (OSError, ValueError, pa.ArrowException) as bad:
-        trouble = f"it could not be turned into Parquet: {bad}"
-    stays = f"the recording is in {part}, readable up to tick {status.last_tick}"
-    return replace(status, trouble=f"{trouble}; {stays}")
+            save_finished(part, path, after | {"lost": _causes(status), "notes": status.notes})
+            file.close()
+            with suppress(OSError):  # it is finished all the same
+                part.path.unlink()
+            return replace(status, file=path, finished=True, bytes=path.stat().st_size)
+    except FileExistsError:
+        trouble = f"{path} has appeared meanwhile"
+    except (OSError, ValueError, MemoryError, pa.ArrowException) as bad:
+        trouble = trouble or f"it could not be turned into Parquet: {bad}"
+        status = status if part else _counted(status, None, made)
+    finally:
+        file.close()
+    if not status.rows:
+        return replace(status, trouble=f"{trouble}; nothing of it can be read")
+    stays = f"the recording is in {status.file}, readable up to tick {status.last_tick}"
+    how = f"punctura export {status.file} --out FILE.parquet finishes it"
+    return replace(status, trouble=f"{trouble}; {stays}; {how}")
+
+
+def _counted(status: RecorderStatus, part: PartFile | None, made: int) -> RecorderStatus:
+    """With what the file really holds, all that is lost of so many ticks, and a note that says why."""
+    rows, last_tick = (part.survey.rows, part.survey.last_tick) if part else (0, -1)
+    lost = max(0, made - rows)
+    otherwise = max(0, lost - status.lost_in_ring - status.lost_in_backlog)
+    status = replace(status, rows=rows, last_tick=last_tick, lost=lost, lost_otherwise=otherwise)
+    return replace(status, notes=[*status.notes, _in_words(status, made)]) if lost else status
+
+
+def _causes(status: RecorderStatus) -> dict[str, int]:
+    """What is lost, for the header."""
+    return {"ring": status.lost_in_ring, "backlog": status.lost_in_backlog, "other": status.lost_otherwise}
+
+
+def _in_words(status: RecorderStatus, made: int) -> str:
+    reasons = (
+        (status.lost_in_ring, "came faster than they could be taken"),
+        (status.lost_in_backlog, "found no room in memory while the disk was slow, full or gone"),
+        (status.lost_otherwise, "were lost otherwise"),
+    )
+    why = ", ".join(f"{count} {reason}" for count, reason in reasons if count)
+    return f"{status.lost} of {made} ticks are lost: {why}"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +12,7 @@ import pyarrow.parquet as pq
 
 from punctura.record.errors import RecordingError
 from punctura.record.header import from_metadata, to_metadata
+from punctura.record.new_file import whole_file
 from punctura.record.stream import BROKEN
 
 Progress = Callable[[float], None]
@@ -74,32 +73,25 @@ class _Groups:
 
 
 @contextmanager
-def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any]) -> Iterator[_Groups]:
+def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace: bool = True) -> Iterator[_Groups]:
     """A finished recording that has its name only when it is whole and on the disk; after an error there is nothing.
 
-    Numbers keep their bits: no dictionary between them and the file, which would take one NaN for another.
+    Numbers keep their bits: no dictionary between them and the file, which would take one NaN for another. replace:
+    see whole_file.
     """
     schema = schema.with_metadata(to_metadata(data, schema))
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     numbers = [f.name for f in schema if pa.types.is_floating(f.type)]
-    try:
-        with pq.ParquetWriter(
-            str(temporary),
+    with (
+        whole_file(path, replace) as place,
+        pq.ParquetWriter(
+            place,
             schema,
             compression="zstd",
             use_dictionary=[f.name for f in schema if pa.types.is_dictionary(f.type)],
             use_byte_stream_split=numbers,
             write_page_checksum=True,
-        ) as writer:
-            groups = _Groups(writer, schema)
-            yield groups
-            groups.flush()
-        descriptor = os.open(temporary, os.O_RDWR)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+        ) as writer,
+    ):
+        groups = _Groups(writer, schema)
+        yield groups
+        groups.flush()

@@ -39,6 +39,7 @@ class PartFile:
             raise RecordingError(f"{path} is not a recording of Punctura, or is damaged at its beginning")
         if not checked:
             self.info = from_metadata(decoder.schemas[0], path)
+        self.damaged_parts = decoder.damaged
         self.schema = read_schema(max(decoder.schemas, key=len))
         self._note(decoder)
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import threading
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -27,6 +29,8 @@ INTERVAL_S = 0.1  # from one batch to the next
 _RING_S = 5.0  # s of ticks that the ring holds, for a reader who is late
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
 _ROWS_AT_ONCE = 4096
+_ROWS_AT_LEAST = 64  # where memory is short
+_MOST_FAILURES = 20  # in a row, before the ring is left until the next turn
 _COMMAND_SCENE = 8
 
 
@@ -59,23 +63,23 @@ class Recorder:
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
         self._listener = loop.listen(capacity or int(_RING_S * loop.scene.servo.rate))
-        self._file = self._open()
         self._backlog = Backlog(_BACKLOG_BYTES)
-        self._next_tick = int(loop.report()["ticks"])  # that none is missing before
+        self._began = self._next_tick = int(loop.report()["ticks"])  # that none is missing before
         self._width = len(loop.scene.membranes)  # that the present stream has columns for
+        self._kept = 0  # ticks that went to the backlog
         self._carried: list[str] = []  # scenes taken in ticks that were lost
         self._dropped = 0
         self._defect = ""
         self._final: RecorderStatus | None = None
         self._stop = threading.Event()
         self._reader = threading.Thread(target=self._read, name="punctura-recorder-reader", daemon=True)
+        self._file = self._open()
         try:
-            self._begin()
             self._writer = Writer(self._file, self._backlog, self._part)
             self._reader.start()
-        except BaseException:  # a signal among them: a file without a beginning would only be in the way
-            self._file.close()
+        except BaseException:  # a signal among them: a file without a tick would only be in the way
             self._part.unlink(missing_ok=True)
+            self._file.close()
             raise
 
     def exchange(self, scene: Scene) -> None:
@@ -86,14 +90,15 @@ class Recorder:
         """How it is doing; from any thread."""
         if self._final is not None:
             return self._final
-        lost = int(self._listener.lost)
+        in_ring = int(self._listener.lost)
+        missing = self._next_tick - self._began - self._kept  # before the last tick that went to the backlog
         return RecorderStatus(
             file=self._part,
             rows=self._writer.rows,
             last_tick=self._writer.last_tick,
             bytes=self._writer.size,
-            lost=lost + self._dropped,
-            lost_in_ring=lost,
+            lost=max(in_ring + self._dropped, missing) + self._writer.ruined,
+            lost_in_ring=in_ring,
             lost_in_backlog=self._dropped,
             waiting_bytes=self._backlog.waiting_bytes,
             slowest_write_s=self._writer.slowest_s,
@@ -102,8 +107,12 @@ class Recorder:
         )
 
     def finish(self) -> RecorderStatus:
-        """After loop.stop(): writes what there is, and makes it Parquet. A failing disk is in `trouble`, not raised."""
+        """After loop.stop(): writes what there is, and makes it Parquet. A failing disk is in `trouble`, not raised.
+
+        In the end every tick of the loop since the recording began is a row, or is counted as lost.
+        """
         if self._final is None:
+            made = int(self._loop.report()["ticks"]) - self._began
             self._stop.set()
             self._reader.join()
             self._backlog.put(Piece(self._encoder.end(), 0, -1))
@@ -111,7 +120,10 @@ class Recorder:
             self._writer.join()
             self._dropped += self._backlog.rows()
             after = {"device_after": describe_device(self._loop.device)}
-            self._final = finish_recording(self.path, self._file, self.status(), after)
+            if self._defect:
+                self._writer.note(self._defect)
+            status = replace(self.status(), trouble=self._writer.trouble)
+            self._final = finish_recording(self.path, self._file, made, status, after)
         return self._final
 
     def __enter__(self) -> Recorder:
@@ -123,27 +135,22 @@ class Recorder:
         self.finish()
 
     def _open(self) -> AppendFile:
+        """Description and columns are in the file when it gets its name: one that is killed at once opens, too."""
         if self.path.suffix.lower() != ".parquet":
             raise RecordingError(f"{self.path}: a recording's name must end in .parquet")
         if self.path.exists():
             raise RecordingError(f"{self.path} is there already; a recording overwrites nothing")
+        first = self._encoder.begin(self._batch(self._listener.read(0)).schema)
         try:
-            return AppendFile(self._part)
+            return AppendFile(self._part, first)
         except FileExistsError:
             raise RecordingError(
                 f"{self._part} is there already: a recording that was not finished, or still runs. "
                 f"Save it with `punctura export {self._part} --out FILE.parquet`, or delete it"
             ) from None
         except OSError as bad:
-            raise RecordingError(f"{self._part} cannot be made: {bad.strerror}") from None
-
-    def _begin(self) -> None:
-        """Description and columns are on the disk before the first tick: a file that is killed at once opens, too."""
-        batch = self._batch(self._listener.read(0))
-        try:
-            self._file.write(self._encoder.begin(batch.schema))
-        except OSError as bad:
-            raise RecordingError(f"{self._part} cannot be written: {bad.strerror}") from None
+            what = "written" if bad.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) else "made"
+            raise RecordingError(f"{self._part} cannot be {what}: {bad.strerror}") from None
 
     def _read(self) -> None:
         while not self._stop.wait(INTERVAL_S):
@@ -151,32 +158,38 @@ class Recorder:
         self._empty_ring()
 
     def _empty_ring(self) -> None:
-        while True:
-            snapshots: Columns = self._listener.read(_ROWS_AT_ONCE)
-            n = len(snapshots["tick"])
-            if n == 0:
-                return
+        """Takes what the ring holds. Whatever fails on the way costs ticks, which are counted, and never the rest."""
+        limit, failures = _ROWS_AT_ONCE, 0
+        while failures < _MOST_FAILURES:
             try:
-                kept = self._keep(snapshots)
-            except Exception as bad:  # a defect of ours must not end the recording
-                self._defect = f"ticks could not be recorded, please report this: {bad!r}"
-                kept = False
+                if self._take(limit) < limit:
+                    return
+            except BaseException as bad:
+                self._defect = f"ticks could not be recorded: {_reason(bad)}"
+                limit, failures = max(_ROWS_AT_LEAST, limit // 2), failures + 1
+
+    def _take(self, limit: int) -> int:
+        """One batch from the ring to the backlog. How many ticks it had."""
+        snapshots: Columns = self._listener.read(limit)
+        n = len(snapshots["tick"])
+        if n:
+            scenes = self._taken(snapshots)
+            kept = False
+            try:
+                kept = self._keep(snapshots, scenes)
+            finally:  # the next batch that is kept says by the gap before it that this one is lost
+                self._carried = [] if kept else [scene for row in scenes if row for scene in row]
             if kept:
                 self._next_tick = int(snapshots["tick"][-1]) + 1
+                self._kept += n
             else:
                 self._dropped += n
-            if n < _ROWS_AT_ONCE:
-                return
+        return n
 
-    def _keep(self, snapshots: Columns) -> bool:
-        """One batch to the backlog. False: it is lost. The next one that is kept says so by the gap before it."""
-        scenes = self._taken(snapshots)
+    def _keep(self, snapshots: Columns, scenes: list[list[str] | None]) -> bool:
+        """One batch to the backlog. False: there is no room."""
         batch = self._batch(snapshots, scenes)
-        if self._backlog.put(Piece(self._encoder.batch(batch), len(batch), int(snapshots["tick"][-1]))):
-            self._carried = []
-            return True
-        self._carried = [scene for row in scenes if row for scene in row]
-        return False
+        return self._backlog.put(Piece(self._encoder.batch(batch), len(batch), int(snapshots["tick"][-1])))
 
     def _batch(self, snapshots: Columns, scenes: list[list[str] | None] | None = None) -> pa.RecordBatch:
         """As the file has it. Where it has more columns than the stream, a new stream begins."""
@@ -195,3 +208,7 @@ class Recorder:
         if self._carried:
             scenes[0] = self._carried + (scenes[0] or [])
         return scenes
+
+
+def _reason(bad: BaseException) -> str:
+    return "there is not enough memory" if isinstance(bad, MemoryError) else f"a defect, please report it: {bad!r}"

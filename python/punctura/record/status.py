@@ -19,6 +19,7 @@ class RecorderStatus:
     lost: int = 0  # ticks that will never be in the file
     lost_in_ring: int = 0  # of these: the reader of the ring came too late
     lost_in_backlog: int = 0  # of these: the disk was too slow, or full for too long
+    lost_otherwise: int = 0  # of these: a defect, no memory, or a file that others have changed; known at the end
     waiting_bytes: int = 0
     slowest_write_s: float = 0.0
     trouble: str = ""

@@ -46,7 +46,11 @@ class Encoder:
     def batch(self, batch: pa.RecordBatch) -> bytes:
         assert self._writer is not None and self.schema is not None
         batch = batch.replace_schema_metadata(self.schema.metadata)
-        self._writer.write_batch(batch, custom_metadata={CHECK: check_sum(batch)})
+        try:
+            self._writer.write_batch(batch, custom_metadata={CHECK: check_sum(batch)})
+        except BaseException:
+            self._out.take()  # half a batch must not stand before the next one
+            raise
         return self._out.take()
 
     def end(self) -> bytes:

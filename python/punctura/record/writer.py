@@ -9,6 +9,8 @@ from pathlib import Path
 
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog
+from punctura.record.errors import RecordingError
+from punctura.record.part_file import PartFile
 
 RETRY_S = 0.5
 LAST_TRIES_S = 2.0  # for a disk that fails when the recording is to be finished
@@ -16,16 +18,21 @@ _MOST_NOTES = 100
 
 
 class Writer:
-    """Takes pieces from the backlog. A write that fails is told, and tried again until the recording ends."""
+    """Takes pieces from the backlog. A write that fails is told, and tried again until the recording ends.
+
+    Before each write it looks whether the file is still there as it was written.
+    """
 
     def __init__(self, file: AppendFile, backlog: Backlog, path: Path) -> None:
         self._file, self._backlog, self._path = file, backlog, path
         self.rows = 0
         self.last_tick = -1
+        self.ruined = 0  # ticks that were on the disk, and are not any more
         self.slowest_s = 0.0
         self.trouble = ""
         self.notes: list[str] = []
         self._trouble_began = 0.0
+        self._lost = False  # what had been written is gone, and nothing more can be added to it
         self._thread = threading.Thread(target=self._run, name="punctura-recorder-writer", daemon=True)
         self._thread.start()
 
@@ -46,12 +53,13 @@ class Writer:
         while (piece := self._backlog.first()) is not None:
             began = time.monotonic()
             try:
+                moved = self._check()
                 self._file.write(piece.data)
-            except OSError as bad:
+            except Exception as bad:  # whatever it is, it is told, and the next piece is tried
                 self._fail(bad, began)
                 if self._backlog.closing:
                     give_up = give_up or began + LAST_TRIES_S
-                    if began >= give_up:
+                    if began >= give_up or self._lost:
                         return
                     time.sleep(RETRY_S)
                 else:
@@ -62,12 +70,48 @@ class Writer:
             self._backlog.done()
             self.rows += piece.rows
             self.last_tick = piece.last_tick if piece.rows else self.last_tick
-            if self.trouble:
-                self.note(f"{self.trouble}; it could again after {now - self._trouble_began:.1f} s")
-                self.trouble = ""
+            self._tell(moved, now)
 
-    def _fail(self, bad: OSError, now: float) -> None:
+    def _check(self) -> str:
+        """Words for a file that was moved. Raises _Lost for one that is gone or was cut off."""
+        amiss = self._file.amiss()
+        if amiss is None:
+            return ""
+        if not amiss.lost:
+            return amiss.words
+        if not self._lost:
+            self._lost = True
+            before = self.rows
+            self.rows, self.last_tick = self._readable()
+            self.ruined = max(0, before - self.rows)
+        raise _Lost(amiss.words)
+
+    def _readable(self) -> tuple[int, int]:
+        """How many ticks can still be read, and the last of them; (0, -1) where there is none."""
+        try:
+            survey = PartFile(self._file.source()).survey
+        except (RecordingError, OSError):
+            return 0, -1
+        return survey.rows, survey.last_tick
+
+    def _tell(self, moved: str, now: float) -> None:
+        """After a write: what is wrong with the file's place, or what was wrong and is over."""
+        if moved:
+            self._trouble_began = self._trouble_began if self.trouble else now
+            self.trouble = moved
+        elif self.trouble:
+            self.note(f"{self.trouble}; that was over after {now - self._trouble_began:.1f} s")
+            self.trouble = ""
+
+    def _fail(self, bad: Exception, now: float) -> None:
         if not self.trouble:
             self._trouble_began = now
-        reason = os.strerror(bad.errno) if bad.errno else str(bad)
+        if isinstance(bad, _Lost):
+            self.trouble = str(bad)
+            return
+        reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else str(bad) or type(bad).__name__
         self.trouble = f"{self._path} could not be written: {reason}"
+
+
+class _Lost(Exception):
+    """What had been written is gone."""

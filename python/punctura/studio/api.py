@@ -22,17 +22,24 @@ from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.record import RecordingError, export
 from punctura.studio.catalog import exercise_overviews
-from punctura.studio.names import BadName
+from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
 from punctura.studio.session import Session
-from punctura.studio.shelf import SUFFIX, Missing
+from punctura.studio.shelf import SUFFIX, Busy, Missing
 
 FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}
 RESULT_FORMATS: dict[str, tuple[str, Callable[[list[Result]], str]]] = {
     "json": ("application/json", to_json),
     "csv": ("text/csv; charset=utf-8", to_csv),
 }
-_STATUS: dict[type[Exception], int] = {BadName: 400, Missing: 404, ResultsError: 404, RecordingError: 422, OSError: 500}
+_STATUS: dict[type[Exception], int] = {
+    BadName: 400,
+    Missing: 404,
+    Busy: 409,
+    ResultsError: 404,
+    RecordingError: 422,
+    OSError: 500,
+}
 
 
 class Api:
@@ -70,14 +77,11 @@ class Api:
         return StreamingResponse(itertools.chain(first, frames), media_type="application/octet-stream")
 
     def delete(self, request: Request) -> Response:
-        name = _name(request)
-        if name == self._session.recording:
-            return _sentence(409, "It is being recorded; stop it first.")
-        self._shelf.delete(name)
+        self._shelf.delete(_name(request), self._session.recording)
         return Response(status_code=204)
 
     def download(self, request: Request) -> Response:
-        name, kind = _name(request), request.query_params.get("format", "parquet")
+        name, kind = safe_name(_name(request)), request.query_params.get("format", "parquet")
         if kind not in FORMATS:
             return _sentence(400, f"There is {', '.join(FORMATS)}.")
         path = self._shelf.find(name)

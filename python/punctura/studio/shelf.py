@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from punctura.record import Recording, RecordingError, open_recording
+from punctura.record.lock import in_use
+from punctura.record.new_file import is_abandoned
 from punctura.studio.names import LONGEST, BadName, safe_name
 
 SUFFIX = ".parquet"
@@ -16,6 +18,10 @@ PART = ".part"
 
 class Missing(ValueError):
     """There is no such recording."""
+
+
+class Busy(ValueError):
+    """The recording is still being written."""
 
 
 @dataclass(frozen=True)
@@ -81,9 +87,15 @@ class Shelf:
         """Raises BadName, Missing, RecordingError."""
         return open_recording(self.find(name))
 
-    def delete(self, name: str) -> None:
-        """Raises BadName, Missing, OSError."""
-        self.find(name).unlink()
+    def delete(self, name: str, running: str = "") -> None:
+        """Raises BadName, Missing, Busy, OSError. running: the one that this studio records, by its kept name.
+
+        One that another program records, or that is being finished, is known by its lock.
+        """
+        path = self.find(name)
+        if safe_name(name) == running or in_use(path):
+            raise Busy("it is being recorded; stop it first")
+        path.unlink()
 
     def entries(self, but: str = "") -> list[Entry]:
         """All that can be read, the latest first. but: one that is being made."""
@@ -113,7 +125,8 @@ class Shelf:
 
     def _there(self, name: str) -> bool:
         path = self._file(name)
-        return os.path.lexists(path) or os.path.lexists(path.with_name(path.name + PART))
+        part = path.with_name(path.name + PART)
+        return os.path.lexists(path) or (os.path.lexists(part) and not is_abandoned(part))
 
     def _file(self, name: str) -> Path:
         return self.folder / (name + SUFFIX)

@@ -2,11 +2,16 @@
 
 import json
 import struct
+import unicodedata
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
+from punctura import Strokes, load_scene
+from punctura._core import ServoLoop, SimulatedDevice
 from punctura.exercise import load_exercise
-from punctura.record import open_recording, replay
+from punctura.record import Recorder, open_recording, replay
+from punctura.record.header import to_metadata
 from punctura.studio.client import StudioClient
 from punctura.studio.wire import decode_ticks
 
@@ -202,3 +207,51 @@ def test_a_recording_that_is_made_whole_while_it_is_downloaded_comes_all_the_sam
     status, body = page.get(f"/api/recordings/one/download?format={kind}")
     assert (status, len(asked)) == (200, 2)
     assert len(body) > 10_000
+
+
+@pytest.mark.parametrize("form", ["NFC", "NFD"])
+def test_a_name_is_the_same_in_both_spellings_of_its_accents(served, page, form):
+    spelt = unicodedata.normalize(form, "Größe é")
+    assert page.ask(do="start_recording", name=unicodedata.normalize("NFD", "Größe é"))["ok"]
+    status, text = page.get(f"/api/recordings/{spelt}", "DELETE")
+    assert status == 409 and b"stop it first" in text
+    page.wait(lambda: page.of("recording") and page.of("recording")[-1]["rows"] > 0)
+    stopped = page.ask(do="stop_recording")
+    assert stopped["text"] == "" and stopped["data"]["lost"] == 0
+    assert [entry["name"] for entry in page.json("/api/recordings")] == ["Größe é"]
+    assert page.json(f"/api/recordings/{spelt}")["ticks"] == stopped["data"]["rows"]
+    assert page.get(f"/api/recordings/{spelt}/ticks")[0] == 200
+    assert page.get(f"/api/recordings/{spelt}/download?format=csv")[0] == 200
+    again = page.ask(do="start_recording", name=spelt)
+    assert not again["ok"] and "already" in again["text"]
+    assert page.get(f"/api/recordings/{spelt}", "DELETE")[0] == 204
+
+
+def test_what_another_program_records_into_the_folder_is_not_deleted(served, page):
+    folder = served.session.shelf.folder
+    folder.mkdir()
+    loop = ServoLoop(SimulatedDevice(Strokes((0, 5e-3, 0), (0, -0.02, 0))), load_scene("k06-fig10"))
+    with Recorder(loop, folder / "other.parquet"):
+        assert page.get("/api/recordings/other", "DELETE")[0] == 409
+    assert page.get("/api/recordings/other", "DELETE")[0] == 204
+
+
+def test_one_that_cannot_be_read_hides_no_other(served, page):
+    record(page, "good", edit=False)
+    folder, good = served.session.shelf.folder, served.session.shelf.find("good")
+    table = pq.read_table(good)
+    data = open_recording(good).info.data | {"period_s": "long"}
+    pq.write_table(table.replace_schema_metadata(to_metadata(data, table.schema)), folder / "bad.parquet")
+    assert [entry["name"] for entry in page.json("/api/recordings")] == ["good"]
+    status, text = page.get("/api/recordings/bad")
+    assert status == 422 and b"period_s = 'long'" in text
+
+
+def test_what_a_kill_left_without_a_tick_blocks_no_name(served, page):
+    folder = served.session.shelf.folder
+    folder.mkdir()
+    (folder / "again.parquet.part").touch()
+    (folder / "mine.parquet.part").write_text("no recording")
+    assert not page.ask(do="start_recording", name="mine")["ok"]
+    assert page.ask(do="start_recording", name="again")["ok"]
+    assert page.ask(do="stop_recording")["text"] == ""

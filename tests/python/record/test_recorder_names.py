@@ -1,0 +1,121 @@
+"""What a killed process left without a tick blocks no name; what holds ticks, or is still written, does."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import subprocess
+import sys
+
+import pytest
+from punctura.record import RecordingError, open_recording
+from punctura.record.lock import in_use
+
+KILLED = """
+import os, signal, sys
+import punctura.record.new_file as new_file
+from punctura import Strokes, load_scene
+from punctura._core import ServoLoop, SimulatedDevice
+from punctura.record import Recorder
+
+def killed(*_):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+at, named = sys.argv[2:]
+if named == "named":
+    new_file._unnamed = lambda folder: None
+if at == "open":
+    new_file.lock = killed  # the file is there, and nothing in it
+loop = ServoLoop(SimulatedDevice(Strokes((0, 5e-3, 0), (0, -0.02, 0))), load_scene("k06-fig10"))
+if at == "write":
+    whole_write = os.write
+    os.write = lambda descriptor, data: killed() if len(data) > 1000 else whole_write(descriptor, data)
+Recorder(loop, sys.argv[1])
+killed()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+@pytest.mark.parametrize("named", ["named", "unnamed"])
+@pytest.mark.parametrize("at", ["open", "write", "begun"])
+def test_a_kill_before_the_first_tick_blocks_no_name(start, tmp_path, at, named):
+    path = tmp_path / "run.parquet"
+    done = subprocess.run([sys.executable, "-c", KILLED, path, at, named], capture_output=True, text=True)
+    assert done.returncode == -9, done.stderr
+    if named == "unnamed" and at != "begun" and hasattr(os, "O_TMPFILE"):
+        assert list(tmp_path.iterdir()) == []
+    status = start(ticks=300).record().recorder.status()
+    assert (status.finished, status.rows, status.lost) == (True, 300, 0)
+
+
+def test_a_batch_that_was_being_written_when_the_process_was_killed_blocks_no_name(start, tmp_path):
+    run = start(ticks=300)
+    header = run.recorder.status().file.read_bytes()
+    whole = run.killed(tmp_path / "killed").read_bytes()
+    run.path.unlink()
+    (tmp_path / "run.parquet.part").write_bytes(whole[: len(header) + (len(whole) - len(header)) // 2])
+    assert open_recording(tmp_path / "run.parquet.part").rows == 0
+    assert start(ticks=300).record().recorder.status().rows == 300
+
+
+def test_one_that_is_being_written_blocks_its_name_until_it_is_closed(start):
+    run = start()
+    assert in_use(run.recorder.status().file)
+    with pytest.raises(RecordingError, match="still runs"):
+        start()
+    run.record()
+    assert not in_use(run.path)
+
+
+@pytest.mark.parametrize("content", [b"somebody else's", b"\xff\xff\xff\xff", bytes(100)])
+def test_what_is_none_of_ours_is_left_alone(start, tmp_path, content):
+    (tmp_path / "run.parquet.part").write_bytes(content)
+    with pytest.raises(RecordingError, match="is there already"):
+        start()
+    assert (tmp_path / "run.parquet.part").read_bytes() == content
+
+
+def test_what_holds_a_tick_blocks_its_name(start, tmp_path):
+    run = start(ticks=200)
+    run.killed(tmp_path / "kept")
+    run.path.unlink()
+    (tmp_path / "kept").rename(tmp_path / "run.parquet.part")
+    with pytest.raises(RecordingError, match=r"punctura export .*\.part --out"):
+        start()
+
+
+def test_a_link_to_an_empty_file_is_not_followed(start, tmp_path):
+    (tmp_path / "empty").touch()
+    try:
+        (tmp_path / "run.parquet.part").symlink_to(tmp_path / "empty")
+    except OSError:
+        pytest.skip("this system makes no links")
+    with pytest.raises(RecordingError, match="is there already"):
+        start()
+    assert (tmp_path / "empty").exists()
+
+
+def contend(path, turns, won):
+    from punctura.record.append_file import AppendFile
+
+    for _ in range(turns):
+        try:
+            file = AppendFile(path)  # empty, so that what it leaves is no obstacle
+        except FileExistsError:
+            continue
+        with won.get_lock():
+            won.value += 1
+        assert file.amiss() is None, "two processes had the same name"
+        file.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows removes no file that another process has open")
+def test_of_several_processes_that_take_over_a_name_one_has_it_at_a_time(tmp_path):
+    context = multiprocessing.get_context("spawn")
+    won = context.Value("i", 0)
+    processes = [context.Process(target=contend, args=(tmp_path / "run.part", 200, won)) for _ in range(2)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+    assert [process.exitcode for process in processes] == [0, 0] and won.value >= 200
