@@ -16,13 +16,13 @@ namespace {
 /// A limit is never above what the device's maker allows; NaN (not known) leaves it.
 double tighter(double limit, double rating) noexcept { return rating < limit ? rating : limit; }
 
-/// The loops of this program that run. None is destroyed while somebody has the lock.
-struct Running {
-  std::recursive_mutex mutex;
+/// Every loop of this program. None is destroyed while somebody has the lock.
+struct Loops {
+  std::mutex mutex;
   std::vector<ServoLoop*> loops;
 };
-Running& running_loops() {
-  static auto& all = *new Running;  // outlives every other static object
+Loops& all_loops() {
+  static auto& all = *new Loops;  // outlives every other static object
   return all;
 }
 
@@ -42,10 +42,18 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
   scene_.servo.rate = device_->info().rate;
   rest_motors();
   history_.resize(settings_.history);
+  auto& [mutex, loops] = all_loops();
+  const std::lock_guard lock(mutex);
+  loops.push_back(this);
 }
 
 ServoLoop::~ServoLoop() {
   stop();
+  {
+    auto& [mutex, loops] = all_loops();
+    const std::lock_guard lock(mutex);  // waits for a stop_all() that may be at this loop
+    std::erase(loops, this);
+  }
   delete step_;
 }
 
@@ -62,36 +70,37 @@ SnapshotRing& ServoLoop::listen(std::size_t capacity) {
 }
 
 void ServoLoop::start() {
-  if (running_.exchange(true)) return;
-  last_begin_ = 0;
-  step_->set_spent(device_->exertion.spent);
-  if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
+  const std::lock_guard one(starting_or_stopping_);
+  {
+    const std::lock_guard lock(between_ticks_);
+    if (running_) return;
+    running_ = true;
+    last_begin_ = 0;
+    step_->set_spent(device_->exertion.spent);
+    if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
+  }
   try {
     device_->start({&ServoLoop::call, this});
   } catch (...) {
-    running_ = false;
+    end_run();
     throw;
   }
-  auto& [mutex, loops] = running_loops();
-  const std::lock_guard lock(mutex);
-  loops.push_back(this);
 }
 
 void ServoLoop::stop() noexcept {
-  end_run();
-  auto& [mutex, loops] = running_loops();
-  const std::lock_guard lock(mutex);
-  std::erase(loops, this);
-}
-
-void ServoLoop::end_run() noexcept {
-  const std::lock_guard lock(ending_);
+  const std::lock_guard one(starting_or_stopping_);
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
+  asked_.fetch_and(~(arm_bit | pause_bit));  // of the run that is over
+  end_run();
+}
+
+/// No tick comes any more: a scene that no tick has taken is taken here.
+void ServoLoop::end_run() noexcept {
+  const std::lock_guard lock(between_ticks_);
   running_ = false;
   device_->exertion = {step_->spent(), seconds()};
-  asked_.fetch_and(~(arm_bit | pause_bit));  // of the run that is over
   handover_.collect();
   take();
 }
@@ -108,9 +117,9 @@ void ServoLoop::rest_motors() noexcept {
 }
 
 void ServoLoop::stop_all() noexcept {
-  auto& [mutex, loops] = running_loops();
+  auto& [mutex, loops] = all_loops();
   const std::lock_guard lock(mutex);
-  for (const auto all = loops; ServoLoop* loop : all) loop->stop();
+  for (ServoLoop* loop : loops) loop->stop();
 }
 
 /// A new scene, between two ticks or without any.
@@ -130,16 +139,15 @@ void ServoLoop::reset() noexcept {
 void ServoLoop::exchange(Scene scene) {
   auto step = built(scene);
   scene.servo.rate = device_->info().rate;
-  scene_ = std::move(scene);
-  if (!running_) {
-    step->resume(*step_);
-    delete step_;
-    step_ = step.release();
-    return;
+  {
+    const std::lock_guard lock(between_ticks_);
+    scene_ = std::move(scene);
+    handover_.offer(std::move(step));
+    if (!running_) take();
   }
-  handover_.offer(std::move(step));
-  // A few ticks at most; a device that has ceased to tick must not hold the caller.
+  // A few ticks at most. Without the lock, so that a stop need not wait; a device that has ceased to tick must not hold the caller.
   for (int i = 0; i < 200 && handover_.pending(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::lock_guard lock(between_ticks_);
   handover_.collect();
 }
 

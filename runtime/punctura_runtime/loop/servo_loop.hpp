@@ -38,10 +38,14 @@ struct LoopReport {
 /// Copies a snapshot without the membranes that it does not have.
 void copy(const Snapshot& from, Snapshot& to) noexcept;
 
-/// Start, arm, pause, reset, stop, and a new scene, from any one thread; the ticks come on the device's.
+/// Start, arm, pause, reset, stop, and a new scene; the ticks come on the device's thread.
 ///
 /// A tick takes commands and a new scene between two steps, and pays for nothing else: records go to rings that lose rather than
-/// wait, durations to histograms of atomics.
+/// wait, durations to histograms of atomics. It never takes a lock.
+///
+/// Threads: every call may come from any thread while others call too, except these. listen() comes before start(), from the thread
+/// that starts. What scene() refers to is changed by exchange(): call both from one thread. stop() waits for a start() that is under
+/// way, never for an exchange(). Nothing but stop_all() may still be under way when the loop is destroyed.
 class ServoLoop {
  public:
   /// The period is that of the device, whatever rate the scene asks for; a device's own force ratings tighten the limits. Throws SceneError.
@@ -98,7 +102,7 @@ class ServoLoop {
   bool placed_;  ///< a placement other than the default: without one, samples and forces pass to the last bit
   std::atomic<bool> running_{false};
 
-  // Of the ticking thread.
+  // Of the ticking thread; while none ticks, of whoever has between_ticks_.
   ServoStep* step_;
   std::int64_t last_begin_ = 0;
   std::vector<Snapshot> history_;
@@ -112,8 +116,9 @@ class ServoLoop {
   Latest<Snapshot> latest_;
   std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;
-  std::mutex ending_;   ///< one thread at a time stops
-  std::mutex readers_;  ///< of those who ask, never of the tick
+  std::mutex starting_or_stopping_;  ///< held while the device starts or stops, which may take long
+  std::mutex between_ticks_;         ///< running_ changes under it, and scenes are offered; held for a moment only
+  std::mutex readers_;               ///< of those who ask, never of the tick
 };
 
 }  // namespace punctura
