@@ -38,8 +38,7 @@ class BasicInsertion {
   BasicInsertion(const std::vector<MembraneSite<Scalar>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
                  Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
                  Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
-      : conditioner_(conditioning, low_pass_hz, encoder_step, period) {
-    if (direction == Direction::motion) from_motion_.emplace(period);
+      : conditioner_(conditioning, low_pass_hz, encoder_step, period), from_motion_(tracker(direction, period)) {
     proxies_.reserve(sites.size());
     for (const auto& site : sites)
       proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, period, solver);
@@ -86,6 +85,12 @@ class BasicInsertion {
   }
 
  private:
+  /// None where the device gives the direction.
+  static std::optional<EntryDirection<Scalar>> tracker(Direction direction, Scalar period) {
+    if (direction == Direction::motion) return std::make_optional<EntryDirection<Scalar>>(period);
+    return std::nullopt;
+  }
+
   PositionConditioner<Scalar> conditioner_;
   std::optional<EntryDirection<Scalar>> from_motion_;
   std::vector<Proxy> proxies_;
