@@ -71,7 +71,7 @@ pip_project() { pip install --progress-bar off --no-build-isolation "$@"; }
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {
   local kind=$1 extra=${2:-} deps sources node
-  export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1
+  export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1 PUNCTURA_KEEP_NODE_MODULES=1
   unset PYTHONPATH PYTHONHOME
   lock
   find_python

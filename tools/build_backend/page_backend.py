@@ -1,10 +1,15 @@
-"""scikit-build-core's back-end with one thing more: the studio's page is built before it is packed (PEP 517, 660)."""
+"""scikit-build-core's back-end with two things more (PEP 517, 660).
+
+A missing compiler is told with its remedy, and the studio's page is built before it is packed.
+"""
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
+import native_tools
 import studio_page
 from scikit_build_core import build as native
 
@@ -26,11 +31,13 @@ def get_requires_for_build_sdist(settings: Settings = None) -> list[str]:
 
 
 def build_wheel(directory: str, settings: Settings = None, metadata: str | None = None) -> str:
+    _compiler()
     _page()
     return native.build_wheel(directory, settings, metadata)
 
 
 def build_editable(directory: str, settings: Settings = None, metadata: str | None = None) -> str:
+    _compiler()
     _page()
     return native.build_editable(directory, settings, metadata)
 
@@ -40,10 +47,22 @@ def build_sdist(directory: str, settings: Settings = None) -> str:
     return native.build_sdist(directory, settings)
 
 
+def _compiler() -> None:
+    try:
+        native_tools.check()
+    except native_tools.ToolsError as error:
+        _give_up(error)
+
+
 def _page() -> None:
     try:
-        studio_page.build(Path.cwd())
+        # ./run and ./test keep what npm brings for their next build; pip leaves nothing in somebody's clone.
+        studio_page.build(Path.cwd(), keep_modules="PUNCTURA_KEEP_NODE_MODULES" in os.environ)
     except studio_page.PageError as error:
-        sys.stdout.flush()
-        print(f"\n*** {error}", file=sys.stderr)
-        raise SystemExit(1) from None
+        _give_up(error)
+
+
+def _give_up(error: Exception) -> None:
+    sys.stdout.flush()
+    print(f"\n*** {error}", file=sys.stderr)
+    raise SystemExit(1) from None

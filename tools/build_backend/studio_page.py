@@ -73,13 +73,19 @@ def node_requirements() -> list[str]:
     return [NODE_FROM_PYPI] if node() else []
 
 
-def build(root: Path = ROOT) -> None:
-    """Raises PageError."""
+def build(root: Path = ROOT, keep_modules: bool = True) -> None:
+    """keep_modules: False removes web/node_modules afterwards, where it was not there before. Raises PageError."""
     if is_built(root):
         return
     before = digest(root)
-    modules(root)
-    _npm(root, "run", "build")
+    folder = root / "web" / "node_modules"
+    passing = not keep_modules and not folder.exists()
+    try:
+        modules(root)
+        _npm(root, "run", "build")
+    finally:
+        if passing:
+            shutil.rmtree(folder, ignore_errors=True)
     (page(root) / ".sources").write_text(before + "\n")
 
 
