@@ -24,9 +24,18 @@ class StudioProcess:
     """A studio on the simulated device; `url` has its token. Its recordings and results stay in `folder`."""
 
     def __init__(
-        self, folder: Path, scene: str = "k06-fig12", page: Path | None = None, port: int = 0, token: str = ""
+        self,
+        folder: Path,
+        scene: str = "k06-fig12",
+        page: Path | None = None,
+        port: int = 0,
+        token: str = "",
+        open_files: int = 0,
     ) -> None:
-        """page: a folder to serve in place of the studio's own page. token: given, or one of its own."""
+        """page: a folder to serve in place of the studio's own page. token: given, or one of its own.
+
+        open_files: how many the studio may have, on POSIX; 0: as many as this process.
+        """
         self.recordings = folder / "recordings"
         command = [sys.executable, "-m", "punctura.cli", "run", scene, "--no-browser", "--device", "simulated"]
         command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
@@ -38,7 +47,7 @@ class StudioProcess:
             stderr=self._errors,
             env={**os.environ, **home},
             cwd=folder,
-            preexec_fn=_heed_interrupts if os.name == "posix" else None,
+            preexec_fn=(lambda: _prepare(open_files)) if os.name == "posix" else None,
         )
         self.url, self.port = self._address()
 
@@ -80,9 +89,13 @@ class StudioProcess:
         self._errors.close()
 
 
-def _heed_interrupts() -> None:
-    """As in a terminal, also where a script has started this one in the background."""
+def _prepare(open_files: int) -> None:
+    """Heeds interrupts as in a terminal, also where a script has started this one in the background."""
+    import resource  # not on Windows
+
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if open_files:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (open_files, open_files))
 
 
 def _whole(file: TextIO) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from importlib.metadata import version
@@ -11,7 +12,7 @@ from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
@@ -19,14 +20,17 @@ from starlette.websockets import WebSocket
 from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
 from punctura.studio.catalog import exercise_choices, ready_scenes
+from punctura.studio.connections import Connections
 from punctura.studio.figures import Figures
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
-from punctura.studio.security import PROTOCOL, TOKEN_REFUSED, Guard, socket_token
+from punctura.studio.protocols import CONNECTIONS
+from punctura.studio.security import PROTOCOL, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
 
+_ASSET = re.compile(r"(?<=\")\./assets/[^\"?]+(?=\")")
 VERSION = version("punctura")  # read from a file: once, not for each page
 NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."
 
@@ -34,8 +38,8 @@ NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it.
 class Studio:
     """What the routes share."""
 
-    def __init__(self, session: Session, hub: Hub, page: Path, figures: Sequence[Path] = ()) -> None:
-        self.session, self.hub, self.page, self.figures = session, hub, page, Figures(figures)
+    def __init__(self, session: Session, hub: Hub, page: Path, token: str, figures: Sequence[Path] = ()) -> None:
+        self.session, self.hub, self.page, self.token, self.figures = session, hub, page, token, Figures(figures)
 
     def hello(self, viewer: int) -> Hello:
         info = self.session.bench.device.info
@@ -58,7 +62,15 @@ class Studio:
 
     async def index(self, request: Request) -> Response:
         index = self.page / "index.html"
-        return FileResponse(index) if index.is_file() else PlainTextResponse(NO_PAGE + "\n", 503)
+        if not index.is_file():
+            return PlainTextResponse(NO_PAGE + "\n", 503)
+        # With the token, the page's files are not refused when strangers ask for too many.
+        text = _ASSET.sub(rf"\g<0>?token={self.token}", index.read_text(encoding="utf-8"))
+        return HTMLResponse(text)
+
+    async def access(self, request: Request) -> Response:
+        """The guard refuses this as it refuses the socket, and here a browser shows a page the reason."""
+        return Response(status_code=204)
 
     async def schema(self, request: Request) -> Response:
         return JSONResponse(scene_json_schema())
@@ -69,21 +81,16 @@ class Studio:
         return Response(text, media_type="application/toml; charset=utf-8", headers=headers)
 
     async def socket(self, socket: WebSocket) -> None:
-        guard: Guard = socket.scope["punctura.guard"]
         if PROTOCOL not in socket.scope.get("subprotocols", []):
             await socket.close(1002, f"The socket speaks {PROTOCOL}.")
             return
         await socket.accept(PROTOCOL)
-        if not guard.is_token(socket_token(socket.scope)):
-            await socket.close(
-                TOKEN_REFUSED, "This is not the token of this run: open the address that the studio printed."
-            )
-            return
         await serve_viewer(socket, self.hub, self.session, self.hello)
 
     def routes(self) -> list[BaseRoute]:
         routes: list[BaseRoute] = [
             Route("/", self.index),
+            Route("/api/access", self.access),
             Route("/api/schema", self.schema),
             Route("/api/scene.toml", self.scene),
             *Api(self.session).routes(),
@@ -96,12 +103,14 @@ class Studio:
         return routes
 
 
-def build_app(studio: Studio, port: int, token: str) -> Guard:
+def build_app(studio: Studio, port: int, token: str, connections: Connections) -> Guard:
     """The application, behind its guard."""
 
     @asynccontextmanager
-    async def life(app: Any) -> AsyncIterator[None]:
+    async def life(app: Any) -> AsyncIterator[dict[str, Any]]:
         studio.hub.attach(asyncio.get_running_loop())
-        yield
+        watch = asyncio.create_task(connections.watch())
+        yield {CONNECTIONS: connections}
+        watch.cancel()
 
     return Guard(Starlette(routes=studio.routes(), lifespan=life), port, token)

@@ -13,11 +13,9 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
+from punctura.studio.limits import MOST_FRAMES, MOST_MESSAGES, MOST_VIEWERS
 from punctura.studio.wire.messages import Control, Status
 
-MOST_VIEWERS = 32
-MOST_FRAMES = 60  # a second of them; then all that wait are dropped at once, which leaves one gap instead of many
-MOST_BYTES = 8_000_000  # of messages, which are never dropped: a viewer that leaves more unread is closed
 EVENTS_KEPT = 100  # of the present run, for newcomers
 # Of these the last says it all: a newer one takes the place of one that still waits.
 SUPERSEDED = ("status", "recording", "laws", "exercise")
@@ -60,7 +58,7 @@ class Viewer:
             self._bytes += len(data)
             if kind in SUPERSEDED:
                 self._supersede(entry)
-            if self._bytes > MOST_BYTES:
+            if self._bytes > MOST_MESSAGES:
                 self.close("This page does not read what it is sent.")
                 return
         self._queue.append(entry)

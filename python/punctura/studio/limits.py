@@ -1,15 +1,43 @@
-"""How much anyone may send: sizes and rates. A page stays far below them all."""
+"""How much anyone may send, hold open or leave unread: docs/studio.md has the table. A page stays far below it all."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 
-MOST_BODY = 64_000  # bytes of an HTTP request
-MOST_TEXT = 64_000  # bytes of a request on the socket
-MOST_SCENE_TEXT = 256_000  # bytes of the one that carries a scene file, of 200 000 characters at most
-REQUESTS_A_SECOND, REQUESTS_AT_ONCE = 400, 1200  # of one page: targets at 240 frames a second, and the rest
-HTTP_A_SECOND, HTTP_AT_ONCE = 200, 600  # of all
+# Sizes, bytes.
+MOST_BODY = 64_000  # of an HTTP request
+MOST_TEXT = 64_000  # of a request on the socket
+MOST_SCENE_TEXT = 256_000  # of a request that carries a scene file, which has at most 200 000 characters
+MOST_BUFFERED = 65_536  # sent by the studio and not yet taken by the other end's kernel; above it, the sender waits
+MOST_PONGS = 4_096  # the same; above it, a ping gets no answer
+
+# Rates: so many a second, and so many at once.
+REQUESTS_A_SECOND, REQUESTS_AT_ONCE = 400, 1200  # frames of any kind, of one page: targets at 240 pictures a second
+HTTP_A_SECOND, HTTP_AT_ONCE = 200, 600  # with the token
+FREE_A_SECOND, FREE_AT_ONCE = 200, 600  # files without a secret, asked for without the token
+REFUSED_A_SECOND, REFUSED_AT_ONCE = (
+    100,
+    300,
+)  # told why they are refused; the others are told only that they are too many
+
+# Counts.
+MOST_VIEWERS = 32  # pages
+MOST_FRAMES = 60  # of ticks that wait for one page, a second of them; then all are dropped, which leaves one gap
+MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed
+MOST_KNOWN = 128  # connections that have shown the token: each page has one socket and at most six others
+MOST_STRANGERS = 128  # connections that have not: of more than these the oldest is ended
+ACCEPTED_AT_ONCE = 16  # connections accepted before the server turns to other work
+LISTEN_QUEUE = 1024  # connections that the system holds until they are accepted
+FILES_WANTED = 1024  # open files; no more, since a maker's driver that calls select() cannot have a number above it
+FILES_KEPT = 192  # of these, for the device, recordings, exports and what Python and its libraries open
+
+# Times, seconds.
+STRANGER_S = 10.0  # for a whole request with the token to arrive; then the connection is ended
+IDLE_S = 15.0  # between two requests of a connection that has shown the token
+CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it
+UNREAD_S = 30.0  # for the other end to read on, when MOST_BUFFERED is reached
+SWEEP_S = 0.5  # between two looks at all connections
 
 
 class Bucket:
@@ -28,6 +56,10 @@ class Bucket:
             return False
         self._left -= 1
         return True
+
+    def fill(self) -> None:
+        """As if none had been taken."""
+        self._left = self._most
 
     def empty(self) -> None:
         """As if all had been taken."""

@@ -14,7 +14,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from punctura.studio.commands import Done, prepare, refusal
 from punctura.studio.hub import Hub, Viewer
-from punctura.studio.limits import MOST_TEXT, REQUESTS_A_SECOND, REQUESTS_AT_ONCE, Bucket
+from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
@@ -65,13 +65,10 @@ async def _send(socket: WebSocket, viewer: Viewer) -> None:
 
 
 async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session) -> None:
-    bucket = Bucket(REQUESTS_A_SECOND, REQUESTS_AT_ONCE)
     while True:
         message = await socket.receive()
         if message["type"] == "websocket.disconnect":
             return
-        if not bucket.take():
-            raise Closed("Too many requests.")
         text = message.get("text")
         if text is None:
             raise Closed("Requests are text.")

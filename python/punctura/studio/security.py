@@ -13,13 +13,24 @@ from urllib.parse import parse_qs
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from punctura.studio.limits import HTTP_A_SECOND, HTTP_AT_ONCE, MOST_BODY, Bucket
+from punctura.studio.connections import Connection, Connections
+from punctura.studio.limits import (
+    FREE_A_SECOND,
+    FREE_AT_ONCE,
+    HTTP_A_SECOND,
+    HTTP_AT_ONCE,
+    MOST_BODY,
+    REFUSED_A_SECOND,
+    REFUSED_AT_ONCE,
+    Bucket,
+)
+from punctura.studio.protocols import CONNECTION, CONNECTIONS
 
 PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
-TOKEN_REFUSED = 4401  # of a websocket, as its close code: a page can read that, but not a status
 FREE = ("/assets/", "/figures/")  # folders without a secret
 FREE_FILES = ("/icon.svg", "/favicon.ico")
+NO_TOKEN = "This needs the token of this run: open the address that the studio printed."
 
 _COMMON = {
     "cache-control": "no-store",
@@ -60,28 +71,48 @@ class Guard:
         names = ["127.0.0.1", "localhost", "[::1]"]
         self._hosts = {f"{name}:{port}" for name in names} | (set(names) if port == 80 else set())
         self.bucket = Bucket(HTTP_A_SECOND, HTTP_AT_ONCE)
+        self.free = Bucket(FREE_A_SECOND, FREE_AT_ONCE)
+        self.refusals = Bucket(REFUSED_A_SECOND, REFUSED_AT_ONCE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        headers = Headers(scope=scope)
-        try:
-            self._check(scope, headers)
-        except Refused as no:
-            await _refuse(scope, receive, send, no)
-            return
-        if scope["type"] == "websocket":
-            await self._app({**scope, "punctura.guard": self}, receive, send)
-            return
-        await self._serve(scope, receive, send)
+        with scope["state"][CONNECTION].serving():
+            try:
+                self._check(scope, Headers(scope=scope))
+            except Refused as no:
+                await _refuse(scope, send, no)
+                return
+            if scope["type"] == "websocket":
+                await self._app(scope, receive, send)
+            else:
+                await self._serve(scope, receive, send)
 
     def _check(self, scope: Scope, headers: Headers) -> None:
+        """Raises Refused. A request without the token takes nothing from what those with it may do."""
+        try:
+            with_token = self._let_in(scope, headers)
+        except Refused:
+            if self.refusals.take():
+                raise
+            raise Refused(429, "Too many requests without the token; wait a second.") from None
+        if not with_token:
+            if not self.free.take():
+                raise Refused(429, "Too many requests without the token; wait a second.")
+            return
+        connections: Connections = scope["state"][CONNECTIONS]
+        connection: Connection = scope["state"][CONNECTION]
+        if not connections.admit(connection):
+            raise Refused(503, "Too many connections are open with this token; close some pages.")
+        if not self.bucket.take():
+            raise Refused(429, "Too many requests; wait a second.")
+
+    def _let_in(self, scope: Scope, headers: Headers) -> bool:
+        """Whether it has the token. Raises Refused where it may not come in."""
         client = scope.get("client")
         if not client or not _is_loopback(client[0]):
             raise Refused(403, "The studio serves this computer only.")
-        if not self.bucket.take():
-            raise Refused(429, "Too many requests; wait a second.")
         if len(headers.getlist("host")) != 1 or headers["host"].lower() not in self._hosts:
             raise Refused(421, "The studio does not go by this name; use the address that it printed.")
         origins = headers.getlist("origin")
@@ -91,16 +122,19 @@ class Guard:
         if scope["type"] == "websocket":
             if not origins:
                 raise Refused(403, "A socket needs the studio's own page behind it.")
-            return  # its token is looked at where a page can be told (app.py)
+            if not self._is_token(_socket_tokens(scope)):
+                raise Refused(401, NO_TOKEN)
+            return True
         if scope["method"] not in ("GET", "HEAD", "DELETE"):
             raise Refused(405, "The studio knows GET, HEAD and DELETE.")
+        if self._is_token(_tokens(scope, headers)):
+            return True
         path = scope["path"]
         if path.startswith(FREE) or path in FREE_FILES:
-            return
-        if not self.is_token(_tokens(scope, headers)):
-            raise Refused(401, "This needs the token of this run: open the address that the studio printed.")
+            return False
+        raise Refused(401, NO_TOKEN)
 
-    def is_token(self, candidates: Iterable[str]) -> bool:
+    def _is_token(self, candidates: Iterable[str]) -> bool:
         return any(secrets.compare_digest(c.encode(), self._token.encode()) for c in candidates)
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -129,10 +163,10 @@ class Guard:
             await self._app(scope, counted, dressed)
         except TooLarge:
             if not begun:
-                await _refuse(scope, receive, send, Refused(413, "The request is too large."))
+                await _refuse(scope, send, Refused(413, "The request is too large."))
 
 
-def socket_token(scope: Scope) -> list[str]:
+def _socket_tokens(scope: Scope) -> list[str]:
     """The tokens that a websocket's subprotocols carry."""
     return [p.removeprefix(TOKEN_PROTOCOL) for p in scope.get("subprotocols", []) if p.startswith(TOKEN_PROTOCOL)]
 
@@ -164,7 +198,7 @@ def _dress(message: Message, path: str) -> None:
     headers["content-security-policy"] = _FIGURES_POLICY if path.startswith("/figures/") else _PAGE_POLICY
 
 
-async def _refuse(scope: Scope, receive: Receive, send: Send, no: Refused) -> None:
+async def _refuse(scope: Scope, send: Send, no: Refused) -> None:
     body = (no.sentence + "\n").encode()
     kind = "http.response"
     if scope["type"] == "websocket":
@@ -175,7 +209,11 @@ async def _refuse(scope: Scope, receive: Receive, send: Send, no: Refused) -> No
     start: Message = {
         "type": f"{kind}.start",
         "status": no.status,
-        "headers": [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(body)).encode())],
+        "headers": [
+            (b"content-type", b"text/plain; charset=utf-8"),
+            (b"content-length", str(len(body)).encode()),
+            (b"connection", b"close"),
+        ],
     }
     _dress(start, "")
     await send(start)

@@ -19,10 +19,12 @@ from punctura._core import DeviceError
 from punctura.exercise import ResultStore
 from punctura.live.signals import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
+from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.figures import likely_folders
 from punctura.studio.hub import Hub
-from punctura.studio.limits import MOST_SCENE_TEXT
+from punctura.studio.limits import ACCEPTED_AT_ONCE, LISTEN_QUEUE, MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
+from punctura.studio.protocols import BoundedHttp, BoundedSocket
 from punctura.studio.quiet import quiet_server
 from punctura.studio.run import Settings
 from punctura.studio.session import Session
@@ -72,11 +74,13 @@ class StudioServer:
             self._socket.close()
             raise
         self.address = Address(self._socket.getsockname()[1], token or secrets.token_urlsafe(24))
-        self.studio = Studio(self.session, self.hub, page, likely_folders())
-        self.guard = build_app(self.studio, self.address.port, self.address.token)
+        self.studio = Studio(self.session, self.hub, page, self.address.token, likely_folders())
+        self.connections = Connections(*room(open_file_limit()))
+        self.guard = build_app(self.studio, self.address.port, self.address.token, self.connections)
         config = uvicorn.Config(
             self.guard,
-            ws="websockets-sansio",
+            http=BoundedHttp,
+            ws=BoundedSocket,
             ws_max_size=MOST_SCENE_TEXT,
             ws_per_message_deflate=False,
             ws_ping_interval=None,
@@ -85,7 +89,7 @@ class StudioServer:
             server_header=False,
             proxy_headers=False,
             timeout_graceful_shutdown=2,
-            limit_concurrency=200,
+            backlog=ACCEPTED_AT_ONCE,
         )
         self._server = uvicorn.Server(config)
         self._thread = threading.Thread(
@@ -100,6 +104,7 @@ class StudioServer:
             if not self._thread.is_alive():
                 raise StudioError("the server did not start")
             time.sleep(0.01)
+        self._socket.listen(LISTEN_QUEUE)  # uvicorn has given it the length that is meant for the accepting
         self.session.start()
 
     @property

@@ -68,7 +68,7 @@ def test_frames_are_lost_in_one_go_and_messages_never():
 def test_a_viewer_that_reads_no_message_either_has_to_go():
     async def test(hub):
         viewer = hub.join(hello)
-        for _ in range(hubs.MOST_BYTES // 1000):
+        for _ in range(hubs.MOST_MESSAGES // 1000):
             hub.say(Notice(text="x" * 1000))
         assert viewer.closed and viewer.waiting == 0
         assert await viewer.take() is None

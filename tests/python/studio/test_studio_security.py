@@ -11,7 +11,7 @@ import pytest
 from punctura.studio import hub as hubs
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_BODY, REQUESTS_AT_ONCE
-from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 
@@ -187,12 +187,11 @@ def test_a_socket_needs_the_page_s_own_origin(guarded, origin):
     assert refused.value.response.body.endswith(b".\n")
 
 
-def test_a_socket_without_the_token_is_told_so_and_closed(guarded):
+def test_a_socket_without_the_token_is_refused_in_the_handshake(guarded):
     for token in ("", "x", "TOKENx"):
-        with socket_to(guarded, token=token) as opened:
-            with pytest.raises(ConnectionClosed):
-                opened.recv()
-            assert opened.close_code == 4401 and "token" in opened.close_reason
+        with pytest.raises(InvalidStatus) as refused, socket_to(guarded, token=token):
+            pass
+        assert refused.value.response.status_code == 401 and b"token" in refused.value.response.body
     with pytest.raises(InvalidStatus), socket_to(guarded, protocol=None):
         pass
 
@@ -270,9 +269,15 @@ def test_too_many_requests_are_refused_for_a_moment(guarded, monkeypatch):
     with monkeypatch.context() as still:
         still.setattr(guarded.guard.bucket, "_rate", 0.0)
         guarded.guard.bucket.empty()
-        assert get(guarded, "/assets/a.js")[0] == 429
-    time.sleep(0.2)
-    assert get(guarded, "/assets/a.js")[0] == 200
+        assert get(guarded, "/api/schema?token=TOKEN")[0] == 429
+    guarded.guard.bucket.fill()
+    assert get(guarded, "/api/schema?token=TOKEN")[0] == 200
+
+
+def test_a_page_can_ask_why_its_socket_was_refused(guarded):
+    assert get(guarded, "/api/access", Authorization="Bearer TOKEN")[0] == 204
+    assert get(guarded, "/api/access", Authorization="Bearer x")[0] == 401
+    assert get(guarded, "/api/access", Authorization="Bearer TOKEN", Origin="http://example.org")[0] == 403
 
 
 def test_bytes_that_are_no_http_do_no_harm(guarded):

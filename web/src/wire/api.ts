@@ -1,6 +1,14 @@
 /** The studio's files over HTTP: scenes, recordings, results. Every request carries the page's token. */
 
-export class ApiError extends Error {}
+export class ApiError extends Error {
+  /** status: of the answer; 0 where there was none. */
+  constructor(
+    message: string,
+    readonly status = 0,
+  ) {
+    super(message);
+  }
+}
 
 export type Fetch = (input: string, init?: RequestInit) => Promise<Response>;
 
@@ -25,7 +33,7 @@ export class Api {
       if (error instanceof DOMException && error.name === "AbortError") throw error;
       throw new ApiError("The studio does not answer.");
     }
-    if (!response.ok) throw new ApiError(await reasonOf(response));
+    if (!response.ok) throw new ApiError(await reasonOf(response), response.status);
     return response;
   }
 
@@ -55,7 +63,7 @@ export class Api {
 async function reasonOf(response: Response): Promise<string> {
   const text = await response.text().catch(() => "");
   const said = text.startsWith("{") ? (JSON.parse(text) as { text?: string; error?: string }) : { text };
-  const words = said.text ?? said.error ?? "";
+  const words = (said.text ?? said.error ?? "").trim();
   if (words && words.length < 300 && !words.startsWith("<")) return words;
   return response.status === 404 ? "There is no such file any more." : `The studio answers ${response.status}.`;
 }

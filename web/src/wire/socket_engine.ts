@@ -1,12 +1,15 @@
 import type { Ask, Engine, EngineListener, Reply, Triple } from "../engine/engine.ts";
+import { Api, ApiError, type Fetch } from "./api.ts";
 import { waitBefore } from "./backoff.ts";
 import { parseMessage } from "./parse.ts";
 import { Pending } from "./pending.ts";
 import { decodeTicks } from "./ticks.ts";
 
 const PROTOCOL = "punctura.v1";
-/** Codes from here on are the server's own: it does not want this page, and another attempt would end alike. */
-const REFUSED = 4000;
+/** A browser hides why a socket was refused; this address, asked with the same token, gives the same refusal. */
+const ACCESS = "/api/access";
+/** Statuses after which another attempt would end alike: no token, a foreign page, a wrong name of the computer. */
+const REFUSED = [401, 403, 421];
 const SETTLED_MS = 2000;
 
 /** What the engine needs of its surroundings; the tests bring their own. */
@@ -15,22 +18,26 @@ export interface Surroundings {
   /** Calls once before the next picture. */
   frame(call: () => void): void;
   chance(): number;
+  readonly fetch: Fetch;
 }
 
 const BROWSER: Surroundings = {
   open: (url, protocols) => new WebSocket(url, protocols),
   frame: (call) => void requestAnimationFrame(call),
   chance: Math.random,
+  fetch: (input, init) => fetch(input, init),
 };
 
 /** The studio's server, over a WebSocket: it comes back by itself when the connection goes. */
 export class SocketEngine implements Engine {
   private readonly url: string;
   private readonly token: string;
+  private readonly api: Api;
   private readonly pending = new Pending();
   private listener: EngineListener | null = null;
   private socket: WebSocket | null = null;
   private attempt = 0;
+  private opened = false;
   private retry: ReturnType<typeof setTimeout> | undefined;
   private settled: ReturnType<typeof setTimeout> | undefined;
   private nextTarget: { position: Triple; axis: Triple; buttons: number } | null = null;
@@ -43,6 +50,7 @@ export class SocketEngine implements Engine {
   ) {
     this.url = `${page.protocol === "https:" ? "wss" : "ws"}://${page.host}/ws`;
     this.token = new URLSearchParams(page.search).get("token") ?? "";
+    this.api = new Api(page, around.fetch);
   }
 
   start(listener: EngineListener): void {
@@ -81,6 +89,7 @@ export class SocketEngine implements Engine {
 
   private connect(): void {
     this.attempt += 1;
+    this.opened = false;
     this.complained = false;
     this.listener?.connection({ state: "connecting", attempt: this.attempt });
     let socket: WebSocket;
@@ -99,6 +108,7 @@ export class SocketEngine implements Engine {
         if (this.socket === socket) handle(event);
       };
     socket.onopen = mine(() => {
+      this.opened = true;
       // One that opens and closes at once must not be tried again without growing waits.
       this.settled = setTimeout(() => {
         this.attempt = 0;
@@ -113,14 +123,23 @@ export class SocketEngine implements Engine {
     this.socket = null;
     clearTimeout(this.settled);
     this.pending.rejectAll("The connection went before the studio could answer.");
-    if (event.code >= REFUSED && event.code < 5000) {
-      this.listener?.connection({ state: "refused", reason: event.reason || `code ${event.code}` });
-      return;
-    }
     const retryInMs = waitBefore(Math.max(1, this.attempt), this.around.chance);
     const reason = event.reason || "the studio does not answer";
     this.listener?.connection({ state: "lost", reason, retryInMs });
     this.retry = setTimeout(() => this.connect(), retryInMs);
+    if (!this.opened) void this.askWhy();
+  }
+
+  /** Whether the studio has gone, or does not want this page: then no further attempt is made. */
+  private async askWhy(): Promise<void> {
+    try {
+      await this.api.get(ACCESS);
+    } catch (error) {
+      if (!(error instanceof ApiError) || !REFUSED.includes(error.status) || this.opened) return;
+      clearTimeout(this.retry);
+      this.socket = null;
+      this.listener?.connection({ state: "refused", reason: error.message });
+    }
   }
 
   private take(data: unknown): void {

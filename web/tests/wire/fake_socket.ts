@@ -1,4 +1,5 @@
 import type { Connection, EngineListener } from "../../src/engine/engine.ts";
+import type { Fetch } from "../../src/wire/api.ts";
 import type { Message } from "../../src/wire/messages.ts";
 import { SocketEngine } from "../../src/wire/socket_engine.ts";
 import type { TickBatch } from "../../src/wire/ticks.ts";
@@ -42,7 +43,7 @@ export class FakeSocket {
 }
 
 /** An engine, every socket it opened, and all that it told the page. */
-export function bench(search = "?token=abc") {
+export function bench(search = "?token=abc", fetch: Fetch = () => Promise.reject(new TypeError("no server"))) {
   const sockets: FakeSocket[] = [];
   const frames: (() => void)[] = [];
   const connections: Connection[] = [];
@@ -58,6 +59,7 @@ export function bench(search = "?token=abc") {
       },
       frame: (call) => frames.push(call),
       chance: () => 0.5,
+      fetch,
     },
   );
   const listener: EngineListener = {

@@ -52,12 +52,41 @@ describe("the connection", () => {
     expect([loseAfter(5000), loseAfter(10)]).toEqual([250, 250]);
   });
 
-  it("is not tried again where the server refuses, and the reason is told", () => {
-    const { sockets, socket, connections } = bench();
-    socket().closes(4401, "wrong token");
-    expect(connections.at(-1)).toEqual({ state: "refused", reason: "wrong token" });
-    vi.advanceTimersByTime(60_000);
+  it("is not tried again where the server refuses the token, and the reason is told", async () => {
+    const asked: unknown[] = [];
+    const { sockets, socket, connections } = bench("?token=old", async (path, init) => {
+      asked.push([path, init?.headers]);
+      return new Response("This needs the token of this run.\n", { status: 401 });
+    });
+    socket().closes(1006);
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(asked).toEqual([["/api/access", { Authorization: "Bearer old" }]]);
+    expect(connections.at(-1)).toEqual({ state: "refused", reason: "This needs the token of this run." });
     expect(sockets).toHaveLength(1);
+  });
+
+  it.each([
+    ["does not answer", () => Promise.reject(new TypeError("no server"))],
+    ["is too busy", async () => new Response("Too many requests.", { status: 429 })],
+    ["lets the page in", async () => new Response(null, { status: 204 })],
+  ])("is tried again where the server %s", async (_name, fetch) => {
+    const { sockets, socket, connections } = bench("?token=abc", fetch);
+    socket().closes(1006);
+    await vi.advanceTimersByTimeAsync(250);
+    expect(sockets).toHaveLength(2);
+    expect(connections.at(-1)).toEqual({ state: "connecting", attempt: 2 });
+  });
+
+  it("that once was open is not asked about", async () => {
+    const asked: string[] = [];
+    const { socket } = bench("?token=abc", async (path) => {
+      asked.push(path);
+      return new Response("", { status: 401 });
+    });
+    socket().opens();
+    socket().closes(1006);
+    await vi.advanceTimersByTimeAsync(100);
+    expect(asked).toEqual([]);
   });
 
   it("ends with stop, whatever comes after", () => {

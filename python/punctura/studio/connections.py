@@ -1,0 +1,159 @@
+"""All connections to the server: how many there may be, and when one is ended.
+
+A stranger is a connection that has not shown the token. Strangers and the others are counted apart, so that strangers
+cannot take the places of the person who has the token. Everything here runs on the server's event loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from punctura.studio.limits import (
+    CLOSE_S,
+    FILES_KEPT,
+    FILES_WANTED,
+    IDLE_S,
+    MOST_BUFFERED,
+    MOST_KNOWN,
+    MOST_STRANGERS,
+    STRANGER_S,
+    SWEEP_S,
+    UNREAD_S,
+)
+
+try:
+    import resource
+except ImportError:  # Windows has no such limit
+    resource = None  # type: ignore[assignment]
+
+TOO_LATE = (
+    b"HTTP/1.1 408 Request Timeout\r\nContent-Type: text/plain; charset=utf-8\r\nConnection: close\r\n\r\n"
+    b"The studio ends a connection that does not show the token of this run in time.\n"
+)
+
+
+@dataclass(eq=False)
+class Connection:
+    """One TCP connection, through all protocols that it speaks. Times are in s, of the clock of Connections."""
+
+    transport: asyncio.Transport
+    clock: Callable[[], float]
+    known: bool = False  # has shown the token
+    socket: bool = False  # has become a WebSocket
+    served: int = 0  # requests that are being answered; a WebSocket is one, from its handshake to its close
+    since: float = field(init=False)  # accepted, or the last request was answered
+    unread_since: float | None = None  # MOST_BUFFERED was reached
+    closing_since: float | None = None
+
+    def __post_init__(self) -> None:
+        self.since = self.clock()
+        self.transport.set_write_buffer_limits(high=MOST_BUFFERED)
+
+    @contextmanager
+    def serving(self) -> Iterator[None]:
+        self.served += 1
+        try:
+            yield
+        finally:
+            self.served -= 1
+            if self.known:
+                self.since = self.clock()
+
+    def writing(self, possible: bool) -> None:
+        """The transport's buffer is full, or has room again."""
+        self.unread_since = None if possible else self.clock()
+
+    def overdue(self, now: float) -> bool:
+        if self.transport.is_closing() or (self.socket and not self.served):
+            self.closing_since = now if self.closing_since is None else self.closing_since
+            patience = (
+                UNREAD_S if self.known and not self.socket else CLOSE_S
+            )  # the end of a download may be on its way
+            return now - self.closing_since >= patience
+        if self.unread_since is not None and now - self.unread_since >= UNREAD_S:
+            return True
+        if not self.known:
+            return now - self.since >= STRANGER_S
+        return not self.served and now - self.since >= IDLE_S
+
+    def end(self) -> None:
+        """At once; what was not read is lost. Who has sent no whole request is told why."""
+        if not self.served and not self.known and not self.socket and not self.transport.is_closing():
+            self.transport.write(TOO_LATE)
+        self.transport.abort()
+
+
+class Connections:
+    """strangers, known: how many of each there may be."""
+
+    def __init__(self, strangers: int, known: int, clock: Callable[[], float] = time.monotonic) -> None:
+        self._most_strangers, self._most_known, self._clock = strangers, known, clock
+        # In the order in which they came: the first of the strangers is the oldest.
+        self.strangers: dict[Connection, None] = {}
+        self.known: dict[Connection, None] = {}
+
+    def add(self, transport: asyncio.Transport) -> Connection:
+        """A connection that was accepted now. If there are too many strangers, the oldest is ended."""
+        connection = Connection(transport, self._clock)
+        self.strangers[connection] = None
+        if len(self.strangers) > self._most_strangers:
+            oldest = next(iter(self.strangers))
+            del self.strangers[oldest]
+            oldest.end()
+        return connection
+
+    def admit(self, connection: Connection) -> bool:
+        """It has shown the token. False: there are too many that have, or it has ended meanwhile."""
+        if connection.known:
+            return True
+        if connection.transport.is_closing() or len(self.known) >= self._most_known:
+            return False
+        self.strangers.pop(connection, None)
+        self.known[connection] = None
+        connection.known = True
+        return True
+
+    def remove(self, connection: Connection) -> None:
+        self.strangers.pop(connection, None)
+        self.known.pop(connection, None)
+
+    def sweep(self) -> None:
+        """Ends the connections that are overdue."""
+        now = self._clock()
+        for connection in [c for c in (*self.strangers, *self.known) if c.overdue(now)]:
+            connection.end()
+
+    async def watch(self) -> None:
+        """Until it is cancelled."""
+        while True:
+            self.sweep()
+            await asyncio.sleep(SWEEP_S)
+
+
+def room(open_files: float) -> tuple[int, int]:
+    """How many strangers and how many others there may be.
+
+    A connection takes up to two open files: its socket, and the file that it is sent.
+    """
+    pairs = max(16, int(min(open_files, FILES_WANTED) - FILES_KEPT) // 4)
+    return min(MOST_STRANGERS, pairs), min(MOST_KNOWN, pairs)
+
+
+def open_file_limit() -> float:
+    """How many files this process may have open; first raised to FILES_WANTED where the system allows it."""
+    if resource is None:
+        return float(FILES_WANTED)
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    unlimited = resource.RLIM_INFINITY
+    wanted = FILES_WANTED if hard == unlimited else min(FILES_WANTED, hard)
+    if soft != unlimited and soft < wanted:
+        try:
+            resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+            soft = wanted
+        except (OSError, ValueError):
+            pass  # the connections are as many as the limit allows
+    return float("inf") if soft == unlimited else float(soft)
