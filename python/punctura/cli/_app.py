@@ -1,11 +1,13 @@
 """Finds the verbs, runs one, and turns what goes wrong into a sentence and an exit status.
 
 0: done. 1: the run failed (a motion that cannot be used, a full disk). 2: called wrongly (usage, scene, paths).
+128 and a signal's number: ended by that signal.
 """
 
 from __future__ import annotations
 
 import importlib
+import os
 import pkgutil
 import sys
 from collections.abc import Sequence
@@ -15,9 +17,13 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._leave import leave
+from punctura.cli._streams import open_closed_streams
 from punctura.errors import ConfigurationError
+from punctura.live import Ended
+from punctura.live.signals import ENDING, ends_on_signals
 
-FAILED, CALLED_WRONGLY, INTERRUPTED = 1, 2, 130
+FAILED, CALLED_WRONGLY = 1, 2
 
 
 def _show_version(wanted: bool) -> None:
@@ -56,16 +62,26 @@ def build_app() -> typer.Typer:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with its exit status."""
+    open_closed_streams()
+    with ends_on_signals(ENDING) as signals:
+        try:
+            with signals.raised():
+                build_app()(None if arguments is None else list(arguments), prog_name="punctura")
+        except ConfigurationError as error:
+            _fail(error, CALLED_WRONGLY)
+        except (ValueError, OSError) as error:
+            _fail(f"{error}{_where()}", FAILED)
+        except Ended as end:
+            leave(end)
+
+
+def _where() -> str:
+    """What to do where a folder is missing that no message can name."""
     try:
-        build_app()(None if arguments is None else list(arguments), prog_name="punctura")
-    except ConfigurationError as error:
-        _fail(error, CALLED_WRONGLY)
-    except (ValueError, OSError) as error:
-        _fail(error, FAILED)
-    except SystemExit as end:
-        if end.code == INTERRUPTED:  # typer has caught Ctrl-C
-            _fail("interrupted", INTERRUPTED)
-        raise
+        os.getcwd()
+    except OSError:
+        return ". The folder that this command was started in has been deleted: change to another one and try again"
+    return ""
 
 
 def _fail(error: object, status: int) -> None:

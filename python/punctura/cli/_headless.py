@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
-import os
-import sys
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +12,7 @@ import typer
 
 from punctura._core import Device, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
+from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
 from punctura.live import ANY_PROCESSOR, Limits, RunSummary, fit_conditioning, fit_direction, open_for, run_live
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
@@ -35,6 +34,7 @@ class Wishes(NamedTuple):
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     """Raises DeviceError; Ended where a signal has ended it."""
+    tape = Tape(record, StatusLine(never_wait_for_stderr()))
     loaded = load_scene(wishes.scene)
     opened = open_for(loaded, wishes.device, wishes.processor)
     fitted, note = fit_direction(loaded, opened)
@@ -43,8 +43,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         fitted, note = fit_conditioning(fitted, opened)
         notes.append(note)
     for note in filter(None, notes):
-        typer.echo(f"punctura: note: {note}", err=True)
-    tape = Tape(record)
+        say(f"punctura: note: {note}")
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened))
@@ -55,7 +54,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
     )
     told = summary.to_dict() | ({"recording": tape.status.to_dict()} if tape.status else {})
-    typer.echo(json.dumps(told, indent=2) if as_json else in_words(summary))
+    tell_result(json.dumps(told, indent=2) if as_json else in_words(summary))
     if summary.state == "waiting" and wishes.limits.gate.get("dead_man"):
         say("punctura: note: no force at the end: the dead-man button was not held, or the tip was not in front")
     tape.tell_fault(summary.fault)
@@ -66,14 +65,14 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 class Tape:
     """The recording of one run, where one is wanted, and the line that tells how both are doing."""
 
-    def __init__(self, path: Path | None) -> None:
+    def __init__(self, path: Path | None, line: StatusLine) -> None:
         self.status: RecorderStatus | None = None  # how it ended
-        self._path, self._line = path, StatusLine()
+        self._path, self._line = path, line
         self._fault = ""  # that was told
         self._recorder: Recorder | None = None
 
     def begin(self, loop: ServoLoop) -> Callable[[], None]:
-        """Raises RecordingError. What it returns makes the file whole before it says so: a terminal may be gone."""
+        """Raises RecordingError. What it returns makes the file whole, and says where it is."""
         if self._path:
             self._recorder = Recorder(loop, self._path)
         return self._finish
@@ -96,6 +95,7 @@ class Tape:
 
     def _finish(self) -> None:
         if self._recorder:
+            self._line.show(f"punctura: finishing the recording {self._path}; please wait")
             self.status = self._recorder.finish()
         self._line.end()
         if self.status is None:
@@ -106,14 +106,17 @@ class Tape:
 
 
 def say(text: str) -> None:
-    """To who watches, if the terminal is still there."""
+    typer.echo(text, err=True)
+
+
+def tell_result(text: str) -> None:
+    """Waits for its reader, however slow; the run is over. Raises OSError, but not for a terminal that was closed."""
     try:
-        typer.echo(text, err=True)
-    except OSError:  # what waits in the streams would fail at the very end, and change the exit status
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        for stream in (sys.stdout, sys.stderr):
-            with suppress(OSError, ValueError):
-                os.dup2(nowhere, stream.fileno())
+        typer.echo(text)
+    except OSError as error:
+        if error.errno != errno.EIO:
+            raise
+        give_up_stdout()
 
 
 def begun(scene: str, loop: ServoLoop, device: Device) -> str:

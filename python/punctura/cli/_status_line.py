@@ -2,42 +2,37 @@
 
 from __future__ import annotations
 
-import sys
 import time
-from contextlib import suppress
-from typing import TextIO
 
-from punctura.live import RunSummary
+from punctura.live import DroppingStream, RunSummary
 
 EVERY_S = 0.1
 
 
 class StatusLine:
-    """Silent where nobody watches."""
+    """Silent where nobody watches, or where the terminal takes no text at present."""
 
-    def __init__(self, stream: TextIO | None = None) -> None:
-        self._stream = stream or sys.stderr
+    def __init__(self, stream: DroppingStream) -> None:
+        self._stream = stream
         self._next = 0.0
         self._width = 0
 
     def __call__(self, summary: RunSummary, trouble: str = "") -> None:
         """trouble: of the recording, in words."""
         now = time.monotonic()
-        if now < self._next:
-            return
-        self._next = now + EVERY_S
-        text = status_text(summary) + (f"  RECORDING: {trouble}" if trouble else "")
-        with suppress(OSError, ValueError):  # the terminal may be gone
-            if self._stream.isatty():
-                self._stream.write("\r" + text.ljust(self._width))
-                self._stream.flush()
-                self._width = len(text)
+        if now >= self._next:
+            self._next = now + EVERY_S
+            self.show(status_text(summary) + (f"  RECORDING: {trouble}" if trouble else ""))
+
+    def show(self, text: str) -> None:
+        if self._stream.isatty() and self._stream.offer("\r" + text.ljust(self._width)):
+            self._width = len(text)
 
     def end(self) -> None:
-        with suppress(OSError, ValueError):
-            if self._width:
-                self._stream.write("\r" + " " * self._width + "\r")
-                self._stream.flush()
+        if self._width:
+            self._stream.write("\r" + " " * self._width + "\r")
+            self._stream.flush()
+            self._width = 0
 
 
 def status_text(summary: RunSummary) -> str:

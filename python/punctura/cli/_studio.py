@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
-import typer
-
 from punctura._core import Placement
-from punctura.cli._headless import Wishes, begun
+from punctura.cli._headless import Wishes, begun, say
+from punctura.live import DroppingStream
 
 
 def run_page(wishes: Wishes, port: int, browser: bool, recordings: Path | None, page: Path | None) -> None:
@@ -27,9 +27,10 @@ def run_page(wishes: Wishes, port: int, browser: bool, recordings: Path | None, 
     def make() -> serve.StudioServer:
         server = serve.StudioServer(loaded, settings, port, token, folder, recordings)
         for note in server.session.run.notes:
-            typer.echo(f"punctura: note: {note}", err=True)
+            say(f"punctura: note: {note}")
         session = server.session
-        typer.echo(begun(loaded.scene.name, session.run.loop, session.bench.device), err=True)
+        say(begun(loaded.scene.name, session.run.loop, session.bench.device))
         return server
 
-    serve.run_studio(make, browser, wishes.duration, typer.echo)
+    out = DroppingStream(sys.stdout)
+    serve.run_studio(make, browser, wishes.duration, lambda address: print(address, file=out))

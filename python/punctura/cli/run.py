@@ -10,11 +10,12 @@ from typing import Annotated
 import typer
 
 from punctura._core import DeviceError
-from punctura.cli._headless import Wishes, run_headless, say
+from punctura.cli._headless import Wishes, run_headless
+from punctura.cli._leave import leave
+from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError
 from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placement
-from punctura.live.signals import ignore_more_signals
 
 
 def command(
@@ -81,6 +82,7 @@ def command(
 
     The simulated device's hand follows the mouse in the page; with --headless it makes strokes through the scene.
     """
+    never_wait_for_stderr()
     for wrong, name in ((record, "--record"), (as_json, "--json")):
         if wrong and not headless:
             raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
@@ -105,11 +107,7 @@ def command(
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None
     except Ended as end:
-        ignore_more_signals()
-        if end.name == "SIGINT":
-            raise KeyboardInterrupt from None  # the command line says "interrupted"
-        say(f"punctura: ended by {end.name}; the force is off")
-        sys.exit(128 + end.number)
+        leave(end, "; the force is off")
 
 
 def _existing(processor: int | None) -> int:

@@ -15,6 +15,7 @@ from punctura._core import (
     open_device,
 )
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
+from punctura.live.dropping_stream import DroppingStream
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
@@ -29,6 +30,7 @@ __all__ = [
     "Device",
     "DeviceError",
     "DeviceInfo",
+    "DroppingStream",
     "Ended",
     "FedDevice",
     "ForceLimits",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 
 from punctura import Scene
@@ -11,9 +10,9 @@ from punctura.live.choose import gate_for
 from punctura.live.signals import ends_on_signals
 from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
+from punctura.live.supervisor import POLL_S, Supervisor
 
 ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
-POLL_S = 0.05
 
 
 def run_live(
@@ -28,35 +27,59 @@ def run_live(
 ) -> RunSummary:
     """Ticks until `duration` (s) is over, a fault is latched, ticks cease, the device has ended, or a signal comes.
 
-    A signal raises Ended, after the stop. watch: called some 20 times a second with the summary. prepare: called
-    with the loop before it starts, to add listeners; what it returns is called after the stop.
+    A thread of its own decides that, and takes the force away: `watch` may wait for what it likes. A signal raises
+    Ended: in `watch` at once; otherwise at the end, so that neither `prepare` nor what it returns is cut short.
+
+    watch: called some 20 times a second with the summary. prepare: called with the loop before it starts, to add
+    listeners; what it returns is called after the stop.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
-    with ends_on_signals():
+    with ends_on_signals() as signals:
         loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
         listener = loop.listen(int(ROOM_S * info.rate))
+        watched = Watched(loop)
+        supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop, duration)
         finish: Callable[[], None] | None = None
         try:
             finish = prepare(loop) if prepare else None
-            loop.arm()
-            loop.start()
-            silence, began = SilenceWatch(loop), time.monotonic()
-            while not summary.fault and not getattr(device, "finished", False):
-                left = POLL_S if duration is None else min(POLL_S, duration - (time.monotonic() - began))
-                if left <= 0:
-                    break
-                time.sleep(left)
-                summary.add(listener.read())
-                summary.fault = summary.fault or silence.ceased()
-                if summary.fault:
-                    summary.blame(device)
-                if watch:
-                    watch(summary)
+            supervisor.start()
+            with signals.raised():
+                ended = False
+                while not ended:
+                    ended = supervisor.wait(POLL_S)
+                    summary.add(listener.read())
+                    summary.fault = summary.fault or watched.silence
+                    if summary.fault:
+                        summary.blame(device)
+                    if watch:
+                        watch(summary)
         finally:
-            loop.stop()
-            summary.add(listener.read())
-            summary.finish(loop)
-            if finish:
-                finish()
+            try:
+                supervisor.stop()
+            finally:
+                loop.stop()
+                summary.add(listener.read())
+                summary.finish(loop)
+                if finish:
+                    finish()
     return summary
+
+
+class Watched:
+    """A loop as its supervisor sees it."""
+
+    def __init__(self, loop: ServoLoop) -> None:
+        self.silence = ""  # that ticks have ceased, in words
+        self._loop = loop
+        self._watch = SilenceWatch(loop)
+
+    def begin(self) -> None:
+        """Raises DeviceError."""
+        self._loop.arm()
+        self._loop.start()
+
+    def over(self) -> bool:
+        self.silence = self._watch.ceased()
+        ended = getattr(self._loop.device, "finished", False) or self._loop.latest()["fault"][0]
+        return bool(self.silence or ended)

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
+from punctura.live.bell import Bell
+
+RETRY_S = 0.05
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGBREAK")
 # A suspended program gives no tick, and the device would keep its last force: Ctrl-Z ends a run, too.
-ENDING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP", "SIGBREAK")
+ENDING_A_RUN = (*ENDING, "SIGTSTP")
 
 
 class Ended(BaseException):
@@ -23,36 +29,104 @@ class Ended(BaseException):
 
 def ignore_more_signals() -> None:
     """For a program that ends anyway: nothing that comes now makes a difference but to its last words."""
-    for name in ENDING:
+    for name in ENDING_A_RUN:
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
 
 
-@contextmanager
-def ends_on_signals() -> Iterator[None]:
-    """Turns an interrupt, a termination, a suspension and a closed terminal into Ended, the first of them only.
+class Signals:
+    """The signals of one `ends_on_signals` block. The first one counts, later ones are ignored.
 
-    What the first has begun, no force and a recording made whole, is not cut short by a second. What the caller ignores
-    (nohup) stays ignored.
+    It reaches the thread that waits for it at once, whatever the main thread does. The main thread gets Ended: inside a
+    `raised` block at once, elsewhere at the end of the whole block. So cleaning up is never cut short.
     """
-    if threading.current_thread() is not threading.main_thread():  # only the main thread may take signals
-        yield
-        return
-    ended = False
 
-    def end(number: int, _frame: FrameType | None) -> None:
-        nonlocal ended
-        if not ended:
-            ended = True
+    _innermost: Signals | None = None
+
+    def __init__(self, bell: Bell) -> None:
+        self.number = 0  # of the first signal, as soon as the main thread has taken it
+        self._came = 0
+        self._bell = bell
+        self._raises = False
+        self._before: dict[int, Any] = {}
+        self._wakeup = -1
+        self._outer = Signals._innermost
+
+    @contextmanager
+    def raised(self) -> Iterator[None]:
+        """Of the main thread: in this block, and only there, the first signal raises Ended at once."""
+        self._raises = True
+        try:
+            if self.number:
+                raise Ended(self.number)
+            yield
+        finally:  # a signal that comes in these lines may still raise, and then no other one does
+            self._raises = False
+
+    def wait(self, seconds: float) -> bool:
+        """Of one thread: whether a signal came. Waits so long for it (s, above 0), or until `wake`."""
+        for number in self._bell.wait(seconds):
+            if number in self._before:
+                self._came = self._came or number
+        return self._came != 0
+
+    def insist(self) -> None:
+        """Of the same thread: sees to it that the main thread takes a signal that came.
+
+        One that comes just before the main thread begins to wait in the system does not end that wait by itself.
+        """
+        main = threading.main_thread().ident
+        while self._came and not self.number and main is not None and hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(main, self._came)
+            time.sleep(RETRY_S)
+
+    def wake(self) -> None:
+        """From any thread."""
+        self._bell.ring()
+
+    def take(self, names: Sequence[str]) -> None:
+        """Installs the handlers. What the program ignores already (nohup) stays ignored."""
+        Signals._innermost = self
+        for number in (getattr(signal, name) for name in names if hasattr(signal, name)):
+            before = signal.getsignal(number)
+            if before not in (signal.SIG_IGN, None):
+                self._before[number] = before
+                signal.signal(number, self._handle)
+        self._wakeup = signal.set_wakeup_fd(self._bell.fileno(), warn_on_full_buffer=False)
+
+    def give_back(self) -> None:
+        """Installs what was there before."""
+        signal.set_wakeup_fd(self._wakeup, warn_on_full_buffer=False)
+        Signals._innermost = self._outer
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def _handle(self, number: int, _frame: FrameType | None) -> None:
+        """Takes no lock: the code that it interrupts may hold it."""
+        if self.number:
+            return
+        block: Signals | None = self
+        while block is not None:  # for the blocks around this one it is the first signal, too
+            block.number, block = block.number or number, block._outer
+        if self._raises:
             raise Ended(number)
 
-    numbers = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in numbers}
-    taken = [number for number in numbers if before[number] not in (signal.SIG_IGN, None)]
-    for number in taken:
-        signal.signal(number, end)
-    try:
-        yield
-    finally:
-        for number in taken:
-            signal.signal(number, before[number])
+
+@contextmanager
+def ends_on_signals(names: Sequence[str] = ENDING_A_RUN) -> Iterator[Signals]:
+    """In this block these signals raise Ended, in place of what they do otherwise; see Signals for the moment.
+
+    Does nothing in a thread other than the main one: only that one may take signals.
+    """
+    with Bell() as bell:
+        signals = Signals(bell)
+        if threading.current_thread() is not threading.main_thread():
+            yield signals
+            return
+        try:
+            signals.take(names)
+            yield signals
+        finally:
+            signals.give_back()
+        if signals.number:
+            raise Ended(signals.number)

@@ -15,7 +15,11 @@ _MADE = re.compile(r"index\.html|(fig\d\d|chatter|pop)\.(png|svg|csv)")
 
 def likely_folders() -> list[Path]:
     """Where `./run reproduce` and `punctura reproduce` put it, as seen from here."""
-    return [Path.cwd() / "out", Path.cwd() / "out" / "reproduce"]
+    try:
+        here = Path.cwd()
+    except OSError:  # it has been deleted
+        return []
+    return [here / "out", here / "out" / "reproduce"]
 
 
 class Figures:

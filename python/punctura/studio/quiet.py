@@ -1,10 +1,13 @@
-"""What a stranger may cause is no news on the terminal: the server's log keeps what is a defect of the studio's."""
+"""The server's log on the terminal: without what a stranger may cause, and without ever waiting for the terminal."""
 
 from __future__ import annotations
 
 import logging
+import sys
 
 from websockets.exceptions import InvalidState
+
+from punctura.live import DroppingStream
 
 _STRANGERS = (
     "Invalid HTTP request received",
@@ -21,7 +24,11 @@ def _news(record: logging.LogRecord) -> bool:
 
 
 def quiet_server() -> None:
+    """A program that handles these logs itself goes on doing so."""
     for name in ("uvicorn.error", "asyncio"):
         logger = logging.getLogger(name)
         if _news not in logger.filters:
             logger.addFilter(_news)
+        if not logger.hasHandlers() and sys.stderr is not None:
+            stream = sys.stderr if isinstance(sys.stderr, DroppingStream) else DroppingStream(sys.stderr)
+            logger.addHandler(logging.StreamHandler(stream))

@@ -18,6 +18,7 @@ import uvicorn
 from punctura._core import DeviceError
 from punctura.exercise import ResultStore
 from punctura.live.signals import ends_on_signals
+from punctura.live.supervisor import Supervisor
 from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.figures import likely_folders
@@ -32,7 +33,6 @@ from punctura.studio.shelf import Shelf, default_folder
 
 PAGE = Path(__file__).parent / "page"
 TOKEN_VARIABLE = "PUNCTURA_STUDIO_TOKEN"
-POLL_S = 0.1
 
 
 class StudioError(OSError):
@@ -126,19 +126,26 @@ def run_studio(
     duration: float | None = None,
     tell: Callable[[str], None] = print,
 ) -> None:
-    """Serves until a signal, which raises Ended after the force is off, or for `duration` (s). Raises StudioError."""
-    with ends_on_signals():
-        server = make()
+    """Serves until a signal, which raises Ended after the force is off, or for `duration` (s). Raises StudioError.
+
+    A thread of its own ends the run in time, also while `tell` or the browser keeps this one waiting.
+    """
+    with ends_on_signals() as signals:
+        with signals.raised():
+            server = make()
+        supervisor = Supervisor(signals, server.start, lambda: not server.running, server.session.stop, duration)
         try:
-            server.start()
-            tell(server.address.url)
-            if browser:
-                open_page(server.address.url)
-            began = time.monotonic()
-            while server.running and (duration is None or time.monotonic() - began < duration):
-                time.sleep(POLL_S)
+            supervisor.start()
+            with signals.raised():
+                tell(server.address.url)
+                if browser:
+                    open_page(server.address.url)
+                supervisor.wait()
         finally:
-            server.stop()
+            try:
+                supervisor.stop()
+            finally:
+                server.stop()
     if isinstance(server.session.failure, DeviceError):
         raise server.session.failure
     if server.session.failure:

@@ -67,6 +67,7 @@ class Session:
     def stop(self) -> None:
         """Zero force; returns when the device is still, and a recording whole."""
         self._stopping.set()
+        self.run.loop.pause()  # the worker may have something to do first
         self._jobs.post(lambda: None)
         if self._thread.is_alive():
             self._thread.join()

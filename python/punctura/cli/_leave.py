@@ -1,0 +1,20 @@
+"""The end of a command that a signal has ended."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from typing import NoReturn
+
+from punctura.cli._streams import give_up_stdout
+from punctura.live import Ended
+from punctura.live.signals import ignore_more_signals
+
+
+def leave(end: Ended, more: str = "") -> NoReturn:
+    """Says which signal it was; the exit status says it, too."""
+    ignore_more_signals()
+    give_up_stdout()
+    words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}{more}"
+    print(f"punctura: {words}", file=sys.stderr)
+    sys.exit(128 + end.number)

@@ -1,0 +1,36 @@
+"""The standard streams, so that neither a closed one nor one that nobody reads changes what a command does."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import suppress
+from typing import TextIO, cast
+
+from punctura.live import DroppingStream
+
+
+def open_closed_streams() -> None:
+    """A stream that was closed (`2>&-`) becomes one that keeps nothing; else the next file would get its number."""
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    while nowhere <= 2:
+        nowhere = os.dup(nowhere)
+    os.close(nowhere)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+
+
+def never_wait_for_stderr() -> DroppingStream:
+    """From here on sys.stderr, which is returned, drops what its reader does not take in time."""
+    if not isinstance(sys.stderr, DroppingStream):
+        sys.stderr = cast(TextIO, DroppingStream(sys.stderr))
+    return cast(DroppingStream, sys.stderr)
+
+
+def give_up_stdout() -> None:
+    """What waits in sys.stdout is thrown away: at the end of the program it would block, or change the exit status."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)

@@ -1,0 +1,133 @@
+"""Text for a reader that nobody waits for: what it does not take in time is dropped, counted, and told."""
+
+from __future__ import annotations
+
+import atexit
+import io
+import threading
+import time
+from collections import deque
+from contextlib import suppress
+from typing import Any, TextIO
+
+ROOM_BYTES = 1 << 16
+LINGER_S = 1.0  # that the end of the program waits for a reader
+RETRY_S = 0.05
+
+
+class DroppingStream(io.TextIOBase):
+    """Writes to another stream's file descriptor, in a thread of its own; `write` and `flush` never wait.
+
+    A terminal that was stopped (Ctrl-S), or a pipe that nobody reads, holds up that thread alone. It writes without
+    Python's locks, so that nothing at the end of the program has to wait for it.
+    """
+
+    def __init__(self, stream: TextIO, room: int = ROOM_BYTES) -> None:
+        """room: bytes that wait for the reader at most; of more, the oldest are dropped."""
+        self._raw: Any = getattr(stream.buffer, "raw", stream.buffer)  # a stream without a buffer is raw itself
+        self._encoding = stream.encoding
+        self._room = room
+        self._change = threading.Condition()  # may be taken again by a signal handler that writes
+        self._pieces: deque[bytes] = deque()
+        self._bytes = 0  # that wait, or are being written
+        self._begun = ""  # of a line
+        self._dropped = 0  # lines, before the first piece that waits
+        self._over = False
+        self._thread: threading.Thread | None = None
+        atexit.register(self.end)
+
+    def write(self, text: str) -> int:
+        if not isinstance(text, str):
+            raise TypeError(f"text is needed, not {type(text).__name__}")
+        if not self._over:  # at the very end a thread that was cut off may have the lock
+            with self._change:
+                lines, end, self._begun = (self._begun + text).rpartition("\n")
+                if end:
+                    self._put(lines + end)
+        return len(text)
+
+    def flush(self) -> None:
+        """Hands on what has been written of a line. Does not wait until it is read."""
+        if self._begun and not self._over:
+            with self._change:
+                text, self._begun = self._begun, ""
+                self._put(text)
+
+    def offer(self, text: str) -> bool:
+        """Takes the text only if nothing else waits: for a status line, of which only the newest counts."""
+        with self._change:
+            if self._bytes or self._over:
+                return False
+            self._put(text)
+            return True
+
+    def end(self, seconds: float = LINGER_S) -> None:
+        """Waits so long for the reader; then nothing is taken any more. The end of the program calls it."""
+        self.flush()
+        with self._change:
+            self._change.wait_for(lambda: self._bytes == 0 or self._over, seconds)
+            self._over = True
+
+    def _put(self, text: str) -> None:
+        data = text.encode(self._encoding, "backslashreplace")
+        self._pieces.append(data)
+        self._bytes += len(data)
+        while self._bytes > self._room and len(self._pieces) > 1:
+            oldest = self._pieces.popleft()
+            self._bytes -= len(oldest)
+            self._dropped += oldest.count(b"\n") or 1
+        self._change.notify_all()
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._work, name="punctura-terminal", daemon=True)
+            with suppress(RuntimeError):  # the system has no thread left, or the program is ending
+                self._thread.start()
+
+    def _next(self) -> bytes:
+        """The piece to write next; in place of those that were dropped, how many they were."""
+        while not self._pieces:
+            self._change.wait()
+        if self._dropped == 0:
+            return self._pieces.popleft()
+        count, self._dropped = self._dropped, 0
+        notice = f"punctura: {count} line{'s' if count > 1 else ''} left out here: nobody read in time\n".encode()
+        self._bytes += len(notice)
+        return notice
+
+    def _work(self) -> None:
+        while not self._over:
+            with self._change:
+                data = self._next()
+            whole = self._write_whole(data)
+            with self._change:
+                self._bytes -= len(data)
+                self._over = self._over or not whole
+                self._change.notify_all()
+
+    def _write_whole(self, data: bytes) -> bool:
+        """Waits for the reader. False: it has gone."""
+        rest = memoryview(data)
+        with suppress(OSError, ValueError):
+            while rest:
+                count = self._raw.write(rest)
+                if count is None:  # another program has made the terminal non-blocking
+                    time.sleep(RETRY_S)
+                else:
+                    rest = rest[count:]
+        return not rest
+
+    def writable(self) -> bool:
+        return True
+
+    def isatty(self) -> bool:
+        return bool(self._raw.isatty())
+
+    def fileno(self) -> int:
+        return int(self._raw.fileno())
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        return self._encoding
+
+    @property
+    def errors(self) -> str:  # type: ignore[override]
+        return "backslashreplace"

@@ -1,0 +1,87 @@
+"""A stream that drops rather than wait."""
+
+import io
+import os
+import subprocess
+import sys
+
+import pytest
+from punctura.live import DroppingStream
+from terminals import BLOCKED, go_on, read_until, stop, terminal
+
+
+@pytest.mark.parametrize("blocked", BLOCKED)
+def test_a_writer_never_waits_and_memory_has_a_bound(blocked):
+    with BLOCKED[blocked]() as number, open(number, "w", closefd=False) as file:
+        stream = DroppingStream(file, room=10_000)
+        for _ in range(5000):
+            print("a line of forty characters, more or less", file=stream, flush=True)
+        assert stream._bytes <= 10_000 + len(stream._pieces[-1]) and sum(map(len, stream._pieces)) <= 10_000
+        assert stream._dropped > 4000
+        assert not stream.offer("a status line")
+        stream.end(0.01)
+        print("after the end", file=stream, flush=True)
+
+
+def test_a_terminal_that_comes_back_is_told_what_it_has_missed():
+    with terminal() as (master, slave), open(slave, "w", closefd=False) as file:
+        stop(slave)
+        stream = DroppingStream(file, room=1000)
+        for i in range(500):
+            print(f"line {i}", file=stream)
+        stream.flush()
+        dropped = stream._dropped
+        go_on(slave)
+        said = read_until(master, b"line 499\n").splitlines()
+        at = said.index(f"punctura: {dropped} lines left out here: nobody read in time")
+        shown = [f"line {i}" for i in (*range(at), *range(at + dropped, 500))]
+        assert said[:at] + said[at + 1 :] == shown and 0 <= at < 100 < dropped
+        print("and on", file=stream)
+        assert read_until(master, b"and on\n") == "and on\n"
+        assert stream.offer("status")
+        assert read_until(master, b"status") == "status"
+        stream.end()
+
+
+def test_lines_stay_whole_and_a_flush_hands_on_what_has_begun():
+    raw = io.BytesIO()
+    text = io.TextIOWrapper(raw, "utf-8")
+    stream = DroppingStream(text)
+    stream.write("one ")
+    stream.write("two\nthr")
+    stream.flush()
+    stream.write("ee \u20ac")
+    stream.end()
+    assert raw.getvalue().decode() == "one two\nthree \u20ac"
+    with pytest.raises(TypeError):
+        stream.write(b"bytes")
+
+
+def test_a_reader_that_has_gone_is_no_error():
+    reading, writing = os.pipe()
+    with open(writing, "w") as file:
+        os.close(reading)
+        stream = DroppingStream(file)
+        for _ in range(100):
+            print("a line", file=stream, flush=True)
+        stream.end()
+        assert not stream.offer("a status line")
+
+
+AT_THE_END = """
+import sys
+from punctura.live import DroppingStream
+sys.stderr = DroppingStream(sys.stderr)
+for _ in range(20_000):
+    print("a line", file=sys.stderr)
+sys.stderr.write("half a line")
+sys.exit(7)
+"""
+
+
+@pytest.mark.parametrize("blocked", BLOCKED)
+def test_a_program_ends_with_its_status_whoever_does_not_read(blocked):
+    with BLOCKED[blocked]() as stderr:
+        assert subprocess.run([sys.executable, "-c", AT_THE_END], stderr=stderr, timeout=60).returncode == 7
+    done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 7 and done.stderr.endswith("a line\nhalf a line")

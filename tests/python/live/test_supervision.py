@@ -1,0 +1,196 @@
+"""What ends a run does so whatever the terminal and the caller's own code do meanwhile."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import punctura as pn
+import pytest
+from heed import heed_signals
+from punctura.live import DeviceInfo, FedDevice, SimulatedDevice, run_live
+from punctura.live.signals import Ended
+from punctura.record import open_recording
+from terminals import BLOCKED, stop, terminal, unread_pipe
+
+SCENE = pn.load_scene("k06-fig10")
+RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+
+# Says on stdout what happens to its loop, while its main thread writes to a pipe that nobody reads.
+BLOCKED_PROGRAM = """
+import os, sys, threading, time
+import punctura as pn
+import punctura.live.silence
+from punctura.live import DeviceInfo, Ended, FedDevice, run_live
+
+why = sys.argv[1]
+if why == "ticks cease":
+    punctura.live.silence.HELD_BY_NOBODY = ()
+
+def say(text):
+    os.write(1, text.encode() + b"\\n")
+
+def observe(loop):
+    while not loop.running:
+        time.sleep(1e-3)
+    while loop.running:
+        time.sleep(1e-3)
+    say("stopped")
+
+def prepare(loop):
+    threading.Thread(target=observe, args=[loop], daemon=True).start()
+    return lambda: say("finished")
+
+def wait_for_ever(summary):
+    while True:
+        try:
+            say("waits")
+            sys.stderr.write("x" * 1_000_000)
+        except BaseException as error:
+            say(type(error).__name__)
+
+device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
+run_live(device, pn.load_scene("k06-fig10"), 0.2 if why == "its time" else None, watch=wait_for_ever, prepare=prepare)
+"""
+
+
+@pytest.mark.parametrize("why", ["ticks cease", "its time", "a signal"])
+def test_a_run_is_stopped_while_its_caller_waits_for_ever(why):
+    with unread_pipe() as stderr:
+        command = [sys.executable, "-c", BLOCKED_PROGRAM, why]
+        process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=stderr, text=True, bufsize=1, preexec_fn=heed_signals
+        )
+        watchdog = threading.Timer(30, process.kill)
+        watchdog.start()
+        try:
+            assert process.stdout.readline() == "waits\n"
+            wanted = {"stopped\n"}
+            if why == "a signal":
+                process.send_signal(signal.SIGTERM)
+                wanted.add("Ended\n")  # which the caller takes for an error, and goes on waiting
+            for line in iter(process.stdout.readline, "finished\n"):
+                wanted.discard(line)
+                if not line or not wanted:
+                    break
+            assert not wanted
+        finally:
+            watchdog.cancel()
+            process.kill()
+            process.communicate()
+
+
+def test_ticks_that_cease_end_a_run_also_in_another_thread(monkeypatch):
+    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
+    device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
+    found = []
+    thread = threading.Thread(target=lambda: found.append(run_live(device, SCENE).fault), daemon=True)
+    thread.start()
+    thread.join(60)
+    assert found and found[0].startswith("the device's ticks have ceased")
+
+
+@pytest.mark.parametrize("blocked", BLOCKED)
+def test_the_command_ends_after_its_time_while_nobody_reads_its_messages(tmp_path, blocked):
+    command = [*RUN, "--duration", "1", "--record", str(tmp_path / "run.parquet"), "--json"]
+    with BLOCKED[blocked]() as stderr:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, timeout=30)
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["recording"]["lost"] == 0
+    assert open_recording(tmp_path / "run.parquet").finished
+
+
+def test_a_termination_ends_the_command_while_its_terminal_is_stopped(tmp_path):
+    part = tmp_path / "run.parquet.part"
+    with terminal() as (_, slave):
+        process = subprocess.Popen(
+            [*RUN, "--record", str(tmp_path / "run.parquet")],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            preexec_fn=heed_signals,
+        )
+        try:
+            size_of(part, 20_000, process)
+            stop(slave)
+            size_of(part, part.stat().st_size + 60_000, process)  # the line has long been due
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(30) == 128 + signal.SIGTERM
+        finally:
+            process.kill()
+            process.wait()
+    assert open_recording(tmp_path / "run.parquet").finished
+
+
+def size_of(part, least, process):
+    while not part.exists() or part.stat().st_size < least:
+        assert process.poll() is None
+        threading.Event().wait(0.01)
+
+
+def test_a_result_that_was_asked_for_is_whole_however_late_it_is_read():
+    process = subprocess.Popen(
+        [*RUN, "--duration", "0.2", "--json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0
+    )
+    os.set_blocking(process.stdout.fileno(), True)
+    said = b""
+    while piece := os.read(process.stdout.fileno(), 7):
+        said += piece
+    assert process.wait(60) == 0 and json.loads(said)["ticks"] > 0
+
+
+class Interrupts:
+    """Sends this process a signal before the n-th line that the main thread runs in these files."""
+
+    FILES = ("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/bell.py", "/contextlib.py")
+
+    def __init__(self, n):
+        self.left = n
+
+    def __call__(self, frame, event, _):
+        if not frame.f_code.co_filename.endswith(self.FILES):
+            return None
+        if event == "line":
+            self.left -= 1
+            if self.left == 0:
+                signal.raise_signal(signal.SIGTERM)
+        return self
+
+
+def interrupted_run(n):
+    """A short run with a signal before the n-th line: what happened, and whether there were as many lines."""
+    device = SimulatedDevice(pn.Target([0, 5e-3, 0]), real_time=False, ticks=20)
+    happened, loops = [], []
+
+    def prepare(loop):
+        loops.append(loop)
+        return lambda: happened.append("finished")
+
+    before = signal.signal(signal.SIGTERM, lambda *_: happened.append("not ours"))
+    interrupts = Interrupts(n)
+    sys.settrace(interrupts)
+    try:
+        run_live(device, SCENE, prepare=prepare)
+    except Ended:
+        happened.append("Ended")
+    finally:
+        sys.settrace(None)
+        left_behind = signal.signal(signal.SIGTERM, before)
+    assert not any(loop.running for loop in loops), f"line {n}"
+    assert happened.count("finished") == len(loops), f"line {n}: {happened}"
+    assert left_behind.__name__ == "<lambda>", f"line {n}"
+    return happened, interrupts.left <= 0
+
+
+def test_no_instant_exists_in_which_a_signal_leaves_the_loop_running_or_its_recording_unfinished():
+    heard, n = 0, 1
+    while True:
+        happened, reached = interrupted_run(n)
+        if not reached:
+            break
+        assert ("Ended" in happened) != ("not ours" in happened), f"line {n}: {happened}"
+        heard += "Ended" in happened
+        n += 1
+    assert heard > 50

@@ -1,0 +1,65 @@
+"""Terminals and pipes whose reader does not read."""
+
+import os
+import pty
+import select
+import termios
+from contextlib import contextmanager
+
+
+@contextmanager
+def unread_pipe():
+    """The writing end of a pipe that is full."""
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    try:
+        while True:
+            os.write(writing, b"\n" * 65536)
+    except BlockingIOError:
+        os.set_blocking(writing, True)
+    try:
+        yield writing
+    finally:
+        os.close(reading)
+        os.close(writing)
+
+
+@contextmanager
+def stopped_terminal():
+    """A terminal on which somebody has pressed Ctrl-S."""
+    with terminal() as (_, slave):
+        stop(slave)
+        yield slave
+
+
+@contextmanager
+def terminal():
+    """Both ends; who writes is at the second one."""
+    master, slave = pty.openpty()
+    try:
+        yield master, slave
+    finally:
+        os.close(slave)
+        os.close(master)
+
+
+def stop(slave):
+    """Ctrl-S."""
+    termios.tcflow(slave, termios.TCOOFF)
+
+
+def go_on(slave):
+    """Ctrl-Q."""
+    termios.tcflow(slave, termios.TCOON)
+
+
+def read_until(master, text, seconds=30):
+    """What came up to this text, with its line ends as a program writes them."""
+    said = b""
+    while text not in said.replace(b"\r\n", b"\n"):
+        assert select.select([master], [], [], seconds)[0], said
+        said += os.read(master, 65536)
+    return said.replace(b"\r\n", b"\n").decode()
+
+
+BLOCKED = {"a stopped terminal": stopped_terminal, "a pipe that nobody reads": unread_pipe}
