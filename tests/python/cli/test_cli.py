@@ -13,16 +13,17 @@ import time
 from importlib.metadata import version
 
 import pytest
+from heed import heed_signals
 from punctura import scene_names
 from punctura.cli import _progress
 
 HEADER = "time_s,x_m,y_m,z_m\n"
 
 
-def punctura(*arguments, cwd=None):
+def punctura(*arguments, cwd=None, preexec_fn=None):
     environment = {**os.environ, "NO_COLOR": "1", "COLUMNS": "100"}
     command = [sys.executable, "-m", "punctura.cli", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment)
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment, preexec_fn=preexec_fn)
 
 
 @pytest.fixture
@@ -138,24 +139,46 @@ def test_missing_options_are_a_usage_error():
     assert done.returncode == 2 and "Missing option '--motion'" in done.stderr
 
 
-def heed_interrupts():
-    """A job that a shell started in the background ignores interrupts, and so would all that it starts."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 @pytest.mark.skipif(os.name != "posix", reason="sends a signal")
-def test_an_interrupt_leaves_nothing_behind(tmp_path):
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"])
+def test_a_signal_leaves_nothing_behind(tmp_path, name):
     slow = tmp_path / "slow.csv"
     slow.write_text(HEADER + "0,0,0,0\n" + "1e6,0,0,0\n" + "2e6,0,0,0\n")  # 3.2e9 ticks
     command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts)
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals)
     while len(list(tmp_path.iterdir())) < 2:
         assert process.poll() is None
         time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    assert process.communicate(timeout=60)[1] == "punctura: interrupted\n"
-    assert process.returncode == 130
+    process.send_signal(getattr(signal, name))
+    said = "interrupted" if name == "SIGINT" else f"ended by {name}"
+    assert process.communicate(timeout=60)[1] == f"punctura: {said}\n"
+    assert process.returncode == 128 + getattr(signal, name)
     assert [p.name for p in tmp_path.iterdir()] == ["slow.csv"]
+
+
+def close_stderr():
+    os.close(2)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="closes a stream as a shell does")
+@pytest.mark.parametrize("arguments", [["run", "no-such-scene", "--headless"], ["scenes", "--no-such-option"]])
+def test_without_a_standard_error_nothing_is_said_elsewhere_and_the_status_is_right(arguments):
+    command = [sys.executable, "-m", "punctura.cli", *arguments]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=close_stderr)
+    assert (done.returncode, done.stdout) == (2, "")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="deletes the folder that it is in")
+def test_a_deleted_working_folder_is_named_as_the_reason(motion, tmp_path):
+    def in_a_deleted_folder(*arguments):
+        folder = tmp_path / "gone"
+        folder.mkdir()
+        return punctura(*arguments, cwd=folder, preexec_fn=folder.rmdir)
+
+    done = in_a_deleted_folder("simulate", "k06-fig10", "--motion", motion, "--out", "out.csv")
+    assert done.returncode == 1 and "started in has been deleted: change to another" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert in_a_deleted_folder("scenes").returncode == 0
 
 
 class Terminal(io.StringIO):

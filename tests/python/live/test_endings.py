@@ -19,9 +19,9 @@ SCENE = pn.load_scene("k06-fig10")
 RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
 
 
-def running(path, **more):
+def running(path, *options, **more):
     """A run that records, once ticks are on the disk."""
-    command = [*RUN, "--record", str(path)]
+    command = [*RUN, "--record", str(path), *options]
     process = subprocess.Popen(
         command,
         text=True,
@@ -174,3 +174,56 @@ held.wait()
     done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=60)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "stopped\n"
+
+
+# A signal comes while the file of a recording is finished, or as soon as the file is made.
+SIGNAL_AT_THE_FILE = """
+import os, signal, sys
+import punctura.record.recorder as recorder
+from punctura.cli import main
+
+at, number = sys.argv[1], getattr(signal, sys.argv[2])
+whole = getattr(recorder, at)
+
+def spoilt(*arguments):
+    made = whole(*arguments) if at == "AppendFile" else None
+    os.kill(os.getpid(), number)
+    return made or whole(*arguments)
+
+setattr(recorder, at, spoilt)
+main(["run", "--headless", "--device", "simulated", "--duration", "0.2", "--record", sys.argv[3]])
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize("at", ["finish_recording", "AppendFile"])
+def test_a_recording_is_finished_when_a_first_signal_comes_at_its_file(tmp_path, at, name):
+    path = tmp_path / "run.parquet"
+    command = [sys.executable, "-c", SIGNAL_AT_THE_FILE, at, name, str(path)]
+    done = subprocess.run(command, text=True, capture_output=True, timeout=60, preexec_fn=heed_signals)
+    assert done.returncode == 128 + getattr(signal, name) and done.stdout == ""
+    assert f"punctura: {path}: " in done.stderr and "Traceback" not in done.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["run.parquet"]
+    assert open_recording(path).finished
+
+
+def close_stderr():
+    os.close(2)
+
+
+def test_a_closed_standard_error_changes_nothing_but_what_is_said(tmp_path):
+    path = tmp_path / "run.parquet"
+    command = [*RUN, "--duration", "0.2", "--record", str(path), "--json"]
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, timeout=60, preexec_fn=close_stderr)
+    assert done.returncode == 0 and json.loads(done.stdout)["recording"]["finished"]
+    assert [p.name for p in tmp_path.iterdir()] == ["run.parquet"]
+
+
+def test_a_terminal_that_has_gone_leaves_the_exit_status_of_a_run_that_ends_by_itself(tmp_path):
+    path = tmp_path / "run.parquet"
+    master, slave = pty.openpty()
+    process = running(path, "--duration", "3", stdin=slave, stdout=slave, stderr=slave, preexec_fn=ignore_hangup)
+    os.close(slave)
+    os.close(master)
+    assert process.wait(60) == 0
+    assert open_recording(path).finished
