@@ -114,7 +114,7 @@ def messages() -> dict[str, Any]:
     }
     choice = {"name": "a", "title": "A"}
     problem = {"path": "membrane[0].friction", "value": "3.9", "reason": "is too much"}
-    goal = {"text": "Reach the vein", "state": "open"}
+    goals = [{"text": "a goal", "state": state} for state in ("open", "met", "missed", "not measured")]
     sent = [
         {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "scenes": [choice],
          "exercises": [choice], "notes": ["a note"]},
@@ -127,7 +127,7 @@ def messages() -> dict[str, Any]:
         {"kind": "event", "what": "pop", "membrane": 0, "name": "skin", "tick": 7, "time": 0.5, "depth": 0.004,
          "force_before": 0.75, "force_after": 0.5, "drop": 0.25},
         {"kind": "recording", "name": "r", "rows": 1, "lost": 0, "seconds": 0.5, "trouble": ""},
-        {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": [goal],
+        {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": goals,
          "result": ""},
         {"kind": "reply", "id": 1, "ok": False, "text": "1 problem", "problems": [problem], "data": {}},
         {"kind": "notice", "text": "Größe"},

@@ -35,25 +35,28 @@ def score(
 ) -> None:
     """Judges a recorded attempt as it would have been judged live.
 
-    Status 0 whether it is passed or not: "passed" says so.
+    Status 0 whether it is passed or not: the first line says so, and whether something was not measured.
     """
     from punctura.exercise import Result
     from punctura.exercise import score as judge
+    from punctura.exercise.words import tenths
 
     result: Result = judge(recording, exercise, person)
     if as_json:
         typer.echo(result.model_dump_json(indent=2))
         return
-    typer.echo(f"{result.title}: {'passed' if result.passed else 'not passed'}")
+    typer.echo(f"{result.title}: {result.verdict}")
     for reason in result.reasons:
         typer.echo(f"  {reason}")
+    width = max(len(goal.state) for goal in result.goals)
     for goal in result.goals:
-        typer.echo(f"  {goal.state:6}  {goal.text}")
+        typer.echo(f"  {goal.state:{width}}  {goal.text}")
     m = result.metrics
     typer.echo(f"  {m.attempts} entries, {m.peak_force:.2f} N at most")
-    typer.echo(f"  {m.total_time:.1f} s, of them {m.dwell:.1f} s in the space")
+    typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
+    typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:
-        typer.echo(f"  {one.distance * 1e3:.1f} mm past the {one.name} within 0.3 s of its pop")
+        typer.echo(f"  {one.distance * 1e3:.1f} mm past the {one.name} within {one.seconds:g} s of its pop")
     if m.straightness is not None and m.lateral_deviation is not None:
         aside = m.lateral_deviation * 1e3
         typer.echo(f"  path {m.straightness:.2f} times the straight one, at most {aside:.1f} mm to the side")

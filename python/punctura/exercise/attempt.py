@@ -10,31 +10,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Scene
-from punctura._core import Fault, describe
+from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
+from punctura.exercise.achievements import Achievement, StayJudge, achievement_of
 from punctura.exercise.exercise import Exercise
-from punctura.exercise.judges import Judge, Moment, StayJudge, judge_of, moment
+from punctura.exercise.limit import Limit, Moment, first_of, moment
+from punctura.exercise.limits import limit_of
 from punctura.exercise.measures import Measures
 from punctura.exercise.result import GoalState, Result, Status
 from punctura.exercise.space import space_of
-from punctura.exercise.ticks import Geometry, Ticks
+from punctura.exercise.stays import Stays
+from punctura.exercise.stop import StopJudge
+from punctura.exercise.ticks import Flags, Geometry, Ticks
 
 
 class Attempt:
-    """Fed with batches of snapshots, cut anywhere; decided at the first tick at which a goal is missed, or all are met.
+    """Fed with batches of snapshots, cut anywhere; decided at the first tick at which a limit is missed, or at which
+    all is achieved and no limit is still being measured.
 
-    It begins at the first tick at which the tip is in front of all membranes. What comes after the decision is not
-    looked at any more.
+    It begins at the first tick at which the tip is in front of all membranes. After the decision only the overshoots
+    whose time is not over are followed to their end.
     """
 
     def __init__(self, exercise: Exercise, scene: Scene) -> None:
         """scene: as it runs, at the device's rate. Raises ConfigurationError where the exercise does not fit it."""
         self.exercise, self.scene = exercise, scene
         self._space = space_of(exercise.file, scene)
-        self._judges: list[Judge] = [judge_of(goal, scene, self._space) for goal in exercise.goals]
+        self._judges: list[Limit | Achievement] = [
+            limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind)
+            for goal in exercise.goals
+        ]
+        self._limits = [judge for judge in self._judges if isinstance(judge, Limit)]
+        self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
-        self._measures = Measures(scene, self._geometry, self._space)
+        self._stays = Stays(self._space)
+        self._measures = Measures(scene, self._geometry, self._space, _windows(self._limits))
         self._finder = EventFinder(scene, scene.servo.rate)
         self._events: list[Event] = []
         self._begun = False
@@ -49,13 +60,21 @@ class Attempt:
         """Success or failure is decided."""
         return self._decision is not None
 
+    @property
+    def settled(self) -> bool:
+        """Decided, and nothing is measured any more."""
+        return self.over and self._measures.settled
+
     def add(self, columns: dict[str, NDArray[Any]]) -> None:
         """The next ticks, as Listener.read() gives them."""
-        if self.over or len(columns["depth"]) == 0:
+        if self.settled or len(columns["depth"]) == 0:
             return
         ticks = self._geometry.ticks(columns, self._rows)
-        events = self._finder.add(columns)
         self._rows += len(ticks)
+        if self.over:
+            self._measures.settle(ticks)
+            return
+        events = self._finder.add(columns)
         if not self._begun:
             # Where a membrane is not known, its depth says nothing.
             ready = ~(ticks.below > 0).any(axis=1) & np.isfinite(ticks.below).any(axis=1)
@@ -63,61 +82,74 @@ class Attempt:
                 return
             self._begun = True
             ticks = ticks.part(slice(int(ready.argmax()), None))
-        events = [event for event in events if event.tick >= ticks.tick[0]]
-        for judge in self._judges:
-            judge.add(ticks, events)
+        self._judge(self._stays.mark(ticks), [event for event in events if event.tick >= ticks.tick[0]])
+
+    def _judge(self, ticks: Ticks, events: list[Event]) -> None:
+        for limit in self._limits:
+            limit.add(ticks, events)
         self._decide(ticks)
+        later = ticks.part(slice(len(ticks), None))
         if self._decision is not None:
-            ticks = ticks.part(slice(0, int(np.searchsorted(ticks.tick, self._decision.tick)) + 1))
+            rows = int(np.searchsorted(ticks.tick, self._decision.tick)) + 1
+            ticks, later = ticks.part(slice(0, rows)), ticks.part(slice(rows, None))
             events = [event for event in events if event.tick <= self._decision.tick]
         self._events += events
         self._measures.add(ticks, events)
-        self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.in_front_of])
+        self._measures.settle(later)
+        self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.behind])
 
     def _decide(self, ticks: Ticks) -> None:
-        failures = [judge.missed for judge in self._judges if judge.missed is not None]
+        failures = [limit.missed for limit in self._limits if limit.missed is not None]
         for flags, why in ((ticks.fault != 0, "fault"), (ticks.new_scene, "scene")):
-            if flags.any():
-                when = moment(ticks, int(flags.argmax()))
+            when = first_of(ticks, flags)
+            if when is not None:
                 if all(when.tick <= other.tick for other in failures):
-                    self._spoilt = _spoilt(why, int(ticks.fault[int(flags.argmax())]))
+                    self._spoilt = words.spoilt(why, Fault(int(ticks.fault[int(flags.argmax())])))
                 failures.append(when)
-        success = self._success(ticks)
         failure = min(failures, default=None)
+        end = len(ticks) if failure is None else int(np.searchsorted(ticks.tick, failure.tick)) + 1
+        success = self._success(ticks.part(slice(0, end)))
         self._decision = min((one for one in (failure, success) if one is not None), default=None)
         self._passed = success is not None and (failure is None or success.tick < failure.tick)
         if self._passed:
             self._spoilt = ""
 
     def _success(self, ticks: Ticks) -> Moment | None:
-        """The first tick at which all is achieved and no tip is still on its way from a pop."""
-        done = self._done()
-        if done is None:
-            return None
-        good = ticks.tick >= done.tick
-        for judge in self._judges:
-            if judge.busy is not None:
-                good &= ~judge.busy
+        """The first tick at which all is achieved, and no limit is still being measured."""
+        busy: Flags = np.zeros(len(ticks), dtype=np.bool_)
+        for limit in self._limits:
+            if limit.busy is not None:
+                busy |= limit.busy[: len(ticks)]
+        good = ~busy
+        for achievement in self._achievements:
+            achievement.add(ticks, busy)
+            good &= achievement.done
         return moment(ticks, int(good.argmax())) if good.any() else None
 
-    def _done(self) -> Moment | None:
-        wanted = [judge.met for judge in self._judges if judge.achievement]
-        return None if any(met is None for met in wanted) else max(cast(list[Moment], wanted))
+    @property
+    def _achieved(self) -> bool:
+        """Decided or not: whatever is still open is a limit that is being measured."""
+        return all(one.met is not None for one in self._achievements)
 
     @property
     def passed(self) -> bool:
-        """Everything was achieved, no limit broken; before the decision: as it stands."""
-        if self._decision is not None:
-            return self._passed
-        return self._done() is not None
+        """Everything was achieved, no limit was missed, and none was still being measured."""
+        return self._passed
+
+    def _goals(self, ended: bool) -> list[GoalState]:
+        complete = self._passed or (ended and not self.over and self._achieved)
+        states = []
+        for judge in self._judges:
+            if isinstance(judge, Limit):
+                states.append(judge.state(self._decision, complete))
+            else:
+                states.append("met" if self._passed else judge.state(self._decision))
+        return [GoalState(text=j.text, state=cast(Any, s)) for j, s in zip(self._judges, states, strict=True)]
 
     @property
     def goals(self) -> list[GoalState]:
         """All goals as they stand."""
-        states = [judge.state(self._decision) for judge in self._judges]
-        if self.passed:
-            states = ["met"] * len(states)
-        return [GoalState(text=j.text, state=cast(Any, s)) for j, s in zip(self._judges, states, strict=True)]
+        return self._goals(ended=False)
 
     @property
     def status(self) -> Status:
@@ -130,26 +162,28 @@ class Attempt:
         if self._measures.attempts == 0:
             return self.exercise.instruction
         if self._too_deep:
-            wall = self.scene.membranes[self._space.in_front_of].name
-            return f"You press against the {wall}: draw back a little."
-        for judge in self._judges:
-            if judge.achievement and judge.met is None:
+            return words.too_deep(self.exercise.file.space)
+        for judge in self._achievements:
+            if judge.met is None:
                 return (
-                    f"{judge.text}. Hold still." if isinstance(judge, StayJudge) and judge.since else f"{judge.text}."
+                    f"{judge.text}. Hold still." if isinstance(judge, StayJudge) and judge.staying else f"{judge.text}."
                 )
-        return self.exercise.instruction
+        waiting = (words.waiting(limit) for limit in self._limits if isinstance(limit, StopJudge) and limit.waits_for)
+        return next(waiting, self.exercise.instruction)
 
     def _reasons(self) -> list[str]:
         first = self.scene.membranes[0].name
         if self._spoilt:
             return [self._spoilt]
-        if self.passed:
-            return words.passed(self._judges, self._measures, self._space, first)
-        if self._decision is not None:
-            now = [judge for judge in self._judges if judge.state(self._decision) == "missed"]
-            return [words.missed(j, cast(Moment, j.missed), self._measures, self._space) for j in now]
-        left = [judge for judge in self._judges if judge.achievement and judge.met is None]
-        return list(dict.fromkeys(words.open_still(j, self._measures, self._space, first) for j in left))
+        if self._decision is not None and not self._passed:
+            now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
+            return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
+        if self._passed or self._achieved:
+            blind = [one for one in self._limits if one.state(self._decision, True) == "not measured"]
+            said = words.passed(self._achievements, self._measures, self._space, first)
+            return said + [words.not_measured(one, self._decision, first) for one in blind]
+        left = [one for one in self._achievements if one.met is None]
+        return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
 
     def finish(self, person: str = "", recording: str = "", date: datetime | None = None) -> Result:
         """The result as it stands: decided, or given up. date: of the attempt; now if not given."""
@@ -164,13 +198,16 @@ class Attempt:
             version=version("punctura"),
             passed=self.passed,
             reasons=self._reasons(),
-            goals=self.goals,
+            goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,
         )
 
 
-def _spoilt(why: str, fault: int) -> str:
-    if why == "scene":
-        return "The scene was changed during the exercise, so this attempt does not count."
-    return f"The run stopped: {describe(Fault(fault))}."
+def _windows(limits: list[Limit]) -> dict[int, float]:
+    """The seconds after a pop in which each membrane's overshoot is measured: as its goals judge it."""
+    windows: dict[int, float] = {}
+    for limit in limits:
+        if isinstance(limit, StopJudge):
+            windows[limit.index] = max(limit.seconds, windows.get(limit.index, 0.0))
+    return windows

@@ -41,9 +41,16 @@ class Exercise:
         return list(self.file.goal)
 
     @property
-    def space(self) -> tuple[int, int]:
-        """The two membranes, by their place in the scene, between which the space is."""
-        return self.membrane(self.file.space.behind), self.membrane(self.file.space.in_front_of)
+    def space(self) -> tuple[int, ...]:
+        """The membrane behind which the space is and, if there is one, that in front of which it ends."""
+        names = (self.file.space.behind, self.file.space.in_front_of)
+        return tuple(self.membrane(name) for name in names if name is not None)
+
+    @property
+    def space_depth(self) -> tuple[float, float | None]:
+        """Where the space begins behind the far face of the first, m, and where it ends, if at a depth."""
+        space = self.file.space
+        return space.depth_mm * 1e-3, None if space.deepest_mm is None else space.deepest_mm * 1e-3
 
     def membrane(self, name: str) -> int:
         """A membrane's place in the scene."""

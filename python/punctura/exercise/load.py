@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.exercise.depths import unreachable
 from punctura.exercise.exercise import Exercise, start_axis
 from punctura.exercise.schema import ExerciseFile
 from punctura.scene import load_scene, scene_names
@@ -92,13 +93,18 @@ def _scene_of(given: Any, path: Path) -> tuple[Scene | None, str, list[Problem]]
 def _misfits(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:
     """What does not go together with the scene, and goals that can never be judged."""
     names = [placed.name for placed in scene.membranes]
-    asked = [("space.behind", file.space.behind), ("space.in_front_of", file.space.in_front_of)]
+    asked = [("space.behind", file.space.behind)]
+    asked += [("space.in_front_of", file.space.in_front_of)] if file.space.in_front_of is not None else []
     asked += [(f"goal[{i}].membrane", goal.membrane) for i, goal in enumerate(file.goal) if hasattr(goal, "membrane")]
+    known = True
     for where, name in asked:
         if names.count(name) != 1:
+            known = False
             yield Problem(where, name, f"must be one of the scene's membranes: {', '.join(names)}")
     if file.space.behind == file.space.in_front_of:
         yield Problem("space.in_front_of", file.space.in_front_of, "must be another membrane than space.behind")
+    elif known:
+        yield from unreachable(file, scene)
     if not any(goal.kind in ("reach", "stay") for goal in file.goal):
         yield Problem("goal", MISSING, "one at least must be of kind reach or stay: without it nothing can be achieved")
     try:

@@ -1,9 +1,10 @@
-"""What is measured in an attempt, whatever its goals are."""
+"""What is measured in an attempt: each number once, for goals, sentences, tables and plots (docs/exercises.md)."""
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -14,14 +15,17 @@ from punctura.exercise.result import Metrics, Overshoot
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
 
-OVERSHOOT_S = 0.3  # after a pop: a hand's own reaction comes later
+OVERSHOOT_S = 0.3  # after a pop, where no goal says otherwise: a hand's own reaction comes later
 
 
 class Measures:
     """Fed with all ticks up to the decision, and their events."""
 
-    def __init__(self, scene: Scene, geometry: Geometry, space: TargetSpace) -> None:
-        self._period = 1 / scene.servo.rate
+    def __init__(
+        self, scene: Scene, geometry: Geometry, space: TargetSpace, windows: Mapping[int, float] | None = None
+    ) -> None:
+        """windows: s after a pop in which a membrane's overshoot is measured, where it is not OVERSHOOT_S."""
+        self._windows = dict(windows or {})
         self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
         self._space = space
@@ -30,14 +34,14 @@ class Measures:
         self.first_touch: float | None = None
         self.arrival: float | None = None
         self.longest_stay = 0.0
-        self._dwell_ticks = self._stay_ticks = 0
+        self.dwell = 0.0
         self._overshoots: list[Overshoot] = []
         self._path: Path | None = None
         self._way: PathSoFar | None = None  # to the space, once it was reached
         self._entry_angle: float | None = None
         self._next_tick: int | None = None
         self._lost = 0
-        self._last_time = 0.0
+        self._last_time = self._seen_to = 0.0
 
     def add(self, ticks: Ticks, events: list[Event]) -> None:
         if len(ticks) == 0:
@@ -47,11 +51,29 @@ class Measures:
         self.attempts += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
-        self.peak_force = max(self.peak_force, float(ticks.force.max()))
-        self._run_on(ticks, [event for event in events if event.what == "pop"])
-        inside = self._space.holds(ticks, whole_tip=False)
-        self._follow(ticks, touches, int(inside.argmax()) if inside.any() else None)
-        self._stay(inside)
+        self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
+        self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
+        self.settle(ticks)
+        arrived = self._space.arrived(ticks)
+        self._follow(ticks, touches, int(arrived.argmax()) if arrived.any() else None)
+        kind = int(self._space.stay_whole)
+        self.longest_stay = max(self.longest_stay, float(ticks.stay[:, kind].max()))
+        self.dwell = float(ticks.dwell[-1, kind])
+
+    def settle(self, ticks: Ticks) -> None:
+        """Overshoots are measured to the end of their windows, also after the decision."""
+        for k, one in enumerate(self._overshoots):
+            rows = (ticks.time >= one.time) & (ticks.time <= one.time + one.seconds)
+            if rows.any():
+                farthest = float(ticks.run_on[rows, one.membrane].max())
+                self._overshoots[k] = one.model_copy(update={"distance": max(one.distance, farthest)})
+        if len(ticks):
+            self._seen_to = float(ticks.time[-1])
+
+    @property
+    def settled(self) -> bool:
+        """No overshoot's window is open."""
+        return all(self._seen_to > one.time + one.seconds for one in self._overshoots)
 
     def _count(self, ticks: Ticks) -> None:
         first, last = int(ticks.tick[0]), int(ticks.tick[-1])
@@ -59,15 +81,9 @@ class Measures:
         self._next_tick = last + 1
         self._last_time = float(ticks.time[-1])
 
-    def _run_on(self, ticks: Ticks, pops: list[Event]) -> None:
-        self._overshoots += [Overshoot(membrane=e.membrane, name=e.name, time=e.time, distance=0.0) for e in pops]
-        for k, one in enumerate(self._overshoots):
-            if one.time + OVERSHOOT_S < ticks.time[0]:
-                continue
-            rows = (ticks.time >= one.time) & (ticks.time <= one.time + OVERSHOOT_S)
-            if rows.any():
-                farthest = float(ticks.run_on[rows, one.membrane].max())
-                self._overshoots[k] = one.model_copy(update={"distance": max(one.distance, farthest)})
+    def _overshoot(self, pop: Event) -> Overshoot:
+        seconds = self._windows.get(pop.membrane, OVERSHOOT_S)
+        return Overshoot(membrane=pop.membrane, name=pop.name, time=pop.time, distance=0.0, seconds=seconds)
 
     def _follow(self, ticks: Ticks, touches: list[Event], arrived: int | None) -> None:
         """The path from the last entry to the space; what comes after its first arrival is no part of it."""
@@ -91,13 +107,6 @@ class Measures:
         self._path = Path(ticks.tip[row], axis)
         self._entry_angle = math.asin(min(1.0, float(axis @ self._normal)))
 
-    def _stay(self, inside: np.ndarray) -> None:
-        self._dwell_ticks += int(inside.sum())
-        edges = [0, *(np.flatnonzero(np.diff(inside)) + 1).tolist(), len(inside)]
-        for start, end in itertools.pairwise(edges):
-            self._stay_ticks = self._stay_ticks + end - start if inside[start] else 0
-            self.longest_stay = max(self.longest_stay, self._stay_ticks * self._period)
-
     def metrics(self) -> Metrics:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
@@ -105,7 +114,7 @@ class Measures:
             attempts=self.attempts,
             peak_force=self.peak_force,
             overshoot=self._overshoots,
-            dwell=self._dwell_ticks * self._period,
+            dwell=self.dwell,
             longest_stay=self.longest_stay,
             path_length=way.length if way else None,
             net_distance=way.net if way else None,

@@ -17,10 +17,14 @@ class _Part(BaseModel):
 
 
 class GoalState(_Part):
-    """A goal in words. At the end a limit that was kept is met; what was not decided is open."""
+    """A goal in words.
+
+    At the end a limit that was kept is met, if it was measured; else it is `not measured`, and a reason says why. What
+    was not decided is open.
+    """
 
     text: str
-    state: Literal["open", "met", "missed"]
+    state: Literal["open", "met", "missed", "not measured"]
 
 
 class Status(_Part):
@@ -31,28 +35,29 @@ class Status(_Part):
 
 
 class Overshoot(_Part):
-    """How far the tip ran on behind a membrane in the 0.3 s after its pop."""
+    """How far the tip ran on behind a membrane in the seconds after its pop."""
 
     membrane: int
     name: str
     time: Finite  # s, of the pop
     distance: Finite  # m along the needle
+    seconds: Finite = 0.3  # after the pop: as the membrane's stop_after_pop says
 
 
 class Metrics(_Part):
-    """Of the attempt up to its decision, SI. None: there was none."""
+    """Of the attempt up to its decision (an overshoot to the end of its seconds), SI. None: there was none."""
 
     attempts: int  # entries into the first membrane
     peak_force: Finite  # N, of the model, all membranes together
     overshoot: list[Overshoot]
-    dwell: Finite  # s that the point was in the space, in all
-    longest_stay: Finite  # s, at a time
+    dwell: Finite  # s in the space, in all; of the whole tip where a stay goal asks for it, else of the point
+    longest_stay: Finite  # s, at a time, of the same
     path_length: Finite | None  # m of the tip, from the last entry to the space, else to the deepest point
     net_distance: Finite | None  # m, straight from the one to the other
     straightness: Finite | None  # path_length / net_distance: 1 is straight
     lateral_deviation: Finite | None  # m, the largest distance from the line of entry
     entry_angle: Finite | None  # rad, between the needle and the first surface at the last entry
-    time_to_target: Finite | None  # s from the first touch to the first arrival in the space
+    time_to_target: Finite | None  # s from the first touch to the first arrival, as the reach goal wants it
     total_time: Finite  # s from the first touch to the decision
     lost_ticks: int  # that never came
 
@@ -74,3 +79,15 @@ class Result(_Part):
     goals: list[GoalState]
     metrics: Metrics
     events: list[Event]
+
+    @property
+    def unmeasured(self) -> list[str]:
+        """The goals that could not be measured."""
+        return [goal.text for goal in self.goals if goal.state == "not measured"]
+
+    @property
+    def verdict(self) -> str:
+        """In words: a pass says if something was not measured."""
+        if not self.passed:
+            return "not passed"
+        return "passed, but not everything was measured" if self.unmeasured else "passed"

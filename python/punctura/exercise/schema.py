@@ -27,11 +27,16 @@ class Start(_Table):
 
 
 class Space(_Table):
-    """The space to reach: behind one membrane, in front of another."""
+    """The space to reach: behind one membrane. It may end in front of another, at a depth, or nowhere.
+
+    Depths are measured from the far face of `behind`, along that membrane's normal.
+    """
 
     name: Word  # as sentences have it: "the vein"
     behind: Word  # names of membranes of the scene
-    in_front_of: Word
+    in_front_of: Word | None = None
+    depth_mm: From0 = 0.0  # where the space begins
+    deepest_mm: Above0 | None = None  # where it ends
     sign: Word | None = None  # by which one knows: "the flash-back"
     press_mm: From0 = 0.0  # how deep the point may be in the second membrane
 
@@ -45,6 +50,7 @@ class Reach(_Goal):
 
     kind: Literal["reach"]
     whole_tip: bool = False
+    depth_mm: Above0 | None = None  # that it must come to, as in [space]; where the space begins, if not given
 
 
 class Stay(_Goal):

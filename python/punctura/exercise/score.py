@@ -21,7 +21,7 @@ def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: s
     attempt = Attempt(wanted, opened.info.scene)
     for columns, _ in recorded_ticks(opened):
         attempt.add(columns)
-        if attempt.over:
+        if attempt.settled:
             break
     date = datetime.fromtimestamp(opened.info.began_ns / 1e9, timezone.utc)
     return attempt.finish(person, Path(recording).stem, date)

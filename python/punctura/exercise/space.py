@@ -4,30 +4,55 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from punctura import Scene
 from punctura.errors import ConfigurationError, Problem
-from punctura.exercise.schema import ExerciseFile
-from punctura.exercise.ticks import Flags, Ticks
+from punctura.exercise.schema import ExerciseFile, Reach, Stay
+from punctura.exercise.ticks import ROUNDING, Flags, Ticks
 
 
 @dataclass(frozen=True)
 class TargetSpace:
-    """Behind one membrane's far face, in front of another's near face, along their normals."""
+    """Behind one membrane's far face; it ends in front of another's near face, at a depth, or nowhere.
+
+    All along the membranes' normals.
+    """
 
     name: str
     sign: str  # by which one knows that one is there; may be empty
     behind: int
-    in_front_of: int
-    press: float  # m that the point may be in the latter
+    in_front_of: int | None
+    begins: float  # m behind the far face of `behind`
+    ends: float  # likewise; infinite without an end of its own
+    press: float  # m that the point may be in `in_front_of`
+    # What counts as arriving and as being there, for every measure and sentence.
+    arrive_whole: bool  # the whole tip, not the point alone
+    arrive_depth: float | None  # m, if it must come deeper than the space begins
+    stay_whole: bool
 
-    def holds(self, ticks: Ticks, whole_tip: bool) -> Flags:
-        """In which ticks the point, or all of the tip, is in it. A needle that the front wall does not hold is not."""
-        behind = ticks.tip_behind if whole_tip else ticks.point_behind
-        return behind[:, self.behind] & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
+    def holds(self, ticks: Ticks, whole_tip: bool, depth: float | None = None) -> Flags:
+        """In which ticks the point, or all of the tip, is in it, at `depth` (m) at least.
+
+        A needle that the front wall does not hold is not in it.
+        """
+        least = self.begins if depth is None else depth
+        past = (ticks.tip_past if whole_tip else ticks.past)[:, self.behind]
+        deep = past > 0 if least == 0 and not whole_tip else past >= least - ROUNDING
+        return deep & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
 
     def too_deep(self, ticks: Ticks) -> Flags:
-        """In which ticks the point is in the membrane at the space's end; also where that is not known."""
-        return ~(ticks.below[:, self.in_front_of] <= self.press)
+        """In which ticks the point is behind the space's end; also where that is not known."""
+        flags = np.zeros(len(ticks), dtype=np.bool_)
+        if self.in_front_of is not None:
+            flags |= ~(ticks.below[:, self.in_front_of] <= self.press)
+        if np.isfinite(self.ends):
+            flags |= ~(ticks.past[:, self.behind] <= self.ends + ROUNDING)
+        return flags
+
+    def arrived(self, ticks: Ticks) -> Flags:
+        """In which ticks the needle is where the exercise's `reach` wants it; without one, where its `stay` does."""
+        return self.holds(ticks, self.arrive_whole, self.arrive_depth)
 
     @property
     def arrival(self) -> str:
@@ -48,5 +73,24 @@ def place_of(scene: Scene, name: str) -> int:
 def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
     """Raises ConfigurationError."""
     space = file.space
-    behind, in_front_of = place_of(scene, space.behind), place_of(scene, space.in_front_of)
-    return TargetSpace(space.name, space.sign or "", behind, in_front_of, space.press_mm * 1e-3)
+    reach = next((goal for goal in file.goal if isinstance(goal, Reach)), None)
+    stay_whole = any(goal.whole_tip for goal in file.goal if isinstance(goal, Stay))
+    if not any(isinstance(goal, Stay) for goal in file.goal):
+        stay_whole = reach is not None and reach.whole_tip
+    return TargetSpace(
+        name=space.name,
+        sign=space.sign or "",
+        behind=place_of(scene, space.behind),
+        in_front_of=None if space.in_front_of is None else place_of(scene, space.in_front_of),
+        begins=space.depth_mm * 1e-3,
+        ends=np.inf if space.deepest_mm is None else space.deepest_mm * 1e-3,
+        press=space.press_mm * 1e-3,
+        arrive_whole=stay_whole if reach is None else reach.whole_tip,
+        arrive_depth=depth_of(reach),
+        stay_whole=stay_whole,
+    )
+
+
+def depth_of(goal: Reach | None) -> float | None:
+    """m behind the far face; None where the goal asks for no more than the space."""
+    return None if goal is None or goal.depth_mm is None else goal.depth_mm * 1e-3

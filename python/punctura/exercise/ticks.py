@@ -20,6 +20,7 @@ Flags = NDArray[np.bool_]
 _INSIDE = np.zeros(256, dtype=np.bool_)
 _INSIDE[[Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value]] = True
 _COMMAND_SCENE = 8
+ROUNDING = 1e-12  # m
 
 
 @dataclass
@@ -30,18 +31,32 @@ class Ticks:
     time: Numbers  # s
     tip: Numbers  # (n, 3), m
     held: Numbers  # (n, 3), the needle's direction: that held by the first membrane, else the stylus's
-    force: Numbers  # N, the norm of the model's force
+    force: Numbers  # N, the norm of the model's force; NaN where it is not known
     fault: NDArray[np.int64]
     new_scene: Flags
     inside: Flags  # (n, m), held by the membrane: the model lets it in
     depth: Numbers  # (n, m), of the point along the needle while inside, else along the normal, m
     below: Numbers  # (n, m), of the point along the normal, m
     run_on: Numbers  # (n, m), how far the slanted face is past the membrane along the needle, m; below 0 before that
-    point_behind: Flags  # (n, m), the point is out behind the membrane
-    tip_behind: Flags  # (n, m), the slanted face is, too
+    past: Numbers  # (n, m), how far the point is behind the membrane's far face, along its normal, m
+    tip_past: Numbers  # (n, m), how far the end of the slanted face is
+    # Of the point, and of the whole tip, (n, 2): filled in by Stays.
+    in_space: Flags
+    stay: Numbers  # s since it came into the space where it is now; 0 outside
+    dwell: Numbers  # s in the space so far, in all
 
     def __len__(self) -> int:
         return len(self.tick)
+
+    @property
+    def point_behind(self) -> Flags:
+        """(n, m), the point is out behind the membrane; not where that is not known."""
+        return self.past > 0
+
+    @property
+    def tip_behind(self) -> Flags:
+        """(n, m), the slanted face is, too."""
+        return self.tip_past >= -ROUNDING
 
     def part(self, rows: slice) -> Ticks:
         return Ticks(*(getattr(self, field.name)[rows] for field in fields(self)))
@@ -76,15 +91,18 @@ class Geometry:
             time=time,
             tip=columns["tip"],
             held=self._held(columns, axis, inside),
-            force=np.nan_to_num(np.linalg.norm(force, axis=1)),
+            force=np.linalg.norm(force, axis=1),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & _COMMAND_SCENE) != 0,
             inside=inside,
             depth=depth,
             below=below,
             run_on=np.where(inside, depth - self.tip_length - self.thickness / cosine, -np.inf),
-            point_behind=finite & (below > self.thickness),
-            tip_behind=finite & (below >= self.thickness + self.tip_length * cosine - 1e-12),
+            past=below - self.thickness,
+            tip_past=below - self.thickness - self.tip_length * cosine,
+            in_space=np.zeros((n, 2), dtype=np.bool_),
+            stay=np.zeros((n, 2)),
+            dwell=np.zeros((n, 2)),
         )
 
     def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:

@@ -1,62 +1,102 @@
-"""What happened in an attempt, in sentences for the one who made it."""
+"""What happened in an attempt, in sentences for the one who made it. Their numbers are those of the measures."""
 
 from __future__ import annotations
 
-from punctura.exercise.judges import (
-    AttemptsJudge,
-    ForceJudge,
-    Judge,
-    Moment,
-    NeverPassJudge,
-    StayJudge,
-    StopJudge,
-    TimeJudge,
-)
+from collections.abc import Sequence
+from decimal import ROUND_HALF_UP, Decimal
+
+from punctura._core import Fault, describe
+from punctura.exercise.achievements import Achievement, StayJudge
+from punctura.exercise.limit import Limit, Moment, by
+from punctura.exercise.limits import AttemptsJudge, ForceJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.measures import Measures
+from punctura.exercise.schema import Space
 from punctura.exercise.space import TargetSpace
+from punctura.exercise.stop import StopJudge
 
 
-def missed(judge: Judge, when: Moment, measures: Measures, space: TargetSpace) -> str:
+def tenths(value: float) -> str:
+    """With one decimal, rounded as the page rounds: a half goes up."""
+    return str(Decimal(value).quantize(Decimal("0.1"), ROUND_HALF_UP))
+
+
+def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -> str:
     """Why a limit was not kept."""
-    if isinstance(judge, NeverPassJudge):
+    if isinstance(limit, NeverPassJudge):
         if measures.arrival is None:
-            return f"You went through the {judge.membrane} without having reached {space.name}."
-        return f"You went through the {judge.membrane} {when.time - measures.arrival:.1f} s after {space.arrival}."
-    if isinstance(judge, StopJudge):
+            return f"You went through the {limit.membrane} without having reached {space.name}."
+        return f"You went through the {limit.membrane} {tenths(when.time - measures.arrival)} s after {space.arrival}."
+    if isinstance(limit, StopJudge):
         return (
-            f"You ran more than {judge.within * 1e3:g} mm past the {judge.membrane} when it gave way: "
+            f"You ran more than {limit.within * 1e3:g} mm past the {limit.membrane} when it gave way: "
             "hold against the loss of resistance."
         )
-    if isinstance(judge, TimeJudge):
-        return f"The time was over, {judge.seconds:g} s after the first touch."
-    if isinstance(judge, ForceJudge):
-        return f"You pushed with more than {judge.at_most:g} N."
-    if isinstance(judge, AttemptsJudge):
-        return f"You went in more often than the {judge.at_most} time{'s' * (judge.at_most > 1)} that are allowed."
-    return f"Missed: {judge.text}."
+    if isinstance(limit, TimeJudge):
+        return f"The time was over, {limit.seconds:g} s after the first touch."
+    if isinstance(limit, ForceJudge):
+        return f"You pushed with more than {limit.at_most:g} N."
+    if isinstance(limit, AttemptsJudge):
+        return f"You went in more often than the {limit.at_most} time{'s' * (limit.at_most > 1)} that are allowed."
+    return f"Missed: {limit.text}."
 
 
-def open_still(judge: Judge, measures: Measures, space: TargetSpace, first: str) -> str:
+def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
+    """Why nobody can say whether a limit was kept."""
+    if limit.unseen is not None and by(limit.unseen, until):
+        return f"Not measured: “{limit.text}”. Readings were missing at {tenths(limit.unseen.time)} s of the run."
+    if isinstance(limit, StopJudge):
+        if limit.popped:
+            when = f"the attempt ended within {limit.seconds:g} s after the {limit.membrane} gave way"
+        else:
+            when = f"the {limit.membrane} never gave way"
+        return f"Not measured: how far you run on past the {limit.membrane}, because {when}."
+    return f"Not measured: “{limit.text}”, because the {first} was never touched."
+
+
+def waiting(limit: StopJudge) -> str:
+    """What to do while a limit is still being measured."""
+    if limit.waits_for == "rest":
+        return "Hold still."
+    return f"Go on until the {limit.membrane} gives way, and stop there: that is still to be measured."
+
+
+def too_deep(space: Space) -> str:
+    """What to do where the point is behind the space's end."""
+    if space.in_front_of is not None:
+        return f"You press against the {space.in_front_of}: draw back a little."
+    return f"You are more than {space.deepest_mm:g} mm past the {space.behind}: draw back a little."
+
+
+def spoilt(why: str, fault: Fault) -> str:
+    """Why an attempt does not count; why: "scene" or "fault"."""
+    if why == "scene":
+        return "The scene was changed during the exercise, so this attempt does not count."
+    return f"The run stopped: {describe(fault)}."
+
+
+def open_still(achievement: Achievement, measures: Measures, space: TargetSpace, first: str) -> str:
     """Why an achievement is none, when the attempt ends without a decision."""
     if measures.attempts == 0:
         return f"You did not touch the {first}."
     if measures.arrival is None:
         return f"You did not reach {space.name}."
-    if isinstance(judge, StayJudge) and judge.longest == 0 and judge.whole_tip:
-        return f"The whole tip never came into {space.name}."
-    if isinstance(judge, StayJudge):
-        return f"You stayed in {space.name} for {judge.longest:.1f} s at a time; {judge.seconds:g} s are asked."
-    return f"Not done: {judge.text}."
+    if isinstance(achievement, StayJudge) and not achievement.left:
+        if achievement.whole_tip and measures.longest_stay == 0:
+            return f"The whole tip never came into {space.name}."
+        longest = tenths(measures.longest_stay)
+        return f"You stayed in {space.name} for {longest} s at a time; {achievement.seconds:g} s are asked."
+    if achievement.left:
+        return f"You left {space.name} before everything was measured."
+    return f"Not done: {achievement.text}."
 
 
-def passed(judges: list[Judge], measures: Measures, space: TargetSpace, first: str) -> list[str]:
+def passed(achievements: Sequence[Achievement], measures: Measures, space: TargetSpace, first: str) -> list[str]:
     """What was good."""
     said = []
     if measures.arrival is not None and measures.first_touch is not None:
-        seconds = measures.arrival - measures.first_touch
+        seconds = tenths(measures.arrival - measures.first_touch)
         entries = "at the first attempt" if measures.attempts == 1 else f"with {measures.attempts} attempts"
-        said.append(f"You reached {space.name} {seconds:.1f} s after touching the {first}, {entries}.")
-    stays = [judge.seconds for judge in judges if isinstance(judge, StayJudge)]
-    if stays:
-        said.append(f"You stayed in it for {max(stays):g} s.")
+        said.append(f"You reached {space.name} {seconds} s after touching the {first}, {entries}.")
+    if any(isinstance(one, StayJudge) for one in achievements):
+        said.append(f"You stayed in it for {tenths(measures.longest_stay)} s.")
     return said

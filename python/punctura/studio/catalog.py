@@ -30,6 +30,8 @@ def _exercises() -> tuple[dict[str, Any], ...]:
             "instruction": exercise.instruction,
             "scene": exercise.scene.name,
             "space": list(exercise.space),
+            "space_from": exercise.space_depth[0],
+            "space_to": exercise.space_depth[1],
             "start_position": list(exercise.start_position),
             "start_axis": list(exercise.start_axis),
             "goals": [goal.text for goal in Attempt(exercise, exercise.scene).goals],

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import punctura as pn
 import pytest
-from attempts import goal, ideal, judged, of_positions
+from attempts import HEAD, goal, ideal, judged, of_positions
 from punctura.exercise import load_exercise
+from punctura.exercise.words import tenths
 
 SCENE = pn.load_scene("venipuncture")  # the skin at 0, 1.2 mm thick; walls at -4.81 and -8.22, 0.4 mm thick
 TIP = 0.8e-3 / math.tan(math.radians(11))  # m
@@ -29,7 +30,7 @@ def test_times_and_stays(write):
     assert m.dwell == m.longest_stay == pytest.approx(1.0, abs=3 * TICK)
     assert result.reasons == [
         "You reached the vein 0.5 s after touching the skin, at the first attempt.",
-        "You stayed in it for 1 s.",
+        "You stayed in it for 1.0 s.",
     ]
 
 
@@ -149,3 +150,38 @@ def test_nothing_at_all_gives_a_result_without_metrics(write):
         "net_distance": None, "straightness": None, "lateral_deviation": None, "entry_angle": None,
         "time_to_target": None, "total_time": 0, "lost_ticks": 0,
     }  # fmt: skip
+
+
+def test_sentences_and_measures_have_the_same_numbers(write):
+    """The goal counts the whole tip, so the table does; before, it counted the point: 3 s against 9.5."""
+    head = HEAD.replace("[space]", "[space]\npress_mm = 9")
+    down = ideal(SCENE, (0, 5, 0), (0, -7, 0), stops=6)["tip"]  # the point alone, for 6 s
+    position = np.concatenate([down, ideal(SCENE, (0, -7, 0), (0, -10, 0), stops=4)["tip"]])
+    goals = goal("reach"), goal("stay", seconds=2.25, whole_tip=True)
+    result = judged(load_exercise(write(*goals, head=head)), of_positions(SCENE, position), scene=SCENE).finish()
+    m = result.metrics
+    assert m.longest_stay == m.dwell == pytest.approx(2.25, abs=TICK)
+    assert result.reasons[-1] == f"You stayed in it for {tenths(m.longest_stay)} s."
+    assert m.time_to_target == pytest.approx(0.521, abs=2 * TICK)  # of the point, as the reach goal wants it
+
+
+def test_the_arrival_is_that_of_the_reach_goal(write):
+    head = HEAD.replace("[space]", "[space]\npress_mm = 9")
+    columns = ideal(SCENE, (0, 5, 0), (0, -10, 0), stops=1)
+    exercise = load_exercise(write(goal("reach", whole_tip=True), goal("stay", seconds=9), head=head))
+    m = judged(exercise, columns, scene=SCENE).finish().metrics
+    assert m.time_to_target == pytest.approx(0.521 + TIP / 10e-3, abs=2 * TICK)
+
+
+def test_an_overshoot_is_measured_in_the_time_that_its_goal_says(write):
+    stop = goal("stop_after_pop", membrane="skin", within_mm=9, seconds=0.5)
+    m = measured(write, ideal(SCENE, (0, 5, 0), (0, -14, 0)), NEVER, stop).metrics
+    skin, front = m.overshoot[:2]
+    assert (skin.seconds, front.seconds) == (0.5, 0.3)
+    assert [skin.distance, front.distance] == pytest.approx([5e-3, 3e-3], abs=2 * STEP)
+
+
+@pytest.mark.parametrize(("value", "text"), [(0.25, "0.3"), (2.25, "2.3"), (0.35, "0.3"), (3.04999, "3.0"), (0, "0.0")])
+def test_a_tenth_is_rounded_as_the_page_rounds(value, text):
+    """JavaScript's toFixed: the nearest, and of two that are as near the larger."""
+    assert tenths(value) == text

@@ -35,8 +35,12 @@ export interface ExerciseOverview {
   readonly description: string;
   readonly instruction: string;
   readonly scene: string;
-  /** The two membranes, by their place in the scene, between which one is to come. */
+  /** The membrane, by its place in the scene, behind which one is to come; if there is one, that in front of which. */
   readonly space: readonly number[];
+  /** Where the space begins behind the far face of the first, m. */
+  readonly space_from: number;
+  /** Where it ends, likewise; null: nowhere, or at the second membrane. */
+  readonly space_to: number | null;
   readonly goals: readonly string[];
 }
 
@@ -67,6 +71,8 @@ export interface ExerciseMetrics {
     readonly name: string;
     readonly time: number;
     readonly distance: number;
+    /** s after the pop, in which it was measured. */
+    readonly seconds: number;
   }[];
   readonly dwell: number;
   readonly longest_stay: number;

@@ -204,7 +204,7 @@ export interface ExerciseStatus {
 }
 export interface ExerciseGoal {
   text: string;
-  state: "open" | "met" | "missed";
+  state: "open" | "met" | "missed" | "not measured";
 }
 /**
  * To one request, by its id.

@@ -127,7 +127,7 @@ class RecordingStatus(Part):
 
 class ExerciseGoal(Part):
     text: str
-    state: Literal["open", "met", "missed"]
+    state: Literal["open", "met", "missed", "not measured"]
 
 
 class ExerciseStatus(Part):

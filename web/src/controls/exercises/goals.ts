@@ -1,7 +1,13 @@
 import { element } from "../../panel.ts";
+import type { ExerciseResult } from "../../wire/files.ts";
 import type { ExerciseGoal } from "../../wire/messages.ts";
 
-const STATES = { open: ["○", "open"], met: ["✓", "met"], missed: ["✕", "missed"] } as const;
+const STATES = {
+  open: ["○", "open"],
+  met: ["✓", "met"],
+  missed: ["✕", "missed"],
+  "not measured": ["?", "not-measured"],
+} as const;
 
 /** Goals with their state as a sign, a word and a colour. */
 export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
@@ -9,14 +15,21 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
     "ul",
     { class: "goals" },
     ...goals.map(({ text, state }) => {
-      const [sign, word] = STATES[state];
+      const [sign, style] = STATES[state];
       return element(
         "li",
-        { class: state },
+        { class: style },
         element("span", { class: "sign", "aria-hidden": "true" }, sign),
-        element("span", { class: "only-read" }, `${word}: `),
-        text,
+        element("span", { class: "only-read" }, `${state}: `),
+        // A grid's cells: the sign, and all of the words.
+        element("span", {}, text, ...(state === "not measured" ? [element("em", {}, " (not measured)")] : [])),
       );
     }),
   );
+}
+
+/** Passed or not; a pass says if something was not measured. */
+export function verdict({ passed, goals }: Pick<ExerciseResult, "passed" | "goals">): string {
+  if (!passed) return "✕ not passed";
+  return goals.some(({ state }) => state === "not measured") ? "✓ passed, but not everything was measured" : "✓ passed";
 }

@@ -21,15 +21,15 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       value: `${metrics.peak_force.toFixed(2)} N`,
       help: "The largest force of all membranes together.",
     },
-    ...metrics.overshoot.map(({ name, distance }) => ({
+    ...metrics.overshoot.map(({ name, distance, seconds: window }) => ({
       label: `Overshoot after ${name}`,
       value: millimetres(distance),
-      help: "How far the tip ran on in the 0.3 s after this pop.",
+      help: `How far the tip ran on in the ${window} s after this pop.`,
     })),
     {
       label: "Time in the space",
       value: seconds(metrics.dwell),
-      help: "How long the point was where it should be, in all.",
+      help: "How long the needle was where it should be, in all: the whole tip if the goal asks for it, else the point.",
     },
     { label: "Longest stay", value: seconds(metrics.longest_stay), help: "How long it was there at a time." },
     {

@@ -3,6 +3,7 @@ import type { App } from "../../state/app.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
 import { saveAddress } from "../download.ts";
 import { dateText } from "../recordings/words.ts";
+import { verdict } from "./goals.ts";
 
 /** A person's results, the latest first. */
 export function pastResults(
@@ -67,6 +68,6 @@ function row(result: ExerciseResult, open: (result: ExerciseResult) => void): HT
     {},
     element("td", {}, when),
     element("td", {}, result.title),
-    element("td", { class: result.passed ? "passed" : "failed" }, result.passed ? "✓ passed" : "✕ not passed"),
+    element("td", { class: result.passed ? "passed" : "failed" }, verdict(result)),
   );
 }

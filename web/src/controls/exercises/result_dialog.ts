@@ -4,7 +4,7 @@ import { type ExerciseOverview, type ExerciseResult, type RecordingEntry, result
 import { saveAddress } from "../download.ts";
 import { fetchSource } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
-import { goalList } from "./goals.ts";
+import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
 import { layersOf, spaceBetween, traceOf } from "./trace.ts";
 import { traceDrawing } from "./trace_drawing.ts";
@@ -33,7 +33,7 @@ export function openResult(
         { id: "result-title" },
         result.title,
         " ",
-        element("span", { class: result.passed ? "passed" : "failed" }, result.passed ? "✓ passed" : "✕ not passed"),
+        element("span", { class: result.passed ? "passed" : "failed" }, verdict(result)),
       ),
       element("p", { class: "quiet" }, [result.person, dateText(result.date)].filter(Boolean).join(" · ")),
     ),

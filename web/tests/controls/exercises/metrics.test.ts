@@ -5,7 +5,7 @@ import type { ExerciseMetrics } from "../../../src/wire/files.ts";
 const metrics: ExerciseMetrics = {
   attempts: 2,
   peak_force: 0.9041,
-  overshoot: [{ membrane: 0, name: "skin", time: 1, distance: 0.00213 }],
+  overshoot: [{ membrane: 0, name: "skin", time: 1, distance: 0.00213, seconds: 0.5 }],
   dwell: 5.26,
   longest_stay: 3.1,
   path_length: null,
@@ -17,6 +17,10 @@ const metrics: ExerciseMetrics = {
   total_time: 21.1,
   lost_ticks: 0,
 };
+
+test("the help of an overshoot names the time in which it was measured", () => {
+  expect(metricRows(metrics).find(({ label }) => label.startsWith("Overshoot"))?.help).toContain("in the 0.5 s after");
+});
 
 test("measures are told in units for people; what there was not is a dash", () => {
   const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));

@@ -1,0 +1,75 @@
+"""Goals that are achieved: to reach the space, and to stay in it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from punctura.exercise.limit import Moment, by, first_of
+from punctura.exercise.schema import AnyGoal, Reach, Stay
+from punctura.exercise.space import TargetSpace, depth_of
+from punctura.exercise.ticks import Flags, Ticks
+
+
+class Achievement:
+    """Met at a tick; open again where the needle leaves the space while a limit is still being measured."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.met: Moment | None = None
+        self.left = False  # met once, and open again
+        self.done = np.zeros(0, dtype=np.bool_)  # in which ticks of the batch it is met
+
+    def add(self, ticks: Ticks, busy: Flags) -> None:
+        """The next ticks. busy: in which of them a limit is still being measured."""
+        raise NotImplementedError
+
+    def state(self, until: Moment | None) -> str:
+        """open or met; until: as it was then."""
+        return "met" if by(self.met, until) else "open"
+
+    def _follow(self, ticks: Ticks, good: Flags, here: Flags, busy: Flags) -> None:
+        rows = np.arange(len(ticks))
+        met = np.maximum.accumulate(np.where(good, rows, -1 if self.met else -3))
+        gone = np.maximum.accumulate(np.where(~here & busy, rows, -2))
+        self.done = met > gone
+        self.left = not self.done[-1] and (self.left or self.met is not None or bool(good.any()))
+        if not self.done[-1]:
+            self.met = None
+        elif self.met is None or gone[-1] >= 0:
+            self.met = first_of(ticks, good & (rows > gone[-1]))
+
+
+class ReachJudge(Achievement):
+    def __init__(self, goal: Reach, space: TargetSpace, behind: str) -> None:
+        super().__init__(goal.text or _reach_text(goal, space, behind))
+        self._whole, self._depth, self._space = goal.whole_tip, depth_of(goal), space
+
+    def add(self, ticks: Ticks, busy: Flags) -> None:
+        here = self._space.holds(ticks, self._whole, self._depth)
+        self._follow(ticks, here, here, busy)
+
+
+class StayJudge(Achievement):
+    def __init__(self, goal: Stay, space: TargetSpace) -> None:
+        super().__init__(goal.text or f"Stay in {space.name} for {goal.seconds:g} s")
+        self.seconds, self.whole_tip = goal.seconds, goal.whole_tip
+        self.staying = False  # in the last tick
+
+    def add(self, ticks: Ticks, busy: Flags) -> None:
+        here = ticks.in_space[:, int(self.whole_tip)]
+        self.staying = bool(here[-1])
+        self._follow(ticks, here & (ticks.stay[:, int(self.whole_tip)] >= self.seconds), here, busy)
+
+
+def _reach_text(goal: Reach, space: TargetSpace, behind: str) -> str:
+    if goal.depth_mm is not None:
+        return f"Bring the {'whole tip' if goal.whole_tip else 'point'} {goal.depth_mm:g} mm past the {behind}"
+    return f"Reach {space.name}{' with the whole tip' if goal.whole_tip else ''}"
+
+
+def achievement_of(goal: AnyGoal, space: TargetSpace, behind: str) -> Achievement:
+    """behind: the name of the membrane behind which the space is."""
+    if isinstance(goal, Stay):
+        return StayJudge(goal, space)
+    assert isinstance(goal, Reach)
+    return ReachJudge(goal, space, behind)

@@ -1,0 +1,71 @@
+"""What all judges have in common: one judge a goal."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from punctura.events import Event
+from punctura.exercise.stays import MOST_GAP_S
+from punctura.exercise.ticks import Flags, Ticks
+
+
+class Moment(NamedTuple):
+    tick: int
+    time: float  # s
+
+
+def moment(ticks: Ticks, row: int) -> Moment:
+    return Moment(int(ticks.tick[row]), float(ticks.time[row]))
+
+
+def first_of(ticks: Ticks, flags: Flags) -> Moment | None:
+    return moment(ticks, int(flags.argmax())) if flags.any() else None
+
+
+def by(when: Moment | None, until: Moment | None) -> bool:
+    """Whether it has happened; until: by then."""
+    return when is not None and (until is None or when.tick <= until.tick)
+
+
+class Limit:
+    """A goal that holds until it is missed. It is met only where it was measured to the end."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.missed: Moment | None = None
+        self.unseen: Moment | None = None  # when readings that it needs had been missing for too long
+        self.busy: Flags | None = None  # the ticks of the batch in which a measurement is still open
+        self.waits_for = ""  # what an open measurement waits for at the last tick: "pop", "rest"
+        self._seen_at: float | None = None
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        """The next ticks of the attempt, with the events among them."""
+        raise NotImplementedError
+
+    def measured(self, until: Moment | None) -> bool:
+        """Whether enough was seen to call it met; until: as it was then."""
+        return not by(self.unseen, until)
+
+    def state(self, until: Moment | None, complete: bool) -> str:
+        """open, met, missed or not measured. until: as it was then. complete: nothing more will be measured."""
+        if by(self.missed, until):
+            return "missed"
+        if not complete:
+            return "open"
+        return "met" if self.measured(until) else "not measured"
+
+    def _miss(self, ticks: Ticks, flags: Flags) -> None:
+        if self.missed is None:
+            self.missed = first_of(ticks, flags)
+
+    def _watch(self, ticks: Ticks, seen: Flags) -> None:
+        """seen: in which ticks there is a reading of what it judges."""
+        if self.unseen is not None:
+            return
+        times = np.where(seen, ticks.time, -np.inf)
+        began = float(ticks.time[0]) if self._seen_at is None else self._seen_at
+        before = np.maximum.accumulate(np.concatenate([[began], times[:-1]]))
+        self.unseen = first_of(ticks, ticks.time - before > MOST_GAP_S)
+        self._seen_at = float(max(before[-1], times[-1]))

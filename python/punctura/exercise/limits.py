@@ -1,0 +1,85 @@
+"""The limits of an exercise, each followed by a judge of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from punctura import Scene
+from punctura.events import Event
+from punctura.exercise.limit import Limit, Moment
+from punctura.exercise.schema import AnyGoal, Attempts, NeverPass, PeakForce, Reach, Stay, StopAfterPop, TimeLimit
+from punctura.exercise.space import place_of
+from punctura.exercise.stop import StopJudge
+from punctura.exercise.ticks import Ticks
+
+
+class NeverPassJudge(Limit):
+    def __init__(self, goal: NeverPass, scene: Scene) -> None:
+        super().__init__(goal.text or f"Do not go through the {goal.membrane}")
+        self.membrane, self._whole = goal.membrane, goal.whole_tip
+        self._index = place_of(scene, goal.membrane)
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.past[:, self._index]))
+        behind = ticks.tip_behind if self._whole else ticks.point_behind
+        self._miss(ticks, behind[:, self._index])
+
+
+class TimeJudge(Limit):
+    """Counts by the ticks' own times, so that ticks that never came do not stop it."""
+
+    def __init__(self, goal: TimeLimit) -> None:
+        super().__init__(goal.text or f"Be done within {goal.seconds:g} s of the first touch")
+        self.seconds = goal.seconds
+        self._began: Moment | None = None
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        if self._began is None:
+            touches = (Moment(e.tick, e.time) for e in events if e.what == "touch" and e.membrane == 0)
+            self._began = next(touches, None)
+        if self._began is not None:
+            self._miss(ticks, ticks.time - self._began.time > self.seconds)
+
+    def measured(self, until: Moment | None) -> bool:
+        return self._began is not None and (until is None or self._began.tick <= until.tick)
+
+
+class ForceJudge(Limit):
+    def __init__(self, goal: PeakForce) -> None:
+        super().__init__(goal.text or f"Push with no more than {goal.at_most_N:g} N")
+        self.at_most = goal.at_most_N
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.force))
+        self._miss(ticks, ticks.force > self.at_most)
+
+
+class AttemptsJudge(Limit):
+    def __init__(self, goal: Attempts, scene: Scene) -> None:
+        times = "once" if goal.at_most == 1 else f"{goal.at_most} times"
+        super().__init__(goal.text or f"Enter the {scene.membranes[0].name} no more than {times}")
+        self.at_most = goal.at_most
+        self._count = 0
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.depth[:, 0]))
+        for event in events:
+            if event.what == "touch" and event.membrane == 0:
+                self._count += 1
+                if self._count > self.at_most and self.missed is None:
+                    self.missed = Moment(event.tick, event.time)
+
+
+def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
+    """None for a goal that is achieved. Raises ConfigurationError where the scene lacks what the goal names."""
+    if isinstance(goal, Reach | Stay):
+        return None
+    if isinstance(goal, NeverPass):
+        return NeverPassJudge(goal, scene)
+    if isinstance(goal, StopAfterPop):
+        return StopJudge(goal, scene)
+    if isinstance(goal, TimeLimit):
+        return TimeJudge(goal)
+    if isinstance(goal, PeakForce):
+        return ForceJudge(goal)
+    return AttemptsJudge(goal, scene)

@@ -1,0 +1,142 @@
+"""A depth behind a membrane as what is to be reached, without another membrane behind it."""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import punctura as pn
+import pytest
+from attempts import HEAD, goal, ideal, judged
+from punctura import ConfigurationError, ThickLaw
+from punctura.exercise import exercise_json_schema, load_exercise
+from runs import moved
+
+SCENE = pn.load_scene("venipuncture")  # walls of 0.4 mm at -4.81 and -8.22
+TIP = 0.8e-3 / math.tan(math.radians(11))  # m
+OPEN = HEAD.replace('in_front_of = "back vein wall"\n', "")
+PAST = """
+title = "Three past the second"
+description = "No third membrane is needed."
+instruction = "Push."
+scene = "k06-fig12"
+[start]
+position_mm = [0, 5, 0]
+[space]
+name = "3 mm past the second membrane"
+behind = "second membrane"
+depth_mm = 3
+deepest_mm = 5
+"""
+
+
+def arrived_at(write, head, *goals, to=-20.0):
+    """How deep the tip is when the attempt is passed, m."""
+    exercise = load_exercise(write(*goals, head=head))
+    made = judged(exercise, ideal(exercise.scene, (0, 5, 0), (0, to, 0)), scene=exercise.scene)
+    result = made.finish()
+    assert result.passed, result.reasons
+    return result.metrics.net_distance
+
+
+def problems(path):
+    with pytest.raises(ConfigurationError) as error:
+        load_exercise(path)
+    return {problem.path: problem.reason for problem in error.value.problems}
+
+
+def test_three_millimetres_past_the_second_membrane_can_be_asked_for(write):
+    exercise = load_exercise(write(goal("reach"), head=PAST))
+    second = exercise.scene.membranes[1]
+    far = -second.point[1] + second.membrane.thickness
+    assert exercise.space == (1,) and exercise.space_depth == (pytest.approx(3e-3), pytest.approx(5e-3))
+    assert arrived_at(write, PAST, goal("reach")) == pytest.approx(far + 3e-3, abs=1e-5)
+
+
+@pytest.mark.parametrize(("whole", "more"), [(False, 0.0), (True, TIP)])
+def test_a_goal_may_ask_for_more_depth_than_the_space(write, whole, more):
+    reach = goal("reach", depth_mm=2.5, whole_tip=whole)
+    assert arrived_at(write, OPEN, reach) == pytest.approx(5.21e-3 + 2.5e-3 + more, abs=1e-5)
+    assert arrived_at(write, OPEN, goal("reach", whole_tip=whole)) == pytest.approx(5.21e-3 + more, abs=1e-5)
+    text = load_exercise(write(reach, head=OPEN))
+    assert judged(text, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE).goals[0].text == (
+        f"Bring the {'whole tip' if whole else 'point'} 2.5 mm past the front vein wall"
+    )
+
+
+def test_a_depth_is_measured_along_the_membranes_normal_however_slanted_the_needle_is(write):
+    """At 30 degrees to the skin a needle goes 6 mm to be 3 mm deeper."""
+    axis = np.array([math.cos(math.pi / 6), -0.5, 0.0])
+    way = np.arange(-10e-3, 30e-3, 1e-5)
+    columns = moved(SCENE, np.outer(way, axis), axis)
+    results = []
+    for depth in (0.0, 3.0):
+        exercise = load_exercise(write(goal("reach"), head=OPEN.replace("[space]", f"[space]\ndepth_mm = {depth}")))
+        results.append(judged(exercise, columns, scene=SCENE).finish())
+    assert all(result.passed for result in results)
+    near, far = (result.metrics for result in results)
+    assert far.net_distance - near.net_distance == pytest.approx(6e-3, abs=2e-4)
+
+
+def test_the_space_ends_at_its_deepest(write):
+    """At 10 mm/s the needle is 2 mm, so 0.2 s, in a space of 2 mm."""
+    exercise = load_exercise(write(goal("stay", seconds=9), head=PAST))
+    made = judged(exercise, ideal(exercise.scene, (0, 5, 0), (0, -25, 0)), scene=exercise.scene)
+    assert made.finish().metrics.dwell == pytest.approx(0.2, abs=2e-3)
+    assert made.status.instruction == "You are more than 5 mm past the second membrane: draw back a little."
+
+
+def test_without_an_end_the_space_goes_on(write):
+    exercise = load_exercise(write(goal("stay", seconds=9), head=OPEN))
+    m = judged(exercise, ideal(SCENE, (0, 5, 0), (0, -25, 0)), scene=SCENE).finish().metrics
+    assert m.dwell == pytest.approx((25 - 5.21) / 10, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("space", "where", "why"),
+    [
+        ("depth_mm = 3.1", "space.depth_mm", "must be less than 3.01: there the space ends, by the back vein wall"),
+        ("depth_mm = -1", "space.depth_mm", "greater than or equal to 0"),
+        ("depth_mm = 2\ndeepest_mm = 2", "space.deepest_mm", "must be more than 2, where the space begins"),
+        ("depth_mm = 1", "goal[0].depth_mm", "must be 1 or more: there the space begins, by space.depth_mm"),
+        ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4: there the space ends, by space.deepest_mm"),
+    ],
+)
+def test_a_depth_that_nobody_can_come_to_is_told(write, space, where, why):
+    head = HEAD.replace("[space]", f"[space]\n{space}")
+    assert why in problems(write(goal("reach", depth_mm=0.5), head=head))[where]
+
+
+def test_a_wall_that_is_not_there_cannot_be_pressed(write):
+    head = OPEN.replace("[space]", "[space]\npress_mm = 1")
+    assert "needs space.in_front_of" in problems(write(goal("reach"), head=head))["space.press_mm"]
+
+
+def test_the_schema_has_the_depths():
+    schema = exercise_json_schema()
+    space, reach = schema["$defs"]["Space"], schema["$defs"]["Reach"]
+    assert {"depth_mm", "deepest_mm"} <= set(space["properties"]) and "in_front_of" not in space["required"]
+    assert "depth_mm" in reach["properties"]
+    json.dumps(schema)
+
+
+DOCS = Path(__file__).parents[3] / "docs" / "exercises.md"
+EXAMPLES = re.findall(r"```toml\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("text", EXAMPLES)
+def test_each_example_of_the_docs_is_a_sound_exercise(tmp_path, text):
+    (tmp_path / "example.toml").write_text(text, encoding="utf-8")
+    assert load_exercise(tmp_path / "example.toml").goals
+
+
+def test_the_docs_three_millimetres_past_the_second_membrane_can_be_passed(tmp_path):
+    (tmp_path / "example.toml").write_text(next(text for text in EXAMPLES if "depth_mm = 3" in text), encoding="utf-8")
+    exercise = load_exercise(tmp_path / "example.toml")
+    far = -exercise.scene.membranes[1].point[1] * 1e3 + exercise.scene.membranes[1].membrane.thickness * 1e3
+    tip = ThickLaw(exercise.scene.needle, exercise.scene.membranes[1].membrane).X * 1e3
+    deep = far + max(tip, 3) + 0.5
+    for to, passed in ((deep, True), (far + tip + 3, False)):
+        made = judged(exercise, ideal(exercise.scene, (0, 5, 0), (0, -to, 0), stops=4), scene=exercise.scene)
+        assert made.finish().passed is passed, made.finish().reasons
