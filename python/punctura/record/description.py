@@ -15,8 +15,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from punctura.record.errors import RecordingError
 
-# That this version reads, the last of which it writes. In 1 the gate limited the distance from one reading to the next, and
-# there was no `spent_N2s`.
+# That this version reads; it writes the last. In 1 the gate limited the distance from one reading to the next, and there
+# was no `spent_N2s`.
 FORMATS = (1, 2)
 _MOST_NESTED = 64
 _MOST_TOLD = 5  # problems in one message
@@ -91,7 +91,7 @@ class Description(_Part):
     device: DeviceSaid
     gate: dict[str, Value]
     limits: dict[str, Value]
-    spent_N2s: NotNegative = 0.0  
+    spent_N2s: NotNegative = 0.0
     scene: str
     libraries: dict[str, str] = {}
     about: dict[str, Any] = {}

@@ -6,6 +6,7 @@ Each runs in a thread of the server's pool, so that a long file holds up neither
 from __future__ import annotations
 
 import itertools
+import math
 import tempfile
 import threading
 from collections.abc import Callable
@@ -26,6 +27,7 @@ from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
 from punctura.studio.session import Session
 from punctura.studio.shelf import SUFFIX, Busy, Missing
+from punctura.studio.trace import FEWEST, MOST, USUAL, thinned_trace
 
 FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}
 RESULT_FORMATS: dict[str, tuple[str, Callable[[list[Result]], str]]] = {
@@ -56,6 +58,7 @@ class Api:
             Route(one, _told(self.recording), methods=["GET"]),
             Route(one, _told(self.delete), methods=["DELETE"]),
             Route(one + "/ticks", _told(self.ticks)),
+            Route(one + "/trace", _told(self.trace)),
             Route(one + "/download", _told(self.download)),
             Route("/api/exercises", _told(self.exercises)),
             Route("/api/results", _told(self.results)),
@@ -75,6 +78,16 @@ class Api:
         frames = tick_frames(self._shelf.open(_name(request)))
         first = list(itertools.islice(frames, 1))  # what is wrong with the file shows before the answer begins
         return StreamingResponse(itertools.chain(first, frames), media_type="application/octet-stream")
+
+    def trace(self, request: Request) -> Response:
+        asked = request.query_params
+        try:
+            start, points = float(asked.get("from", "0")), int(asked.get("points", str(USUAL)))
+        except ValueError:
+            start, points = math.nan, 0
+        if not (math.isfinite(start) and FEWEST <= points <= MOST):
+            return _sentence(400, f"from is a time in s, points a number from {FEWEST} to {MOST}.")
+        return JSONResponse(thinned_trace(self._shelf.open(_name(request)), start, points))
 
     def delete(self, request: Request) -> Response:
         self._shelf.delete(_name(request), self._session.recording)

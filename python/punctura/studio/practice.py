@@ -8,7 +8,7 @@ from punctura import Scene
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
 
-LINGER_S = 1.0  # that is still recorded after the decision
+LINGER_S = 1.0  # that is still recorded after the decision, once all overshoots are measured
 
 
 def no_exercise() -> ExerciseStatus:
@@ -28,7 +28,7 @@ class Practice:
     def add(self, columns: dict[str, Any], now: float) -> ExerciseStatus | None:
         """The next ticks. What to tell the pages, if anything is new."""
         self._attempt.add(columns)
-        if self._attempt.over and self.end_at is None:
+        if self._attempt.settled and self.end_at is None:
             self.end_at = now + LINGER_S
         status = self._status(running=True)
         if status == self._told:

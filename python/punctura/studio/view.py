@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from punctura import Scene
 from punctura.scene.lumen import lumen
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
@@ -23,19 +24,24 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
         direction=scene.direction,
         solver=scene.servo.solver,
         rate=rate,
-        membranes=[
-            MembraneView(
-                name=placed.name,
-                point=[float(x) for x in placed.point],
-                inward_normal=(np.array(placed.inward_normal) / np.linalg.norm(placed.inward_normal)).tolist(),
-                thickness=placed.membrane.thickness,
-            )
-            for placed in scene.membranes
-        ],
+        membranes=membrane_views(scene),
         laws=laws,
         tables=loaded.tables(),
         lumen=lumen_of(loaded),
     )
+
+
+def membrane_views(scene: Scene) -> list[MembraneView]:
+    """Where the membranes are."""
+    return [
+        MembraneView(
+            name=placed.name,
+            point=[float(x) for x in placed.point],
+            inward_normal=(np.array(placed.inward_normal) / np.linalg.norm(placed.inward_normal)).tolist(),
+            thickness=placed.membrane.thickness,
+        )
+        for placed in scene.membranes
+    ]
 
 
 def lumen_of(loaded: Loaded) -> list[int]:

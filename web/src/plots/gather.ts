@@ -91,7 +91,10 @@ export function gatherOther(
   });
 }
 
-/** What goes to the hand, against the needle's axis, N: the force of the device after all limits. */
+/**
+ * What goes to the hand, N: the size of the device's force after all limits, negative where it pulls the needle in. While
+ * nothing limits it, that is the size of the model's force, by which exercises are judged.
+ */
 export function gatherSent(
   history: History,
   first: number,
@@ -108,8 +111,9 @@ export function gatherSent(
       const x = force[from]!;
       const y = force[from + 1]!;
       const z = force[from + 2]!;
-      const against = -(x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!);
-      out[at + i] = bias + gain * (Number.isNaN(against) ? Math.hypot(x, y, z) : against);
+      const inwards = x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!;
+      const size = Math.sqrt(x * x + y * y + z * z);
+      out[at + i] = bias + gain * (inwards > 0 ? -size : size);
     }
   });
 }

@@ -1,4 +1,4 @@
-import type { ExerciseGoal, MembraneEvent, SceneView } from "./messages.ts";
+import type { ExerciseGoal, MembraneEvent, MembraneView, SceneView } from "./messages.ts";
 
 /** What the studio's files say of themselves, as JSON: python/punctura/studio has their making. */
 
@@ -24,6 +24,16 @@ export interface RecordingOverview {
   readonly events: readonly MembraneEvent[];
   readonly ticks: number;
   readonly first_tick: number;
+}
+
+/** `GET /api/recordings/NAME/trace`: thinned, with every peak. SI; null breaks the curves. */
+export interface RecordingTrace {
+  readonly time: readonly number[];
+  /** Of the tip below the first surface. */
+  readonly depth: readonly (number | null)[];
+  /** The size of the model's force, negative where it pulls the needle in. */
+  readonly force: readonly (number | null)[];
+  readonly membranes: readonly MembraneView[];
 }
 
 export const recordingPath = (name: string): string => `/api/recordings/${encodeURIComponent(name)}`;

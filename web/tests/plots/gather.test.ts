@@ -31,11 +31,11 @@ describe("gathering ticks for a drawing", () => {
     expect(extent.low).toBeGreaterThan(extent.high);
   });
 
-  it("the force at the hand is taken against the needle's axis", () => {
-    const pushed = history(1, 1, { force: () => [0, 0.5, 0], axis: () => [0, -1, 0] });
-    const out = new Float32Array(1);
-    gatherSent(pushed, 0, 1, 1, 0, out);
-    expect(out[0]).toBe(0.5);
+  it("the force at the hand is its size, as in an exercise's result, negative where it pulls the needle in", () => {
+    const aside = history(2, 1, { force: (tick) => [0.3, tick ? -0.4 : 0.4, 0], axis: () => [0, -1, 0] });
+    const out = new Float32Array(2);
+    gatherSent(aside, 0, 2, 1, 0, out);
+    expect([...out]).toEqual([expect.closeTo(0.5, 6), expect.closeTo(-0.5, 6)]);
   });
 });
 

@@ -11,6 +11,10 @@ const NONE = "–";
 const seconds = (value: number | null): string => (value === null ? NONE : `${value.toFixed(1)} s`);
 const millimetres = (value: number | null): string => (value === null ? NONE : `${(value * 1e3).toFixed(1)} mm`);
 
+/** The peak force, as the table and the drawing show it. */
+export const peakText = ({ metrics }: { readonly metrics: Pick<ExerciseMetrics, "peak_force"> }): string =>
+  `${metrics.peak_force.toFixed(2)} N`;
+
 /** The measures of an attempt in words and units for people. */
 export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
   const { entry_angle: angle, straightness } = metrics;
@@ -18,8 +22,8 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
     { label: "Attempts", value: String(metrics.attempts), help: "How often the first membrane was entered." },
     {
       label: "Peak force",
-      value: `${metrics.peak_force.toFixed(2)} N`,
-      help: "The largest force of all membranes together.",
+      value: peakText({ metrics }),
+      help: "The largest size of the model’s force, all membranes together.",
     },
     ...metrics.overshoot.map(({ name, distance, seconds: window }) => ({
       label: `Overshoot after ${name}`,

@@ -1,13 +1,21 @@
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
-import { type ExerciseOverview, type ExerciseResult, type RecordingEntry, resultPath } from "../../wire/files.ts";
+import type { Source } from "../../state/source.ts";
+import {
+  type ExerciseOverview,
+  type ExerciseResult,
+  type RecordingEntry,
+  type RecordingTrace,
+  recordingPath,
+  resultPath,
+} from "../../wire/files.ts";
 import { saveAddress } from "../download.ts";
-import { fetchSource } from "../recordings/fetch_source.ts";
+import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
-import { layersOf, spaceBetween, traceOf } from "./trace.ts";
-import { traceDrawing } from "./trace_drawing.ts";
+import { layersOf, spaceOf, traceOf } from "./trace.ts";
+import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 
 /** The page of one result: passed or not and why, the measures, the attempt drawn. `again` starts it anew. */
 export function openResult(
@@ -69,14 +77,19 @@ export function openResult(
   });
   document.body.append(dialog);
   dialog.showModal();
-  void drawTrace(app, result, exercise, place, stop.signal).then((source) => {
-    if (!source) return;
+  void drawTrace(app, result, exercise, place, stop.signal).then((entry) => {
+    if (!entry) return;
     look.disabled = false;
-    look.addEventListener("click", () =>
-      close(() => {
-        app.source.value = source;
-      }),
-    );
+    look.addEventListener("click", () => {
+      look.disabled = true;
+      void fetchWhole(app, entry, place, stop.signal).then((source) => {
+        look.disabled = false;
+        if (!source) return;
+        close(() => {
+          app.source.value = source;
+        });
+      });
+    });
   });
 }
 
@@ -87,48 +100,63 @@ function table(result: ExerciseResult): HTMLElement {
   return element("table", { class: "metrics" }, element("tbody", {}, ...rows));
 }
 
+/** Draws the attempt from a thinned trace. Gives its recording; null where there is none any more. */
 async function drawTrace(
   app: App,
   result: ExerciseResult,
   exercise: ExerciseOverview | null,
   place: HTMLElement,
   signal: AbortSignal,
-): Promise<typeof app.live | null> {
+): Promise<RecordingEntry | null> {
   if (!result.recording) {
     place.append(element("p", { class: "quiet" }, "The attempt was not recorded."));
     return null;
   }
-  const bar = element("progress", { max: 1, value: 0, "aria-label": "Fetching the attempt" });
-  const words = element("span", { class: "quiet" }, "Fetching the attempt…");
-  place.append(words, bar);
+  place.append(element("span", { class: "quiet" }, "Fetching the attempt…"));
   try {
+    const told = await app.api.get(tracePath(result), { signal });
+    const trace = (await told.json()) as RecordingTrace;
     const entries = await app.api.json<RecordingEntry[]>("/api/recordings");
-    const entry = entries.find(({ name }) => name === result.recording);
-    if (!entry) throw new Error("its recording is not there any more");
-    const { source } = await fetchSource(
-      app.api,
-      entry,
-      ({ bytes, total }) => {
-        bar.value = bytes / total;
-        words.textContent = bytesText(bytes, total);
-      },
-      signal,
-    );
-    const scene = source.scene.value;
-    if (!scene) return null;
-    const layers = layersOf(scene);
-    const space = spaceBetween(layers, exercise?.space ?? scene.lumen);
-    place.replaceChildren(traceDrawing(traceOf(source), layers, space, result));
-    return source;
+    const layers = layersOf(trace.membranes);
+    const space = exercise && spaceOf(layers, exercise);
+    place.replaceChildren(traceDrawing(traceOf(trace), layers, space, result));
+    return entries.find(({ name }) => name === result.recording) ?? null;
   } catch (error) {
     if (!signal.aborted)
-      place.replaceChildren(
-        element(
-          "p",
-          { class: "quiet" },
-          `The attempt cannot be drawn: ${error instanceof Error ? error.message : String(error)}`,
-        ),
-      );
+      place.replaceChildren(element("p", { class: "quiet" }, `The attempt cannot be drawn: ${wordsOf(error)}`));
     return null;
   }
 }
+
+/** Every tick of the attempt, to look at it again; null where that failed or was given up. */
+async function fetchWhole(
+  app: App,
+  entry: RecordingEntry,
+  place: HTMLElement,
+  signal: AbortSignal,
+): Promise<Source | null> {
+  const bar = element("progress", { max: 1, value: 0, "aria-label": "Fetching the attempt" });
+  const words = element("span", { class: "quiet" }, "Fetching every tick of the attempt…");
+  const line = element("p", {}, words, bar);
+  place.append(line);
+  try {
+    const progress = ({ bytes, total }: Progress): void => {
+      bar.value = bytes / total;
+      words.textContent = bytesText(bytes, total);
+    };
+    return (await fetchSource(app.api, entry, progress, signal)).source;
+  } catch (error) {
+    if (!signal.aborted) app.say(`The attempt cannot be fetched: ${wordsOf(error)}`);
+    return null;
+  } finally {
+    line.remove();
+  }
+}
+
+/** From a little before the first touch on. */
+export function tracePath({ recording, events }: Pick<ExerciseResult, "recording" | "events">): string {
+  const touch = events.find(({ what }) => what === "touch")?.time ?? 0;
+  return `${recordingPath(recording)}/trace?from=${Math.max(touch - BEFORE, 0).toFixed(3)}`;
+}
+
+const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -1,14 +1,14 @@
-import type { Source } from "../../state/source.ts";
-import type { SceneView } from "../../wire/messages.ts";
+import type { ExerciseOverview, RecordingTrace } from "../../wire/files.ts";
+import type { MembraneView } from "../../wire/messages.ts";
 
-/** An attempt along its time: s, m below the first surface, N on the hand. */
+/** An attempt along its time: s, m below the first surface, N; NaN where there is nothing. */
 export interface Trace {
   readonly time: Float64Array;
-  readonly depth: Float32Array;
-  readonly force: Float32Array;
+  readonly depth: Float64Array;
+  readonly force: Float64Array;
 }
 
-/** A layer by its depth below the first surface, m. */
+/** A layer by its depth below the first surface, m; a space without an end has an infinite bottom. */
 export interface Layer {
   readonly name: string;
   readonly top: number;
@@ -18,37 +18,35 @@ export interface Layer {
 type Vector = ArrayLike<number>;
 const dot = (a: Vector, b: Vector): number => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
 
-/** The whole of a source. Needs its scene. */
-export function traceOf(source: Source): Trace {
-  const { history } = source;
-  const surface = source.scene.value?.membranes[0];
-  const n = history.length;
-  const trace = { time: new Float64Array(n), depth: new Float32Array(n), force: new Float32Array(n) };
-  if (!surface) return trace;
-  const offset = dot(surface.point, surface.inward_normal);
-  for (let i = 0; i < n; i++) {
-    const tick = history.first + i;
-    trace.time[i] = history.timeOf(tick);
-    trace.depth[i] = dot(history.row("tip", tick), surface.inward_normal) - offset;
-    trace.force[i] = -dot(history.row("model_force", tick), history.row("axis", tick));
-  }
-  return trace;
+export function traceOf({ time, depth, force }: RecordingTrace): Trace {
+  const numbers = (values: readonly (number | null)[]): Float64Array =>
+    Float64Array.from(values, (value) => value ?? Number.NaN);
+  return { time: numbers(time), depth: numbers(depth), force: numbers(force) };
 }
 
 /** The membranes of a scene below its first surface. */
-export function layersOf(scene: SceneView): Layer[] {
-  const first = scene.membranes[0];
+export function layersOf(membranes: readonly MembraneView[]): Layer[] {
+  const first = membranes[0];
   if (!first) return [];
-  return scene.membranes.map(({ name, point, thickness }) => {
+  return membranes.map(({ name, point, thickness }) => {
     const top = dot(point, first.inward_normal) - dot(first.point, first.inward_normal);
     return { name, top, bottom: top + thickness };
   });
 }
 
-/** The space between two of them; null where there is none. */
-export function spaceBetween(layers: readonly Layer[], space: readonly number[]): Layer | null {
-  const [behind, before] = [layers[space[0] ?? -1], layers[space[1] ?? -1]];
-  return behind && before ? { name: "", top: behind.bottom, bottom: before.top } : null;
+/** The space that an exercise wants to be reached; null where its first membrane is not there. */
+export function spaceOf(
+  layers: readonly Layer[],
+  exercise: Pick<ExerciseOverview, "space" | "space_from" | "space_to">,
+): Layer | null {
+  const [behind, before] = exercise.space.map((place) => layers[place]);
+  if (!behind) return null;
+  const end = exercise.space_to === null ? Number.POSITIVE_INFINITY : behind.bottom + exercise.space_to;
+  return {
+    name: "",
+    top: behind.bottom + exercise.space_from,
+    bottom: Math.min(end, before?.top ?? Number.POSITIVE_INFINITY),
+  };
 }
 
 /**

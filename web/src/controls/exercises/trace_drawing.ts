@@ -2,6 +2,7 @@ import { element } from "../../panel.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
 import { ticksOf } from "../editor/law_shape.ts";
 import { svg } from "../svg.ts";
+import { peakText } from "./metrics.ts";
 import { envelope, indexAt, type Layer, type Trace } from "./trace.ts";
 
 const WIDTH = 680;
@@ -11,7 +12,9 @@ const DEPTH = { top: 26, height: 150 };
 const FORCE = { top: 200, height: 96 };
 const HEIGHT = 330;
 const COLUMNS = WIDTH - LEFT - RIGHT;
-const BEFORE = 0.5; // s in front of the first touch
+/** s in front of the first touch, where the drawing begins. */
+export const BEFORE = 0.5;
+const BELOW = 2e-3; // m that are drawn of a space without an end
 
 type Scale = (value: number) => number;
 const scale =
@@ -19,7 +22,7 @@ const scale =
   (value) =>
     start + ((value - from) / (to - from)) * length;
 
-/** Depth and force of an attempt along its time, with the layers, the space to reach, the pops and the largest force. */
+/** Depth and force of an attempt along its time, with layers, the space to reach, pops, and the peak force as measured. */
 export function traceDrawing(
   trace: Trace,
   layers: readonly Layer[],
@@ -34,7 +37,8 @@ export function traceDrawing(
   const deepest = Math.max(...layers.map(({ bottom }) => bottom), 0) * 1e3;
   const reached = extreme(trace.depth, from, to, Math.max) * 1e3;
   const shallow = Math.max(-4, Math.min(extreme(trace.depth, from, to, Math.min) * 1e3, -1));
-  const low = Math.max(deepest, reached) * 1.06;
+  const wanted = space ? Math.min(space.bottom, space.top + BELOW) * 1e3 : 0;
+  const low = Math.max(deepest, reached, wanted) * 1.06;
   const y = scale(shallow, low, DEPTH.top, DEPTH.height);
   const strongest = Math.max(extreme(trace.force, from, to, Math.max), 0.1);
   const weakest = Math.min(extreme(trace.force, from, to, Math.min), 0);
@@ -46,7 +50,7 @@ export function traceDrawing(
     svg("title", {}, wordsOf(result)),
   );
   const add = (...nodes: SVGElement[]): void => drawing.append(...nodes);
-  if (space) add(...band(space, y, "space", "to reach"));
+  if (space) add(...band({ ...space, bottom: Math.min(space.bottom, low / 1e3) }, y, "space", "to reach"));
   for (const layer of layers) add(...band(layer, y, "layer", layer.name));
   add(
     ...axis(ticksOf(Math.ceil(shallow), low), y, "depth, mm", DEPTH),
@@ -58,13 +62,13 @@ export function traceDrawing(
   }
   add(svg("text", { x: LEFT + COLUMNS / 2, y: HEIGHT - 2, "text-anchor": "middle" }, "time, s"));
   add(...marks(result, touch, x, end));
-  const mm = Float32Array.from(trace.depth, (depth) => depth * 1e3);
+  const mm = trace.depth.map((depth) => depth * 1e3);
   add(curve("depth", mm, trace, from, to, x, y), curve("force", trace.force, trace, from, to, x, f));
   const peak = indexOfMost(trace.force, from, indexAt(trace.time, touch + result.metrics.total_time));
   if (peak !== null) {
     const [px, py] = [x(trace.time[peak]!), f(trace.force[peak]!)];
     add(svg("circle", { class: "peak", cx: px, cy: py, r: 3.5 }));
-    add(svg("text", { class: "strong", x: px + 7, y: py + 1 }, `${trace.force[peak]!.toFixed(2)} N`));
+    add(svg("text", { class: "strong", x: px + 7, y: py + 1 }, peakText(result)));
   }
   return element("figure", { class: "trace-figure" }, drawing);
 }
@@ -110,7 +114,7 @@ const crowded = (pops: readonly { readonly time: number }[], i: number): boolean
 
 function curve(
   kind: string,
-  values: Float32Array,
+  values: Float64Array,
   trace: Trace,
   from: number,
   to: number,
@@ -126,13 +130,13 @@ function curve(
   return svg("path", { class: `curve ${kind}`, d: path.join("") });
 }
 
-function extreme(values: Float32Array, from: number, to: number, of: (a: number, b: number) => number): number {
+function extreme(values: Float64Array, from: number, to: number, of: (a: number, b: number) => number): number {
   let found = 0;
   for (let i = from; i < to; i++) if (Number.isFinite(values[i])) found = of(found, values[i]!);
   return found;
 }
 
-function indexOfMost(values: Float32Array, from: number, to: number): number | null {
+function indexOfMost(values: Float64Array, from: number, to: number): number | null {
   let best: number | null = null;
   for (let i = from; i < to; i++)
     if (Number.isFinite(values[i]) && (best === null || values[i]! > values[best]!)) best = i;

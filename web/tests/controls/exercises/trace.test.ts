@@ -1,31 +1,41 @@
 import { expect, test } from "vitest";
-import { envelope, indexAt, layersOf, spaceBetween, traceOf } from "../../../src/controls/exercises/trace.ts";
-import { Source } from "../../../src/state/source.ts";
+import { tracePath } from "../../../src/controls/exercises/result_dialog.ts";
+import { envelope, indexAt, layersOf, spaceOf, traceOf } from "../../../src/controls/exercises/trace.ts";
 import type { SceneView } from "../../../src/wire/messages.ts";
-import { decodeTicks } from "../../../src/wire/ticks.ts";
-import { expected, makeFrame } from "../../wire/frame.ts";
 import json from "../support/scene.json";
 
-const scene = json as unknown as SceneView;
+const { membranes } = json as unknown as SceneView;
 
-test("an attempt is the tip's depth below the first surface and the force on the hand", () => {
-  const source = new Source("x", false, 10);
-  source.scene.value = scene; // its surface is the plane y = 0, inward is down
-  source.history.push(decodeTicks(makeFrame({ first: 5, count: 3, membranes: 3 })));
-  const { time, depth, force } = traceOf(source);
-  expect([...time]).toEqual([5, 6, 7].map((tick) => expect.closeTo(tick / 1600, 6)));
-  expect(depth[1]).toBeCloseTo(-expected("tip", 6, 1), 5);
-  const dot = [0, 1, 2].reduce((sum, i) => sum + expected("model_force", 6, i) * expected("axis", 6, i), 0);
-  expect(force[1]! / -dot).toBeCloseTo(1, 5);
+test("a trace is what the server has thinned; null is nothing", () => {
+  const { time, depth, force } = traceOf({ time: [1, 2, 3], depth: [0.1, null, 0.2], force: [5, null, 6], membranes });
+  expect([[...time], [...depth], [...force]]).toEqual([
+    [1, 2, 3],
+    [0.1, Number.NaN, 0.2],
+    [5, Number.NaN, 6],
+  ]);
+});
+
+test("the thinned trace is asked for, not all ticks, from a little before the first touch on", () => {
+  const touch = { what: "touch", time: 3.25 } as never;
+  expect(tracePath({ recording: "a b", events: [touch] })).toBe("/api/recordings/a%20b/trace?from=2.750");
+  expect(tracePath({ recording: "x", events: [] })).toBe("/api/recordings/x/trace?from=0.000");
 });
 
 test("layers are measured from the first surface, and the space lies between two of them", () => {
-  const layers = layersOf(scene);
+  const layers = layersOf(membranes);
   expect(layers.map(({ name }) => name)).toEqual(["skin", "front vein wall", "back vein wall"]);
-  const space = spaceBetween(layers, [1, 2]);
+  const space = spaceOf(layers, { space: [1, 2], space_from: 0, space_to: null });
   expect(space?.top).toBeCloseTo(5.21e-3, 9);
   expect(space?.bottom).toBeCloseTo(8.22e-3, 9);
-  expect(spaceBetween(layers, [])).toBeNull();
+  expect(spaceOf(layers, { space: [], space_from: 0, space_to: null })).toBeNull();
+});
+
+test("a space behind one membrane begins and ends at a depth, or nowhere", () => {
+  const layers = layersOf(membranes);
+  const deep = spaceOf(layers, { space: [1], space_from: 1e-3, space_to: 2e-3 });
+  expect(deep?.top).toBeCloseTo(6.21e-3, 9);
+  expect(deep?.bottom).toBeCloseTo(7.21e-3, 9);
+  expect(spaceOf(layers, { space: [1], space_from: 0, space_to: null })?.bottom).toBe(Number.POSITIVE_INFINITY);
 });
 
 test("an envelope keeps every column's extremes, in few points", () => {

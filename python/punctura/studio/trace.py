@@ -1,0 +1,113 @@
+"""A recording in as few numbers as a drawing needs: depth and force along the time, with every peak and every pop."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura import Scene
+from punctura.events import EventFinder
+from punctura.events.recorded import recorded_ticks
+from punctura.record import Recording
+from punctura.studio.view import membrane_views
+from punctura.studio.wire.frames import Columns
+
+FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer: MOST stay below 100 kB
+EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and of force
+MOST_EVENTS = 40  # at which a bucket ends, so that what lies between two of them is kept
+Array = npt.NDArray[np.float64]
+
+
+def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> dict[str, Any]:
+    """From `start` (s of the run) on, as JSON has it. Raises RecordingError.
+
+    time: s of the run. depth: of the tip below the first surface, m. force: the size of the model's, all membranes
+    together, N, negative where it pulls the needle in; the greatest of it is an exercise's `peak_force`.
+
+    Of each stretch of ticks the first row, the last, and those of the lowest and highest depth and force are kept. A
+    stretch ends at each of the first MOST_EVENTS events. A row of null breaks the curves where ticks are missing.
+    """
+    info = recording.info
+    rate = info.scene.servo.rate
+    skipped = max(0.0, start * rate - float(recording.summary.get("first_tick", 0)))
+    size = max(1, math.ceil(max(recording.rows - skipped, 1.0) * EACH / points))
+    thin = _Thinner(size)
+    kept = [thin.add(*part) for part in _rows(recording, start)]
+    rows = np.concatenate([*kept, thin.end()])
+    columns = {
+        name: [None if np.isnan(v) else round(float(v), digits) for v in rows[:, k]]
+        for k, (name, digits) in enumerate((("time", 5), ("depth", 7), ("force", 5)))
+    }
+    return columns | {"membranes": [view.model_dump(mode="json") for view in membrane_views(info.scene)]}
+
+
+def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
+    """Batches of (n, 3): time, depth, force; and which rows end a bucket: those at and before an event, and gaps."""
+    scene = recording.info.scene
+    finder = EventFinder(scene, scene.servo.rate)
+    events = 0
+    next_tick: int | None = None
+    for columns, new_scene in recorded_ticks(recording):
+        if new_scene is not None:
+            finder.change(new_scene)
+        found = [event.tick for event in finder.add(columns)][: MOST_EVENTS - events]
+        events += len(found)
+        tick = columns["tick"].astype(np.int64)
+        rows = np.stack([columns["time"].astype(np.float64), *_drawn(columns, scene)], axis=1)
+        keep = np.isin(tick, found) | np.isin(tick + 1, found)
+        gaps = np.flatnonzero(np.diff(tick, prepend=tick[0] - 1 if next_tick is None else next_tick - 1) != 1)
+        next_tick = int(tick[-1]) + 1
+        breaks = np.column_stack([rows[gaps, 0], np.full((len(gaps), 2), np.nan)])
+        rows, keep = np.insert(rows, gaps, breaks, axis=0), np.insert(keep, gaps, True)
+        late = rows[:, 0] >= start
+        if late.any():
+            yield rows[late], keep[late]
+
+
+def _drawn(columns: Columns, scene: Scene) -> tuple[Array, Array]:
+    first = scene.membranes[0]
+    normal = np.asarray(first.inward_normal, np.float64)
+    normal = normal / np.linalg.norm(normal)
+    depth = (columns["tip"] - np.asarray(first.point)) @ normal
+    return depth, resistance(columns["model_force"], columns["axis"])
+
+
+def resistance(force: Array, axis: Array) -> Array:
+    """The size of a force (n, 3), N, negative where it pulls the needle in; axis (n, 3): where the needle points."""
+    size = np.linalg.norm(force, axis=1)
+    signed: Array = np.where(np.einsum("ij,ij->i", force, axis) > 0, -size, size)
+    return signed
+
+
+class _Thinner:
+    """Rows come in batches cut anywhere; they go in buckets of `size`, or less where a bucket is ended."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self._rest, self._keep = np.empty((0, 3)), np.empty(0, dtype=np.bool_)
+
+    def add(self, rows: Array, keep: npt.NDArray[np.bool_]) -> Array:
+        """What is kept of the buckets that are full."""
+        rows, keep = np.concatenate([self._rest, rows]), np.concatenate([self._keep, keep])
+        full = len(rows) // self._size * self._size
+        self._rest, self._keep = rows[full:], keep[full:]
+        return rows[:full][self._chosen(rows[:full], keep[:full])]
+
+    def end(self) -> Array:
+        """What is kept of the rest."""
+        return self._rest[self._chosen(self._rest, self._keep)]
+
+    def _chosen(self, rows: Array, keep: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+        chosen = np.zeros(len(rows), dtype=np.bool_)
+        cuts = np.union1d(np.arange(0, len(rows), self._size), np.flatnonzero(keep) + 1)
+        for start, end in itertools.pairwise([*cuts[cuts < len(rows)].tolist(), len(rows)]):
+            chosen[[start, end - 1]] = True
+            for values in rows[start:end, 1:].T:
+                if not np.isnan(values).all():
+                    chosen[[start + int(np.nanargmin(values)), start + int(np.nanargmax(values))]] = True
+        return chosen

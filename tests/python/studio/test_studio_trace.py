@@ -1,0 +1,127 @@
+"""The thinned trace that a result's drawing fetches: small, with every peak and every pop."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import punctura as pn
+import pytest
+from attempts import as_a_device_runs_it, motion_of
+from punctura._core import SimulatedDevice
+from punctura.events import find_events
+from punctura.events.recorded import recorded_ticks
+from punctura.exercise import load_exercise, score
+from punctura.record import open_recording
+from punctura.studio import trace
+from punctura.studio.trace import MOST, thinned_trace
+from recorded import recorded
+
+SECONDS = 60
+
+
+@pytest.fixture(scope="module")
+def minute(tmp_path_factory):
+    """In and out of the vein, and in again; then still: 60 s at 1600 Hz."""
+    exercise = load_exercise("venipuncture")
+    axis = np.asarray(exercise.start_axis)
+    legs = [(2.0, 0.0), (4.0, 27.8), (2.0, 0.0), (4.0, 27.8), (SECONDS - 12.0, 27.8)]
+    ticks = SECONDS * 1600
+    device = SimulatedDevice(motion_of(exercise, legs, axis), real_time=False, ticks=ticks, axis=axis)
+    path = tmp_path_factory.mktemp("trace") / "run.parquet"
+    return open_recording(recorded(path, device, as_a_device_runs_it(exercise.scene), ticks))
+
+
+@pytest.fixture(scope="module")
+def full(minute):
+    """Time and resistance of every tick."""
+    parts = [columns for columns, _ in recorded_ticks(minute)]
+    time = np.concatenate([part["time"] for part in parts])
+    return time, np.concatenate([trace.resistance(part["model_force"], part["axis"]) for part in parts])
+
+
+def drawn(recording, **asked):
+    told = thinned_trace(recording, **asked)
+    return tuple(np.array([np.nan if v is None else v for v in told[name]]) for name in ("time", "depth", "force"))
+
+
+@pytest.mark.parametrize("points", [60, 2400, MOST])
+def test_a_minute_at_full_rate_takes_less_than_100_kb(minute, points):
+    assert minute.rows == SECONDS * 1600
+    size = len(json.dumps(thinned_trace(minute, points=points), separators=(",", ":")))
+    assert size < 100_000
+    time, _, _ = drawn(minute, points=points)
+    assert len(time) <= points + 20 * 6
+    assert (np.diff(time) > 0).all() and time[-1] == pytest.approx(SECONDS, abs=1e-2)
+
+
+@pytest.mark.parametrize("points", [60, 2400])
+def test_every_peak_and_every_drop_of_a_pop_survives(minute, full, points):
+    events = find_events(minute)
+    assert [e.name for e in events if e.what == "pop"] == 2 * ["skin", "front vein wall"]
+    few, many = drawn(minute, points=points)[::2], full
+    for k, pop in enumerate(events):
+        if pop.what != "pop":
+            continue
+        since, until = events[k - 1].time, events[k + 1].time if k + 1 < len(events) else SECONDS
+        peaks, drops = [], []
+        for time, force in (few, many):
+            at = int(np.abs(time - pop.time).argmin())
+            assert time[at] == pytest.approx(pop.time, abs=1e-5)
+            peaks.append(force[(time > since + 1e-5) & (time <= pop.time + 1e-5)].max())
+            drops.append(peaks[-1] - force[(time >= pop.time - 1e-5) & (time < until - 1e-5)].min())
+        assert peaks[0] == pytest.approx(peaks[1], abs=1e-5), pop
+        assert drops[0] == pytest.approx(drops[1], abs=2e-5) and drops[1] > 0.1, pop
+
+
+def test_the_greatest_force_is_the_peak_force_of_the_result(minute):
+    result = score(minute.path, "venipuncture")
+    time, _, force = drawn(minute)
+    touch = result.events[0].time
+    within = time <= touch + result.metrics.total_time + 1e-5
+    assert force[within].max() == pytest.approx(result.metrics.peak_force, abs=1e-5)
+
+
+def test_the_drawing_may_begin_later_and_has_then_more_of_the_rest(minute):
+    time, _, _ = drawn(minute, start=50.0)
+    assert 50.0 <= time[0] < 50.01 and 600 < len(time) <= 2400
+    assert len(drawn(minute, start=1e9)[0]) == 0
+
+
+def test_missing_ticks_and_numbers_break_the_curves(monkeypatch):
+    scene = pn.load_scene("k06-fig10")
+    n = 2000
+    tick = np.concatenate([np.arange(1000), np.arange(1500, 2500)])
+    columns = {
+        "tick": tick,
+        "time": tick / 1600,
+        "tip": np.zeros((n, 3)),
+        "axis": np.tile([0.0, -1.0, 0.0], (n, 1)),
+        "model_force": np.zeros((n, 3)),
+        "depth": np.full((n, 1), -1e-3),
+        "phase": np.zeros((n, 1), np.uint8),
+        "axial_force": np.zeros((n, 1)),
+    }
+    columns["model_force"][1700:1710] = np.nan
+    monkeypatch.setattr(trace, "recorded_ticks", lambda recording: [(columns, None)])
+    info = SimpleNamespace(scene=scene, rate=1600)
+    told = thinned_trace(SimpleNamespace(info=info, rows=n, summary={"first_tick": 0}), points=120)
+    broken = [time for time, depth in zip(told["time"], told["depth"], strict=True) if depth is None]
+    assert broken == [pytest.approx(1500 / 1600, abs=1e-5)]
+    json.dumps(told, allow_nan=False)
+
+
+def test_force_has_the_sign_of_what_it_does_to_the_needle():
+    axis = np.tile([0.0, -1.0, 0.0], (3, 1))
+    force = np.array([[0.3, 0.4, 0.0], [0.3, -0.4, 0.0], [0.0, 0.0, 0.0]])
+    assert trace.resistance(force, axis) == pytest.approx([0.5, -0.5, 0.0])
+
+
+def test_the_page_asks_for_it_by_name(served, page):
+    assert page.ask(do="start_recording", name="one")["ok"]
+    page.wait(lambda n=page.ticks: page.ticks > n + 400)
+    assert page.ask(do="stop_recording")["ok"]
+    told = page.json("/api/recordings/one/trace?points=60&from=0.1")
+    assert told["time"][0] >= 0.1 and told["membranes"][0]["name"] == "first membrane"
+    for wrong in ("points=59", "points=3001", "points=x", "from=nan", "from=inf", "from=x"):
+        assert page.get(f"/api/recordings/one/trace?{wrong}")[0] == 400
+    assert page.get("/api/recordings/two/trace")[0] == 404
