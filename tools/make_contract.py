@@ -118,9 +118,9 @@ def messages() -> dict[str, Any]:
     sent = [
         {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "scenes": [choice],
          "exercises": [choice], "notes": ["a note"]},
-        {"kind": "scene", "scene": VIEW, "new_run": True},
+        {"kind": "scene", "scene": VIEW, "new_run": True, "run": 3},
         {"kind": "laws", "laws": [LAW]},
-        {"kind": "control", "holder": None, "you": False},
+        {"kind": "control", "holder": 1, "you": True, "hand": {"position": TRIPLE, "axis": [0.0, -1.0, 0.0]}},
         {"kind": "status", "ticks": 1, "late": 0, "lost": 0, "period": SPREAD, "compute": SPREAD, "viewers": 1,
          "dropped": 0, "armed": True, "hand": "strokes", "compare": False, "statements": ["s"]},
         {"kind": "fault", "fault": "clock", "reason": "r", "trouble": "", "tick": 7, "kept": 1000},
@@ -134,7 +134,7 @@ def messages() -> dict[str, Any]:
     ]  # fmt: skip
     asked = [
         *({"id": 1, "do": do} for do in PLAIN),
-        {"do": "target", "position": TRIPLE, "axis": [0.0, -1.0, 0.0], "buttons": 1},
+        {"do": "target", "run": 3, "position": TRIPLE, "axis": [0.0, -1.0, 0.0], "buttons": 1},
         {"id": 2, "do": "strokes", "period": 2.0},
         {"id": 3, "do": "play_motion", "recording": "r"},
         {"id": 4, "do": "edit", "tables": TABLES},
@@ -147,7 +147,9 @@ def messages() -> dict[str, Any]:
     refused = [
         {"id": 1}, {"do": "arm"}, {"id": 1, "do": "fly"}, {"id": "1", "do": "arm"}, {"id": 1.5, "do": "arm"},
         {"id": -1, "do": "arm"}, {"id": 1, "do": "arm", "more": 1}, {"id": 1, "do": "compare", "on": "yes"},
-        {"do": "target", "position": [0.0, 0.0], "axis": TRIPLE}, {"do": "target", "position": TRIPLE, "axis": None},
+        {"do": "target", "run": 0, "position": [0.0, 0.0], "axis": TRIPLE},
+        {"do": "target", "run": 0, "position": TRIPLE, "axis": None},
+        {"do": "target", "position": TRIPLE, "axis": TRIPLE},
         {"id": 1, "do": "strokes", "period": 0.1}, {"id": 1, "do": "load", "scene": ""}, [], "arm", 7, None,
     ]  # fmt: skip
     return {"messages": sent, "requests": asked, "refused": refused}

@@ -45,6 +45,7 @@ class StudioClient:
         self.frames: list[Ticks] = []
         self.last: Ticks | None = None
         self.ticks = self.gaps = 0  # gaps: frames that do not follow the one before them, within a run
+        self.run = 0  # that was told last
         self.closed: tuple[int, str] | None = None  # code and reason
         self._keep = keep_frames
         self._ids = itertools.count(1)
@@ -66,9 +67,10 @@ class StudioClient:
     def send(self, text: str | bytes) -> None:
         self._socket.send(text)
 
-    def target(self, position: list[float], axis: list[float]) -> None:
-        """Where the simulated hand shall go, m, and point."""
-        self.send(json.dumps({"do": "target", "position": position, "axis": axis}))
+    def target(self, position: list[float], axis: list[float], run: int | None = None) -> None:
+        """Where the simulated hand shall go, m, and point; run: in which, the one that was told last if not given."""
+        number = self.run if run is None else run
+        self.send(json.dumps({"do": "target", "run": number, "position": position, "axis": axis}))
 
     def ask(self, **request: Any) -> Json:
         """Sends a request, and gives its reply."""
@@ -130,7 +132,9 @@ class StudioClient:
         try:
             for data in self._socket:
                 if isinstance(data, str):
-                    self.messages.append(json.loads(data))
+                    message = json.loads(data)
+                    self.run = message["run"] if message["kind"] == "scene" else self.run
+                    self.messages.append(message)
                 else:
                     self._take(decode_ticks(data))
         except ConnectionClosed:

@@ -37,6 +37,7 @@ class Hand:
         self.mode: Mode = "device"
         self._axis: Triple = (0.0, -1.0, 0.0)
         self._here: Array = np.zeros(3)
+        self._pose: Pose = ((0.0, 0.0, 0.0), self._axis)
         self._began = 0.0
         self._next = math.inf
         self._strokes: tuple[Array, Array, float] | None = None
@@ -47,7 +48,13 @@ class Hand:
         self._device = device if isinstance(device, SimulatedDevice) else None
         self.mode = "target" if self._device else "device"
         self._here, self._axis = np.array(pose[0]), pose[1]
+        self._pose = pose
         self._next = math.inf
+
+    @property
+    def pose(self) -> Pose | None:
+        """Where targets have led it; None while something else leads it. From any thread."""
+        return self._pose if self.mode == "target" else None
 
     def target(self, position: list[float], axis: list[float], buttons: int = 0) -> None:
         """Where the hand shall go, m, and point. Raises ValueError where that is no place or no direction."""
@@ -104,6 +111,7 @@ class Hand:
     def _go(self, place: Array, direction: Array, buttons: int = 0) -> None:
         assert self._device is not None
         self._here, self._axis = place, _triple(direction)
+        self._pose = _triple(place), self._axis
         self._device.move_to(_triple(place))
         self._device.point(self._axis, buttons)
 

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
+from punctura.studio.hand import Pose
 from punctura.studio.limits import MOST_FRAMES, MOST_MESSAGES, MOST_VIEWERS
-from punctura.studio.wire.messages import Control, Status
+from punctura.studio.wire.messages import Control, HandPose, Status
 
 EVENTS_KEPT = 100  # of the present run, for newcomers
 # Of these the last says it all: a newer one takes the place of one that still waits.
@@ -114,6 +115,7 @@ class Hub:
     def __init__(self) -> None:
         self.viewers: dict[int, Viewer] = {}
         self.holder: int | None = None
+        self.hand: Callable[[], Pose | None] = lambda: None  # where it is led to; None while something else leads it
         self._numbers = itertools.count(1)
         self._retained: dict[str, BaseModel] = {}
         self._events: deque[BaseModel] = deque(maxlen=EVENTS_KEPT)  # of this run
@@ -193,7 +195,10 @@ class Hub:
             viewer.put(data)
 
     def _control(self, viewer: Viewer) -> Control:
-        return Control(holder=self.holder, you=self.holder == viewer.number)
+        you = self.holder == viewer.number
+        pose = self.hand() if you else None
+        hand = HandPose(position=list(pose[0]), axis=list(pose[1])) if pose else None
+        return Control(holder=self.holder, you=you, hand=hand)
 
     def _tell_control(self) -> None:
         for viewer in self.viewers.values():

@@ -70,6 +70,7 @@ class StudioServer:
             shelf = Shelf(folder or default_folder())
             results = ResultStore(shelf.folder / "results" if folder else shelf.folder.parent / "results")
             self.session = Session(loaded, settings, self.hub, shelf, results)
+            self.hub.hand = lambda: self.session.hand.pose
         except BaseException:
             self._socket.close()
             raise

@@ -202,11 +202,12 @@ class Session:
 
     def _say_scene(self, new_run: bool) -> None:
         view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())
-        self.out.say(SceneMessage(scene=view, new_run=new_run))
+        self.out.say(SceneMessage(scene=view, new_run=new_run, run=self.run.number))
 
     def _take_target(self) -> None:
         wish, self._target = self._target, None
-        if wish is not None:
+        # A page that has not heard of the new run yet still means the place where the hand was in the one before.
+        if wish is not None and wish.run == self.run.number:
             try:
                 self.hand.target(wish.position, wish.axis, wish.buttons)
             except ValueError as error:

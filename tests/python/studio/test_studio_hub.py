@@ -125,7 +125,7 @@ VIEW = {
 
 def test_a_newcomer_is_told_the_scene_as_a_new_run():
     async def test(hub):
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False}))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
         viewer = hub.join(hello)
         (scene,) = [d for d in await all_of(viewer) if '"scene"' in d and '"kind":"scene"' in d]
         assert '"new_run":true' in scene
@@ -142,9 +142,9 @@ def test_a_newcomer_is_told_what_has_happened_in_this_run_and_nothing_of_the_one
 
     async def test(hub):
         hub.say(pop(1))
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True}))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": 0}))
         hub.say(pop(2))
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False}))
+        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
         told = [json.loads(data) for data in await all_of(hub.join(hello))]
         kinds = [message["kind"] for message in told]
         assert [message["tick"] for message in told if message["kind"] == "event"] == [2]

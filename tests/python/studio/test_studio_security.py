@@ -216,8 +216,8 @@ MALFORMED = {
     "no id": '{"do": "arm"}',
     "a negative id": '{"id": -1, "do": "arm"}',
     "nested": '{"id": ' + "[" * 5000 + "]" * 5000 + "}",
-    "a target at NaN": '{"do": "target", "position": [NaN, 0, 0], "axis": [0, -1, 0]}',
-    "a target at infinity": '{"do": "target", "position": [1e999, 0, 0], "axis": [0, -1, 0]}',
+    "a target at NaN": '{"do": "target", "run": 0, "position": [NaN, 0, 0], "axis": [0, -1, 0]}',
+    "a target at infinity": '{"do": "target", "run": 0, "position": [1e999, 0, 0], "axis": [0, -1, 0]}',
     "a surrogate": '{"id": "\\ud800"}',
 }
 
@@ -252,7 +252,7 @@ def test_messages_that_are_too_large_end_the_connection(guarded):
 
 def test_a_page_that_floods_is_closed_and_the_others_stay(guarded):
     with StudioClient(guarded.address.url) as other:
-        request = json.dumps({"do": "target", "position": [0, 0.005, 0], "axis": [0, -1, 0]})
+        request = json.dumps({"do": "target", "run": 0, "position": [0, 0.005, 0], "axis": [0, -1, 0]})
         code, reason = closed_after(guarded, *[request] * (20 * REQUESTS_AT_ONCE))
         assert code == 1008 and reason == "Too many requests."
         other.wait(lambda n=other.ticks: other.ticks > n + 100)

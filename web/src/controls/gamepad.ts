@@ -18,6 +18,23 @@ export function firstGamepad(): Gamepad | null {
   return navigator.getGamepads?.().find((pad) => pad?.connected) ?? null;
 }
 
+/** A gamepad that leads the hand. Sticks that were held when a new run began must come to rest first. */
+export class Sticks {
+  private run: number;
+  private rested = true;
+
+  constructor(private readonly hand: Hand) {
+    this.run = hand.run;
+  }
+
+  lead(pad: Gamepad, seconds: number): void {
+    if (this.run !== this.hand.run) this.rested = false;
+    this.run = this.hand.run;
+    this.rested ||= pad.axes.slice(0, 4).every((way) => stick(way) === 0);
+    if (this.rested && !this.hand.barred.value) moveByGamepad(pad, this.hand, seconds);
+  }
+}
+
 /**
  * Moves the hand: left stick along the needle (forward is in) and to the side, right stick tilts and goes towards the viewer. True where
  * something moved.

@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { element, everyFrame } from "../panel.ts";
 import type { Hand } from "./hand_model.ts";
 
 const MOST_DEGREES = 75;
@@ -13,9 +13,13 @@ export function angleRow(hand: Hand): HTMLElement {
     step: 1,
     value: 0,
   });
-  const figure = element("output", { class: "figure", for: "hand-angle" }, "0°");
+  const figure = element("output", { class: "figure", for: "hand-angle" }, "–");
+  let shown: number | null = null;
   const show = (): void => {
+    if (!hand.pose()) return; // nothing is known yet
     const degrees = Math.round((hand.tilt() * 180) / Math.PI);
+    if (degrees === shown && slider.value === String(degrees)) return;
+    shown = degrees;
     slider.value = String(degrees);
     figure.textContent = `${degrees}°`;
     slider.setAttribute("aria-valuetext", `${degrees} degrees from upright, ${90 - Math.abs(degrees)} to the skin`);
@@ -25,7 +29,8 @@ export function angleRow(hand: Hand): HTMLElement {
     hand.setTilt((Number(slider.value) * Math.PI) / 180);
     show();
   });
-  hand.target.watch(show);
+  // Others turn the needle, too: an exercise, strokes, another page.
+  everyFrame(show);
   return element(
     "section",
     { class: "rows" },

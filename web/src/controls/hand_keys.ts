@@ -18,7 +18,9 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
 
 /** Keys while the view has the focus. */
 export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
+  let run = hand.run; // in which the last key was pressed
   canvas.addEventListener("keydown", (event) => {
+    if (!event.repeat) run = hand.run;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const step = STEP * (event.shiftKey ? LONG : 1);
     const actions: Readonly<Record<string, () => void>> = {
@@ -40,6 +42,7 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): v
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;
     event.preventDefault();
-    act();
+    // A key that was held when a new run began must be let go first.
+    if (!event.repeat || run === hand.run) act();
   });
 }

@@ -2,6 +2,7 @@ import type { Triple } from "../engine/engine.ts";
 import type { App } from "../state/app.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
+import type { HandPose } from "../wire/messages.ts";
 import { aiming, heightOver } from "./aim.ts";
 import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
 
@@ -12,6 +13,11 @@ export interface Pose {
   readonly position: Triple;
   readonly axis: Triple;
 }
+
+const poseOf = ({ position: [x = 0, y = 0, z = 0], axis: [a = 0, b = -1, c = 0] }: HandPose): Pose => ({
+  position: [x, y, z],
+  axis: unit([a, b, c]),
+});
 
 /** The simulated hand, as the page moves it: where it shall go, m, and where the needle points. */
 export class Hand {
@@ -26,14 +32,18 @@ export class Hand {
       if (this.barred.value) this.target.value = null;
     };
     app.hello.watch(look);
-    app.control.watch(look);
+    let you = false;
+    app.control.watch((control) => {
+      look();
+      // Who gets control leads the hand on from where it is, which is not where tissue holds the needle back.
+      if (control.you && !you && control.hand && !this.barred.value) this.target.value = poseOf(control.hand);
+      you = control.you;
+    });
     app.connection.watch(look);
     app.source.watch(look);
-    let run = -1;
-    app.live.scene.watch((scene) => {
-      // A new run begins where the server puts the hand, not where it was.
-      if (scene && scene.number === 0 && app.live.history.generation !== run) this.target.value = null;
-      run = app.live.history.generation;
+    // A new run begins where the server puts the hand, not where it was.
+    app.run.watch(() => {
+      this.target.value = null;
     });
     app.status.watch((status) => {
       if (status && (status.hand === "strokes" || status.hand === "motion") && !this.fresh) this.target.value = null;
@@ -43,6 +53,11 @@ export class Hand {
   /** A status that was on its way when the hand was taken must not take it back. */
   private get fresh(): boolean {
     return performance.now() - this.touched < 600;
+  }
+
+  /** The number of the live run: what moved the hand before it began must be let go and taken anew. */
+  get run(): number {
+    return this.app.run.value;
   }
 
   private reason(): string | null {
@@ -75,7 +90,7 @@ export class Hand {
     };
     this.touched = performance.now();
     this.target.value = to;
-    this.app.engine.target(to.position, to.axis);
+    this.app.engine.target(this.run, to.position, to.axis);
   }
 
   /** Something else leads the hand from now on. */
@@ -101,7 +116,7 @@ export class Hand {
     if (now) this.moveTo(add(now.position, step));
   }
 
-  /** rad between the needle and the first membrane's inward normal, leaning along +x. */
+  /** rad between the needle and the first membrane's inward normal, leaning along +x; 0 while nothing is known of it. */
   tilt(): number {
     const now = this.pose();
     return now ? tiltOf(now.axis, this.normal()) : 0;

@@ -1,7 +1,7 @@
 import { element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { Felt } from "./felt.ts";
-import { firstGamepad, moveByGamepad, rumble } from "./gamepad.ts";
+import { firstGamepad, rumble, Sticks } from "./gamepad.ts";
 import type { Hand } from "./hand_model.ts";
 import { Sound } from "./sound.ts";
 
@@ -9,6 +9,7 @@ import { Sound } from "./sound.ts";
 export function senseRows(app: App, hand: Hand): HTMLElement {
   const sound = new Sound();
   const felt = new Felt();
+  const sticks = new Sticks(hand);
   const pad = element("output", { class: "pad-name" });
   const loud = element("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.6, "aria-label": "Loudness" });
   const toggle = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Sound is off");
@@ -31,7 +32,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     before = now;
     const source = app.source.value;
     const found = firstGamepad();
-    if (found && !hand.barred.value) moveByGamepad(found, hand, seconds);
+    if (found) sticks.lead(found, seconds);
     for (const pop of felt.pops(source)) {
       sound.click(pop.drop);
       if (found) rumble(found, pop.drop);

@@ -30,6 +30,9 @@ export interface Engine {
   stop(): void;
   /** Resolves with the reply, also with a refusal (`ok` false); rejects where the connection goes before it. */
   ask(request: Ask): Promise<Reply>;
-  /** Where the simulated hand shall go, m, and where the stylus points. At most one a frame is sent: the last. */
-  target(position: Triple, axis: Triple, buttons?: number): void;
+  /**
+   * Where the simulated hand shall go in this run, m, and where the stylus points. At most one a frame is sent: the last. In
+   * another run it is ignored.
+   */
+  target(run: number, position: Triple, axis: Triple, buttons?: number): void;
 }

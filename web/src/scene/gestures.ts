@@ -18,7 +18,7 @@ const MM_PER_WHEEL_PIXEL = 0.004;
  * One finger or the left button is the needle's; the right button, Shift, or two fingers are the camera's. Thus no gesture means
  * two things.
  */
-export function gestures(canvas: HTMLElement, handler: GestureHandler): void {
+export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel(): void } {
   const pointers = new Map<number, { x: number; y: number }>();
   let mode: Mode = "none";
 
@@ -84,4 +84,14 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): void {
     },
     { passive: false },
   );
+
+  return {
+    /** Ends what is going on: the pointers that are down do nothing more until they are pressed anew. */
+    cancel() {
+      const held = [...pointers.keys()];
+      pointers.clear(); // first: a capture that is released may call back
+      for (const id of held) if (canvas.hasPointerCapture(id)) canvas.releasePointerCapture(id);
+      enter("none");
+    },
+  };
 }

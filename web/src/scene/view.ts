@@ -59,7 +59,12 @@ export const view: Panel = (host, app) => {
   const speak = spoken(host);
   const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
   presets(host, look, (factor) => orbit.zoom(factor));
-  gestures(canvas, needleGrip(hand, orbit, world, stage));
+  const drag = gestures(canvas, needleGrip(hand, orbit, world, stage));
+  // A drag that is held over the begin of a run would lead its needle to where the one before was.
+  app.run.watch(() => drag.cancel());
+  hand.barred.watch((why) => {
+    if (why !== null) drag.cancel();
+  });
   viewKeys(canvas, hand, orbit);
 
   let built: SceneView | null = null;

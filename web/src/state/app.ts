@@ -19,11 +19,13 @@ const LIVE_TICKS = 1 << 17; // 82 s at 1600 Hz
 export class App {
   readonly connection = new Signal<Connection>({ state: "connecting", attempt: 1 });
   readonly hello = new Signal<Hello | null>(null);
-  readonly control = new Signal<Control>({ kind: "control", holder: null, you: false });
+  readonly control = new Signal<Control>({ kind: "control", holder: null, you: false, hand: null });
   readonly status = new Signal<Status | null>(null);
   readonly fault = new Signal<FaultMessage | null>(null);
   readonly recording = new Signal<RecordingStatus | null>(null);
   readonly exercise = new Signal<ExerciseStatus | null>(null);
+  /** The number of the live run. */
+  readonly run = new Signal(0);
   /** Sentences for the person, the last first. */
   readonly notices = new Signal<readonly string[]>([]);
   readonly live = new Source("live", true, LIVE_TICKS);
@@ -78,6 +80,7 @@ export class App {
           this.live.history.clear(message.scene.membranes.length);
           this.live.events.value = [];
         }
+        this.run.value = message.run;
         this.live.scene.value = message.scene;
         this.live.laws.value = message.scene.laws;
         break;

@@ -69,6 +69,7 @@ export interface SceneMessage {
   kind: "scene";
   scene: SceneView;
   new_run: boolean;
+  run: number;
 }
 /**
  * A scene as the page draws it, SI; `tables` is the same scene as its file has it, for the editor.
@@ -128,6 +129,22 @@ export interface Control {
   kind: "control";
   holder: number | null;
   you: boolean;
+  hand: HandPose | null;
+}
+/**
+ * Where the simulated hand is led to.
+ */
+export interface HandPose {
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  position: [number, number, number];
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis: [number, number, number];
 }
 /**
  * The loop's health, four times a second.
@@ -263,10 +280,11 @@ export interface Reset {
   do: "reset";
 }
 /**
- * Where the simulated hand shall go. Not answered; the last one counts.
+ * Where the simulated hand shall go. Not answered; the last one counts. One that belongs to another run is ignored.
  */
 export interface Target {
   do: "target";
+  run: number;
   /**
    * @minItems 3
    * @maxItems 3

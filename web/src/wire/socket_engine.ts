@@ -40,7 +40,7 @@ export class SocketEngine implements Engine {
   private opened = false;
   private retry: ReturnType<typeof setTimeout> | undefined;
   private settled: ReturnType<typeof setTimeout> | undefined;
-  private nextTarget: { position: Triple; axis: Triple; buttons: number } | null = null;
+  private nextTarget: { run: number; position: Triple; axis: Triple; buttons: number } | null = null;
   private complained = false;
 
   /** page: where the page came from; its `?token=` opens the socket too. */
@@ -75,9 +75,9 @@ export class SocketEngine implements Engine {
     return reply;
   }
 
-  target(position: Triple, axis: Triple, buttons = 0): void {
+  target(run: number, position: Triple, axis: Triple, buttons = 0): void {
     const first = this.nextTarget === null;
-    this.nextTarget = { position, axis, buttons };
+    this.nextTarget = { run, position, axis, buttons };
     if (first) this.around.frame(() => this.sendTarget());
   }
 

@@ -7,12 +7,22 @@ class FakeCanvas extends EventTarget {
   getBoundingClientRect(): { left: number; top: number } {
     return { left: 100, top: 50 };
   }
-  setPointerCapture(): void {}
+  readonly captured = new Set<number>();
+  setPointerCapture(id: number): void {
+    this.captured.add(id);
+  }
+  hasPointerCapture(id: number): boolean {
+    return this.captured.has(id);
+  }
+  releasePointerCapture(id: number): void {
+    this.captured.delete(id);
+  }
 }
 
 let canvas: FakeCanvas;
 let log: string[];
 let free: boolean;
+let drag: ReturnType<typeof gestures>;
 
 function send(type: string, fields: Record<string, unknown>): Event {
   const event = new Event(type, { cancelable: true });
@@ -27,7 +37,7 @@ beforeEach(() => {
   canvas = new FakeCanvas();
   log = [];
   free = true;
-  gestures(canvas as unknown as HTMLElement, {
+  drag = gestures(canvas as unknown as HTMLElement, {
     grab: (x, y) => {
       log.push(`grab ${x} ${y}`);
       return free;
@@ -77,6 +87,19 @@ describe("a gesture over the view", () => {
     move(160, 80, { pointerId: 1 });
     up({ pointerId: 1 });
     expect(log).toEqual(["grab 50 30", "release", "zoom 2.00", "orbit 50 0", "orbit 10 0"]);
+  });
+
+  it("that is cancelled lets the needle go, until the button is pressed anew", () => {
+    down(150, 80);
+    drag.cancel();
+    move(155, 90);
+    move(400, 400);
+    up();
+    expect(log).toEqual(["grab 50 30", "release"]);
+    expect(canvas.captured.size).toBe(0);
+    down(150, 80);
+    move(155, 90);
+    expect(log.slice(2)).toEqual(["grab 50 30", "drag 55 40"]);
   });
 
   it("goes round where the needle cannot be taken", () => {

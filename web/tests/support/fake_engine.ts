@@ -46,7 +46,7 @@ export class FakeEngine implements Engine {
       exercises: [],
       notes: [],
     });
-    listener.message({ kind: "scene", scene: fakeScene(this.membranes), new_run: true });
+    listener.message({ kind: "scene", scene: fakeScene(this.membranes), new_run: true, run: 0 });
     for (let done = 0; done < this.prefill * RATE; done += 1600) this.make(1600);
     const began = performance.now() - (this.tick / RATE) * 1e3;
     const go = (): void => {
@@ -63,7 +63,7 @@ export class FakeEngine implements Engine {
     if (request.do === "compare") this.compare = request.on;
     return Promise.resolve({ kind: "reply", id: 0, ok: true, problems: [] });
   }
-  target(_position: Triple, _axis: Triple): void {}
+  target(_run: number, _position: Triple, _axis: Triple): void {}
 
   /** Where the simulated hand is, m along -y: strokes of 5 s, with a little tremor. */
   private hand(time: number): number {

@@ -131,20 +131,20 @@ describe("the target", () => {
   it("is sent once a frame: the last", () => {
     const { engine, socket, nextFrame } = bench();
     socket().opens();
-    for (let i = 1; i <= 5; i++) engine.target([0, i, 0], DOWN);
+    for (let i = 1; i <= 5; i++) engine.target(i, [0, i, 0], DOWN);
     expect(socket().sent).toHaveLength(0);
     nextFrame();
-    expect(socket().sent).toEqual([{ do: "target", position: [0, 5, 0], axis: [0, -1, 0], buttons: 0 }]);
+    expect(socket().sent).toEqual([{ do: "target", run: 5, position: [0, 5, 0], axis: [0, -1, 0], buttons: 0 }]);
     nextFrame();
     expect(socket().sent).toHaveLength(1);
-    engine.target([0, 6, 0], DOWN, 1);
+    engine.target(5, [0, 6, 0], DOWN, 1);
     nextFrame();
     expect(socket().sent[1]).toMatchObject({ position: [0, 6, 0], buttons: 1 });
   });
 
   it("is dropped without a connection: an old one must not be obeyed later", () => {
     const { engine, socket, nextFrame } = bench();
-    engine.target([0, 1, 0], DOWN);
+    engine.target(0, [0, 1, 0], DOWN);
     nextFrame();
     socket().opens();
     nextFrame();
@@ -156,9 +156,9 @@ describe("what comes in", () => {
   it("goes to the page as it is", () => {
     const { socket, messages, batches } = bench();
     socket().opens();
-    socket().says({ kind: "control", holder: 1, you: true });
+    socket().says({ kind: "control", holder: 1, you: true, hand: null });
     socket().says(makeFrame({ first: 320, count: 26, membranes: 2 }));
-    expect(messages).toEqual([{ kind: "control", holder: 1, you: true }]);
+    expect(messages).toEqual([{ kind: "control", holder: 1, you: true, hand: null }]);
     expect(batches[0]).toMatchObject({ firstTick: 320, count: 26, membranes: 2 });
   });
 

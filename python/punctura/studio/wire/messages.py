@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView
+from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView, Vector
 from punctura.studio.wire.requests import Request, parse_request
 
 PROTOCOL = 2  # counts up when an old page could not read a new server
@@ -47,6 +47,7 @@ class SceneMessage(Part):
     kind: Literal["scene"] = "scene"
     scene: SceneView
     new_run: bool  # ticks begin at 0 again
+    run: int  # its number, from 0, as frames and targets have it
 
 
 class LawsMessage(Part):
@@ -56,10 +57,18 @@ class LawsMessage(Part):
     laws: list[LawCurve]
 
 
+class HandPose(Part):
+    """Where the simulated hand is led to."""
+
+    position: Vector  # m
+    axis: Vector  # of length 1
+
+
 class Control(Part):
     kind: Literal["control"] = "control"
     holder: int | None  # a viewer
     you: bool
+    hand: HandPose | None  # for the holder, who leads it on from there; null while something else leads it
 
 
 class Spread(Part):

@@ -38,9 +38,10 @@ class Reset(_Request):
 
 
 class Target(Part):
-    """Where the simulated hand shall go. Not answered; the last one counts."""
+    """Where the simulated hand shall go. Not answered; the last one counts; one of another run is ignored."""
 
     do: Literal["target"] = "target"
+    run: Annotated[int, Field(ge=0, le=2**53 - 1)]  # as the last scene message has it
     position: Vector  # m
     axis: Vector  # where the stylus points, of any length but 0
     buttons: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0

@@ -52,12 +52,13 @@ test("another scene takes the draft's place; the same one, as for a recording, k
   const { draft, engine, app } = begin();
   draft.set(FRICTION, 0.2);
   await settle();
-  engine.say({ kind: "scene", scene: { ...app.live.scene.value!, number: 0 }, new_run: true });
+  engine.say({ kind: "scene", scene: { ...app.live.scene.value!, number: 0 }, new_run: true, run: 1 });
   expect(draft.marks.value.undo).toBe(true);
   engine.say({
     kind: "scene",
     scene: { ...app.live.scene.value!, number: 0, tables: { name: "other" } },
     new_run: true,
+    run: 1,
   });
   expect(draft.tables.value).toEqual({ name: "other" });
   expect(draft.marks.value).toEqual({ undo: false, redo: false, reset: false });

@@ -12,7 +12,7 @@ const DEVICE: DevicePart = {
 }; // biome-ignore format: short
 
 let server: EngineListener;
-let sent: { position: Triple; axis: Triple }[];
+let sent: { run: number; position: Triple; axis: Triple }[];
 let app: App;
 let hand: Hand;
 
@@ -29,6 +29,15 @@ function tick(position: Triple): void {
   server.ticks(batch);
 }
 
+/** A new run begins. */
+const run = (number: number): void =>
+  server.message({
+    kind: "scene",
+    scene: { membranes: [{}], laws: [], number: 0 } as unknown as SceneView,
+    new_run: true,
+    run: number,
+  });
+
 beforeEach(() => {
   sent = [];
   app = new App({
@@ -37,13 +46,13 @@ beforeEach(() => {
     },
     stop: () => {},
     ask: () => Promise.reject(new Error("nobody asks here")),
-    target: (position, axis) => sent.push({ position, axis }),
+    target: (run, position, axis) => sent.push({ run, position, axis }),
   });
   app.start();
   hand = new Hand(app);
   server.connection({ state: "open" });
   hello(DEVICE);
-  server.message({ kind: "control", holder: 1, you: true });
+  server.message({ kind: "control", holder: 1, you: true, hand: null });
   tick([0, 0.01, 0]);
 });
 
@@ -72,6 +81,7 @@ describe("the hand", () => {
       kind: "scene",
       scene: { membranes, laws: [], number: 0 } as unknown as SceneView,
       new_run: false,
+      run: 0,
     });
     for (const angle of [0.3, -0.9, 1.2]) {
       hand.setTilt(angle);
@@ -101,7 +111,11 @@ describe("the hand", () => {
   });
 
   it.each([
-    ["another page has control", () => server.message({ kind: "control", holder: 2, you: false }), "Another page"],
+    [
+      "another page has control",
+      () => server.message({ kind: "control", holder: 2, you: false, hand: null }),
+      "Another page",
+    ],
     ["the device is a real one", () => hello({ ...DEVICE, simulated: false, model: "omega.3" }), "omega.3"],
     ["the connection has gone", () => server.connection({ state: "lost", reason: "", retryInMs: 1 }), "not connected"],
     [
@@ -119,6 +133,28 @@ describe("the hand", () => {
     hand.push(0.001);
     hand.setTilt(0.3);
     expect(sent).toHaveLength(1);
+  });
+
+  it("of a new run begins where the server puts it, and says for which run it is led", () => {
+    hand.push(0.001);
+    run(4);
+    expect(hand.target.value).toBeNull();
+    hand.push(0.001); // nothing has come of the new run yet
+    expect(sent).toHaveLength(1);
+    tick([0, 0.005, 0]);
+    hand.push(0.001);
+    expect(sent.map((target) => target.run)).toEqual([0, 4]);
+    expect(sent[1]!.position[1]).toBeCloseTo(0.004, 8);
+  });
+
+  it("that a page finds on joining is led on from where it is, not from where tissue holds the needle", () => {
+    const slanted: [number, number, number] = [Math.sin(Math.PI / 3), -Math.cos(Math.PI / 3), 0];
+    server.message({ kind: "control", holder: 2, you: false, hand: null });
+    server.message({ kind: "control", holder: 1, you: true, hand: { position: [0, 0.002, 0], axis: slanted } });
+    expect(hand.tilt()).toBeCloseTo(Math.PI / 3, 9);
+    hand.moveBy([0, -0.001, 0]);
+    expect(sent[0]!.position[1]).toBeCloseTo(0.001, 8);
+    expect(sent[0]!.axis[0]).toBeCloseTo(slanted[0], 8);
   });
 
   it("gives way to strokes, unless it was moved just now", () => {

@@ -1,0 +1,67 @@
+"""What a page must know of runs: which one a target belongs to, and where the hand is when it joins."""
+
+import numpy as np
+import pytest
+from punctura.exercise import load_exercise
+from punctura.studio.client import StudioClient
+
+DOWN = [0.0, -1.0, 0.0]
+SLANTED = [np.sin(np.pi / 3), -np.cos(np.pi / 3), 0.0]
+
+
+def at(served):
+    pose = served.session.hand.pose
+    return None if pose is None else [list(part) for part in pose]
+
+
+@pytest.mark.parametrize(
+    "begin", [{"do": "load", "scene": "k06-fig10"}, {"do": "start_exercise", "exercise": "venipuncture"}]
+)
+def test_a_target_of_the_run_before_moves_nothing_in_the_next(served, page, begin):
+    deep = [0.0, -20e-3, 0.0]
+    page.target(deep, DOWN)
+    page.wait(lambda: at(served)[0] == deep)
+    before = page.run
+    assert page.ask(**begin)["ok"]
+    page.wait(lambda: page.run > before)
+    rests = at(served)
+    page.target(deep, DOWN, run=before)  # a drag that was held; a page that is late
+    page.target(deep, DOWN, run=before + 7)
+    assert page.ask(do="compare", on=False)["ok"]  # the worker has seen both
+    assert at(served) == rests
+    if begin["do"] == "start_exercise":
+        assert rests == [
+            list(load_exercise("venipuncture").start_position),
+            list(load_exercise("venipuncture").start_axis),
+        ]
+    page.target([0.0, 4e-3, 0.0], DOWN)
+    page.wait(lambda: at(served)[0] == [0.0, 4e-3, 0.0])
+
+
+def test_frames_and_scene_messages_have_the_same_number(page):
+    for number in (1, 2):
+        assert page.ask(do="load", scene="k06-fig10")["ok"]
+        page.wait(lambda n=number: page.run == n and page.last.run == n)
+
+
+def test_who_gets_control_is_told_where_the_hand_is(served, page):
+    place = [1e-3, 5e-3, 0.0]
+    page.target(place, SLANTED)
+    page.wait(lambda: at(served)[0] == place)
+    with StudioClient(served.address.url) as looks_on:
+        looks_on.wait(lambda: looks_on.of("control"))
+        assert looks_on.of("control")[-1]["hand"] is None
+        page.close()  # and is loaded anew
+        with StudioClient(served.address.url) as again:
+            told = again.wait(lambda: next((c for c in again.of("control") if c["you"]), None))
+            assert told["hand"]["position"] == place
+            assert told["hand"]["axis"] == pytest.approx(SLANTED)
+            assert again.ask(do="strokes", period=2.0)["ok"]
+        looks_on.wait(lambda: looks_on.of("control")[-1]["holder"] is None)
+        assert looks_on.ask(do="take_control")["ok"]
+        assert looks_on.of("control")[-1] == {
+            "kind": "control",
+            "holder": looks_on.of("hello")[0]["viewer"],
+            "you": True,
+            "hand": None,
+        }
