@@ -18,12 +18,13 @@ from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
 FAILED = 1
+USUAL_SCENE = "k06-fig10"
 
 
 class Wishes(NamedTuple):
     """What every way to run takes from the command line."""
 
-    scene: str
+    scene: str  # empty: none was named
     device: str
     duration: float | None  # s
     placement: Placement | None
@@ -35,7 +36,7 @@ class Wishes(NamedTuple):
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     """Raises DeviceError; Ended where a signal has ended it."""
     tape = Tape(record, StatusLine(never_wait_for_stderr()))
-    loaded = load_scene(wishes.scene)
+    loaded = load_scene(wishes.scene or USUAL_SCENE)
     opened = open_for(loaded, wishes.device, wishes.processor)
     fitted, note = fit_direction(loaded, opened)
     notes = [note]

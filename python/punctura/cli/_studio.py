@@ -3,29 +3,39 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from punctura._core import Placement
-from punctura.cli._headless import Wishes, begun, say
+from punctura.cli._headless import USUAL_SCENE, Wishes, begun, say
+from punctura.exercise import load_exercise
 from punctura.live import DroppingStream
 
 
-def run_page(wishes: Wishes, port: int, browser: bool, recordings: Path | None, page: Path | None) -> None:
-    """Raises DeviceError; Ended where a signal has ended it; StudioError, which says what to do."""
+def run_page(
+    wishes: Wishes, port: int, browser: bool, recordings: Path | None, page: Path | None, own: Sequence[str] = ()
+) -> None:
+    """own: exercises that the page lists, too; without a scene, that of the first runs.
+
+    Raises DeviceError; Ended where a signal has ended it; StudioError, which says what to do; ConfigurationError.
+    """
     from punctura.studio import serve  # a server is a lot to import for those who want none
+    from punctura.studio.catalog import Exercises
     from punctura.studio.loaded import from_name
     from punctura.studio.run import Settings
 
     folder = page or serve.PAGE
     serve.need_page(folder)
-    loaded = from_name(wishes.scene)
+    exercises = Exercises(own)
+    scene = load_exercise(own[0]).scene_name if own and not wishes.scene else wishes.scene or USUAL_SCENE
+    loaded = from_name(scene)
     settings = Settings(
         wishes.device, wishes.placement or Placement(), wishes.scene_filter, wishes.limits, wishes.processor
     )
     token = serve.token_from_environment()
 
     def make() -> serve.StudioServer:
-        server = serve.StudioServer(loaded, settings, port, token, folder, recordings)
+        server = serve.StudioServer(loaded, settings, port, token, folder, recordings, exercises)
         for note in server.session.run.notes:
             say(f"punctura: note: {note}")
         session = server.session

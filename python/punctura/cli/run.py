@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from punctura._core import DeviceError
-from punctura.cli._headless import Wishes, run_headless
+from punctura.cli._headless import USUAL_SCENE, Wishes, run_headless
 from punctura.cli._leave import leave
 from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
@@ -20,8 +20,9 @@ from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placem
 
 def command(
     scene: Annotated[
-        str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")
-    ] = "k06-fig10",
+        str,
+        typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", show_default=USUAL_SCENE),
+    ] = "",
     headless: Annotated[bool, typer.Option("--headless", help="In this terminal, without a page.")] = False,
     port: Annotated[
         int,
@@ -71,6 +72,14 @@ def command(
         Path | None,
         typer.Option("--recordings", help="Where the page's recordings are kept.", metavar="FOLDER"),
     ] = None,
+    exercise: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--exercise",
+            help="An exercise file of one's own, which the page lists; without SCENE, its scene runs. Can be repeated.",
+            metavar="FILE.toml",
+        ),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option("--record", help="With --headless: every tick goes into this file.", metavar="FILE.parquet"),
@@ -86,7 +95,8 @@ def command(
     for wrong, name in ((record, "--record"), (as_json, "--json")):
         if wrong and not headless:
             raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
-    for given, name in ((port, "--port"), (no_browser, "--no-browser"), (recordings, "--recordings")):
+    of_the_page = {"--port": port, "--no-browser": no_browser, "--recordings": recordings, "--exercise": exercise}
+    for name, given in of_the_page.items():
         if given and headless:
             raise typer.BadParameter("is of the page, and --headless has none", param_hint=name)
     if placement and device.startswith("replay:"):
@@ -103,7 +113,7 @@ def command(
         if headless:
             run_headless(wishes, record, as_json)
         else:
-            run_page(wishes, port, not no_browser, recordings, page)
+            run_page(wishes, port, not no_browser, recordings, page, exercise or ())
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None
     except Ended as end:

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from punctura.record.errors import RecordingError
 
-# That this version reads; it writes the last. In 1 the gate limited the distance from one reading to the next, and there
+# That this version reads; it writes the last. In 1 the gate limited the distance between two readings, and there
 # was no `spent_N2s`.
 FORMATS = (1, 2)
 _MOST_NESTED = 64

@@ -22,7 +22,6 @@ from starlette.routing import Route
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.record import RecordingError, export
-from punctura.studio.catalog import exercise_overviews
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
 from punctura.studio.session import Session
@@ -130,7 +129,7 @@ class Api:
         return FileResponse(out, media_type=FORMATS[kind], filename=f"{name}.{kind}", background=done)
 
     def exercises(self, request: Request) -> Response:
-        return JSONResponse(exercise_overviews())
+        return JSONResponse(self._session.exercises.overviews())
 
     def results(self, request: Request) -> Response:
         person = request.query_params.get("person")

@@ -19,7 +19,7 @@ from starlette.websockets import WebSocket
 
 from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
-from punctura.studio.catalog import exercise_choices, ready_scenes
+from punctura.studio.catalog import ready_scenes
 from punctura.studio.connections import Connections
 from punctura.studio.figures import Figures
 from punctura.studio.hub import Hub
@@ -56,7 +56,7 @@ class Studio:
                 rate=info.rate,
             ),
             scenes=ready_scenes(),
-            exercises=exercise_choices(),
+            exercises=self.session.exercises.choices(),
             notes=self.session.run.notes,
         )
 

@@ -8,9 +8,9 @@ from concurrent.futures import Future
 from typing import Any
 
 from punctura.errors import ConfigurationError
-from punctura.exercise import load_exercise
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
+from punctura.studio.catalog import Exercises
 from punctura.studio.loaded import from_name, from_tables, from_text, problem_parts
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
@@ -26,7 +26,7 @@ class NotNow(ValueError):
     """Something that cannot be done as things are; the text says why."""
 
 
-def prepare(request: Any, shelf: Shelf) -> Job:
+def prepare(request: Any, shelf: Shelf, exercises: Exercises) -> Job:
     """What the worker shall do. Raises what `refusal` knows, with nothing done."""
     match request:
         case ask.Arm():
@@ -47,7 +47,7 @@ def prepare(request: Any, shelf: Shelf) -> Job:
         case ask.Edit() | ask.Load() | ask.LoadText():
             return _prepare_scene(request)
         case ask.StartRecording() | ask.StopRecording() | ask.StartExercise() | ask.EndExercise():
-            return _prepare_take(request)
+            return _prepare_take(request, exercises)
     raise NotNow("this studio cannot do that")
 
 
@@ -95,26 +95,20 @@ def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     do()
 
 
-def _prepare_take(request: Any) -> Job:
+def _prepare_take(request: Any, exercises: Exercises) -> Job:
     match request:
         case ask.StartRecording():
             return lambda session: _start_recording(session, request.name)
         case ask.StopRecording():
             return _stop_recording
         case ask.StartExercise():
-            exercise = load_exercise(_ready(request.exercise))
+            if request.exercise not in exercises.names():
+                raise NotNow(f"there is no exercise {request.exercise!r}")
+            exercise = exercises.load(request.exercise)
             loaded = from_name(exercise.scene_name)
             return lambda session: _start_exercise(session, exercise, loaded, request.person)
         case _:
             return _end_exercise
-
-
-def _ready(name: str) -> str:
-    from punctura.exercise import exercise_names
-
-    if name not in exercise_names():
-        raise NotNow(f"there is no exercise {name!r}")
-    return name
 
 
 def _start_recording(session: Session, wish: str | None) -> Done:

@@ -104,7 +104,7 @@ async def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Repl
 
 
 async def _do(request: Any, session: Session) -> Done:
-    job = await asyncio.to_thread(prepare, request, session.shelf)
+    job = await asyncio.to_thread(prepare, request, session.shelf, session.exercises)
     done = await asyncio.wrap_future(session.call(lambda: job(session)))
     if isinstance(done, Future):  # a recording's file takes its time
         done = await asyncio.wrap_future(done)

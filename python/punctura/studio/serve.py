@@ -20,6 +20,7 @@ from punctura.exercise import ResultStore
 from punctura.live.signals import ends_on_signals
 from punctura.live.supervisor import Supervisor
 from punctura.studio.app import NO_PAGE, Studio, build_app
+from punctura.studio.catalog import Exercises
 from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.figures import likely_folders
 from punctura.studio.hub import Hub
@@ -62,6 +63,7 @@ class StudioServer:
         token: str = "",
         page: Path = PAGE,
         folder: Path | None = None,
+        exercises: Exercises | None = None,
     ) -> None:
         """Raises StudioError where the port is taken, DeviceError where there is no device, ConfigurationError."""
         self._socket = _listening(port)
@@ -69,7 +71,7 @@ class StudioServer:
             self.hub = Hub()
             shelf = Shelf(folder or default_folder())
             results = ResultStore(shelf.folder / "results" if folder else shelf.folder.parent / "results")
-            self.session = Session(loaded, settings, self.hub, shelf, results)
+            self.session = Session(loaded, settings, self.hub, shelf, results, exercises)
             self.hub.hand = lambda: self.session.hand.pose
         except BaseException:
             self._socket.close()

@@ -16,6 +16,7 @@ from punctura._core import DeviceError, Fault, ReplayDevice, describe
 from punctura.exercise import Exercise, ResultStore
 from punctura.live import SilenceWatch
 from punctura.record import RecorderStatus
+from punctura.studio.catalog import Exercises
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording, recording_status, status_of
 from punctura.studio.jobs import Jobs
@@ -40,9 +41,18 @@ ROUND_REST_S = 2.0  # between two rounds of a recorded motion
 class Session:
     """`start`, then `call` whatever the worker shall do; `stop` leaves no force on every way out."""
 
-    def __init__(self, loaded: Loaded, settings: Settings, out: Publisher, shelf: Shelf, results: ResultStore) -> None:
+    def __init__(
+        self,
+        loaded: Loaded,
+        settings: Settings,
+        out: Publisher,
+        shelf: Shelf,
+        results: ResultStore,
+        exercises: Exercises | None = None,
+    ) -> None:
         """Raises DeviceError, ConfigurationError: nothing runs then."""
         self.out, self.shelf, self.results = out, shelf, results
+        self.exercises = exercises or Exercises()
         self.bench = Bench(settings, loaded.scene)
         self.hand = Hand()
         self.run = Run(0, self.bench, loaded)

@@ -1,7 +1,9 @@
 import { element, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
+import type { ProblemPart } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
+import { sentence } from "./editor/problems.ts";
 import { goalList } from "./exercises/goals.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personField } from "./exercises/person.ts";
@@ -14,10 +16,14 @@ export const exercisesPanel: Panel = (host, app) => {
   let known: readonly ExerciseOverview[] = [];
   let running = false;
   const of = (name: string): ExerciseOverview | null => known.find((exercise) => exercise.name === name) ?? null;
-  const start = (name: string): void =>
-    void app.ask({ do: "start_exercise", exercise: name, person: person.name.value });
+  const start = async (name: string): Promise<void> => {
+    const reply = await app.ask({ do: "start_exercise", exercise: name, person: person.name.value });
+    if (reply && !reply.ok && reply.problems?.length)
+      app.say(`${of(name)?.title ?? name} cannot start: ${reply.problems.map(sentence).join(" ")}`);
+    await readList(); // an exercise of one's own was read anew: it may be another now
+  };
   const open = (result: ExerciseResult): void => {
-    const again = app.control.value.you && of(result.exercise) ? () => start(result.exercise) : null;
+    const again = app.control.value.you && of(result.exercise) ? () => void start(result.exercise) : null;
     openResult(app, result, of(result.exercise), again);
   };
   const past = pastResults(app, open);
@@ -36,10 +42,9 @@ export const exercisesPanel: Panel = (host, app) => {
   );
 
   const showList = (): void => {
-    list.replaceChildren(...known.map((exercise) => card(exercise, () => start(exercise.name))));
+    list.replaceChildren(...known.map((exercise) => card(exercise, () => void start(exercise.name))));
   };
-  app.connection.watch(async (state) => {
-    if (state.state !== "open") return;
+  const readList = async (): Promise<void> => {
     try {
       known = await app.api.json<ExerciseOverview[]>("/api/exercises");
       showList();
@@ -52,6 +57,10 @@ export const exercisesPanel: Panel = (host, app) => {
         ),
       );
     }
+  };
+  app.connection.watch(async (state) => {
+    if (state.state !== "open") return;
+    await readList();
     await past.show(person.name.value);
   });
   person.name.watch((name) => {
@@ -80,6 +89,7 @@ export const exercisesPanel: Panel = (host, app) => {
 };
 
 function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
+  const wrong = exercise.problems.length > 0;
   return element(
     "article",
     { class: "exercise" },
@@ -87,10 +97,20 @@ function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
       "header",
       {},
       element("h3", {}, exercise.title),
-      element("button", { type: "button", class: "small primary", onclick: start }, "Start"),
+      // A file with a problem can be started, too: it is read anew then, and may have been mended.
+      element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
     ),
+    ...(wrong ? [problemList(exercise.problems)] : []),
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
+  );
+}
+
+function problemList(problems: readonly ProblemPart[]): HTMLElement {
+  return element(
+    "ul",
+    { class: "file-problems", role: "alert" },
+    ...problems.map((problem) => element("li", {}, sentence(problem))),
   );
 }
 

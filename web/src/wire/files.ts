@@ -1,4 +1,4 @@
-import type { ExerciseGoal, MembraneEvent, MembraneView, SceneView } from "./messages.ts";
+import type { ExerciseGoal, MembraneEvent, MembraneView, ProblemPart, SceneView } from "./messages.ts";
 
 /** What the studio's files say of themselves, as JSON: python/punctura/studio has their making. */
 
@@ -52,6 +52,8 @@ export interface ExerciseOverview {
   /** Where it ends, likewise; null: nowhere, or at the second membrane. */
   readonly space_to: number | null;
   readonly goals: readonly string[];
+  /** What is wrong with the file of an exercise of one's own; empty where it is sound. */
+  readonly problems: readonly ProblemPart[];
 }
 
 /** `GET /api/results/NAME`: python/punctura/exercise/result.py. SI; null: there was none. */

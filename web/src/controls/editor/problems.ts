@@ -26,7 +26,8 @@ function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
   return whole !== path && shown.has(whole) ? whole : null;
 }
 
-const sentence = ({ path, value, reason }: ProblemPart): string =>
+/** A problem with its place and value. */
+export const sentence = ({ path, value, reason }: ProblemPart): string =>
   path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
 
 /** A reason as a sentence. */
