@@ -197,7 +197,7 @@ class Attempt:
             date=when.isoformat(timespec="seconds"),
             version=version("punctura"),
             passed=self.passed,
-            reasons=self._reasons(),
+            reasons=self._reasons() + words.force_cut(self._measures.force_cut),
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,

@@ -9,11 +9,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from punctura import Scene
+from punctura._core import Limit as ForceLimit
 from punctura.events import Event
 from punctura.exercise.path import Path, PathSoFar
 from punctura.exercise.result import Metrics, Overshoot
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
+from punctura.live.summary import LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # after a pop, where no goal says otherwise: a hand's own reaction comes later
 
@@ -41,6 +43,8 @@ class Measures:
         self._entry_angle: float | None = None
         self._next_tick: int | None = None
         self._lost = 0
+        self._cut = dict.fromkeys(LIMIT_WORDS, 0)  # ticks
+        self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
 
     def add(self, ticks: Ticks, events: list[Event]) -> None:
@@ -51,6 +55,8 @@ class Measures:
         self.attempts += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
+        for name in LIMIT_WORDS:
+            self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
         self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
         self.settle(ticks)
@@ -107,6 +113,11 @@ class Measures:
         self._path = Path(ticks.tip[row], axis)
         self._entry_angle = math.asin(min(1.0, float(axis @ self._normal)))
 
+    @property
+    def force_cut(self) -> dict[str, float]:
+        """How long each limit cut the force that the device got, s."""
+        return {LIMIT_WORDS[name]: ticks / self._rate for name, ticks in self._cut.items() if ticks}
+
     def metrics(self) -> Metrics:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
@@ -124,4 +135,5 @@ class Measures:
             time_to_target=self.arrival - touched if self.arrival is not None and touched is not None else None,
             total_time=self._last_time - touched if touched is not None else 0.0,
             lost_ticks=self._lost,
+            force_cut=self.force_cut,
         )

@@ -60,6 +60,7 @@ class Metrics(_Part):
     time_to_target: Finite | None  # s from the first touch to the first arrival, as the reach goal wants it
     total_time: Finite  # s from the first touch to the decision
     lost_ticks: int  # that never came
+    force_cut: dict[str, Finite] = {}  # s in which the device got less than peak_force counts, by limit, in words
 
 
 class Result(_Part):

@@ -24,7 +24,7 @@ COLUMNS = (
     "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
     "reasons", "attempts",
     "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
-    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
+    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks", "force_cut_s",
 )  # fmt: skip
 
 
@@ -142,6 +142,7 @@ def _row(result: Result) -> dict[str, Any]:
         "time_to_target_s": m.time_to_target,
         "total_time_s": m.total_time,
         "lost_ticks": m.lost_ticks,
+        "force_cut_s": sum(m.force_cut.values()),
     }
 
 

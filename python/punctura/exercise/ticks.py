@@ -33,6 +33,7 @@ class Ticks:
     held: Numbers  # (n, 3), the needle's direction: that held by the first membrane, else the stylus's
     force: Numbers  # N, the norm of the model's force; NaN where it is not known
     fault: NDArray[np.int64]
+    limit: NDArray[np.int64]  # that cut the force to the device: Limit, or another number where that is not known
     new_scene: Flags
     inside: Flags  # (n, m), held by the membrane: the model lets it in
     depth: Numbers  # (n, m), of the point along the needle while inside, else along the normal, m
@@ -93,6 +94,7 @@ class Geometry:
             held=self._held(columns, axis, inside),
             force=np.linalg.norm(force, axis=1),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
+            limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & _COMMAND_SCENE) != 0,
             inside=inside,
             depth=depth,

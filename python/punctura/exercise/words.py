@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from decimal import ROUND_HALF_UP, Decimal
 
 from punctura._core import Fault, describe
@@ -88,6 +88,12 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
     if achievement.left:
         return f"You left {space.name} before everything was measured."
     return f"Not done: {achievement.text}."
+
+
+def force_cut(seconds_by_limit: Mapping[str, float]) -> list[str]:
+    """That the hand got less than the model's force."""
+    cut = " and ".join(f"{tenths(seconds)} s ({words})" for words, seconds in seconds_by_limit.items())
+    return [f"The device gave less than the model's force for {cut}."] if cut else []
 
 
 def passed(achievements: Sequence[Achievement], measures: Measures, space: TargetSpace, first: str) -> list[str]:

@@ -6,6 +6,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from attempts import HEAD, goal, ideal, judged, of_positions
+from punctura._core import Limit
 from punctura.exercise import load_exercise
 from punctura.exercise.words import tenths
 
@@ -142,13 +143,23 @@ def test_ticks_that_never_came_are_told(write):
     assert m.lost_ticks == 23
 
 
+def test_a_limit_that_cut_the_force_is_told_with_its_time(write):
+    columns = ideal(SCENE, (0, 5, 0), (0, -6, 0))
+    columns["limit"] = np.zeros(len(columns["tick"]), np.uint8)
+    columns["limit"][-800:] = Limit.continuous.value
+    columns["limit"][:400] = Limit.ramp.value  # a force that grows after arming is no news
+    result = measured(write, columns, NEVER)
+    assert result.metrics.force_cut == {"long-run limit": pytest.approx(800 / SCENE.servo.rate)}
+    assert result.reasons[-1] == "The device gave less than the model's force for 0.5 s (long-run limit)."
+
+
 def test_nothing_at_all_gives_a_result_without_metrics(write):
     exercise = load_exercise(write(NEVER))
     m = judged(exercise, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE).finish().metrics
     assert m.model_dump() == {
         "attempts": 0, "peak_force": 0, "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None,
         "net_distance": None, "straightness": None, "lateral_deviation": None, "entry_angle": None,
-        "time_to_target": None, "total_time": 0, "lost_ticks": 0,
+        "time_to_target": None, "total_time": 0, "lost_ticks": 0, "force_cut": {},
     }  # fmt: skip
 
 

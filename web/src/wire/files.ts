@@ -96,6 +96,8 @@ export interface ExerciseMetrics {
   readonly time_to_target: number | null;
   readonly total_time: number;
   readonly lost_ticks: number;
+  /** s in which a limit cut the force to the device, by limit; results of earlier versions do not say. */
+  readonly force_cut?: Readonly<Record<string, number>>;
 }
 
 export const resultPath = (name: string): string => `/api/results/${encodeURIComponent(name)}`;

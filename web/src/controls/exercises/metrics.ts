@@ -57,6 +57,11 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       help: "From the first touch to the first arrival.",
     },
     { label: "Time in all", value: seconds(metrics.total_time), help: "From the first touch to the decision." },
+    ...Object.entries(metrics.force_cut ?? {}).map(([limit, time]) => ({
+      label: `Force cut, ${limit}`,
+      value: seconds(time),
+      help: "How long the device gave less than the model’s force.",
+    })),
     ...(metrics.lost_ticks > 0
       ? [
           {

@@ -33,5 +33,7 @@ test("measures are told in units for people; what there was not is a dash", () =
     "Time to the space": "–",
   });
   expect(rows.has("Ticks lost")).toBe(false);
+  const cut = metricRows({ ...metrics, force_cut: { "long-run limit": 1.24 } }).at(-1);
+  expect(cut).toMatchObject({ label: "Force cut, long-run limit", value: "1.2 s" });
   expect(metricRows({ ...metrics, lost_ticks: 3 }).at(-1)).toMatchObject({ label: "Ticks lost", value: "3" });
 });
