@@ -280,7 +280,7 @@ export interface Reset {
   do: "reset";
 }
 /**
- * Where the simulated hand shall go. Not answered; the last one counts. One that belongs to another run is ignored.
+ * Where the simulated hand shall go. Not answered; the last one counts; one of another run is ignored.
  */
 export interface Target {
   do: "target";

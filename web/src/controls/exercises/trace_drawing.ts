@@ -7,13 +7,14 @@ import { envelope, indexAt, type Layer, type Trace } from "./trace.ts";
 
 const WIDTH = 680;
 const LEFT = 46;
-const RIGHT = 92;
+const RIGHT = 108;
 const DEPTH = { top: 26, height: 150 };
 const FORCE = { top: 200, height: 96 };
 const HEIGHT = 330;
 const COLUMNS = WIDTH - LEFT - RIGHT;
 /** s in front of the first touch, where the drawing begins. */
 export const BEFORE = 0.5;
+const WORD = 52; // px
 const BELOW = 2e-3; // m that are drawn of a space without an end
 
 type Scale = (value: number) => number;
@@ -70,7 +71,16 @@ export function traceDrawing(
     add(svg("circle", { class: "peak", cx: px, cy: py, r: 3.5 }));
     add(svg("text", { class: "strong", x: px + 7, y: py + 1 }, peakText(result)));
   }
-  return element("figure", { class: "trace-figure" }, drawing);
+  return element(
+    "figure",
+    { class: "trace-figure" },
+    drawing,
+    element(
+      "figcaption",
+      { class: "quiet" },
+      "The depth is that of the tip. Goals are judged by the model, in which a wall is pushed ahead of the tip before it is pierced.",
+    ),
+  );
 }
 
 function band({ top, bottom }: Layer, y: Scale, kind: string, label: string): SVGElement[] {
@@ -96,13 +106,24 @@ function axis(values: readonly number[], y: Scale, label: string, { top, height 
 function marks(result: ExerciseResult, touch: number, x: Scale, end: number): SVGElement[] {
   const { time_to_target: arrival, total_time: total } = result.metrics;
   const pops = result.events.filter(({ what, time }) => what === "pop" && time <= end);
-  const upright = (kind: string, time: number, label: string, row: number): SVGElement[] => [
+  // The words of two marks that stand close together go to both sides.
+  const near = arrival !== null && total > 0 && x(touch + total) - x(touch + arrival) < WORD;
+  const upright = (kind: string, time: number, label: string, row: number, left = false): SVGElement[] => [
     svg("line", { class: kind, x1: x(time), x2: x(time), y1: DEPTH.top - 4, y2: FORCE.top + FORCE.height }),
-    svg("text", { class: `${kind}-name`, x: x(time) + 3, y: DEPTH.top - 6 - 10 * row }, label),
+    svg(
+      "text",
+      {
+        class: `${kind}-name`,
+        x: x(time) + (left ? -3 : 3),
+        y: DEPTH.top - 6 - 10 * row,
+        "text-anchor": left ? "end" : "start",
+      },
+      label,
+    ),
   ];
   return [
     ...pops.flatMap(({ time }, i) => upright("pop", time, `pop ${i + 1}`, crowded(pops, i) ? 1 : 0)),
-    ...(arrival === null ? [] : upright("arrival", touch + arrival, "arrived", 1)),
+    ...(arrival === null ? [] : upright("arrival", touch + arrival, "arrived", 1, near)),
     ...(total > 0
       ? upright(result.passed ? "done" : "lost", touch + total, result.passed ? "✓ done" : "✕ lost", 1)
       : []),
