@@ -24,7 +24,8 @@ COLUMNS = (
     "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
     "reasons", "attempts",
     "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
-    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks", "force_cut_s",
+    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
+    "force_cut_s",
 )  # fmt: skip
 
 

@@ -87,24 +87,39 @@ def test_the_drawing_may_begin_later_and_has_then_more_of_the_rest(minute):
     assert len(drawn(minute, start=1e9)[0]) == 0
 
 
-def test_missing_ticks_and_numbers_break_the_curves(monkeypatch):
-    scene = pn.load_scene("k06-fig10")
-    n = 2000
-    tick = np.concatenate([np.arange(1000), np.arange(1500, 2500)])
-    columns = {
-        "tick": tick,
-        "time": tick / 1600,
-        "tip": np.zeros((n, 3)),
-        "axis": np.tile([0.0, -1.0, 0.0], (n, 1)),
-        "model_force": np.zeros((n, 3)),
-        "depth": np.full((n, 1), -1e-3),
-        "phase": np.zeros((n, 1), np.uint8),
-        "axial_force": np.zeros((n, 1)),
-    }
-    columns["model_force"][1700:1710] = np.nan
+def of_columns(monkeypatch, columns, **asked):
+    """The trace of these columns in place of a recording's."""
     monkeypatch.setattr(trace, "recorded_ticks", lambda recording: [(columns, None)])
-    info = SimpleNamespace(scene=scene, rate=1600)
-    told = thinned_trace(SimpleNamespace(info=info, rows=n, summary={"first_tick": 0}), points=120)
+    summary = {"first_tick": int(columns["tick"][0])}
+    info = SimpleNamespace(scene=pn.load_scene("k06-fig10"))
+    return thinned_trace(SimpleNamespace(info=info, rows=len(columns["tick"]), summary=summary), **asked)
+
+
+def columns_of(tick, tip, force):
+    n = len(tick)
+    return {
+        "tick": tick, "time": tick / 1600, "tip": tip, "axis": np.tile([0.0, -1.0, 0.0], (n, 1)), "model_force": force,
+        "depth": np.full((n, 1), -1e-3), "phase": np.zeros((n, 1), np.uint8), "axial_force": np.zeros((n, 1)),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("points", [2400, MOST])
+def test_the_worst_minute_takes_less_than_100_kb_too(monkeypatch, points):
+    """Noise, hours into a run: every row that may be kept is, with all its digits."""
+    random, n = np.random.default_rng(1), SECONDS * 1600
+    tick = 1600 * 36_000 + np.arange(n)
+    told = of_columns(
+        monkeypatch, columns_of(tick, random.normal(0, 0.1, (n, 3)), random.normal(0, 20, (n, 3))), points=points
+    )
+    assert 0.8 * points < len(told["time"]) <= points
+    assert len(json.dumps(told, separators=(",", ":"))) < 100_000
+
+
+def test_missing_ticks_and_numbers_break_the_curves(monkeypatch):
+    tick = np.concatenate([np.arange(1000), np.arange(1500, 2500)])
+    columns = columns_of(tick, np.zeros((2000, 3)), np.zeros((2000, 3)))
+    columns["model_force"][1700:1710] = np.nan
+    told = of_columns(monkeypatch, columns, points=120)
     broken = [time for time, depth in zip(told["time"], told["depth"], strict=True) if depth is None]
     assert broken == [pytest.approx(1500 / 1600, abs=1e-5)]
     json.dumps(told, allow_nan=False)
