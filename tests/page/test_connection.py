@@ -16,6 +16,13 @@ def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, stu
         expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
 
 
+def test_a_page_whose_token_is_of_another_run_says_so_and_tries_no_more(page, studio, tmp_path):
+    ready(page)
+    assert studio.end() in (0, 130)
+    with StudioProcess(tmp_path, "k06-fig10", port=studio.port, token="of-another-run-0123"):
+        expect(page.locator(".connection-words")).to_contain_text("Refused: This needs the token", timeout=PATIENCE)
+
+
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()

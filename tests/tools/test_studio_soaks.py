@@ -11,10 +11,18 @@ TOOLS = Path(__file__).parents[2] / "tools"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="ends the studio by a signal")
-@pytest.mark.parametrize("tool", ["soak_studio.py", "fuzz_studio.py"])
-def test_a_short_run_passes(tool):
-    done = subprocess.run(
-        [sys.executable, str(TOOLS / tool), "--minutes", "0.1"], capture_output=True, text=True, timeout=180
-    )
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["soak_studio.py", "--minutes", "0.1"],
+        ["fuzz_studio.py", "--minutes", "0.1"],
+        ["soak_sockets.py", "pings", "--seconds", "2"],
+        ["soak_sockets.py", "silent", "--seconds", "2"],
+    ],
+    ids=" ".join,
+)
+def test_a_short_run_passes(command):
+    tool, *more = command
+    done = subprocess.run([sys.executable, str(TOOLS / tool), *more], capture_output=True, text=True, timeout=180)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "passed" in done.stdout
