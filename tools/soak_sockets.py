@@ -27,7 +27,7 @@ from punctura.studio.client import StudioClient
 from storms import STORMS, Storm
 from studio_process import StudioProcess, blank_page
 
-MOST_GROWTH_MB = 100.0  # a recording alone brings 40 to 60
+MOST_GROWTH_MB = 100.0  # a recording alone brings about 70
 TOO_MUCH_MB = 1500.0  # the storm is over: the computer has other users
 FINISHING_S = 60.0  # the storm also rages while the recording is finished, which takes less
 OPEN_FILES = 1024  # of the studio: what most systems allow a program without being asked
