@@ -9,6 +9,7 @@ import statistics
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
@@ -31,20 +32,24 @@ class StudioProcess:
         port: int = 0,
         token: str = "",
         open_files: int = 0,
+        terminal: int | None = None,
+        more: Sequence[str] = (),
     ) -> None:
         """page: a folder to serve in place of the studio's own page. token: given, or one of its own.
 
-        open_files: how many the studio may have, on POSIX; 0: as many as this process.
+        open_files: how many the studio may have, on POSIX; 0: as many as this process. terminal: the descriptor that is
+        its standard error, of which `said` then knows nothing. more: options of `punctura run`.
         """
         self.recordings = folder / "recordings"
         command = [sys.executable, "-m", "punctura.cli", "run", scene, "--no-browser", "--device", "simulated"]
         command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
+        command += more
         home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
         self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "said.txt").open("w+")
         self._process = subprocess.Popen(
             command,
             stdout=self._out,
-            stderr=self._errors,
+            stderr=self._errors if terminal is None else terminal,
             env={**os.environ, **home},
             cwd=folder,
             preexec_fn=(lambda: _prepare(open_files)) if os.name == "posix" else None,

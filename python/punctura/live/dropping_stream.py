@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import atexit
 import io
+import math
+import os
+import signal
 import threading
 import time
 from collections import deque
@@ -33,9 +36,10 @@ class DroppingStream(io.TextIOBase):
         self._bytes = 0  # that wait, or are being written
         self._begun = ""  # of a line
         self._dropped = 0  # lines, before the first piece that waits
+        self._since = math.inf  # when the write began that waits
         self._over = False
         self._thread: threading.Thread | None = None
-        atexit.register(self.end)
+        atexit.register(self._leave)
 
     def write(self, text: str) -> int:
         if not isinstance(text, str):
@@ -63,11 +67,21 @@ class DroppingStream(io.TextIOBase):
             return True
 
     def end(self, seconds: float = LINGER_S) -> None:
-        """Waits so long for the reader; then nothing is taken any more. The end of the program calls it."""
+        """Nothing is taken any more. Waits so long for the reader, but not for one that has long stopped reading."""
         self.flush()
         with self._change:
-            self._change.wait_for(lambda: self._bytes == 0 or self._over, seconds)
+            now = time.monotonic()
+            self._change.wait_for(lambda: self._bytes == 0 or self._over, min(now, self._since) + seconds - now)
             self._over = True
+
+    def _leave(self) -> None:
+        """At the end of the program, where others may write without asking: the interpreter, a library in C."""
+        self.end()
+        if self._bytes:
+            with suppress(OSError, ValueError):
+                nowhere = os.open(os.devnull, os.O_WRONLY)
+                os.dup2(nowhere, self.fileno())
+                os.close(nowhere)
 
     def _put(self, text: str) -> None:
         data = text.encode(self._encoding, "backslashreplace")
@@ -95,11 +109,15 @@ class DroppingStream(io.TextIOBase):
         return notice
 
     def _work(self) -> None:
+        if hasattr(signal, "SIGTTOU"):  # else a terminal may suspend the whole program for writing in the background
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTTOU})
         while not self._over:
             with self._change:
                 data = self._next()
+                self._since = time.monotonic()
             whole = self._write_whole(data)
             with self._change:
+                self._since = math.inf
                 self._bytes -= len(data)
                 self._over = self._over or not whole
                 self._change.notify_all()

@@ -95,11 +95,12 @@ class Signals:
         self._wakeup = signal.set_wakeup_fd(self._bell.fileno(), warn_on_full_buffer=False)
 
     def give_back(self) -> None:
-        """Installs what was there before."""
+        """Installs what was there before, where nobody has installed something else meanwhile."""
         signal.set_wakeup_fd(self._wakeup, warn_on_full_buffer=False)
         Signals._innermost = self._outer
         for number, handler in self._before.items():
-            signal.signal(number, handler)
+            if signal.getsignal(number) == self._handle:
+                signal.signal(number, handler)
 
     def _handle(self, number: int, _frame: FrameType | None) -> None:
         """Takes no lock: the code that it interrupts may hold it."""

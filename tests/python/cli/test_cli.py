@@ -143,7 +143,7 @@ def test_missing_options_are_a_usage_error():
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"])
 def test_a_signal_leaves_nothing_behind(tmp_path, name):
     slow = tmp_path / "slow.csv"
-    slow.write_text(HEADER + "0,0,0,0\n" + "1e6,0,0,0\n" + "2e6,0,0,0\n")  # 3.2e9 ticks
+    slow.write_text(HEADER + "".join(f"{k / 10},0,0,0\n" for k in range(400_000)))  # 64 million ticks
     command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals)
     while len(list(tmp_path.iterdir())) < 2:

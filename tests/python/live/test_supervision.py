@@ -1,5 +1,6 @@
 """What ends a run does so whatever the terminal and the caller's own code do meanwhile."""
 
+import contextlib
 import json
 import os
 import signal
@@ -139,6 +140,28 @@ def test_a_result_that_was_asked_for_is_whole_however_late_it_is_read():
     while piece := os.read(process.stdout.fileno(), 7):
         said += piece
     assert process.wait(60) == 0 and json.loads(said)["ticks"] > 0
+
+
+def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):
+    with unread_pipe() as stdout:
+        command = [*RUN, "--duration", "0.2", "--record", str(tmp_path / "run.parquet"), "--json"]
+        process = subprocess.Popen(
+            command, stdout=stdout, stderr=subprocess.PIPE, text=True, bufsize=1, preexec_fn=heed_signals
+        )
+        try:
+            while " ticks recorded" not in (line := process.stderr.readline()):
+                assert line
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(1)  # by now it writes its result
+            for _ in range(100):  # one that comes just before the command begins to wait does not end the wait
+                process.send_signal(signal.SIGTERM)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    assert process.wait(0.3) == 128 + signal.SIGTERM
+                    break
+            assert process.returncode is not None
+        finally:
+            process.kill()
+            process.communicate()
 
 
 class Interrupts:

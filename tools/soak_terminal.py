@@ -1,0 +1,189 @@
+"""Runs for a while what nobody listens to, and shows that it neither waits nor grows nor loses a tick.
+
+    python tools/soak_terminal.py --seconds 60
+
+Three runs at once, each with a recording: one in a terminal that is stopped (Ctrl-S), one whose standard error is a
+full pipe, and a studio in a stopped terminal whose server logs a line for each request of a flood. The studio is asked
+for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
+
+Passes if no tick is lost, no memory grows by over 5 %, "pause" is always answered within a second, and each run ends
+within 10 s with the signal's status and a whole recording. Linux and macOS only.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pty
+import select
+import signal
+import socket
+import statistics
+import subprocess
+import sys
+import tempfile
+import termios
+import threading
+import time
+from pathlib import Path
+
+from punctura.record import open_recording
+from punctura.studio.client import StudioClient
+from resident import resident_mb
+from studio_process import Memory, StudioProcess, blank_page
+
+MOST_GROWTH = 0.05
+MOST_ANSWER_S = 1.0
+MOST_END_S = 10.0
+FLOODERS = 4
+ASK_EVERY_S = 0.5
+LOGGED = b"Unsupported upgrade request."
+
+
+def stopped_terminal() -> tuple[int, int]:
+    """Its two ends; programs write to the second one."""
+    master, slave = pty.openpty()
+    termios.tcflow(slave, termios.TCOOFF)
+    return master, slave
+
+
+def full_pipe() -> int:
+    """Its writing end. The reading end stays open, and nobody reads."""
+    _, writing = os.pipe()
+    os.set_blocking(writing, False)
+    try:
+        while True:
+            os.write(writing, b"\n" * 65536)
+    except BlockingIOError:
+        os.set_blocking(writing, True)
+    return writing
+
+
+class Headless:
+    """`punctura run --headless`, whose messages nobody reads."""
+
+    def __init__(self, name: str, folder: Path, stderr: int, seconds: float) -> None:
+        self.name, self.path = name, folder / f"{name.replace(' ', '-')}.parquet"
+        command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+        command += ["--record", str(self.path)]
+        self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=stderr)
+        self.memory = Memory(seconds)
+
+    def look(self) -> None:
+        self.memory.add(resident_mb(self._process.pid))
+
+    def end(self) -> bool:
+        began = time.monotonic()
+        self._process.send_signal(signal.SIGTERM)
+        try:
+            code = self._process.wait(60)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            code = self._process.wait()
+        return report(self.name, self.memory, code, time.monotonic() - began, 128 + signal.SIGTERM, self.path)
+
+
+def report(name: str, memory: Memory, code: int, took: float, expected: int, path: Path) -> bool:
+    """Prints how a run was, and says whether that was right."""
+    last = memory.samples[-1] if memory.samples else float("nan")
+    print(f"{name}: {last:.1f} MB, grown by {memory.growth():+.1%}; ended with {code} in {took:.2f} s")
+    if not path.exists():
+        print(f"{name}: NO RECORDING")
+        return False
+    recording = open_recording(path)
+    print(f"{name}: {recording.rows} ticks recorded, {recording.lost} lost")
+    whole = recording.finished and recording.lost == 0 and recording.rows > 0
+    return whole and code == expected and took < MOST_END_S and memory.flat(MOST_GROWTH)
+
+
+class Flood:
+    """Requests without a token, of each of which the server logs a warning, one after the other."""
+
+    def __init__(self, port: int) -> None:
+        self.sent = 0
+        self._port, self._over = port, threading.Event()
+        self._threads = [threading.Thread(target=self._work, daemon=True) for _ in range(FLOODERS)]
+        for thread in self._threads:
+            thread.start()
+
+    def _work(self) -> None:
+        request = f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self._port}\r\nConnection: upgrade\r\nUpgrade: none\r\n\r\n"
+        while not self._over.is_set():
+            try:
+                with socket.create_connection(("127.0.0.1", self._port), 5) as connection:
+                    connection.sendall(request.encode())
+                    connection.recv(4096)
+                    self.sent += 1
+            except OSError:  # refused, reset or late: the next one
+                pass
+
+    def end(self) -> None:
+        self._over.set()
+        for thread in self._threads:
+            thread.join()
+
+
+def drained(master: int, slave: int) -> list[bytes]:
+    """What comes once the terminal goes on, until nothing more comes for a second. Then it is stopped again."""
+    said = b""
+    termios.tcflow(slave, termios.TCOON)
+    while select.select([master], [], [], 1)[0]:
+        said += os.read(master, 65536)
+    termios.tcflow(slave, termios.TCOOFF)
+    return said.splitlines()
+
+
+def soak(seconds: float, folder: Path) -> int:
+    terminals = [stopped_terminal() for _ in range(2)]
+    runs = [
+        Headless("stopped terminal", folder, terminals[0][1], seconds),
+        Headless("unread stderr", folder, full_pipe(), seconds),
+    ]
+    memory, answers = Memory(seconds), []
+    master, slave = terminals[1]
+    with StudioProcess(folder, page=blank_page(folder), terminal=slave) as studio:
+        flood = Flood(studio.port)
+        with StudioClient(studio.url, patience=60) as page:
+            good = bool(page.ask(do="start_recording", name="soak")["ok"])
+            began = time.monotonic()
+            while time.monotonic() - began < seconds and studio.running:
+                asked = time.monotonic()
+                good = page.ask(do="pause")["ok"] and good
+                answers.append(time.monotonic() - asked)
+                page.ask(do="arm")
+                del page.messages[:-100]  # or the soak itself would grow
+                memory.add(studio.memory_mb())
+                for run in runs:
+                    run.look()
+                time.sleep(ASK_EVERY_S)
+            page.ask(do="stop_recording")
+        flood.end()
+        said = drained(master, slave)
+        began = time.monotonic()
+        code = studio.end()
+        took = time.monotonic() - began
+    logged, left_out = sum(LOGGED in line for line in said), [line for line in said if b"left out here" in line]
+    good = all([run.end() for run in runs]) and good
+    path = folder / "recordings" / "soak.parquet"
+    good = report("flooded studio", memory, code, took, 128 + signal.SIGINT, path) and good
+    median = statistics.median(answers)
+    print(
+        f'"pause" was answered {len(answers)} times: median {median * 1e3:.1f} ms, largest {max(answers) * 1e3:.1f} ms'
+    )
+    print(f"{flood.sent} requests to log; the terminal showed {logged} of their lines once it went on, and said:")
+    print("\n".join(f"  {line.decode()}" for line in left_out) or "  nothing of lines left out")
+    good = good and max(answers) < MOST_ANSWER_S and logged > 0
+    print("passed" if good else "FAILED")
+    return 0 if good else 1
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=60.0)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        return soak(options.seconds, Path(folder))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
