@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from person import PATIENCE, ready, tab, view
+from person import PATIENCE, ready, tab
 from playwright.sync_api import Browser, expect
 from studio_process import StudioProcess
 
@@ -20,8 +20,7 @@ def test_the_header_names_the_limit_that_cuts_the_force(browser: Browser, tmp_pa
         page = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce").new_page()
         page.goto(studio.url, timeout=120_000)
         ready(page)
-        view(page).focus()
-        tab(page, "Hand").get_by_role("button", name="Strokes").first.click()
+        tab(page, "Hand").get_by_role("button", name="Start strokes").click()
         state = page.locator(".servo-state")
         expect(state).to_contain_text("Force cut: long-run limit", timeout=PATIENCE)
         expect(state.locator(".figures")).to_contain_text(" N", timeout=PATIENCE)
