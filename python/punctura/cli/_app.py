@@ -18,7 +18,7 @@ from typing import Annotated
 import typer
 
 from punctura.cli._leave import leave
-from punctura.cli._streams import open_closed_streams
+from punctura.cli._streams import open_closed_streams, wait_for_stderr_again
 from punctura.errors import ConfigurationError
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
@@ -73,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
             _fail(f"{error}{_where()}", FAILED)
         except Ended as end:
             leave(end)
+        finally:
+            wait_for_stderr_again()
 
 
 def _where() -> str:

@@ -28,6 +28,14 @@ def never_wait_for_stderr() -> DroppingStream:
     return cast(DroppingStream, sys.stderr)
 
 
+def wait_for_stderr_again() -> None:
+    """Undoes that at the end of a command, once what waits is written or its reader has long stopped reading."""
+    stream = sys.stderr
+    if isinstance(stream, DroppingStream):
+        stream.end()
+        sys.stderr = stream.stream
+
+
 def give_up_stdout() -> None:
     """What waits in sys.stdout is thrown away: at the end of the program it would block, or change the exit status."""
     with suppress(OSError, ValueError):

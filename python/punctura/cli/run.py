@@ -16,6 +16,7 @@ from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError
 from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placement
+from punctura.live.signals import ends_on_signals
 
 
 def command(
@@ -109,15 +110,17 @@ def command(
         except ConfigurationError as error:
             raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed)
-    try:
-        if headless:
-            run_headless(wishes, record, as_json)
-        else:
-            run_page(wishes, port, not no_browser, recordings, page, exercise or ())
-    except DeviceError as error:
-        raise typer.BadParameter(str(error), param_hint="--device") from None
-    except Ended as end:
-        leave(end, "; the force is off")
+    with ends_on_signals() as signals:
+        try:
+            with signals.raised():
+                if headless:
+                    run_headless(wishes, record, as_json)
+                else:
+                    run_page(wishes, port, not no_browser, recordings, page, exercise or ())
+        except DeviceError as error:
+            raise typer.BadParameter(str(error), param_hint="--device") from None
+        except Ended as end:
+            leave(end, "; the force is off")
 
 
 def _existing(processor: int | None) -> int:

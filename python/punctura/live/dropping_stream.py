@@ -27,7 +27,7 @@ class DroppingStream(io.TextIOBase):
 
     def __init__(self, stream: TextIO, room: int = ROOM_BYTES) -> None:
         """room: bytes that wait for the reader at most; of more, the oldest are dropped."""
-        self._stream = stream  # which would close its file if nobody held it
+        self.stream = stream  # which would close its file if nobody held it
         self._raw: Any = getattr(stream.buffer, "raw", stream.buffer)  # a stream without a buffer is raw itself
         self._encoding = stream.encoding
         self._room = room

@@ -195,8 +195,10 @@ main(["run", "--headless", "--device", "simulated", "--duration", "0.2", "--reco
 """
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
-@pytest.mark.parametrize("at", ["finish_recording", "AppendFile"])
+@pytest.mark.parametrize(
+    ("at", "name"),
+    [*[("finish_recording", name) for name in ("SIGINT", "SIGTERM", "SIGHUP")], ("AppendFile", "SIGTERM")],
+)
 def test_a_recording_is_finished_when_a_first_signal_comes_at_its_file(tmp_path, at, name):
     path = tmp_path / "run.parquet"
     command = [sys.executable, "-c", SIGNAL_AT_THE_FILE, at, name, str(path)]
