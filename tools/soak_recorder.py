@@ -1,109 +1,203 @@
 """Kills a recording process at random moments; what it has left must open, and lack at most the last half second.
 
-    python tools/soak_recorder.py --kills 200
+    python tools/soak_recorder.py --kills 1000
 
-One in four is killed while it finishes its file. The process shares the tick that it is at through a file in memory.
+Every process records under the same name. Half of them are killed in their first moments, before their file has a
+beginning or before it has a tick: such a kill must not block the name for the next process. A quarter is killed while
+it records, a quarter while it finishes its file. A process tells the tick that it is at through a file in memory.
 """
 
 from __future__ import annotations
 
 import argparse
 import mmap
+import os
 import random
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import strokes_through
-from punctura.record import Recorder, Recording, open_recording
+from punctura.record import Recorder, RecordingError, open_recording
+from punctura.record.build_id import build_id
 
 RATE = 1600.0
 MOST_MISSING_S = 0.5
-LONGEST_RUN_S = 2.0
+# A process is killed within so long of its start, of its start, of its recorder's being there, of its finish.
+KILLED_WITHIN_S = (0.03, 0.2, 0.8, 0.1)
+MOST_WAIT_S = 60.0
+TICKS, FINISHING, STATE = 0, 8, 16  # places in the shared memory
+BEGUN, BLOCKED = 1, 2  # states
+
+
+class Kill(NamedTuple):
+    """What came of one kill."""
+
+    ticks: int
+    missing_s: float
+    blocked: bool
+    began: bool  # the recorder was there when the kill came
 
 
 def record(path: Path, shared: mmap.mmap, finish_after_s: float) -> None:
-    """The process that will be killed."""
+    """In the process that will be killed."""
     scene = load_scene("k06-fig12")
     device = SimulatedDevice(strokes_through(scene), rate=RATE, axis=scene.membranes[0].inward_normal)
     loop = ServoLoop(device, scene)
-    recorder = Recorder(loop, path)
+    try:
+        recorder = Recorder(loop, path)
+    except RecordingError as bad:
+        print(bad, file=sys.stderr, flush=True)
+        struct.pack_into("<q", shared, STATE, BLOCKED)
+        return
+    struct.pack_into("<q", shared, STATE, BEGUN)
     loop.arm()
     loop.start()
     began = time.monotonic()
     while time.monotonic() - began < finish_after_s:
-        struct.pack_into("<q", shared, 0, loop.report()["ticks"])
+        struct.pack_into("<q", shared, TICKS, loop.report()["ticks"])
         time.sleep(2e-3)
     loop.stop()
-    struct.pack_into("<q", shared, 0, loop.report()["ticks"])
-    struct.pack_into("<q", shared, 8, 1)
+    struct.pack_into("<q", shared, TICKS, loop.report()["ticks"])
+    struct.pack_into("<q", shared, FINISHING, 1)
     recorder.finish()
-    time.sleep(60)
+    time.sleep(MOST_WAIT_S)
 
 
-def kill_once(folder: Path, chance: random.Random, finishing: bool) -> tuple[float, int]:
-    """Gives how much of the end is missing (s) and how many ticks there were. Raises AssertionError."""
-    path, memory = folder / "run.parquet", folder / "tick"
-    memory.write_bytes(bytes(16))
-    finish_after = chance.uniform(0.2, 1.0) if finishing else 3600.0
-    with memory.open("r+b") as file, mmap.mmap(file.fileno(), 16) as shared:
-        command = [sys.executable, __file__, "--record", str(path), str(memory), str(finish_after)]
-        process = subprocess.Popen(command)
-        wanted = 8 if finishing else 0
-        while struct.unpack_from("<q", shared, wanted)[0] == 0:
-            assert process.poll() is None, "the recording process ended by itself"
-            time.sleep(1e-3)
-        time.sleep(chance.uniform(0, 0.2 if finishing else LONGEST_RUN_S))
-        process.kill()
-        process.wait()
-        ticks = struct.unpack_from("<q", shared, 0)[0]
-    recording = open_recording(path)
-    return check(recording, ticks), ticks
+def serve() -> int:
+    """A process that has imported everything, and forks one that records for each line: a start takes no second."""
+    build_id()
+    for line in sys.stdin:
+        path, memory, finish_after = line.rstrip("\n").split("\t")
+        child = os.fork()
+        if child == 0:
+            with Path(memory).open("r+b") as file, mmap.mmap(file.fileno(), 24) as shared:
+                record(Path(path), shared, float(finish_after))
+            os._exit(0)
+        sys.stdin.readline()
+        os.kill(child, signal.SIGKILL)  # until it is waited for, its number is its own, also when it has ended
+        os.waitpid(child, 0)
+        print("over", flush=True)
+    return 0
 
 
-def check(recording: Recording, ticks: int) -> float:
-    """s between the last tick in the file and the last that the process said it had made."""
-    tick = recording.column("tick").astype(np.int64)
-    assert recording.lost == 0, f"{recording.lost} ticks lost"
-    assert (tick == np.arange(len(tick))).all(), "the ticks have gaps"
-    missing = max(0, ticks - len(tick)) / RATE
+class Server:
+    """Processes to kill, one after the other."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, __file__, "--serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+
+    def start(self, *words: object) -> None:
+        self._ask(*words)
+
+    def kill(self) -> None:
+        """The one that was started."""
+        self._ask("kill")
+        assert self._process.stdout and self._process.stdout.readline() == "over\n"
+
+    def _ask(self, *words: object) -> None:
+        assert self._process.stdin
+        print(*words, sep="\t", file=self._process.stdin, flush=True)
+
+    def close(self) -> None:
+        assert self._process.stdin
+        self._process.stdin.close()
+        self._process.wait()
+
+
+def kill_once(server: Server, folder: Path, chance: random.Random, kind: int) -> Kill:
+    """kind: 0, 1 at the beginning; 2 while it records; 3 while it finishes. Raises AssertionError."""
+    path, memory = folder / "run.parquet", folder.with_name(folder.name + "-tick")
+    memory.write_bytes(bytes(24))
+    finish_after = chance.uniform(0.05, 0.5) if kind == 3 else 2 * MOST_WAIT_S
+    with memory.open("r+b") as file, mmap.mmap(file.fileno(), 24) as shared:
+
+        def said(place: int) -> int:
+            return int(struct.unpack_from("<q", shared, place)[0])
+
+        server.start(path, memory, finish_after)
+        try:
+            deadline = time.monotonic() + MOST_WAIT_S
+            while kind >= 2 and said(STATE) != BLOCKED and said(FINISHING if kind == 3 else STATE) == 0:
+                assert time.monotonic() < deadline, "the recording process has not begun"
+                time.sleep(1e-4)
+            time.sleep(chance.uniform(0, KILLED_WITHIN_S[kind]))
+        finally:
+            server.kill()
+        ticks, state = said(TICKS), said(STATE)
+    return Kill(ticks, missing_at_end(path, ticks), state == BLOCKED, state == BEGUN)
+
+
+def missing_at_end(path: Path, ticks: int) -> float:
+    """s from the last tick in the file to the last that was made. Takes a file with ticks away, as a person would."""
+    rows = 0
+    part = path.with_name(path.name + ".part")
+    if path.exists() or (part.exists() and part.stat().st_size):
+        recording = open_recording(path)
+        tick = recording.column("tick").astype(np.int64)
+        rows = len(tick)
+        assert recording.lost == 0, f"{recording.lost} ticks lost"
+        assert (tick == np.arange(rows)).all(), "the ticks have gaps"
+        if rows:
+            path.unlink(missing_ok=True)
+            part.unlink(missing_ok=True)
+    missing = max(0, ticks - rows) / RATE
     assert missing <= MOST_MISSING_S, f"{missing:.3f} s are missing at the end"
     return missing
+
+
+def clear(folder: Path) -> None:
+    for file in folder.iterdir():
+        file.unlink()
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--record", nargs=3, help=argparse.SUPPRESS)
+    parser.add_argument("--folder", help="where to record; without it where temporary files go")
+    parser.add_argument("--serve", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
-    if arguments.record:
-        path, memory, finish_after = arguments.record
-        with Path(memory).open("r+b") as file, mmap.mmap(file.fileno(), 16) as shared:
-            record(Path(path), shared, float(finish_after))
-        return 0
+    if arguments.serve:
+        return serve()
 
-    chance = random.Random(arguments.seed)
-    missing, failed = [], 0
-    for i in range(arguments.kills):
-        with tempfile.TemporaryDirectory() as folder:
+    chance, server = random.Random(arguments.seed), Server()
+    kills, failed = [], 0
+    with tempfile.TemporaryDirectory(dir=arguments.folder) as top:
+        folder = Path(top) / "recordings"
+        folder.mkdir()
+        for i in range(arguments.kills):
             try:
-                gone, ticks = kill_once(Path(folder), chance, finishing=i % 4 == 3)
-                missing.append(gone)
-                print(f"kill {i + 1}: {ticks} ticks, {gone * 1e3:.0f} ms missing", flush=True)
+                kills.append(kill_once(server, folder, chance, i % 4))
             except (AssertionError, ValueError) as bad:
                 failed += 1
                 print(f"kill {i + 1}: FAILED: {bad}", flush=True)
-    if missing:
-        print(f"missing at the end: {np.median(missing):.3f} s in the middle, {max(missing):.3f} s at most")
-    print(f"{arguments.kills} kills, {failed} failed")
-    return 1 if failed else 0
+                clear(folder)
+                continue
+            if kills[-1].blocked:
+                print(f"kill {i + 1}: the name was blocked", flush=True)
+                clear(folder)
+        server.close()
+        left = sorted(file.name for file in folder.iterdir())
+    missing = [kill.missing_s for kill in kills] or [0.0]
+    blocked = sum(kill.blocked for kill in kills)
+    early = sum(not kill.began for kill in kills)
+    print(f"missing at the end: {np.median(missing):.3f} s in the middle, {max(missing):.3f} s at most")
+    print(
+        f"{early} killed before their recorder was there; left in the folder at the end: {', '.join(left) or 'nothing'}"
+    )
+    print(f"{arguments.kills} kills, {failed} failed, {blocked} names blocked")
+    return 1 if failed or blocked else 0
 
 
 if __name__ == "__main__":

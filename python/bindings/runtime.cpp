@@ -25,12 +25,13 @@ SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
 struct Listener {
   SnapshotRing* ring;
 
-  nb::dict read(std::size_t limit) {
+  nb::dict read(std::optional<std::size_t> limit) {
     SnapshotColumns columns;
     {
       nb::gil_scoped_release release;
-      columns.reserve(std::min<std::size_t>(limit, 4096));
-      ring->pop(limit, [&](const Snapshot& s) { columns.add(s); });
+      const std::size_t most = limit.value_or(std::numeric_limits<std::size_t>::max());
+      columns.reserve(std::min<std::size_t>(most, 4096));
+      ring->pop(most, [&](const Snapshot& s) { columns.add(s); });
     }
     return columns.to_dict();
   }
@@ -64,7 +65,8 @@ nb::dict as_columns(const std::vector<Snapshot>& snapshots) {
   return columns.to_dict();
 }
 
-constexpr const char* columns_doc =
+constexpr const char* read_doc =
+    "Takes the oldest snapshots, `limit` at most; without it all that are there when it is called.\n\n"
     "A dict of arrays, one row a tick: tick, sequence, time (s), position and axis (n, 3), buttons, healthy, motor_temperature,\n"
     "tip, model_force, force (n, 3), ceiling (N), peak_limited, continuous_limited, temperature_limited, ramp_limited (counts so\n"
     "far), state, fault, limit (what cut this tick's force), commands; of each membrane depth, axial_force, lower, upper,\n"
@@ -132,8 +134,8 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("last_force", &SimulatedDevice::last_force, "What the plant was given last, N.");
 
   nb::class_<Listener>(m, "Listener", "Every tick's snapshot, for one reader.")
-      .def("read", &Listener::read, nb::arg("limit") = 1 << 16,
-           nb::sig("def read(self, limit: int = 65536) -> dict[str, typing.Any]"), columns_doc)
+      .def("read", &Listener::read, nb::arg("limit") = nb::none(),
+           nb::sig("def read(self, limit: int | None = None) -> dict[str, typing.Any]"), read_doc)
       .def_prop_ro(
           "lost", [](const Listener& l) { return l.ring->lost(); }, "Snapshots that found no room.")
       .def_prop_ro(
@@ -181,8 +183,17 @@ void bind_runtime(nb::module_& m) {
           nb::arg("scene"),
           "Another scene, taken between two ticks and faded in. Raises ConfigurationError; then nothing has changed.")
       .def(
-          "listen", [](ServoLoop& loop, std::size_t capacity) { return Listener{&loop.listen(capacity)}; },
-          nb::arg("capacity") = 8192, nb::keep_alive<0, 1>(), "Before start: every tick's snapshot from then on.")
+          "listen",
+          [](ServoLoop& loop, std::optional<std::size_t> capacity) {
+            return Listener{&loop.listen(capacity.value_or(loop.room()))};
+          },
+          nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
+          nb::sig("def listen(self, capacity: int | None = None) -> Listener"),
+          "Before start: every tick's snapshot from then on. capacity: how many of the present scene wait for a late reader;\n"
+          "without it `room`. Never more than 32 MB of them.")
+      .def_prop_ro(
+          "room", [](const ServoLoop& loop) { return loop.room(); },
+          "Snapshots of the present scene that a listener holds: 8 s of them, or as many as 32 MB hold.")
       .def_prop_ro("running", &ServoLoop::running)
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "As it runs, at the device's rate.")

@@ -13,7 +13,16 @@ import typer
 from punctura._core import Device, Placement, ServoLoop
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
-from punctura.live import ANY_PROCESSOR, Limits, RunSummary, fit_conditioning, fit_direction, open_for, run_live
+from punctura.live import (
+    ANY_PROCESSOR,
+    Limits,
+    RunSummary,
+    fit_conditioning,
+    fit_direction,
+    open_for,
+    room_note,
+    run_live,
+)
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
@@ -48,6 +57,8 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened))
+        if note := room_note(loop):
+            say(f"punctura: note: {note}")
         return tape.begin(loop)
 
     limits = wishes.limits
@@ -80,7 +91,7 @@ class Tape:
 
     def watch(self, summary: RunSummary) -> None:
         status = self._recorder.status() if self._recorder else None
-        self._line(summary, "" if status is None else status.trouble)
+        self._line(summary, "" if status is None else status.words)
         self.tell_fault(summary.fault)
 
     def tell_fault(self, fault: str) -> None:

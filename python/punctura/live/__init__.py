@@ -20,6 +20,7 @@ from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.pose import present_pose
+from punctura.live.room import room_note
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
 from punctura.live.silence import SilenceWatch
@@ -53,6 +54,7 @@ __all__ = [
     "placement_from_pose",
     "placement_text",
     "present_pose",
+    "room_note",
     "run_live",
     "stroke_ends",
     "strokes_through",

@@ -12,8 +12,6 @@ from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.live.supervisor import POLL_S, Supervisor
 
-ROOM_S = 8.0  # s of snapshots that wait for a reader who is late
-
 
 def run_live(
     device: Device,
@@ -37,7 +35,7 @@ def run_live(
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
     with ends_on_signals() as signals:
         loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
-        listener = loop.listen(int(ROOM_S * info.rate))
+        listener = loop.listen()
         watched = Watched(loop)
         supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop, duration)
         finish: Callable[[], None] | None = None

@@ -9,6 +9,7 @@ import numpy as np
 
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
+from punctura.live.room import room_note
 
 Columns = dict[str, Any]
 
@@ -78,10 +79,11 @@ class RunSummary:
     def finish(self, loop: ServoLoop) -> None:
         """Takes the loop's own account, after it has stopped."""
         report = loop.report()
+        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # with those after the last one that was read
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
-        self.statements = loop.device.statements()
+        self.statements = [*loop.device.statements(), *filter(None, [room_note(loop)])]
         self.blame(loop.device)
 
     def blame(self, device: Device) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 import pyarrow as pa
 
 from punctura._core import Scene, ServoLoop
+from punctura.live.room import room_note
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog, Piece
 from punctura.record.columns import Columns, flatten, membrane_count
@@ -26,9 +27,9 @@ from punctura.record.stream import Encoder
 from punctura.record.writer import Writer
 
 INTERVAL_S = 0.1  # from one batch to the next
-_RING_S = 5.0  # s of ticks that the ring holds, for a reader who is late
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
-_ROWS_AT_ONCE = 4096
+_ROWS_AT_ONCE = 4096  # at most
+_BATCH_BYTES = 8 << 20  # about
 _ROWS_AT_LEAST = 64  # where memory is short
 _MOST_FAILURES = 20  # in a row, before the ring is left until the next turn
 _COMMAND_SCENE = 8
@@ -62,7 +63,7 @@ class Recorder:
         self._header = describe_run(loop) | ({"about": about} if about else {})
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
-        self._listener = loop.listen(capacity or int(_RING_S * loop.scene.servo.rate))
+        self._listener = loop.listen(capacity)
         self._backlog = Backlog(_BACKLOG_BYTES)
         self._began = self._next_tick = int(loop.report()["ticks"])  # that none is missing before
         self._width = len(loop.scene.membranes)  # that the present stream has columns for
@@ -76,6 +77,8 @@ class Recorder:
         self._file = self._open()
         try:
             self._writer = Writer(self._file, self._backlog, self._part)
+            if note := room_note(loop):
+                self._writer.note(note)
             self._reader.start()
         except BaseException:  # a signal among them: a file without a tick would only be in the way
             self._part.unlink(missing_ok=True)
@@ -159,7 +162,7 @@ class Recorder:
 
     def _empty_ring(self) -> None:
         """Takes what the ring holds. Whatever fails on the way costs ticks, which are counted, and never the rest."""
-        limit, failures = _ROWS_AT_ONCE, 0
+        limit, failures = self._rows_at_once(), 0
         while failures < _MOST_FAILURES:
             try:
                 if self._take(limit) < limit:
@@ -167,6 +170,11 @@ class Recorder:
             except BaseException as bad:
                 self._defect = f"ticks could not be recorded: {_reason(bad)}"
                 limit, failures = max(_ROWS_AT_LEAST, limit // 2), failures + 1
+
+    def _rows_at_once(self) -> int:
+        """In bounded memory, however many membranes there are."""
+        columns = len(self._encoder.schema or ())
+        return max(_ROWS_AT_LEAST, min(_ROWS_AT_ONCE, _BATCH_BYTES // (8 * max(1, columns))))
 
     def _take(self, limit: int) -> int:
         """One batch from the ring to the backlog. How many ticks it had."""

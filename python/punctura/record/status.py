@@ -25,6 +25,11 @@ class RecorderStatus:
     trouble: str = ""
     notes: list[str] = field(default_factory=list)
 
+    @property
+    def words(self) -> str:
+        """What a user must know at once: trouble, or what is lost; empty if nothing."""
+        return self.trouble or (f"{self.lost} ticks are lost" if self.lost else "")
+
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
         return asdict(self) | {"file": str(self.file)}

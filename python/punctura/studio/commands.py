@@ -8,6 +8,7 @@ from concurrent.futures import Future
 from typing import Any
 
 from punctura.errors import ConfigurationError
+from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
 from punctura.studio.catalog import Exercises
@@ -16,7 +17,7 @@ from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
 from punctura.studio.shelf import Shelf
 from punctura.studio.wire import requests as ask
-from punctura.studio.wire.messages import Reply
+from punctura.studio.wire.messages import Notice, Reply
 
 Done = tuple[str, dict[str, Any]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
@@ -72,7 +73,18 @@ def _prepare_scene(request: Any) -> Job:
         loaded = from_name(request.scene)
     else:
         raise NotNow(f"there is no ready scene {request.scene!r}")
-    return lambda session: session.begin(loaded)
+    return lambda session: _load(session, loaded)
+
+
+def _load(session: Session, loaded: Any) -> None:
+    session.begin(loaded)
+    _tell_room(session)
+
+
+def _tell_room(session: Session) -> None:
+    """Right when a run begins whose ticks may be too many."""
+    if note := room_note(session.run.loop):
+        session.out.say(Notice(text=note))
 
 
 def _edit(session: Session, loaded: Any) -> Done:
@@ -117,6 +129,7 @@ def _start_recording(session: Session, wish: str | None) -> Done:
     loaded = session.run.loaded
     name = session.shelf.new_name(wish, loaded.scene.name)
     session.begin(loaded, session.run.pose, name, {"title": name, "scene": loaded.tables()})
+    _tell_room(session)
     return "", {"recording": name}
 
 
@@ -128,7 +141,7 @@ def _stop_recording(session: Session) -> Future[Done]:
     done: Future[Done] = Future()
 
     def tell(name: str, status: RecorderStatus) -> None:
-        done.set_result((status.trouble, {"recording": name, "rows": status.rows, "lost": status.lost}))
+        done.set_result((status.words, {"recording": name, "rows": status.rows, "lost": status.lost}))
 
     session.end_run(tell)
     session.begin_again()

@@ -20,7 +20,7 @@ def status_of(session: Session) -> Status:
     return Status(
         ticks=report["ticks"],
         late=report["late"],
-        lost=session.pump.lost,
+        lost=max(session.pump.lost, session.run.lost),  # the ring knows of those after the last that was read
         period=spread(report["period"]),
         compute=spread(report["compute"]),
         viewers=0,

@@ -9,12 +9,10 @@ from typing import Any
 
 from punctura import Scene, Target
 from punctura._core import Device, Placement, ServoLoop, SimulatedDevice
-from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for
+from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for, room_note
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
-
-RING_S = 8.0  # s of snapshots that wait for a worker who is late
 
 
 @dataclass(frozen=True)
@@ -90,7 +88,8 @@ class Run:
         scene, self.notes = bench.fit(loaded.scene)
         limits = bench.settings.limits
         self.loop = ServoLoop(device, scene, limits.gate_on(device), limits.force, bench.settings.placement)
-        self._listener = self.loop.listen(int(RING_S * device.info.rate))
+        self._listener = self.loop.listen()
+        self.notes += [note for note in [room_note(self.loop)] if note]
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 
     def start(self) -> None:

@@ -165,8 +165,8 @@ class Session:
         self._result_comes = practice is not None
 
         def tell(status: RecorderStatus) -> None:
-            if status.trouble:
-                self.out.say(Notice(text=f"Recording {name}: {status.trouble}"))
+            if status.words:
+                self.out.say(Notice(text=f"Recording {name}: {status.words}"))
             if practice:
                 self._guarded(lambda: self._keep(practice))
             if then:

@@ -1,5 +1,6 @@
 #include "punctura_runtime/loop/servo_loop.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -61,6 +62,11 @@ std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
   Scene at_rate = scene;
   at_rate.servo.rate = device_->info().rate;
   return std::make_unique<ServoStep>(build(at_rate, settings_.gate, settings_.limits));
+}
+
+std::size_t ServoLoop::room() const noexcept {
+  const auto wanted = static_cast<std::size_t>(listening_s * device_->info().rate);
+  return std::min(wanted, SnapshotRing::most_snapshots(scene_.membranes.size()));
 }
 
 SnapshotRing& ServoLoop::listen(std::size_t capacity) {

@@ -54,8 +54,15 @@ class ServoLoop {
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Before start(): every tick's snapshot goes into this ring, which has room for that many of the present scene.
+  static constexpr double listening_s = 8;  ///< of ticks that a ring has room for, where most_bytes suffices
+
+  /// How many ticks of the present scene a ring has room for where nobody asks for another number.
+  std::size_t room() const noexcept;
+
+  /// Before start(): every tick's snapshot goes into this ring, which has room for that many of the present scene, or for as many
+  /// as SnapshotRing::most_bytes hold.
   SnapshotRing& listen(std::size_t capacity);
+  SnapshotRing& listen() { return listen(room()); }
 
   void start();          ///< ticks come, disarmed. Throws DeviceError
   void stop() noexcept;  ///< zero force, then no tick any more

@@ -23,10 +23,19 @@ constexpr std::size_t used_bytes(std::size_t membranes) noexcept {
 /// tick would touch pages that no cache knows any more.
 class SnapshotRing {
  public:
-  /// Room for `capacity` snapshots of that many membranes, for more with fewer and for fewer with more; for two of the longest at
-  /// least, so that one always fits behind what is skipped.
+  /// A ring takes this at most, however many membranes and ticks a second there are.
+  static constexpr std::size_t most_bytes = std::size_t{32} << 20;
+
+  /// How many snapshots of that many membranes such a ring has room for.
+  static constexpr std::size_t most_snapshots(std::size_t membranes) noexcept {
+    return most_bytes / used_bytes(membranes);
+  }
+
+  /// Room for `capacity` snapshots of that many membranes, but for no more than most_bytes; for more with fewer membranes and for
+  /// fewer with more; for two of the longest at least, so that one always fits behind what is skipped.
   SnapshotRing(std::size_t capacity, std::size_t membranes)
-      : capacity_(capacity), words_(std::max(capacity * words(membranes), 2 * words(max_membranes))) {}
+      : capacity_(std::min(capacity, most_snapshots(membranes))),
+        words_(std::max(capacity_ * words(membranes), 2 * words(max_membranes))) {}
 
   /// Writer. False: there was no room.
   bool push(const Snapshot& snapshot) noexcept {

@@ -56,6 +56,18 @@ TEST_CASE("a ring hands over what was put in, in order") {
   CHECK(ring.lost() == 0);
 }
 
+TEST_CASE("a ring takes no more memory than its most, whatever was asked for") {
+  for (const std::size_t membranes : {std::size_t{0}, std::size_t{1}, max_membranes}) {
+    SnapshotRing ring(~std::size_t{0} / 2, membranes);
+    CHECK(ring.capacity() == SnapshotRing::most_snapshots(membranes));
+    CHECK(ring.capacity() * used_bytes(membranes) <= SnapshotRing::most_bytes);
+    for (std::uint64_t i = 0; i < ring.capacity(); ++i)
+      REQUIRE(ring.push(numbered(i, static_cast<std::uint32_t>(membranes))));
+    CHECK(ring.push(numbered(ring.capacity(), max_membranes)) == false);
+    CHECK(ring.lost() == 1);
+  }
+}
+
 TEST_CASE("a full ring loses the new record, and counts it; it holds as many as it said") {
   SnapshotRing ring(100, 2);
   for (std::uint64_t i = 0; i < 110; ++i) ring.push(numbered(i, 2));

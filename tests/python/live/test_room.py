@@ -1,0 +1,78 @@
+"""Ticks that are too many: bounded memory, every loss counted, and said where it matters."""
+
+import json
+import subprocess
+import sys
+import time
+
+import pytest
+from punctura import Scene, load_scene
+from punctura._core import ServoLoop, SimulatedDevice
+from punctura.live import room_note, run_live, strokes_through
+from punctura.record import Recorder, open_recording
+from punctura.scene import save_scene
+
+MOST_BYTES = 32 << 20
+SCENE = load_scene("k06-fig10")
+
+
+def many(count=64, rate=100_000.0):
+    """A sound scene of so many membranes."""
+    first = SCENE.membranes[0]
+    placed = [first.replace(name=f"membrane {i}", point=(0.0, -1e-4 * i, 0.0)) for i in range(count)]
+    return Scene(SCENE.name, SCENE.needle, SCENE.coupling, placed, SCENE.servo.replace(rate=rate))
+
+
+def device_for(scene, ticks):
+    axis = scene.membranes[0].inward_normal
+    rate = scene.servo.rate
+    return SimulatedDevice(strokes_through(scene), rate=rate, axis=axis, real_time=False, ticks=ticks)
+
+
+def test_a_listener_takes_bounded_memory_whatever_the_scene():
+    heavy = ServoLoop(device_for(many(), 1), many())
+    assert heavy.listen().capacity == heavy.listen(1 << 62).capacity == heavy.room
+    assert 0.9 * MOST_BYTES < heavy.room * 5500 < 1.1 * MOST_BYTES
+    assert ServoLoop(device_for(SCENE, 1), SCENE).listen().capacity == 8 * 1600
+
+
+def test_one_read_takes_all_that_is_there():
+    loop = ServoLoop(device_for(SCENE, 80_000), SCENE)
+    listener = loop.listen(80_000)
+    loop.start()
+    while loop.report()["ticks"] < 80_000:
+        time.sleep(1e-3)
+    loop.stop()
+    assert len(listener.read(5)["tick"]) == 5
+    assert len(listener.read()["tick"]) == 79_995 and listener.lost == 0
+
+
+def test_a_summary_counts_every_tick_also_those_lost_after_the_last_that_was_read(monkeypatch):
+    monkeypatch.setattr("punctura.live.session.POLL_S", 0.5)
+    loops = []
+    summary = run_live(device_for(SCENE, 300_000), SCENE, prepare=lambda loop: loops.append(loop) or (lambda: None))
+    assert loops[0].report()["ticks"] == 300_000 == summary.ticks + summary.gaps and summary.gaps > 0
+
+
+def test_a_scene_that_a_computer_may_not_keep_up_with_is_told(tmp_path):
+    assert room_note(ServoLoop(device_for(SCENE, 1), SCENE)) == ""
+    scene = many()
+    summary = run_live(device_for(scene, 100), scene)
+    (told,) = [text for text in summary.statements if "64 membranes at 100000 Hz" in text]
+    assert "Fewer membranes or a lower rate" in told
+    loop = ServoLoop(device_for(scene, 100), scene)
+    with Recorder(loop, tmp_path / "run.parquet"):
+        pass
+    assert told in open_recording(tmp_path / "run.parquet").notes
+
+
+@pytest.mark.parametrize("as_json", [False, True])
+def test_the_command_line_says_it_before_the_run_and_in_the_summary(tmp_path, as_json):
+    save_scene(many(), tmp_path / "many.toml")
+    command = [sys.executable, "-m", "punctura.cli", "run", "many.toml", "--headless", "--device", "simulated"]
+    done = subprocess.run(
+        [*command, "--duration", "0.1", *(["--json"] if as_json else [])], capture_output=True, text=True, cwd=tmp_path
+    )
+    assert "punctura: note: 64 membranes at 100000 Hz" in done.stderr
+    said = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
+    assert "64 membranes at 100000 Hz are a lot of data" in said
