@@ -15,10 +15,15 @@ class Collected:
 
     def __init__(self) -> None:
         self._parts: list[bytes] = []
+        self._written = 0
 
     def write(self, data: Any) -> int:
         self._parts.append(bytes(data))
+        self._written += len(self._parts[-1])
         return len(self._parts[-1])
+
+    def tell(self) -> int:
+        return self._written
 
     def take(self) -> bytes:
         data = b"".join(self._parts)

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ import pyarrow as pa
 
 from punctura.record.columns import NEW_SCENES, words_of
 from punctura.record.recording import Recording
+from punctura.record.schema import in_pieces
 
 TICKS, SCENES = "punctura/tick", "punctura/scene"
 
@@ -29,11 +30,17 @@ def write_mcap(recording: Recording, path: Path, progress: Callable[[float], Non
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     try:
         with temporary.open("wb") as file:
-            _Messages(writer_class(file), recording).write(progress)
+            for _ in _Messages(writer_class(file), recording).steps(progress):
+                pass
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def mcap_steps(recording: Recording, out: Any) -> Iterator[None]:
+    """Writes to an open file, step by step. Raises ModuleNotFoundError without the package."""
+    yield from _Messages(_writer_class()(out), recording).steps(None)
 
 
 def _writer_class() -> Any:
@@ -50,20 +57,21 @@ class _Messages:
         self._stamp = self._began = recording.info.began_ns
         self._first_time: float | None = None
 
-    def write(self, progress: Callable[[float], None] | None) -> None:
+    def steps(self, progress: Callable[[float], None] | None) -> Iterator[None]:
         writer, recording = self._writer, self._recording
         writer.start(profile="", library=recording.info.build)
         writer.add_metadata("punctura.recording", {"json": json.dumps(recording.info.data)})
         ticks = self._channel(TICKS, "punctura.Tick", _tick_schema(recording.schema))
         scenes = self._channel(SCENES, "punctura.Scene", _SCENE_SCHEMA)
         self._message(scenes, 0, {"tick": 0, "toml": recording.info.said.scene})
-        for batch in recording.batches(progress):
+        for batch in in_pieces(recording.batches(progress)):
             for row in batch.to_pylist():
                 tick, taken = row["tick"], row.pop(NEW_SCENES) or []
                 self._advance(row["time_s"])
                 for toml in taken:
                     self._message(scenes, tick, {"tick": tick, "toml": toml})
                 self._message(ticks, tick, {name: _plain(value) for name, value in row.items()})
+            yield
         writer.finish()
 
     def _channel(self, topic: str, name: str, schema: dict[str, Any]) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,8 @@ from punctura.record.stream import BROKEN
 
 Progress = Callable[[float], None]
 
-_ROWS_A_GROUP = 1 << 15
+_ROWS_A_GROUP = 1 << 15  # at most
+_GROUP_BYTES = 32 << 20  # about; a tick of 64 membranes takes 6 kB
 
 
 class ParquetRecording:
@@ -35,7 +36,7 @@ class ParquetRecording:
         with self._open() as file:
             done = 0
             try:
-                for batch in file.iter_batches(batch_size=_ROWS_A_GROUP):
+                for batch in file.iter_batches(batch_size=rows_a_group(self.schema)):
                     batch.validate(full=True)
                     yield batch.replace_schema_metadata(None)
                     done += len(batch)
@@ -51,18 +52,24 @@ class ParquetRecording:
             raise RecordingError(f"{self.path} cannot be read, or is damaged: {bad}") from None
 
 
+def rows_a_group(schema: pa.Schema) -> int:
+    """How many rows are in memory together."""
+    return max(256, min(_ROWS_A_GROUP, _GROUP_BYTES // (8 * len(schema))))
+
+
 class _Groups:
     """Gathers batches to row groups."""
 
     def __init__(self, writer: pq.ParquetWriter, schema: pa.Schema) -> None:
         self._writer, self._schema = writer, schema
+        self._most = rows_a_group(schema)
         self._batches: list[pa.RecordBatch] = []
         self._rows = 0
 
     def write(self, batch: pa.RecordBatch) -> None:
         self._batches.append(batch)
         self._rows += len(batch)
-        if self._rows >= _ROWS_A_GROUP:
+        if self._rows >= self._most:
             self.flush()
 
     def flush(self) -> None:
@@ -80,18 +87,31 @@ def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace:
     see whole_file.
     """
     schema = schema.with_metadata(to_metadata(data, schema))
-    numbers = [f.name for f in schema if pa.types.is_floating(f.type)]
-    with (
-        whole_file(path, replace) as place,
-        pq.ParquetWriter(
-            place,
-            schema,
-            compression="zstd",
-            use_dictionary=[f.name for f in schema if pa.types.is_dictionary(f.type)],
-            use_byte_stream_split=numbers,
-            write_page_checksum=True,
-        ) as writer,
-    ):
+    with whole_file(path, replace) as place, _writer(place, schema) as writer:
         groups = _Groups(writer, schema)
         yield groups
         groups.flush()
+
+
+def parquet_steps(
+    batches: Iterable[pa.RecordBatch], out: Any, schema: pa.Schema, data: dict[str, Any]
+) -> Iterator[None]:
+    """Writes a finished recording to an open file, step by step."""
+    schema = schema.with_metadata(to_metadata(data, schema))
+    with _writer(out, schema) as writer:
+        groups = _Groups(writer, schema)
+        for batch in batches:
+            groups.write(batch)
+            yield
+        groups.flush()
+
+
+def _writer(where: Any, schema: pa.Schema) -> pq.ParquetWriter:
+    return pq.ParquetWriter(
+        where,
+        schema,
+        compression="zstd",
+        use_dictionary=[f.name for f in schema if pa.types.is_dictionary(f.type)],
+        use_byte_stream_split=[f.name for f in schema if pa.types.is_floating(f.type)],
+        write_page_checksum=True,
+    )

@@ -7,7 +7,7 @@ import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import pyarrow as pa
 import pyarrow.csv
@@ -22,10 +22,10 @@ class Output(Protocol):
     def write(self, table: pa.Table) -> None: ...
 
 
-class _Csv:
+class CsvOutput:
     """Numbers are written with as many digits as it takes to read the same double again, 17 at most."""
 
-    def __init__(self, file: pa.NativeFile, schema: pa.Schema) -> None:
+    def __init__(self, file: Any, schema: pa.Schema) -> None:
         self._file = file
         file.write(",".join(schema.names).encode() + b"\n")
         self._options = pyarrow.csv.WriteOptions(include_header=False, quoting_style="none")
@@ -73,7 +73,7 @@ def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
                 parquet.flush()
         else:
             with pa.OSFile(str(temporary), "wb") as file:
-                yield _Csv(file, schema)
+                yield CsvOutput(file, schema)
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

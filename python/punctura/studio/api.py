@@ -5,23 +5,23 @@ Each runs in a thread of the server's pool, so that a long file holds up neither
 
 from __future__ import annotations
 
-import itertools
 import math
-import tempfile
 import threading
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
-from starlette.background import BackgroundTask
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
-from punctura.record import RecordingError, export
+from punctura.record import RecordingError, open_recording
+from punctura.record.pieces import export_pieces
+from punctura.studio.download import MOST_EXPORTS, Download
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
 from punctura.studio.session import Session
@@ -48,7 +48,7 @@ class Api:
 
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
-        self._exporting = threading.BoundedSemaphore(2)  # an export keeps a core busy
+        self._exporting = threading.BoundedSemaphore(MOST_EXPORTS)
 
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"
@@ -74,9 +74,7 @@ class Api:
         return JSONResponse(overview(self._shelf.open(_name(request))))
 
     def ticks(self, request: Request) -> Response:
-        frames = tick_frames(self._shelf.open(_name(request)))
-        first = list(itertools.islice(frames, 1))  # what is wrong with the file shows before the answer begins
-        return StreamingResponse(itertools.chain(first, frames), media_type="application/octet-stream")
+        return Download(tick_frames(self._shelf.open(_name(request))), media_type="application/octet-stream")
 
     def trace(self, request: Request) -> Response:
         asked = request.query_params
@@ -109,24 +107,17 @@ class Api:
         if kind == "parquet" and path.suffix == SUFFIX:
             return FileResponse(path, media_type=FORMATS[kind], filename=path.name)
         if not self._exporting.acquire(blocking=False):
-            return _sentence(503, "Two other files are being written; try again when they are done.")
+            return _sentence(503, f"{MOST_EXPORTS} other files are being downloaded; try again when one is done.")
         try:
-            return self._exported(path, name, kind)
-        finally:
+            headers = {"content-disposition": disposition(f"{name}.{kind}")}
+            pieces = export_pieces(open_recording(path), kind)
+        except BaseException:
             self._exporting.release()
-
-    def _exported(self, path: Path, name: str, kind: str) -> Response:
-        folder = tempfile.TemporaryDirectory(prefix=".export-", dir=self._shelf.folder)
-        try:
-            out = Path(folder.name) / f"out.{kind}"
-            export(path, out)
-        except BaseException as error:
-            folder.cleanup()
-            if isinstance(error, ModuleNotFoundError):
-                return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
             raise
-        done = BackgroundTask(folder.cleanup)
-        return FileResponse(out, media_type=FORMATS[kind], filename=f"{name}.{kind}", background=done)
+        try:
+            return Download(pieces, self._exporting, media_type=FORMATS[kind], headers=headers)
+        except ModuleNotFoundError:
+            return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
 
     def exercises(self, request: Request) -> Response:
         return JSONResponse(self._session.exercises.overviews())
@@ -156,6 +147,11 @@ class Api:
         media, write = RESULT_FORMATS[kind]
         headers = {"content-disposition": f'attachment; filename="{name}.{kind}"'}
         return Response(write(results), media_type=media, headers=headers)
+
+
+def disposition(filename: str) -> str:
+    """A header that makes a download of an answer, under a name of any characters."""
+    return f"attachment; filename*=utf-8''{quote(filename, safe='')}"
 
 
 def _name(request: Request) -> str:

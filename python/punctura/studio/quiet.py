@@ -14,6 +14,7 @@ _STRANGERS = (
     "Invalid UTF-8 sequence",
     "socket.send() raised exception",
     "ASGI callable returned without completing handshake",
+    "ASGI callable returned without completing response",
 )
 
 

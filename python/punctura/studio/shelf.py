@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import datetime
 import os
+import re
+import shutil
+import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +18,8 @@ from punctura.studio.names import LONGEST, BadName, safe_name
 
 SUFFIX = ".parquet"
 PART = ".part"
+LEFT_OVER_S = 3600.0  # after which nobody writes a hidden file any more
+_UNFINISHED = re.compile(r"\..+\.parquet\.[0-9a-f]{8}\.part")
 
 
 class Missing(ValueError):
@@ -50,9 +56,21 @@ class Shelf:
     """From any thread. Links are not followed: a name is a file of this folder, or nothing."""
 
     def __init__(self, folder: Path) -> None:
-        """The folder is made with the first recording."""
+        """The folder is made with the first recording. What killed processes left hidden in it is removed."""
         self.folder = folder
+        self._sweep()
         self._known: dict[Path, tuple[tuple[int, int], Entry]] = {}  # by size and time of change
+
+    def _sweep(self) -> None:
+        """Exports of earlier versions, and finished recordings that had no name yet; none that may still be written."""
+        for path in self.folder.glob(".*") if self.folder.is_dir() else ():
+            with suppress(OSError):
+                if path.is_symlink() or time.time() - path.stat().st_mtime < LEFT_OVER_S:
+                    continue
+                if path.is_dir() and path.name.startswith(".export-"):
+                    shutil.rmtree(path)
+                elif path.is_file() and _UNFINISHED.fullmatch(path.name):
+                    path.unlink()
 
     def new_name(self, wish: str | None, scene: str) -> str:
         """Of a new recording; without a wish, date and scene. Raises BadName."""
