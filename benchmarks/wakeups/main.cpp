@@ -42,7 +42,7 @@ class Metronome : public Device {
 
  private:
   void run(Tick tick) noexcept {
-    realtime_ = os::make_realtime(settings_);
+    realtime_ = os::make_realtime(settings_.at_rate(info_.rate));
     Pacer<> pacer(info_.rate);
     auto latency = latencies_.begin();
     for (std::uint64_t k = 0; latency != latencies_.end(); ++k) {

@@ -1,31 +1,24 @@
 // A device of your own in under 80 lines: implement Device, and call the tick whenever there is a reading.
 //
 // This one is made up, a pendulum whose bob carries the needle and swings into the tissue. Where read() and write() stand,
-// a driver's own calls would; all else is what any device with a clock of its own needs.
+// a driver's own calls would; all else is what any device that is paced by this program needs.
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <thread>
 
+#include "punctura_runtime/loop/pacer.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 
 using namespace punctura;
 
 class Pendulum : public Device {
  public:
-  Pendulum() {
-    info_.backend = "pendulum";
-    info_.model = "Pendulum, made up";
-    info_.has_orientation = true;
-    info_.max_force = 3;  // N: the loop's limits come down to it
-    info_.rate = 1000;    // Hz, at which ticks will come
-  }
   ~Pendulum() override { stop(); }
 
   const DeviceInfo& info() const noexcept override { return info_; }
   void start(Tick tick) override {
-    if (thread_.joinable()) return;
+    if (thread_.joinable()) throw DeviceError("the pendulum ticks already");
     stop_ = false;
     thread_ = std::thread([this, tick] { run(tick); });
   }
@@ -36,12 +29,14 @@ class Pendulum : public Device {
 
  private:
   void run(Tick tick) noexcept {
-    const auto begin = std::chrono::steady_clock::now();
-    auto due = begin;
+    // Without real-time priority any other program may hold up a tick by 20 ms, which is a fault.
+    for (const os::RealtimeItem& item : os::make_realtime(os::RealtimeSettings{}.at_rate(info_.rate)))
+      std::printf("%s: %s %s\n", item.what.c_str(), item.granted ? "granted" : "not granted,", item.detail.c_str());
+    const std::int64_t begin = os::now_ns();
+    Pacer<> pacer(info_.rate);
     for (std::uint64_t k = 0; !stop_; ++k) {
-      std::this_thread::sleep_until(due += std::chrono::milliseconds(1));
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-      write(tick({k, time.count(), read(), {0, -1, 0}, 0, true}));
+      pacer.wait();
+      write(tick({k, static_cast<double>(os::now_ns() - begin) * 1e-9, read(), {0, -1, 0}, 0, true}));
     }
     write({0, 0, 0});
   }
@@ -55,7 +50,9 @@ class Pendulum : public Device {
   }
 
   static constexpr double mass = 0.2, stiffness = 2;  // kg; N/m: a period of two seconds
-  DeviceInfo info_;
+  // max_force, N: the loop's limits come down to it. rate, Hz: at which ticks will come.
+  const DeviceInfo info_{
+      .backend = "pendulum", .model = "made up", .serial = "", .has_orientation = true, .max_force = 3, .rate = 1000};
   double height_ = 0.05, speed_ = 0;  // m above its lowest point, m/s
   std::atomic<bool> stop_{false};
   std::thread thread_;

@@ -5,10 +5,9 @@ stand, a driver's own calls would. The tick itself is compiled and never waits f
 """
 
 import threading
-import time
 
 import punctura as pn
-from punctura.live import DeviceInfo, FedDevice, run_live
+from punctura.live import DeviceInfo, FedDevice, Pacer, make_realtime, run_live
 
 RATE = 1000.0  # Hz, at which readings will be fed
 
@@ -37,11 +36,11 @@ class Driver(threading.Thread):
         self.over = threading.Event()
 
     def run(self) -> None:
-        begin, k = time.perf_counter(), 0
+        self.device.make_realtime()  # of this thread: without it other programs may delay a tick by 20 ms, a fault
+        pacer = Pacer(RATE)
         try:
             while not self.over.is_set():
-                k += 1
-                time.sleep(max(0.0, begin + k / RATE - time.perf_counter()))
+                pacer.wait()
                 self.hardware.write(self.device.feed(self.hardware.read()))
         finally:
             self.hardware.write((0.0, 0.0, 0.0))
@@ -52,6 +51,7 @@ device = FedDevice(RATE, info=DeviceInfo(model="Pendulum, made up", has_orientat
 wall = pn.PlacedMembrane("wall", pn.Membrane(570, 0.41, 0.2, 1e-3), [0, 0.02, 0], [0, -1, 0])
 scene = pn.Scene("one wall", pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1), [wall])
 
+make_realtime(priority=10)  # of this thread, too: the driver waits while another thread holds Python's lock
 driver = Driver(hardware, device)
 driver.start()
 try:

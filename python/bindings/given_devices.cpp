@@ -5,6 +5,7 @@
 #include "punctura/scene/check.hpp"
 #include "punctura_runtime/backends/fed.hpp"
 #include "punctura_runtime/backends/replay.hpp"
+#include "punctura_runtime/loop/pacer.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
@@ -25,6 +26,13 @@ std::vector<T> column(const nb::object& given, const char* type, std::size_t n, 
   if (array.ndim() != 1 || array.size() != n)
     throw nb::value_error((std::string(name) + " must have shape (" + std::to_string(n) + ",)").c_str());
   return {array.data(), array.data() + n};
+}
+
+os::RealtimeSettings asked(int priority, int processor) {
+  os::RealtimeSettings settings;
+  settings.priority = priority;
+  settings.processor = processor;
+  return settings;
 }
 
 void make_replay(ReplayDevice* self, const nb::object& positions, const nb::object& axes, double rate,
@@ -53,8 +61,7 @@ void make_replay(ReplayDevice* self, const nb::object& positions, const nb::obje
   recorded.rate = rate;
   ReplayOptions options;
   options.real_time = real_time;
-  options.realtime.priority = priority;
-  options.realtime.processor = processor;
+  options.realtime = asked(priority, processor);
   new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
 }
 
@@ -72,6 +79,17 @@ nb::tuple feed(FedDevice& device, const Triple& position, const Triple& axis, st
     force = device.feed({position, axis, buttons, healthy, motor_temperature});
   }
   return as_tuple(force);
+}
+
+std::vector<std::string> make_realtime(int priority, int processor) {
+  std::vector<std::string> lines;
+  os::add_words(os::make_realtime(asked(priority, processor)), lines);
+  return lines;
+}
+
+void make_pacer(Pacer<>* self, double rate) {
+  check_rate(rate);
+  new (self) Pacer<>(rate);
 }
 
 }  // namespace
@@ -118,7 +136,34 @@ void bind_given_devices(nb::module_& m) {
               "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
           "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
           "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
+      .def(
+          "make_realtime",
+          [](FedDevice& device, int priority, int processor) {
+            nb::gil_scoped_release release;
+            return device.make_realtime(asked(priority, processor));
+          },
+          nb::arg("priority") = os::RealtimeSettings{}.priority,
+          nb::arg("processor") = os::RealtimeSettings{}.processor,
+          "Call it on the thread that feeds, before it begins: asks the system to wake that thread on time. priority: of\n"
+          "real-time scheduling, 1 to 99; 0 asks for none. processor: the one to stay on, -1 is any. Returns what was granted,\n"
+          "what was not and why, a line each, which statements() repeats.")
       .def_prop_ro("fed", &FedDevice::fed, "Readings since the loop's start.");
+
+  m.def(
+      "make_realtime", &make_realtime, nb::arg("priority") = os::RealtimeSettings{}.priority,
+      nb::arg("processor") = os::RealtimeSettings{}.processor, nb::call_guard<nb::gil_scoped_release>(),
+      "Asks the system to wake the calling thread on time; FedDevice.make_realtime() is for the thread that feeds. Other\n"
+      "threads that wait most of the time may ask for less, say 10: whoever holds Python's lock then need not wait for a\n"
+      "processor, and the thread that feeds need not wait for him. Returns what was granted and what not, a line each.");
+
+  nb::class_<Pacer<>>(
+      m, "Pacer", "Wakes one thread at a rate: at start, start + T, start + 2 T, ..., on a clock that never goes back.")
+      .def("__init__", &make_pacer, nb::arg("rate"),
+           "rate: Hz. The first period begins now. Raises ConfigurationError.")
+      .def(
+          "wait", &Pacer<>::wait, nb::call_guard<nb::gil_scoped_release>(),
+          "Sleeps until the next period begins. Returns how many were left out since they had passed: a late one does not move\n"
+          "the later ones, and none is made up for in a burst.");
 }
 
 }  // namespace punctura::bindings

@@ -15,6 +15,13 @@ def test_a_device_of_your_own_takes_under_80_lines(name):
     assert len((EXAMPLES / name).read_text().splitlines()) < 80
 
 
+@pytest.mark.parametrize("name", ["cpp/06_own_device.cpp", "python/06_own_device.py"])
+def test_a_device_of_your_own_asks_for_real_time_priority_and_is_paced_without_bursts(name):
+    """Without both an ordinary load of the computer is enough for `missed_deadline`."""
+    loop = (EXAMPLES / name).read_text().split("run(")[-1]
+    assert loop.index("make_realtime(") < loop.index("pacer") < loop.index("pacer.wait()")
+
+
 def test_a_servo_loop_takes_ten_lines_in_cpp():
     body = (EXAMPLES / "cpp/05_servo_loop.cpp").read_text().split("int main() {\n")[1].split("\n}\n")[0]
     assert sum(not line.lstrip().startswith("//") for line in body.splitlines()) == 10

@@ -5,13 +5,16 @@
 #include <mutex>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/os/os.hpp"
+#include "punctura_runtime/ring/latest.hpp"
 
 namespace punctura {
 
 /// Request and reply: every reading that is fed is one tick, on the thread that feeds it, and the reply is the force.
 ///
-/// Who feeds owns the clock, and shall keep to `info().rate`, which is what T is taken from. The lock stands between feeding and
-/// stopping, outside of the tick: when stop() returns, no tick comes any more.
+/// Who feeds owns the clock, and shall keep to `info().rate`, which is what T is taken from. One thread feeds; it never waits for
+/// another one. All other calls may come from any thread. stop() waits until the tick that is under way has ended: when it returns,
+/// no tick comes any more.
 class FedDevice : public Device {
  public:
   struct Reading {
@@ -33,18 +36,36 @@ class FedDevice : public Device {
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 
-  /// A reading in, the force for the device out, N; zero while no loop runs.
+  /// On the thread that feeds, before it begins: asks the system to wake it on time (os::make_realtime, at this device's rate).
+  /// What was granted and refused is returned, and is in statements().
+  std::vector<std::string> make_realtime(const os::RealtimeSettings& settings = {});
+
+  /// A reading in, the force for the device out, N; zero while no loop runs. A reading that comes while another thread's is being
+  /// ticked gets zero and no tick, and statements() says so.
   Tick::Force feed(const Reading& reading) noexcept;
   std::uint64_t fed() const noexcept { return fed_; }  ///< readings since start()
 
  private:
+  /// When readings came, for statements().
+  struct Span {
+    std::uint64_t readings = 0;
+    std::int64_t first_ns = 0, last_ns = 0;
+  };
+  static constexpr unsigned open = 1, ticking = 2;
+
   DeviceInfo info_;
   bool real_time_;
-  mutable std::mutex one_at_a_time_;
+  std::mutex starting_or_stopping_;  ///< never of feed()
+  std::atomic<unsigned> state_{
+      0};  ///< open while a loop runs, ticking while a reading is ticked: who feeds has all below then
   Tick tick_{nullptr, nullptr};
-  std::int64_t start_ns_ = 0, first_ns_ = 0, last_ns_ = 0;
-  std::atomic<std::uint64_t> fed_{0};
+  std::int64_t start_ns_ = 0;
+  Span span_;
+  mutable Latest<Span> latest_span_;
+  std::atomic<std::uint64_t> fed_{0}, refused_{0};
   std::atomic<bool> unhealthy_{false};
+  mutable std::mutex words_;  ///< of those who ask, never of feed()
+  std::vector<std::string> realtime_;
 };
 
 }  // namespace punctura

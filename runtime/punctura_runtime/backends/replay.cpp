@@ -43,7 +43,7 @@ std::vector<std::string> ReplayDevice::statements() const {
 }
 
 void ReplayDevice::run(Tick tick) noexcept {
-  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
   ready_.reach();
 
   Pacer<> pacer(info_.rate);

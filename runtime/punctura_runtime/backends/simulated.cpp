@@ -56,7 +56,7 @@ void SimulatedDevice::point(const std::array<double, 3>& axis, std::uint32_t but
 }
 
 void SimulatedDevice::run(Tick tick) noexcept {
-  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime.at_rate(options_.rate));
   ready_.reach();
 
   Pacer<> pacer(options_.rate);

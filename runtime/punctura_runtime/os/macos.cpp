@@ -42,15 +42,16 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   if (settings.priority > 0) {
     // macOS has no first-in-first-out priority for programs; a time-constraint thread is what its audio uses.
     thread_time_constraint_policy_data_t policy{};
-    policy.period = static_cast<std::uint32_t>(ticks_from_ns(625'000));
-    policy.computation = static_cast<std::uint32_t>(ticks_from_ns(60'000));
-    policy.constraint = static_cast<std::uint32_t>(ticks_from_ns(300'000));
+    const TimeConstraint wanted = TimeConstraint::of(settings.period);
+    policy.period = static_cast<std::uint32_t>(ticks_from_ns(wanted.period));
+    policy.computation = static_cast<std::uint32_t>(ticks_from_ns(wanted.computation));
+    policy.constraint = static_cast<std::uint32_t>(ticks_from_ns(wanted.constraint));
     policy.preemptible = 1;
     const kern_return_t result =
         thread_policy_set(mach_thread_self(), THREAD_TIME_CONSTRAINT_POLICY, reinterpret_cast<thread_policy_t>(&policy),
                           THREAD_TIME_CONSTRAINT_POLICY_COUNT);
-    items.push_back(
-        {"time-constraint thread", result == KERN_SUCCESS, result == KERN_SUCCESS ? "" : mach_error_string(result)});
+    items.push_back({"time-constraint thread, every " + std::to_string(wanted.period / 1000) + " us",
+                     result == KERN_SUCCESS, result == KERN_SUCCESS ? "" : mach_error_string(result)});
   }
   if (settings.processor >= 0)
     items.push_back({"processor " + std::to_string(settings.processor), false,

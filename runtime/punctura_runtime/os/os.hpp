@@ -2,6 +2,7 @@
 // what Linux and macOS share stands in posix_*.cpp.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,6 +27,27 @@ struct RealtimeSettings {
   int processor = -1;       ///< the one to stay on; -1 is any
   bool lock_memory = true;  ///< no page of ours is put aside
   bool awake = true;        ///< the processor does not go to sleep between ticks
+  double period = 1e-3;     ///< s, from one tick to the next; macOS plans the thread by it
+
+  /// The same for a loop of this rate, Hz. A rate that is not known leaves the period.
+  RealtimeSettings at_rate(double rate) const noexcept {
+    RealtimeSettings settings = *this;
+    if (std::isfinite(rate) && rate > 0) settings.period = 1 / rate;
+    return settings;
+  }
+};
+
+/// What macOS is told of a thread that ticks, ns: how often, how long it computes, and within what time from its wake-up.
+struct TimeConstraint {
+  std::int64_t period, computation, constraint;
+
+  /// For a period in s. The system refuses a computation below 50 us and a constraint below the computation.
+  static TimeConstraint of(double period) noexcept {
+    const auto ns = static_cast<std::int64_t>(period * 1e9);
+    constexpr std::int64_t computation = 60'000, latest = 300'000;
+    const std::int64_t half = ns / 2 < latest ? ns / 2 : latest;
+    return {ns, computation, half > computation ? half : computation};
+  }
 };
 
 /// Makes the calling thread as punctual as the system allows. What it does not allow is said, and does no harm.

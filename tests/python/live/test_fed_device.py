@@ -6,7 +6,7 @@ import time
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.live import DeviceInfo, FedDevice, GateLimits, ReplayDevice, ServoLoop, run_live
+from punctura.live import DeviceInfo, FedDevice, GateLimits, Pacer, ReplayDevice, ServoLoop, make_realtime, run_live
 
 SCENE = pn.load_scene("k06-fig10")
 # Outside of tissue for the ramp, then through the membrane.
@@ -99,7 +99,66 @@ def test_a_live_run_goes_on_beside_the_thread_that_feeds():
     assert summary.ticks > 100 and (summary.gaps, summary.fault) == (0, "")
 
 
-def test_a_rate_that_cannot_be_is_refused():
+def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given():
+    device, said = FedDevice(1600), []
+
+    def feed():
+        said.extend(device.make_realtime(processor=1 << 20))
+        fed_forces(device, PATH[:10])
+
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    feeder.join()
+    assert said and all("granted" in line for line in said)
+    assert any("processor 1048576: not granted" in line for line in said), "asked for one that is not there"
+    assert device.statements()[: len(said)] == said and "fed at" in device.statements()[-1]
+
+
+def test_a_feeder_that_has_not_asked_for_priority_is_told():
+    _, loop = fed_forces(FedDevice(1600), PATH[:10])
+    assert "make_realtime()" in loop.device.statements()[-1]
+
+
+def test_a_pacer_wakes_at_its_rate_and_never_early():
+    begin = time.monotonic()
+    pacer = Pacer(1000)
+    left_out = sum(pacer.wait() for _ in range(20))
+    assert time.monotonic() - begin >= 0.020 and left_out >= 0
+
+
+def test_a_pacer_leaves_out_what_has_passed_and_lets_other_threads_run():
+    pacer = Pacer(1000)
+    time.sleep(0.02)
+    assert pacer.wait() >= 18, "no burst after a pause"
+
+
+def test_waiting_for_a_period_lets_other_threads_run():
+    turns = []
+
+    def wait():
+        pacer = Pacer(100)
+        for _ in range(10):
+            pacer.wait()
+            turns.append(len(turns))
+
+    waiter = threading.Thread(target=wait)
+    waiter.start()
+    while waiter.is_alive() and not turns:
+        time.sleep(1e-3)
+    assert len(turns) < 10, "this thread came before the other one had waited for the last time"
+    waiter.join()
+
+
+def test_any_thread_may_ask_for_priority():
+    said = []
+    asking = threading.Thread(target=lambda: said.extend(make_realtime(priority=10)))
+    asking.start()
+    asking.join()
+    assert said and all("granted" in line for line in said)
+
+
+@pytest.mark.parametrize("made", [FedDevice, Pacer])
+def test_a_rate_that_cannot_be_is_refused(made):
     with pytest.raises(pn.ConfigurationError) as error:
-        FedDevice(0)
+        made(0)
     assert error.value.problems[0].path == "device.rate"

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <future>
 #include <thread>
 
 #include "core/support/allocations.hpp"
@@ -88,8 +89,8 @@ TEST_CASE("in real time a feeder that pauses for too long meets a fault at its n
   while (os::now_ns() - then < 1'000'000) std::this_thread::yield();
   CHECK(device->feed({{0, 2e-3, 0}}) == zero);
   CHECK(loop.latest().fault == Fault::missed_deadline);
-  const auto said = device->statements();
-  REQUIRE(said.size() == 1);
+  REQUIRE_FALSE(device->statements().empty());
+  CHECK(device->statements()[0].find("fed at") == 0);
 }
 
 TEST_CASE("a feeder that does not keep to the rate is told which one it kept") {
@@ -97,7 +98,7 @@ TEST_CASE("a feeder that does not keep to the rate is told which one it kept") {
   ServoLoop loop(device, paper_scene());
   loop.start();
   for (int k = 0; k < 10; ++k) device->feed({{0, 2e-3, 0}});
-  REQUIRE(device->statements().size() == 1);
+  REQUIRE_FALSE(device->statements().empty());
   CHECK(device->statements()[0].find("not at the rate") != std::string::npos);
 }
 
@@ -114,6 +115,74 @@ TEST_CASE("stop waits for the tick of another thread, and the next reading finds
   enough = true;
   feeder.join();
   CHECK(device->feed({{0, 2e-3, 0}}) == zero);
+}
+
+TEST_CASE("what is asked of the device while a reading is ticked is answered at once, and holds up no reading") {
+  struct Slow {
+    std::promise<void> ticking, go_on;
+    static Tick::Force tick(void* self, const DeviceSample&) noexcept {
+      auto& slow = *static_cast<Slow*>(self);
+      slow.ticking.set_value();
+      slow.go_on.get_future().wait();
+      return {0, 1, 0};
+    }
+  } slow;
+  FedDevice device(at(1600));
+  device.start({&Slow::tick, &slow});
+  Tick::Force force{};
+  std::thread feeder([&] { force = device.feed({{0, 0, 0}}); });
+  slow.ticking.get_future().wait();
+  CHECK(device.statements().empty());  // of readings that have been ticked
+  CHECK(device.trouble().empty());
+  CHECK(device.fed() == 0);
+  slow.go_on.set_value();
+  feeder.join();
+  CHECK(force == Tick::Force{0, 1, 0});
+  CHECK(device.fed() == 1);
+}
+
+TEST_CASE("a reading fed while another one is ticked gets no tick and no force, which is said") {
+  struct Greedy {
+    FedDevice device{at(1600), false};
+    Tick::Force second{1, 1, 1};
+    static Tick::Force tick(void* self, const DeviceSample&) noexcept {
+      auto& greedy = *static_cast<Greedy*>(self);
+      greedy.second = greedy.device.feed({{0, 0, 0}});
+      return {0, 1, 0};
+    }
+  } greedy;
+  greedy.device.start({&Greedy::tick, &greedy});
+  CHECK(greedy.device.feed({{0, 0, 0}}) == Tick::Force{0, 1, 0});
+  CHECK(greedy.second == zero);
+  CHECK(greedy.device.fed() == 1);
+  REQUIRE(greedy.device.statements().size() == 1);
+  CHECK(greedy.device.statements()[0].find("1 readings got no tick") == 0);
+}
+
+TEST_CASE(
+    "the thread that feeds asks for real-time priority, and the run says what came of it or that nobody has asked") {
+  FedDevice device(at(1000));
+  struct Nothing {
+    static Tick::Force tick(void*, const DeviceSample&) noexcept { return {0, 0, 0}; }
+  };
+  device.start({&Nothing::tick, nullptr});
+  const auto feed_twice = [&] {
+    for (int k = 0; k < 2; ++k) device.feed({{0, 0, 0}});
+  };
+  feed_twice();
+  CHECK(device.statements().back().find("make_realtime()") != std::string::npos);
+
+  std::vector<std::string> said;
+  std::thread([&] {
+    said = device.make_realtime({80, 0, false, false});
+    feed_twice();
+  }).join();
+  REQUIRE(said.size() == 2);  // priority and processor
+  for (const std::string& line : said) CHECK(line.find("granted") != std::string::npos);
+  const auto all = device.statements();
+  REQUIRE(all.size() == 3);
+  CHECK(std::equal(said.begin(), said.end(), all.begin()));
+  CHECK(all.back().find("fed at") == 0);
 }
 
 TEST_CASE("feeding takes no memory") {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -39,6 +41,26 @@ TEST_CASE("a processor that is not there is not granted, and said by its number"
   REQUIRE(items.size() == 3);
   for (const auto& item : items) CHECK_FALSE(item.granted);
   CHECK(items[1].what == "processor 4095");
+}
+
+TEST_CASE("macOS is told the loop's own period, within what it accepts") {
+  const os::RealtimeSettings asked{70, 1, false, true};
+  const auto at_1600 = asked.at_rate(1600);
+  CHECK(at_1600.period == 1 / 1600.0);
+  CHECK(at_1600.priority == 70);
+  CHECK(at_1600.processor == 1);
+  CHECK(asked.at_rate(std::nan("")).period == asked.period);
+  CHECK(asked.at_rate(0).period == asked.period);
+
+  CHECK(os::TimeConstraint::of(at_1600.period).period == 625'000);
+  CHECK(os::TimeConstraint::of(1e-3).period == 1'000'000);
+  for (const double rate : {10.0, 100.0, 1000.0, 4000.0, 20'000.0, 100'000.0}) {
+    const auto told = os::TimeConstraint::of(1 / rate);
+    CAPTURE(rate);
+    CHECK(told.computation >= 50'000);
+    CHECK(told.constraint >= told.computation);
+    CHECK(told.constraint <= std::max<std::int64_t>(told.period / 2, told.computation));
+  }
 }
 
 TEST_CASE("a library that is nowhere is told by its name, in words") {

@@ -84,7 +84,7 @@ void ForceDimensionDevice::stop() noexcept {
 }
 
 void ForceDimensionDevice::run(Tick tick) noexcept {
-  realtime_ = os::make_realtime(options_.realtime);
+  realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
   switch_on();
   ready_.reach();
   if (refused_) return;

@@ -84,7 +84,7 @@ void InverseDevice::stop() noexcept {
 }
 
 void InverseDevice::run(Tick tick) noexcept {
-  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime);
+  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
   running_ = true;
   ready_.reach();
 
