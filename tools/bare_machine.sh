@@ -1,28 +1,48 @@
 #!/usr/bin/env bash
 # The proof that two commands are enough: a Debian with git, Python and certificates only, a clone, ./run and ./test, with a clock.
-#   sudo tools/bare_machine.sh [FOLDER]     needs debootstrap and 8 GB; a FOLDER is kept, with the bare system to start from again
-# SUITE=trixie takes another Debian. Prints the table that stands in docs/bare-machine.md.
+#   sudo tools/bare_machine.sh                    Debian 12 (bookworm), then Debian 13 (trixie)
+#   sudo tools/bare_machine.sh trixie             one of them
+#   sudo tools/bare_machine.sh --keep FOLDER ...  keeps the systems and the logs there; the next call starts from the same bare system
+# Needs debootstrap, 8 GB of disk and about an hour for each. Prints the tables that stand in docs/bare-machine.md.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-suite=${SUITE:-bookworm}
+
+suites=() folder="" words=("$@")
+while [ $# -gt 0 ]; do
+  case $1 in
+    bookworm | trixie) suites+=("$1") ;;
+    --keep) folder=${2:?"--keep needs a folder"} && shift ;;
+    *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  esac
+  shift
+done
+[ ${#suites[@]} -gt 0 ] || suites=(bookworm trixie)
 
 if [ "$(id -u)" -ne 0 ]; then echo "Only root may make and enter a bare system: sudo $0" >&2; exit 1; fi
 command -v debootstrap >/dev/null || { echo "debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
 
-# A mount namespace of our own: whatever happens, no mount is left behind.
-if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "$@"; fi
+# Each by itself, so that one that fails does not hide the other.
+if [ ${#suites[@]} -gt 1 ]; then
+  failed=0
+  for suite in "${suites[@]}"; do "$0" ${folder:+--keep "$folder"} "$suite" || failed=1; done
+  exit $failed
+fi
+suite=${suites[0]}
 
-place=${1:-$(mktemp -d /var/tmp/punctura-bare.XXXXXX)}
-place=$(mkdir -p "$place" && cd "$place" && pwd -P)
+# A mount namespace of our own: whatever happens, no mount is left behind.
+if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "${words[@]}"; fi
+
+place=${folder:-$(mktemp -d /var/tmp/punctura-bare.XXXXXX)}
+place=$(mkdir -p "$place/$suite" && cd "$place/$suite" && pwd -P)
 log=$place/log
 mkdir -p "$log"
 say() { printf '%s\n' "$*" >&2; }
 clean_up() {
   local mounted
   for mounted in "$place"/*/proc "$place"/*/dev; do if mountpoint -q "$mounted"; then umount -R -l "$mounted"; fi; done
-  if [ -z "$1" ]; then rm -rf --one-file-system "$place"; fi
+  if [ -z "$folder" ]; then rm -rf --one-file-system "$(dirname "$place")"; fi
 }
-trap 'clean_up "${1:-}"' EXIT
+trap clean_up EXIT
 
 # How this machine reaches Debian's archive and PyPI is its own affair: its settings are carried over, and none is written down here.
 mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null | grep -v security | sort -u | head -n 1)}
@@ -72,7 +92,20 @@ timed() {
   say "$3: $took, exit $code"
   table="$table| $3 | $took |
 "
-  [ $code -eq "$5" ] || { say "should have ended with $5; the end of $file:"; tail -n 40 "$file" >&2; exit 1; }
+  if [ $code -ne "$5" ]; then
+    say "should have ended with $5; the end of $file:"
+    tail -n 40 "$file" >&2
+    report
+    exit 1
+  fi
+}
+
+# report: the table so far, and the steps of the first ./test.
+report() {
+  printf '\nDebian %s (%s; debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' \
+    "$(cat "$place/base/etc/debian_version")" "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
+  printf '| what | by the clock | of the processor |\n|---|---|---|\n%s\n' "$table"
+  grep -hE '^  [a-z]+ +(passed|FAILED) ' "$log/root-test,-after-run.log" 2>/dev/null || true
 }
 
 if [ ! -f "$place/base/.made" ]; then
@@ -103,6 +136,5 @@ line=$(grep -m 1 -o 'apt-get update && apt-get install .*' "$log/user-run,-by-a-
 inside "$system" root "$line" >"$log/line.log" 2>&1
 timed "$system" ann "run, by that user, after root typed the line" "punctura/run run --no-browser --duration 1" 0
 
-printf 'Debian %s (debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
-printf '| what | by the clock | of the processor |\n|---|---|---|\n%s\n' "$table"
-printf 'Debian packages installed by it:\n%s\n\nDisk: %s\n' "$installed" "$sizes"
+report
+printf '\nDebian packages installed by it:\n%s\n\nDisk: %s\n' "$installed" "$sizes"
