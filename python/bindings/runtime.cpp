@@ -83,7 +83,10 @@ void bind_runtime(nb::module_& m) {
           "spent", [](const Device& d) { return d.exertion.spent; },
           [](Device& d, double spent) { d.exertion = {spent, unknown}; },
           "What its motors had given at the end of the last run and not recovered from, N^2 s. The next run goes on with\n"
-          "it: the limit on continuous force holds across runs. Set it where one device object takes another's place.")
+          "it: the limit on continuous force holds across runs. What is set counts in full; no time counts as rest.")
+      .def(
+          "go_on_from", [](Device& d, const Device& previous) { d.exertion = previous.exertion; }, nb::arg("previous"),
+          "This object stands for the same motors as another one: its next run goes on with what they have given.")
       .def("trouble", &Device::trouble, "What went wrong, in words; empty if nothing did.")
       .def("statements", &Device::statements, "What its user should know of how it runs. After the loop's start.");
 

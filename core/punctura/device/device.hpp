@@ -68,7 +68,7 @@ class Device {
   /// What its user should know of how it runs: priorities granted and refused, rates, labels. Valid after start().
   virtual std::vector<std::string> statements() const { return {}; }
 
-  /// Read and written by the loops that run on the device, while it does not tick.
+  /// Of the loops that run on the device, one after the other. They guard it.
   Exertion exertion{};
 };
 

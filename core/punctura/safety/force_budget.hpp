@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace punctura {
 
@@ -22,8 +22,11 @@ class ForceBudget {
   ForceBudget(double window, double rating) noexcept
       : depth_(burst_share * rating * rating * window), rate_((1 - burst_share) * rating * rating) {}
 
-  /// Counts a force, squared, N^2, that was given for a time, s.
-  void spend(double square, double time) noexcept { spent_ = std::max(0.0, spent_ + (square - rate_) * time); }
+  /// Counts a force, squared, N^2, that was given for a time, s. A force that is not a number uses all up.
+  void spend(double square, double time) noexcept {
+    const double spent = spent_ + (square - rate_) * time;
+    spent_ = std::isnan(spent) ? most() : std::clamp(spent, 0.0, most());
+  }
 
   /// The square, N^2, of the greatest force that the promise permits for a time, s.
   double permitted_square(double time) const noexcept { return rate_ + std::max(0.0, depth_ - spent_) / time; }
@@ -36,11 +39,12 @@ class ForceBudget {
 
   /// What was taken from the bucket and has not come back yet, N^2 s.
   double spent() const noexcept { return spent_; }
-  void set_spent(double spent) noexcept {
-    spent_ = spent > 0 ? std::min(spent, std::numeric_limits<double>::max()) : 0;
-  }
+  void set_spent(double spent) noexcept { spent_ = spent > 0 ? spent : 0; }
 
  private:
+  /// More is not remembered: it comes back within `window`, whatever was given.
+  double most() const noexcept { return depth_ / burst_share; }
+
   double depth_, rate_;
   double spent_ = 0;
 };

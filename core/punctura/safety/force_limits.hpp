@@ -20,7 +20,7 @@ struct ForceLimits {
 
 /// The limit that makes the force of a tick smaller than the model's.
 enum class Limit : std::uint8_t {
-  none,         ///< the whole force goes out
+  none,         ///< no limit acts: the whole force goes out, or none is asked for
   ramp,         ///< the force still grows after arming
   peak,         ///< max_force
   continuous,   ///< continuous_force: the budget is used up
@@ -37,12 +37,20 @@ struct LimitCounters {
 /// While more than half of the budget is left, the ceiling is max_force. Then it comes down evenly, to the force that may
 /// be given without end. It comes up again only while the force is below that, so a force that a limit holds never rises
 /// by itself. There is no limit on the rate of change: the pop is an intended step.
+///
+/// A device holds a force until the next tick, however late that comes. So each tick counts the force of the one before,
+/// for the time that has passed.
 class ForceLimiter {
  public:
+  /// s. A force is held so long at most, by the gate's deadline; the budget always has room for that.
+  static constexpr double longest_hold = 0.020;
+  static constexpr double unknown_time = -1;
+
   ForceLimiter(const ForceLimits& limits, double period) noexcept
       : limits_(limits),
         budget_(limits.continuous_time, limits.continuous_force),
         period_(period),
+        hold_(std::max(period, longest_hold)),
         ramp_step_(period / limits.ramp_time),
         ceiling_(permitted(0)) {}
 
@@ -52,15 +60,17 @@ class ForceLimiter {
   /// Goes on from where another limiter is, with its own limits: ramp, budget and counters.
   void resume(const ForceLimiter& previous) noexcept {
     gain_ = previous.gain_;
+    held_square_ = previous.held_square_;
     counters_ = previous.counters_;
     budget_.set_spent(previous.budget_.spent());
   }
 
-  /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1.
-  Vector3d step(const Vector3d& wanted, double motor_temperature = 0) noexcept {
+  /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1. elapsed: s since
+  /// the tick before; a period if not given.
+  Vector3d step(const Vector3d& wanted, double motor_temperature = 0, double elapsed = unknown_time) noexcept {
+    count(elapsed);
     gain_ = std::min(1.0, gain_ + ramp_step_);
-    limit_ = Limit::none;
-    if (gain_ < 1) act(Limit::ramp, counters_.ramp);
+    if (gain_ < 1 && !wanted.isZero(0)) act(Limit::ramp, counters_.ramp);
     Vector3d force = gain_ * wanted;
 
     ceiling_ = permitted(motor_temperature);
@@ -73,16 +83,18 @@ class ForceLimiter {
       else
         act(Limit::peak, counters_.peak);
     }
-    budget_.spend(force.squaredNorm(), period_);
+    held_square_ = force.squaredNorm();
     return force;
   }
 
   /// One tick without force.
-  void rest(double motor_temperature = 0) noexcept {
-    limit_ = Limit::none;
+  void rest(double motor_temperature = 0, double elapsed = unknown_time) noexcept {
+    count(elapsed);
     ceiling_ = permitted(motor_temperature);
-    budget_.spend(0, period_);
   }
+
+  /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
+  void end(double elapsed) noexcept { count(elapsed); }
 
   double ceiling() const noexcept { return ceiling_; }  ///< the greatest force that the last tick permitted, N
   Limit limit() const noexcept { return limit_; }       ///< what cut the force of the last tick
@@ -104,7 +116,14 @@ class ForceLimiter {
     const double steady = std::min(limits_.max_force, std::sqrt(budget_.rate()));
     const double share = std::min(1.0, 2 * budget_.left());
     const double wanted = steady + share * (limits_.max_force - steady);
-    return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(period_)));
+    return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
+  }
+
+  /// The force of the tick before, for the time that it was held.
+  void count(double elapsed) noexcept {
+    budget_.spend(held_square_, elapsed >= 0 && std::isfinite(elapsed) ? elapsed : period_);
+    held_square_ = 0;
+    limit_ = Limit::none;
   }
 
   void act(Limit limit, std::uint64_t& counter) noexcept {
@@ -114,8 +133,9 @@ class ForceLimiter {
 
   ForceLimits limits_;
   ForceBudget budget_;
-  double period_, ramp_step_;
+  double period_, hold_, ramp_step_;
   double gain_ = 0, ceiling_;
+  double held_square_ = 0;  ///< of the force that the device holds since the last tick, N^2
   Limit limit_ = Limit::none;
   LimitCounters counters_{};
 };

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "punctura/proxy/insertion.hpp"
@@ -62,6 +64,7 @@ class ServoStep {
     state_ = previous.state_;
     fault_ = previous.fault_;
     tick_ = previous.tick_;
+    time_ = previous.time_;
     commands_ = previous.commands_ | command_scene;
     wanted_ = previous.wanted_;
     fade_ = 1;
@@ -87,15 +90,17 @@ class ServoStep {
       state_ = ServoState::active;
       limiter_.reset();
     }
+    const double elapsed = sample.time - time_;  // NaN or below 0 where the clock is at fault, or a new run begins
+    if (std::isfinite(sample.time)) time_ = sample.time;
     if (state_ == ServoState::active) {
-      force = limiter_.step(faded(model_force), sample.motor_temperature);
+      force = limiter_.step(faded(model_force), sample.motor_temperature, elapsed);
       if (!force.allFinite()) {  // cannot be, with limits that passed check(); a hand must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
         force.setZero();
       }
     } else {
-      limiter_.rest(sample.motor_temperature);
+      limiter_.rest(sample.motor_temperature, elapsed);
       wanted_.setZero();
       fade_ = 0;
     }
@@ -105,7 +110,12 @@ class ServoStep {
 
   /// What the device's motors have given and not yet recovered from, N^2 s: see ForceBudget. A run goes on with it.
   double spent() const noexcept { return limiter_.budget().spent(); }
-  void set_spent(double spent) noexcept { limiter_.set_spent(spent); }
+  void set_spent(double spent) noexcept {
+    limiter_.set_spent(spent);
+    time_ = std::numeric_limits<double>::quiet_NaN();  // no time of the last run counts as rest
+  }
+  /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
+  void end(double elapsed) noexcept { limiter_.end(elapsed); }
 
   const Snapshot& snapshot() const noexcept { return snapshot_; }
   const Insertion& insertion() const noexcept { return insertion_; }
@@ -149,6 +159,7 @@ class ServoStep {
   Fault fault_ = Fault::none;
   std::uint64_t tick_ = 0;
   std::uint32_t commands_ = 0;
+  double time_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last sample of this run, s
   double fade_step_, fade_ = 0;
   bool fade_starts_ = false;
   Vector3d wanted_ = Vector3d::Zero(), offset_ = Vector3d::Zero();

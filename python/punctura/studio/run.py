@@ -51,9 +51,9 @@ class Bench:
     def fresh(self, scene: Scene, pose: Pose) -> Device:
         """For a new run; a simulated hand holds it in this pose."""
         if self.simulated:
-            where, spent = self.settings.processor, self._device.spent
+            where, before = self.settings.processor, self._device
             self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1], processor=where)
-            self._device.spent = spent  # it stands for the same device, whose motors do not cool by a new run
+            self._device.go_on_from(before)  # whose motors do not cool because a new run begins
         return self._device
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:

@@ -27,6 +27,12 @@ Loops& all_loops() {
   return all;
 }
 
+/// Guards what devices keep between two runs.
+std::mutex& exertions() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
 ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
@@ -41,7 +47,6 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
   step_ = built(scene_).release();
   scene_.servo.rate = device_->info().rate;
-  rest_motors();
   history_.resize(settings_.history);
   auto& [mutex, loops] = all_loops();
   const std::lock_guard lock(mutex);
@@ -82,7 +87,8 @@ void ServoLoop::start() {
     if (running_) return;
     running_ = true;
     last_begin_ = 0;
-    step_->set_spent(device_->exertion.spent);
+    step_->set_spent(rested());
+    rest_counted_ = false;
     if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
   }
   try {
@@ -106,20 +112,35 @@ void ServoLoop::stop() noexcept {
 void ServoLoop::end_run() noexcept {
   const std::lock_guard lock(between_ticks_);
   running_ = false;
-  device_->exertion = {step_->spent(), seconds()};
+  const double now = seconds();
+  if (last_begin_ != 0) step_->end(now - static_cast<double>(last_begin_) * 1e-9);
+  {
+    const std::lock_guard motors(exertions());
+    device_->exertion = {step_->spent(), now};
+  }
   handover_.collect();
   take();
 }
 
-/// The time since the last run on this device counts as rest. It counts here and not in start(), so that who records can
-/// say what the run begins with.
-void ServoLoop::rest_motors() noexcept {
+double ServoLoop::spent() {
+  const std::lock_guard lock(between_ticks_);
+  return rested();
+}
+
+/// The time since the last run on this device counts as rest, up to the first call. So a recorder that asks before start()
+/// is told what the run begins with.
+double ServoLoop::rested() {
+  const std::lock_guard lock(exertions());
   Exertion& motors = device_->exertion;
-  ForceBudget budget(settings_.limits.continuous_time, settings_.limits.continuous_force);
-  budget.set_spent(motors.spent);
-  const double now = seconds();
-  if (motors.time <= now) budget.spend(0, now - motors.time);
-  motors = {budget.spent(), now};
+  if (!rest_counted_) {
+    ForceBudget budget(settings_.limits.continuous_time, settings_.limits.continuous_force);
+    budget.set_spent(motors.spent);
+    const double now = seconds();
+    if (motors.time <= now) budget.spend(0, now - motors.time);
+    motors = {budget.spent(), now};
+    rest_counted_ = true;
+  }
+  return motors.spent;
 }
 
 void ServoLoop::stop_all() noexcept {

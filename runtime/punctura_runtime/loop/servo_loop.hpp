@@ -80,8 +80,8 @@ class ServoLoop {
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
-  /// What the device's motors have given before the next start(), N^2 s: see ForceBudget.
-  double spent() const noexcept { return device_->exertion.spent; }
+  /// What the device's motors have given when the next start() begins, N^2 s: see ForceBudget. Not while the loop runs.
+  double spent();
   LoopReport report() const noexcept;
   Snapshot latest();  ///< the last tick's
   std::vector<Snapshot>
@@ -91,7 +91,7 @@ class ServoLoop {
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
   Tick::Force tick(const DeviceSample& sample) noexcept;
   void end_run() noexcept;
-  void rest_motors() noexcept;
+  double rested();
   double seconds() const noexcept { return static_cast<double>(settings_.now_ns()) * 1e-9; }
   void take() noexcept;
   void obey() noexcept;
@@ -108,6 +108,7 @@ class ServoLoop {
   Placer placer_;
   bool placed_;  ///< a placement other than the default: without one, samples and forces pass to the last bit
   std::atomic<bool> running_{false};
+  bool rest_counted_ = false;  ///< the time since the last run; start() begins with what spent() has said
 
   // Of the ticking thread; while none ticks, of whoever has between_ticks_.
   ServoStep* step_;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -110,6 +111,55 @@ TEST_CASE("in no 10 s is the force above its rating, whatever is asked, and thro
   }
   CHECK(worst.rms() <= 0.88);
   CHECK(worst.rms() > 0.7);
+}
+
+TEST_CASE("the promise holds in real time: late ticks, a slow device, and every gap that the deadline allows") {
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (const double slowest : {1.0, 1.05, 2.0, 3.2, 10.0, 30.0}) {  // times the period; 32 is 20 ms
+    for (const bool always : {true, false}) {
+      ForceLimiter limiter({}, T);
+      // The worst over any 10 s: of the energy that was held, by its time, in steps of a tenth of a period.
+      constexpr double grid = T / 10;
+      std::vector<double> energy(static_cast<std::size_t>(40 / grid), 0.0);
+      double time = 0, held = 0;
+      while (time < 39) {
+        const double gap = T * (always ? slowest : 1 + (slowest - 1) * share(random));
+        const auto from = static_cast<std::size_t>(time / grid), to = static_cast<std::size_t>((time + gap) / grid);
+        for (std::size_t i = from; i < to; ++i) energy[i] += held * held * grid;
+        time += gap;
+        held = limiter.step({0, 3.3, 0}, 0, gap).norm();
+      }
+      const auto window = static_cast<std::size_t>(10 / grid);
+      double sum = 0, worst = 0;
+      for (std::size_t i = 0; i < energy.size(); ++i) {
+        sum += energy[i] - (i >= window ? energy[i - window] : 0);
+        worst = std::max(worst, sum);
+      }
+      CAPTURE(slowest);
+      CHECK(std::sqrt(worst / 10) <= 0.88 * (1 + 1e-3));  // the grid cuts a gap by a tenth of a period
+    }
+  }
+}
+
+TEST_CASE("a force that is not a number uses the budget up, and it comes back") {
+  ForceBudget budget(10, 0.88);
+  budget.spend(std::nan(""), T);
+  CHECK(budget.left() == 0);
+  budget.spend(0, 20);
+  CHECK(budget.left() == 1);
+  budget.spend(std::numeric_limits<double>::infinity(), T);
+  CHECK(budget.left() == 0);
+  budget.spend(0, 20);
+  CHECK(budget.left() == 1);
+}
+
+TEST_CASE("the ramp is no limit while no force is asked for") {
+  ForceLimiter limiter({}, T);
+  limiter.step(Vector3d::Zero());
+  CHECK(limiter.limit() == Limit::none);
+  limiter.step({0, 1, 0});
+  CHECK(limiter.limit() == Limit::ramp);
 }
 
 TEST_CASE("the promise holds for limits of any size") {

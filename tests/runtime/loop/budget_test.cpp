@@ -80,6 +80,25 @@ TEST_CASE("through 1,000 random runs on one device no 10 s exceed its rating") {
   CHECK(felt.worst() > 0.6);
 }
 
+TEST_CASE("the force that a device holds after its last tick counts until the stop") {
+  auto device = std::make_shared<HandCranked>();
+  ServoLoop loop(device, stiff_scene(), by_test_clock());
+  loop.start();
+  loop.arm();
+  device->move(2e-3, 1e-3, 1600);
+  clock_ns += 1'000'000'000;
+  const auto held = vector(device->move(1e-3, -2e-3, 400)).squaredNorm();
+  REQUIRE(held > 1);
+  const double before = [&] {
+    auto copy = std::make_shared<HandCranked>();
+    copy->exertion = device->exertion;
+    return copy->exertion.spent;
+  }();
+  clock_ns += 200'000'000;  // ticks have ceased
+  loop.stop();
+  CHECK(device->exertion.spent > before + 0.15 * held);
+}
+
 TEST_CASE("time between two runs is rest, and a run that follows at once has none") {
   auto device = std::make_shared<HandCranked>();
   {
@@ -116,4 +135,9 @@ TEST_CASE("a loop that starts again goes on with what its device has given") {
   loop.start();
   device->tick(2e-3);
   CHECK(loop.latest().ceiling < 3.3);
+  loop.stop();
+  clock_ns += 60'000'000'000;  // rest, for a loop that starts again, too
+  loop.start();
+  device->tick(2e-3);
+  CHECK(loop.latest().ceiling == 3.3);
 }
