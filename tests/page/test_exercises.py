@@ -1,20 +1,41 @@
-"""The venipuncture exercise, to success and to failure."""
+"""An exercise of one's own, to success and to failure: the venipuncture, as slowly as the computer is."""
 
+import pytest
 from person import PATIENCE, push, ready, tab
 from playwright.sync_api import expect
+from punctura.exercise import load_exercise
+from studio_process import StudioProcess
+
+TITLE = "In your own time"
+
+
+@pytest.fixture
+def studio(tmp_path, request):
+    """A studio that lists the file. request.param: s to stay in the vein."""
+    text = load_exercise("venipuncture").path.read_text(encoding="utf-8")
+    limit = '[[goal]]\nkind = "time_limit"\nseconds = 60'
+    assert all(part in text for part in (limit, "seconds = 3", 'title = "Venipuncture"'))
+    text = text.replace("seconds = 3", f"seconds = {request.param}")
+    file = tmp_path / "unhurried.toml"
+    file.write_text(text.replace(limit, "").replace('"Venipuncture"', f'"{TITLE}"'), encoding="utf-8")
+    with StudioProcess(tmp_path, "k06-fig10", more=["--exercise", str(file)]) as running:
+        yield running
 
 
 def begin(page):
     ready(page)
     tab(page, "Exercises")
     page.get_by_role("textbox").first.fill("Ann")
-    card = page.locator("article.exercise", has_text="Venipuncture")
+    card = page.locator("article.exercise", has_text=TITLE)
     card.get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
 
 
-def test_going_through_the_back_wall_is_told(page):
+@pytest.mark.parametrize("studio", [600], indirect=True)  # a slow computer must not pass it on the way
+def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
+    fetched = []
+    page.on("response", lambda answer: fetched.append(answer) if "/api/recordings/" in answer.url else None)
     begin(page)
     for _ in range(60):
         push(page, "Shift+ArrowDown", 5)
@@ -22,17 +43,24 @@ def test_going_through_the_back_wall_is_told(page):
             break
     dialog = page.get_by_role("dialog")
     expect(dialog).to_contain_text("not passed", timeout=PATIENCE)
-    expect(dialog).to_contain_text("back")
+    expect(dialog).to_contain_text("You went through the back vein wall")
     expect(dialog).to_contain_text("Peak force")
+    expect(dialog.locator("svg.trace path.force")).to_have_count(1, timeout=PATIENCE)
+    assert len(fetched) == 1 and "/trace?" in fetched[0].url and len(fetched[0].body()) < 100_000
 
 
+@pytest.mark.parametrize("studio", [3], indirect=True)
 def test_staying_in_the_vein_passes(page):
     begin(page)
     running = page.locator(".running")
+    push(page, "Shift+ArrowDown", 17)  # the skin is 10 mm away, the vein 20
     for _ in range(200):
-        push(page, "ArrowDown", 1)
-        page.wait_for_timeout(60)
-        if "hold" in running.inner_text().lower() and page.locator(".events-list .event.pop").count() >= 2:
+        words = running.locator(".instruction").inner_text()
+        if "Hold still" in words:
             break
+        if "draw back" in words:
+            push(page, "ArrowUp", 1)
+        else:
+            push(page, "Shift+ArrowDown" if words.startswith("Reach") else "ArrowDown", 1)
     expect(page.get_by_role("dialog")).to_contain_text("passed", timeout=PATIENCE)
     expect(page.get_by_role("dialog")).not_to_contain_text("not passed")
