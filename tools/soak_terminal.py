@@ -7,7 +7,7 @@ full pipe, and a studio in a stopped terminal whose server logs a line for each 
 for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
 
 Passes if no tick is lost, no memory grows by over 5 %, "pause" is always answered within 3 s, and each run ends
-within 10 s with the signal's status and a whole recording. Linux and macOS only.
+within a minute with the signal's status and a whole recording. Linux and macOS only.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from studio_process import Memory, StudioProcess, blank_page
 
 MOST_GROWTH = 0.05
 MOST_ANSWER_S = 3.0  # on a busy computer
-MOST_END_S = 10.0
+MOST_END_S = 60.0  # with a long recording to finish
 FLOODERS = 4
 ASK_EVERY_S = 0.5
 LOGGED = b"Unsupported upgrade request."
@@ -112,9 +112,10 @@ class Flood:
             try:
                 with socket.create_connection(("127.0.0.1", self._port), 5) as connection:
                     connection.sendall(request.encode())
-                    connection.recv(4096)
-                    self.sent += 1
-            except OSError:  # refused, reset or late: the next one
+                    while connection.recv(4096) and not self._over.is_set():
+                        self.sent += 1
+                        connection.sendall(request.encode())
+            except OSError:  # refused, reset or late: another connection
                 pass
 
     def end(self) -> None:
