@@ -6,8 +6,9 @@ Three runs at once, each with a recording: one in a terminal that is stopped (Ct
 full pipe, and a studio in a stopped terminal whose server logs a line for each request of a flood. The studio is asked
 for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
 
-Passes if no tick is lost, no memory grows by over 5 %, "pause" is always answered within 3 s, and each run ends
-within a minute with the signal's status and a whole recording. Linux and macOS only.
+Passes if no tick is lost, no memory grows by over a quarter in the last 70 % of two minutes or more, "pause" is always
+answered within 10 s, and each run ends within a minute with the signal's status and a whole recording. On a quiet
+computer "pause" takes some milliseconds; what is printed counts. Linux and macOS only.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ from punctura.studio.client import StudioClient
 from resident import resident_mb
 from studio_process import Memory, StudioProcess, blank_page
 
-MOST_GROWTH = 0.05
-MOST_ANSWER_S = 3.0  # on a busy computer
+MOST_GROWTH, WARM = 0.25, 0.3  # of the memory, after this share of the time
+MOST_ANSWER_S = 10.0
 MOST_END_S = 60.0  # with a long recording to finish
 FLOODERS = 4
 ASK_EVERY_S = 0.5
@@ -67,7 +68,7 @@ class Headless:
         command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
         command += ["--record", str(self.path)]
         self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=stderr)
-        self.memory = Memory(seconds)
+        self.memory = Memory(seconds, WARM)
 
     def look(self) -> None:
         self.memory.add(resident_mb(self._process.pid))
@@ -140,7 +141,7 @@ def soak(seconds: float, folder: Path) -> int:
         Headless("stopped terminal", folder, terminals[0][1], seconds),
         Headless("unread stderr", folder, full_pipe(), seconds),
     ]
-    memory, answers = Memory(seconds), []
+    memory, answers = Memory(seconds, WARM), []
     master, slave = terminals[1]
     with StudioProcess(folder, page=blank_page(folder), terminal=slave) as studio:
         flood = Flood(studio.port)
