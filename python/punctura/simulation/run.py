@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from punctura._core import Insertion, InsertionTrace, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.scene import load_scene, scene_text
-from punctura.simulation.even import TOLERANCE, Evenness
+from punctura.simulation.even import DRIFT, TOLERANCE, Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.motion_file import MotionFile
 from punctura.simulation.output import SUFFIXES, open_output
@@ -116,7 +116,7 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
     period = 1 / scene.servo.rate
     if even.step is None:
         return None
-    if even.step > SLOWEST_STEP:
+    if even.step > SLOWEST_STEP * (1 + DRIFT):
         raise MotionError(
             even.file,
             0,

@@ -64,6 +64,13 @@ def test_directions_are_resampled_and_stay_of_length_one(write, tmp_path):
     np.testing.assert_allclose(result["axis_x"], np.sin(result["time_s"]), atol=1e-6)
 
 
+@pytest.mark.parametrize("rows", [2, 301])
+def test_ten_rows_a_second_are_enough(write, tmp_path, rows):
+    time, position = strokes(rows, rate=10)
+    summary = simulate("k06-fig10", write([HEADER, *rows_of(time, position)]), tmp_path / "out.csv")
+    assert summary.resampled and summary.rows_out == 160 * (rows - 1) + 1
+
+
 def test_a_slow_motion_is_resampled_in_pieces_of_bounded_size():
     resampler = Resampler(0.0, 100.0, 1 / 1600, 3)
     pieces = list(resampler.add(np.array([[0.0], [1.0], [3.0]])))
