@@ -10,7 +10,8 @@ from typing import Any
 
 import pyarrow as pa
 
-from punctura.record.append_file import AppendFile
+from punctura.record.append_file import Amiss, AppendFile
+from punctura.record.errors import RecordingError
 from punctura.record.parquet_file import parquet_output
 from punctura.record.part_file import PartFile
 from punctura.record.status import RecorderStatus
@@ -43,13 +44,16 @@ def finish_recording(
     made: ticks of the loop since the recording began. Those that cannot be read in the end are lost, whatever the
     reason is. after: what the header says besides.
     """
-    trouble, part = status.trouble, None
+    trouble, part, amiss, written = status.trouble, None, None, status.rows
     try:
         file.settle()
         amiss = file.amiss()
         trouble = amiss.words if amiss else trouble
         part = PartFile(file.source())
-        status = replace(_counted(status, part, made), file=file.place() or status.file)
+        rows = part.survey.rows
+        status = replace(_counted(status, rows, part.survey.last_tick, made), file=file.place() or status.file)
+        if rows < written and not trouble:  # no memory, perhaps: what was not read now must not be deleted
+            trouble = f"only {rows} of the {written} ticks in the file could be read"
         if not trouble:
             save_finished(part, path, after | {"lost": _causes(status), "notes": status.notes})
             file.close()
@@ -59,20 +63,27 @@ def finish_recording(
     except FileExistsError:
         trouble = f"{path} has appeared meanwhile"
     except (OSError, ValueError, MemoryError, pa.ArrowException) as bad:
-        trouble = trouble or f"it could not be turned into Parquet: {bad}"
-        status = status if part else _counted(status, None, made)
+        trouble = trouble or f"it could not be turned into Parquet: {str(bad) or type(bad).__name__}"
+        if not part and _is_spoiled(bad, amiss):
+            status = _counted(status, 0, -1, made)
+        elif not part:  # the ticks are on the disk, whatever kept us from reading them
+            status = replace(_counted(status, written, status.last_tick, made), file=file.place() or status.file)
     finally:
         file.close()
     if not status.rows:
         return replace(status, trouble=f"{trouble}; nothing of it can be read")
-    stays = f"the recording is in {status.file}, readable up to tick {status.last_tick}"
+    stays = f"the recording is in {status.file}" + (f", readable up to tick {status.last_tick}" if part else "")
     how = f"punctura export {status.file} --out FILE.parquet finishes it"
     return replace(status, trouble=f"{trouble}; {stays}; {how}")
 
 
-def _counted(status: RecorderStatus, part: PartFile | None, made: int) -> RecorderStatus:
+def _is_spoiled(bad: BaseException, amiss: Amiss | None) -> bool:
+    """Whether the reason is the file itself, and not a lack of memory or of open files."""
+    return isinstance(bad, (RecordingError, FileNotFoundError)) or (amiss is not None and amiss.lost)
+
+
+def _counted(status: RecorderStatus, rows: int, last_tick: int, made: int) -> RecorderStatus:
     """With what the file really holds, all that is lost of so many ticks, and a note that says why."""
-    rows, last_tick = (part.survey.rows, part.survey.last_tick) if part else (0, -1)
     lost = max(0, made - rows)
     otherwise = max(0, lost - status.lost_in_ring - status.lost_in_backlog)
     status = replace(status, rows=rows, last_tick=last_tick, lost=lost, lost_otherwise=otherwise)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 
 import pytest
-from punctura.record import Recorder, open_recording
-from punctura.record.stream import Encoder
+from punctura.record import Recorder, RecordingError, finish, open_recording
+from punctura.record.stream import Decoder, Encoder
 
 
 def all_told(run, status):
@@ -213,3 +214,37 @@ def test_ticks_from_before_the_recording_are_not_lost(start, tmp_path):
     with Recorder(run.loop, tmp_path / "second.parquet") as recorder:
         run.go()
     assert (recorder.status().rows, recorder.status().lost) == (300, 0)
+
+
+OUTSIDE = [OSError(errno.EMFILE, "Too many open files"), MemoryError("malloc failed"), MemoryError()]
+
+
+@pytest.mark.parametrize("error", OUTSIDE, ids=repr)
+def test_a_whole_file_that_cannot_be_opened_at_the_end_is_not_called_lost(start, monkeypatch, error):
+    run = start(ticks=2000)
+    run.go()
+    monkeypatch.setattr(finish, "PartFile", Failing(finish.PartFile, error, [1]))
+    status = run.recorder.finish()
+    assert not status.finished and (status.rows, status.last_tick, status.lost, status.notes) == (2000, 1999, 0, [])
+    assert f"the recording is in {status.file}; punctura export {status.file} --out" in status.trouble
+    assert open_recording(status.file).rows == 2000
+
+
+def test_a_file_that_is_read_only_in_part_at_the_end_is_kept(start, monkeypatch):
+    monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
+    run = start(ticks=2000)
+    run.go()
+    with monkeypatch.context() as patch:
+        sound = Failing(Decoder._sound, MemoryError(), [3])
+        patch.setattr(Decoder, "_sound", lambda decoder, batch, metadata: sound(batch, metadata))
+        status = run.recorder.finish()
+    assert not status.finished and not run.path.exists() and "2000 ticks in the file could be read" in status.trouble
+    assert status.rows + status.lost == 2000 and open_recording(status.file).rows == 2000
+
+
+def test_a_file_that_is_spoiled_is_not_called_readable(start, monkeypatch):
+    run = start(ticks=2000)
+    run.go()
+    monkeypatch.setattr(finish, "PartFile", Failing(finish.PartFile, RecordingError("damaged"), [1]))
+    status = run.recorder.finish()
+    assert (status.rows, status.lost) == (0, 2000) and status.trouble.endswith("damaged; nothing of it can be read")
