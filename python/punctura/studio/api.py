@@ -21,7 +21,8 @@ from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
-from punctura.studio.download import MOST_EXPORTS, Download
+from punctura.studio.download import Download
+from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
 from punctura.studio.session import Session

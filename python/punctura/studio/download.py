@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import asyncio
 import itertools
 import threading
 from collections.abc import Iterator
 from typing import Any
 
 from starlette.responses import StreamingResponse
-from starlette.types import Message, Receive, Scope, Send
-
-STALL_S = 60.0  # for a client that takes nothing any more
-MOST_EXPORTS = 4  # at a time: each keeps a core busy while it is read, and some megabytes while it is not
+from starlette.types import Receive, Scope, Send
 
 
 class Download(StreamingResponse):
-    """Bytes as they come. One whose client takes none for STALL_S ends, and its place is free again."""
+    """Bytes as they come. When the answer ends, also with its connection (limits.UNREAD_S), its place is free again."""
 
     def __init__(self, pieces: Iterator[bytes], place: threading.BoundedSemaphore | None = None, **more: Any) -> None:
         """The first piece is made at once: what is wrong with a file shows before the answer begins.
@@ -36,15 +32,6 @@ class Download(StreamingResponse):
             await super().__call__(scope, receive, send)
         finally:
             self._end()
-
-    async def stream_response(self, send: Send) -> None:
-        async def within(message: Message) -> None:
-            await asyncio.wait_for(send(message), STALL_S)
-
-        try:
-            await super().stream_response(within)
-        except asyncio.TimeoutError:
-            return  # without its end: the server closes the connection
 
     def _end(self) -> None:
         close = getattr(self._pieces, "close", None)

@@ -16,10 +16,8 @@ MOST_PONGS = 4_096  # the same; above it, a ping gets no answer
 REQUESTS_A_SECOND, REQUESTS_AT_ONCE = 400, 1200  # frames of any kind, of one page: targets at 240 pictures a second
 HTTP_A_SECOND, HTTP_AT_ONCE = 200, 600  # with the token
 FREE_A_SECOND, FREE_AT_ONCE = 200, 600  # files without a secret, asked for without the token
-REFUSED_A_SECOND, REFUSED_AT_ONCE = (
-    100,
-    300,
-)  # told why they are refused; the others are told only that they are too many
+# Refusals that say why. Above this, a refusal says only that there are too many requests.
+REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 
 # Counts.
 MOST_VIEWERS = 32  # pages
@@ -29,6 +27,7 @@ MOST_KNOWN = 128  # connections that have shown the token: each page has one soc
 MOST_STRANGERS = 64  # connections that have not: of more than these the oldest is ended
 ACCEPTED_AT_ONCE = 8  # connections accepted before the server turns to other work
 LISTEN_QUEUE = 1024  # connections that the system holds until they are accepted
+MOST_EXPORTS = 4  # downloads made while they are sent: each keeps a core busy while it is read
 FILES_WANTED = 1024  # open files; no more, since a maker's driver that calls select() cannot have a number above it
 FILES_KEPT = 192  # of these, for the device, recordings, exports and what Python and its libraries open
 

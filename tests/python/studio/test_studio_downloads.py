@@ -13,7 +13,8 @@ from punctura import Strokes, load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, export, open_recording
 from punctura.record.pieces import PIECE_BYTES, export_pieces
-from punctura.studio import download
+from punctura.studio import connections, download
+from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
 
 TICKS = 40_000  # 30 MB as CSV: more than what the system keeps of a connection
@@ -68,12 +69,12 @@ class Unread:
 
 
 def test_a_download_that_nobody_reads_holds_no_file_and_gives_its_place_back(served, page, monkeypatch):
-    monkeypatch.setattr(download, "STALL_S", 0.3)
+    monkeypatch.setattr(connections, "UNREAD_S", 0.3)
     folder = served.session.shelf.folder
     make(folder / "Größe.parquet", TICKS)
     address = "/api/recordings/Größe/download"
-    unread = [Unread(served, address) for _ in range(download.MOST_EXPORTS)]
-    assert [one.begin for one in unread] == [b"HTTP/1.1 200 OK"] * download.MOST_EXPORTS
+    unread = [Unread(served, address) for _ in range(MOST_EXPORTS)]
+    assert [one.begin for one in unread] == [b"HTTP/1.1 200 OK"] * MOST_EXPORTS
     assert os.listdir(folder) == ["Größe.parquet"]
     page.wait(lambda: page.get(address + "?format=csv")[0] == 200)
     for one in unread:
@@ -84,7 +85,7 @@ def test_a_download_that_is_broken_off_gives_its_place_back_at_once(served, page
     folder = served.session.shelf.folder
     make(folder / "run.parquet", TICKS)
     address = "/api/recordings/run/download"
-    for _ in range(2 * download.MOST_EXPORTS):
+    for _ in range(2 * MOST_EXPORTS):
         Unread(served, address).socket.close()
     page.wait(lambda: page.get(address + "?format=csv")[0] == 200)
     assert os.listdir(folder) == ["run.parquet"]
@@ -93,7 +94,7 @@ def test_a_download_that_is_broken_off_gives_its_place_back_at_once(served, page
 def test_too_many_downloads_at_once_are_told(served, page):
     make(served.session.shelf.folder / "run.parquet", TICKS)
     address = "/api/recordings/run/download"
-    unread = [Unread(served, address) for _ in range(download.MOST_EXPORTS)]
+    unread = [Unread(served, address) for _ in range(MOST_EXPORTS)]
     status, text = page.get(address + "?format=csv")
     assert status == 503 and b"try again when one is done" in text
     assert page.get(address)[0] == 200  # the finished file itself takes no place
@@ -105,7 +106,7 @@ def test_a_file_that_is_damaged_is_told_and_takes_no_place(served, page):
     folder = served.session.shelf.folder
     folder.mkdir()
     (folder / "bad.parquet").write_bytes(b"PAR1 and nothing more")
-    for _ in range(2 * download.MOST_EXPORTS):
+    for _ in range(2 * MOST_EXPORTS):
         assert page.get("/api/recordings/bad/download?format=csv")[0] == 422
 
 
