@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from inspect import isfunction
 from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -19,7 +20,26 @@ SLICE = 4096  # bytes parsed at a time: a frame has 6 or more of them, so that l
 REFUSED = 1008  # close code, RFC 6455
 
 
-class BoundedHttp(H11Protocol):
+class Watched(asyncio.Protocol):
+    """Tells its connection when nothing more can be written, and Connections when it has ended."""
+
+    app_state: dict[str, Any]
+    connection: Connection
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        super().connection_lost(exc)
+        self.app_state[CONNECTIONS].remove(self.connection)
+
+    def pause_writing(self) -> None:
+        super().pause_writing()
+        self.connection.writing(possible=False)
+
+    def resume_writing(self) -> None:
+        super().resume_writing()
+        self.connection.writing(possible=True)
+
+
+class BoundedHttp(Watched, H11Protocol):
     """Its connection is counted and watched."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -28,25 +48,13 @@ class BoundedHttp(H11Protocol):
         self.connection = connections.add(transport)
         self.app_state = {**self.app_state, CONNECTION: self.connection}  # also of the WebSocket that it may become
 
-    def connection_lost(self, exc: Exception | None) -> None:
-        super().connection_lost(exc)
-        self.app_state[CONNECTIONS].remove(self.connection)
 
-    def pause_writing(self) -> None:
-        super().pause_writing()
-        self.connection.writing(possible=False)
-
-    def resume_writing(self) -> None:
-        super().resume_writing()
-        self.connection.writing(possible=True)
-
-
-class BoundedSocket(WebSocketsSansIOProtocol):
+class BoundedSocket(Watched, WebSocketsSansIOProtocol):
     """Counts frames of every kind, and answers no ping of a page that does not read the answers."""
 
     def __init__(self, *args: Any, **more: Any) -> None:
         super().__init__(*args, **more)
-        self.connection: Connection = self.app_state[CONNECTION]
+        self.connection = self.app_state[CONNECTION]
         self.bucket = Bucket(REQUESTS_A_SECOND, REQUESTS_AT_ONCE)
         self.refused = False
         self.close_timeout = CLOSE_S
@@ -54,18 +62,6 @@ class BoundedSocket(WebSocketsSansIOProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         super().connection_made(transport)
         self.connection.socket = True
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        super().connection_lost(exc)
-        self.app_state[CONNECTIONS].remove(self.connection)
-
-    def pause_writing(self) -> None:
-        super().pause_writing()
-        self.connection.writing(possible=False)
-
-    def resume_writing(self) -> None:
-        super().resume_writing()
-        self.connection.writing(possible=True)
 
     def data_received(self, data: bytes) -> None:
         for at in range(0, len(data), SLICE):
@@ -109,3 +105,21 @@ class BoundedSocket(WebSocketsSansIOProtocol):
                 self.close_timer = self.loop.call_later(CLOSE_S, self.transport.close)
             self.queue.put_nowait({"type": "websocket.disconnect", "code": REFUSED})
         return not self.refused
+
+
+def check_overrides(bounded: type, base: type) -> None:
+    """Raises ImportError where a method of `bounded` overrides nothing: uvicorn would never call it."""
+    missing = [
+        name for name, what in vars(bounded).items() if isfunction(what) and name[0] != "_" and not hasattr(base, name)
+    ]
+    if missing:
+        raise ImportError(
+            f"{base.__module__}.{base.__name__} has no {', '.join(missing)}, so limits of the studio would not act. "
+            "Install the version that Punctura was tested with: python -m pip install 'uvicorn>=0.54,<0.55'"
+        )
+
+
+check_overrides(Watched, H11Protocol)
+check_overrides(Watched, WebSocketsSansIOProtocol)
+check_overrides(BoundedHttp, H11Protocol)
+check_overrides(BoundedSocket, WebSocketsSansIOProtocol)

@@ -1,11 +1,12 @@
 """How many connections there are, and when one is ended: the rules alone, with a clock that the test turns."""
 
+import importlib
 import re
 from pathlib import Path
 
 import pytest
 from punctura.studio import connections as rules
-from punctura.studio import limits
+from punctura.studio import limits, protocols
 from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.limits import CLOSE_S, FILES_KEPT, FILES_WANTED, IDLE_S, STRANGER_S, UNREAD_S
 
@@ -187,3 +188,13 @@ def test_every_limit_stands_in_the_docs():
     names = {name: value for name, value in vars(limits).items() if name.isupper() and name != "SWEEP_S"}
     missing = [name for name, value in names.items() if not re.search(rf"(?<![\d,]){value:,.0f}(?![\d,])", table)]
     assert len(names) > 20 and not missing
+
+
+@pytest.mark.parametrize("name", ["handle_ping", "handle_cont", "handle_text"])
+def test_a_uvicorn_whose_methods_have_other_names_is_refused_at_the_import(monkeypatch, name):
+    kept = dict(vars(protocols))
+    with monkeypatch.context() as patch:
+        patch.delattr(protocols.WebSocketsSansIOProtocol, name)
+        with pytest.raises(ImportError, match=f"has no {name}, so limits of the studio would not act"):
+            importlib.reload(protocols)
+    vars(protocols).update(kept)
