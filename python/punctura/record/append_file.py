@@ -30,9 +30,15 @@ class AppendFile:
         """Raises FileExistsError, OSError."""
         self._path = path
         self.size = 0  # of what was written in whole
+        self._folder: int | None = None  # open, to follow it when it is moved
         self._descriptor = make_file(path, lambda descriptor: self._begin(descriptor, first))
-        self._counts_names = os.fstat(self._descriptor).st_nlink > 0
-        self._folder = os.open(path.parent, os.O_RDONLY) if os.name == "posix" else None  # to follow it
+        try:
+            self._counts_names = os.fstat(self._descriptor).st_nlink > 0
+            if os.name == "posix":
+                self._folder = os.open(path.parent, os.O_RDONLY)
+        except BaseException:
+            self.discard()
+            raise
 
     def _begin(self, descriptor: int, first: bytes) -> None:
         self._descriptor, self.size = descriptor, 0
@@ -86,6 +92,16 @@ class AppendFile:
         """Cuts off what a failed write has left."""
         if os.fstat(self._descriptor).st_size > self.size:
             os.ftruncate(self._descriptor, self.size)
+
+    def discard(self) -> None:
+        """Closes the file and removes it."""
+        try:
+            if os.name == "posix":  # while it is locked: nobody else can have begun a file of this name
+                self._path.unlink(missing_ok=True)
+        finally:
+            self.close()
+        if os.name != "posix":  # Windows removes no file that is open
+            self._path.unlink(missing_ok=True)
 
     def close(self) -> None:
         """Releases the lock, too."""

@@ -81,8 +81,7 @@ class Recorder:
                 self._writer.note(note)
             self._reader.start()
         except BaseException:  # a signal among them: a file without a tick would only be in the way
-            self._part.unlink(missing_ok=True)
-            self._file.close()
+            self._file.discard()
             raise
 
     def exchange(self, scene: Scene) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import multiprocessing
 import os
 import subprocess
@@ -9,6 +10,7 @@ import sys
 
 import pytest
 from punctura.record import RecordingError, open_recording
+from punctura.record.append_file import AppendFile
 from punctura.record.lock import in_use
 
 KILLED = """
@@ -96,8 +98,6 @@ def test_a_link_to_an_empty_file_is_not_followed(start, tmp_path):
 
 
 def contend(path, turns, won):
-    from punctura.record.append_file import AppendFile
-
     for _ in range(turns):
         try:
             file = AppendFile(path)  # empty, so that what it leaves is no obstacle
@@ -119,3 +119,21 @@ def test_of_several_processes_that_take_over_a_name_one_has_it_at_a_time(tmp_pat
     for process in processes:
         process.join()
     assert [process.exitcode for process in processes] == [0, 0] and won.value >= 200
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/fd"), reason="only Linux lists the open files of a process")
+def test_a_file_whose_folder_cannot_be_opened_is_closed_and_removed(tmp_path, monkeypatch):
+    path, whole_open = tmp_path / "run.part", os.open
+
+    def too_many(name, flags, *more, **named):
+        if flags == os.O_RDONLY:
+            raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+        return whole_open(name, flags, *more, **named)
+
+    before = len(os.listdir("/proc/self/fd"))
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", too_many)
+        with pytest.raises(OSError, match=os.strerror(errno.EMFILE)):
+            AppendFile(path, b"the beginning")
+    assert not path.exists() and len(os.listdir("/proc/self/fd")) == before
+    AppendFile(path).close()
