@@ -31,7 +31,8 @@ class AppendFile:
         self._path = path
         self.size = 0  # of what was written in whole
         self._folder: int | None = None  # open, to follow it when it is moved
-        self._descriptor = make_file(path, lambda descriptor: self._begin(descriptor, first))
+        # aside: where a damaged file is now that stood at this path
+        self._descriptor, self.aside = make_file(path, lambda descriptor: self._begin(descriptor, first))
         try:
             self._counts_names = os.fstat(self._descriptor).st_nlink > 0
             if os.name == "posix":

@@ -8,6 +8,7 @@ import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal
 
 from punctura.record.errors import RecordingError
 from punctura.record.lock import in_use, lock
@@ -16,19 +17,22 @@ from punctura.record.part_file import PartFile
 _NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
 _MOST_WITHOUT_TICK = 1 << 20  # bytes of a header, and of a first batch whose write was cut short by a kill
 _TRIES = 100
+_Left = Literal["no tick", "damaged", "other"]
 
 
-def make_file(path: Path, begin: Callable[[int], None]) -> int:
-    """The descriptor of a new, locked file. `begin` writes its beginning.
+def make_file(path: Path, begin: Callable[[int], None]) -> tuple[int, Path | None]:
+    """The descriptor of a new, locked file, and where a damaged file is now that stood in its place, if one did.
 
-    What a killed process left at `path` is removed where it holds no tick and no process holds it. Raises
-    FileExistsError for anything else that is there, OSError.
+    `begin` writes the beginning. What a killed process left at `path` makes room where it holds no tick that can be
+    read and no process holds it: it is removed, or renamed if it is damaged inside. Raises FileExistsError for
+    anything else that is there, OSError.
     """
+    aside = None
     for _ in range(_TRIES):
         try:
-            return _make(path, begin)
+            return _make(path, begin), aside
         except FileExistsError:
-            _remove_abandoned(path)
+            aside = _remove_abandoned(path) or aside
     raise FileExistsError(path)
 
 
@@ -128,14 +132,14 @@ def _make_named(path: Path, begin: Callable[[int], None]) -> int:
     return descriptor
 
 
-def _remove_abandoned(path: Path) -> None:
-    """Raises FileExistsError where a process holds the file, or it holds ticks, or is no recording."""
+def _remove_abandoned(path: Path) -> Path | None:
+    """A damaged file's new name. Raises FileExistsError where a process holds it, it holds ticks, or is not ours."""
     if path.is_symlink() or not path.is_file():
         raise FileExistsError(path)
     try:
         descriptor = os.open(path, os.O_RDWR)
     except FileNotFoundError:
-        return
+        return None
     except OSError:
         raise FileExistsError(path) from None
     try:
@@ -143,15 +147,25 @@ def _remove_abandoned(path: Path) -> None:
             raise FileExistsError(path)
         # Another process may have removed it, and begun its own, before this one had the lock.
         if not _is_at(descriptor, path):
-            return
-        if not _without_tick(path):
+            return None
+        left = _left(path)
+        if left == "other":
             raise FileExistsError(path)
         if os.name == "posix":
-            path.unlink(missing_ok=True)
+            return _clear(path, left)
     finally:
         os.close(descriptor)
-    if os.name != "posix":  # Windows removes no file that is open
-        path.unlink(missing_ok=True)
+    return _clear(path, left)  # Windows removes no file that is open
+
+
+def _clear(path: Path, left: _Left) -> Path | None:
+    """Removes the file; a damaged one gets another name, which is returned."""
+    aside = None
+    if left == "damaged":
+        aside = path.with_name(f"{path.name}.{secrets.token_hex(4)}.damaged")
+        _rename(path, aside)
+    path.unlink(missing_ok=True)
+    return aside
 
 
 def _is_at(descriptor: int, path: Path) -> bool:
@@ -162,17 +176,25 @@ def _is_at(descriptor: int, path: Path) -> bool:
 
 
 def is_abandoned(path: Path) -> bool:
-    """Whether a growing recording blocks no name: no process holds it, and it has no tick."""
-    return path.is_file() and not path.is_symlink() and not in_use(path) and _without_tick(path)
+    """Whether a growing recording blocks no name: no process holds it, and no tick of it can be read."""
+    return path.is_file() and not path.is_symlink() and not in_use(path) and _left(path) != "other"
 
 
-def _without_tick(path: Path) -> bool:
-    """Empty, or a recording that was killed before its first tick was whole on the disk."""
+def _left(path: Path) -> _Left:
+    """What a killed process left.
+
+    no tick: an empty file, or a recording whose first tick was not yet whole on the disk. damaged: no tick of it can be
+    read, but it holds more than one batch that was cut off.
+    """
     try:
         size = path.stat().st_size
-        if size == 0 or size > _MOST_WITHOUT_TICK:
-            return size == 0
+        if size == 0:
+            return "no tick"
+        if size > _MOST_WITHOUT_TICK:
+            return "other"
         part = PartFile(path)
-    except (RecordingError, OSError):
-        return False
-    return part.survey.rows == 0 and not part.damaged_parts
+    except (RecordingError, OSError, MemoryError):
+        return "other"
+    if part.survey.rows or part.damaged_parts:
+        return "other"
+    return "damaged" if part.damaged else "no tick"

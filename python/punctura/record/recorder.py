@@ -77,6 +77,8 @@ class Recorder:
         self._file = self._open()
         try:
             self._writer = Writer(self._file, self._backlog, self._part)
+            if self._file.aside:
+                self._writer.note(f"a damaged file had this name; it holds no readable tick and is {self._file.aside}")
             if note := room_note(loop):
                 self._writer.note(note)
             self._reader.start()

@@ -137,3 +137,16 @@ def test_a_file_whose_folder_cannot_be_opened_is_closed_and_removed(tmp_path, mo
             AppendFile(path, b"the beginning")
     assert not path.exists() and len(os.listdir("/proc/self/fd")) == before
     AppendFile(path).close()
+
+
+def test_a_damaged_file_without_a_readable_tick_is_renamed_and_told(start, tmp_path):
+    run = start(ticks=300)
+    header = run.recorder.status().file.read_bytes()
+    damaged = bytearray(run.killed(tmp_path / "killed").read_bytes())
+    run.path.unlink()
+    damaged[len(header) : len(header) + 64] = bytes(range(64))
+    (tmp_path / "run.parquet.part").write_bytes(damaged)
+    status = start(ticks=300).record().recorder.status()
+    (aside,) = tmp_path.glob("*.damaged")
+    assert aside.read_bytes() == damaged and status.finished and status.rows == 300
+    assert any(str(aside) in note for note in open_recording(status.file).notes)
