@@ -15,7 +15,7 @@ from heed import heed_signals
 from punctura.studio import connections as rules
 from punctura.studio import protocols
 from punctura.studio.client import StudioClient
-from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE
+from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE, STRANGER_S
 from punctura.studio.wire.messages import Notice
 
 PING, PONG, TEXT = b"\x89\x80\0\0\0\0", b"\x8a\x80\0\0\0\0", b"\x81\x80\0\0\0\0"
@@ -163,13 +163,17 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
         assert MOST_BUFFERED < most < 2 * MOST_BUFFERED
 
 
-def test_silent_connections_are_ended_and_told_why(guarded, monkeypatch):
-    monkeypatch.setattr(rules, "STRANGER_S", 0.1)
-    for begin in (b"", b"GET /api/schema HTTP/1.1\r\nHost:"):
-        with tcp(guarded) as raw:
-            raw.sendall(begin)
-            answer = everything(raw)
-            assert answer.startswith(b"HTTP/1.1 408 ") and answer.endswith(b".\n")
+@pytest.mark.parametrize("begin", [b"", b"GET /api/schema HTTP/1.1\r\nHost:"])
+def test_silent_connections_are_ended_and_told_why(guarded, monkeypatch, begin):
+    now = [0.0]
+    monkeypatch.setattr(guarded.connections, "_clock", lambda: now[0])
+    until(lambda: not guarded.connections.strangers)  # those of the test before
+    with tcp(guarded) as raw:
+        raw.sendall(begin)
+        until(lambda: guarded.connections.strangers)
+        now[0] = STRANGER_S
+        answer = everything(raw)
+        assert answer.startswith(b"HTTP/1.1 408 ") and answer.endswith(b".\n")
 
 
 def test_thirty_silent_connections_take_no_place_from_the_page(guarded, monkeypatch):
