@@ -70,9 +70,8 @@ class Connection:
     def overdue(self, now: float) -> bool:
         if self.transport.is_closing() or (self.socket and not self.served):
             self.closing_since = now if self.closing_since is None else self.closing_since
-            patience = (
-                UNREAD_S if self.known and not self.socket else CLOSE_S
-            )  # the end of a download may be on its way
+            # The end of a download may still be on its way.
+            patience = UNREAD_S if self.known and not self.socket else CLOSE_S
             return now - self.closing_since >= patience
         if self.unread_since is not None and now - self.unread_since >= UNREAD_S:
             return True
@@ -81,7 +80,7 @@ class Connection:
         return not self.served and now - self.since >= IDLE_S
 
     def end(self) -> None:
-        """At once; what was not read is lost. Who has sent no whole request is told why."""
+        """At once; what was not read is lost. A connection that has sent no whole request is told why."""
         if not self.served and not self.known and not self.socket and not self.transport.is_closing():
             self.transport.write(TOO_LATE)
         self.transport.abort()
