@@ -193,7 +193,7 @@ void bind_runtime(nb::module_& m) {
           nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
           nb::sig("def listen(self, capacity: int | None = None) -> Listener"),
           "Before start: every tick's snapshot from then on. capacity: how many of the present scene wait for a late reader;\n"
-          "without it `room`. Never more than 32 MB of them.")
+          "without it `room`. Never more than 32 MB of them: the listener's `capacity` is what there is.")
       .def_prop_ro(
           "room", [](const ServoLoop& loop) { return loop.room(); },
           "Snapshots of the present scene that a listener holds: 8 s of them, or as many as 32 MB hold.")

@@ -51,7 +51,8 @@ class Recorder:
     def __init__(
         self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: dict[str, Any] | None = None
     ) -> None:
-        """Before loop.start(). capacity: snapshots in the ring. about: what else the file shall say, as JSON.
+        """Before loop.start(). capacity: snapshots in the ring, 32 MB at most: a note tells where it is
+        less than was asked for. about: what else the file shall say, as JSON.
 
         Raises RecordingError where nothing can be written.
         """
@@ -79,6 +80,11 @@ class Recorder:
             self._writer = Writer(self._file, self._backlog, self._part)
             if self._file.aside:
                 self._writer.note(f"a damaged file had this name; it holds no readable tick and is {self._file.aside}")
+            if capacity is not None and self._listener.capacity < capacity:
+                self._writer.note(
+                    f"of the {capacity} snapshots that were asked for, {self._listener.capacity} can wait in the ring: "
+                    "it takes 32 MB at most. Ticks that come while it is full are lost and counted"
+                )
             if note := room_note(loop):
                 self._writer.note(note)
             self._reader.start()

@@ -248,3 +248,10 @@ def test_a_file_that_is_spoiled_is_not_called_readable(start, monkeypatch):
     monkeypatch.setattr(finish, "PartFile", Failing(finish.PartFile, RecordingError("damaged"), [1]))
     status = run.recorder.finish()
     assert (status.rows, status.lost) == (0, 2000) and status.trouble.endswith("damaged; nothing of it can be read")
+
+
+def test_a_ring_that_is_smaller_than_was_asked_for_is_told(start):
+    run = start(ticks=300, capacity=1 << 40)
+    (note,) = run.record().recorder.status().notes
+    assert f"{1 << 40} snapshots" in note and f"{run.recorder._listener.capacity} can wait" in note
+    assert list(open_recording(run.path).notes) == [note]
