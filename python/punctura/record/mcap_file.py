@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import secrets
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
@@ -24,23 +21,12 @@ _SCENE_SCHEMA = {
 }
 
 
-def write_mcap(recording: Recording, path: Path, progress: Callable[[float], None] | None = None) -> None:
-    """All ticks on the topic punctura/tick, scenes on punctura/scene; the file appears when it is whole."""
-    writer_class = _writer_class()
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
-    try:
-        with temporary.open("wb") as file:
-            for _ in _Messages(writer_class(file), recording).steps(progress):
-                pass
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+def mcap_steps(recording: Recording, out: Any, progress: Callable[[float], None] | None = None) -> Iterator[None]:
+    """All ticks on the topic punctura/tick, scenes on punctura/scene, step by step to an open file.
 
-
-def mcap_steps(recording: Recording, out: Any) -> Iterator[None]:
-    """Writes to an open file, step by step. Raises ModuleNotFoundError without the package."""
-    yield from _Messages(_writer_class()(out), recording).steps(None)
+    Raises ModuleNotFoundError without the package.
+    """
+    yield from _Messages(_writer_class()(out), recording).steps(progress)
 
 
 def _writer_class() -> Any:

@@ -1,4 +1,4 @@
-"""A recording in another format, as bytes to send on: nothing of it is kept in a file or as a whole in memory."""
+"""A recording in another format, step by step: as bytes to send on, or into a file that is open."""
 
 from __future__ import annotations
 
@@ -17,32 +17,42 @@ from punctura.record.schema import in_pieces
 from punctura.simulation.output import CsvOutput
 
 PIECE_BYTES = 1 << 18
+Progress = Callable[[float], None]
 
 
 def export_pieces(recording: Recording, kind: str) -> Iterator[bytes]:
-    """kind: csv, parquet or mcap. Raises RecordingError, ModuleNotFoundError without the mcap package."""
+    """The bytes of a file, of which nothing is kept on the disk or as a whole in memory. See export_steps."""
     out = Collected()
-    for _ in itertools.chain(_STEPS[kind](recording, out), (None,)):  # once more for what the end has written
+    for _ in itertools.chain(export_steps(recording, kind, out), (None,)):  # once more for what the end has written
         data = out.take()
         for at in range(0, len(data), PIECE_BYTES):
             yield data[at : at + PIECE_BYTES]
 
 
-def _csv_steps(recording: Recording, out: Any) -> Iterator[None]:
+def export_steps(recording: Recording, kind: str, out: Any, progress: Progress | None = None) -> Iterator[None]:
+    """Writes to the open file `out`, a little each step. kind: csv, parquet or mcap.
+
+    Raises RecordingError, ModuleNotFoundError without the mcap package.
+    """
+    return _STEPS[kind](recording, out, progress)
+
+
+def _csv_steps(recording: Recording, out: Any, progress: Progress | None) -> Iterator[None]:
     schema = pa.schema([f for f in recording.schema if f.name != NEW_SCENES])
     output = CsvOutput(out, schema)
     yield
-    for batch in in_pieces(recording.batches()):
+    for batch in in_pieces(recording.batches(progress)):
         output.write(pa.Table.from_batches([batch]).select(schema.names))
         yield
 
 
-def _parquet_steps(recording: Recording, out: Any) -> Iterator[None]:
+def _parquet_steps(recording: Recording, out: Any, progress: Progress | None) -> Iterator[None]:
     summary = recording.summary | {"notes": list(recording.notes), "damaged": recording.damaged}
-    return parquet_steps(recording.batches(), out, recording.schema, recording.info.data | {"summary": summary})
+    data = recording.info.data | {"summary": summary}
+    return parquet_steps(recording.batches(progress), out, recording.schema, data)
 
 
-_STEPS: dict[str, Callable[[Recording, Any], Iterator[None]]] = {
+_STEPS: dict[str, Callable[[Recording, Any, Progress | None], Iterator[None]]] = {
     "csv": _csv_steps,
     "parquet": _parquet_steps,
     "mcap": mcap_steps,

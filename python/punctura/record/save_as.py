@@ -8,14 +8,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
-
-from punctura.record.columns import NEW_SCENES
-from punctura.record.mcap_file import write_mcap
-from punctura.record.parquet_file import parquet_output
-from punctura.record.recording import Recording, open_recording
+from punctura.record.new_file import whole_file
+from punctura.record.pieces import export_steps
+from punctura.record.recording import open_recording
 from punctura.record.target import check_target
-from punctura.simulation.output import open_output
 
 SUFFIXES = (".csv", ".parquet", ".mcap")
 Progress = Callable[[float], None]
@@ -45,27 +41,10 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     check_target(Path(path), target, SUFFIXES)
     recording = open_recording(path)
     result = ExportResult(str(recording.path), str(target), recording.rows, recording.lost, list(recording.notes))
-    suffix = target.suffix.lower()
-    if suffix == ".csv":
-        if recording.summary["new_scenes"]:
-            result.notes.append("a CSV has no place for the scenes; commands has bit 8 where a new one was taken")
-        _to_csv(recording, target, progress)
-    elif suffix == ".parquet":
-        _to_parquet(recording, target, progress)
-    else:
-        write_mcap(recording, target, progress)
+    kind = target.suffix.lower()[1:]
+    if kind == "csv" and recording.summary["new_scenes"]:
+        result.notes.append("a CSV has no place for the scenes; commands has bit 8 where a new one was taken")
+    with whole_file(target, replace=True) as place, open(place, "wb") as file:
+        for _ in export_steps(recording, kind, file, progress):
+            pass
     return result
-
-
-def _to_csv(recording: Recording, target: Path, progress: Progress | None) -> None:
-    schema = pa.schema([f for f in recording.schema if f.name != NEW_SCENES])
-    with open_output(target, schema) as output:
-        for batch in recording.batches(progress):
-            output.write(pa.Table.from_batches([batch]).select(schema.names))
-
-
-def _to_parquet(recording: Recording, target: Path, progress: Progress | None) -> None:
-    summary = {"summary": recording.summary | {"notes": list(recording.notes), "damaged": recording.damaged}}
-    with parquet_output(target, recording.schema, recording.info.data | summary) as output:
-        for batch in recording.batches(progress):
-            output.write(batch)

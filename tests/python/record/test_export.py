@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import shutil
 import sys
 
@@ -97,3 +98,13 @@ def test_an_export_that_breaks_off_leaves_nothing(killed, tmp_path):
         with pytest.raises(KeyboardInterrupt):
             export(killed, tmp_path / f"out.{suffix}", stop)
     assert sorted(p.name for p in tmp_path.iterdir()) == before
+
+
+@pytest.mark.skipif(not hasattr(os, "O_TMPFILE"), reason="this system has no files without a name")
+@pytest.mark.parametrize("kind", ["csv", "parquet", "mcap"])
+def test_a_kill_while_an_export_is_written_leaves_nothing(start, tmp_path, kind):
+    run = start(ticks=500).record()
+    seen = []
+    export(run.path, tmp_path / f"out.{kind}", lambda _: seen.append({path.name for path in tmp_path.iterdir()}))
+    assert seen and all(names == {run.path.name} for names in seen)
+    assert (tmp_path / f"out.{kind}").stat().st_size > 0
