@@ -13,6 +13,7 @@ from typing import Any
 from punctura.live.bell import Bell
 
 RETRY_S = 0.05
+TRIES = 100
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGBREAK")
 # A suspended program gives no tick, and the device would keep its last force: Ctrl-Z ends a run, too.
 ENDING_A_RUN = (*ENDING, "SIGTSTP")
@@ -64,9 +65,12 @@ class Signals:
             self._raises = False
 
     def wait(self, seconds: float) -> bool:
-        """Of one thread: whether a signal came. Waits so long for it (s, above 0), or until `wake`."""
+        """Of one thread: whether a signal came. Waits so long for it (s, above 0), or until `wake`.
+
+        A signal for which the caller has installed a handler of its own meanwhile is the caller's.
+        """
         for number in self._bell.wait(seconds):
-            if number in self._before:
+            if self._is_ours(number):
                 self._came = self._came or number
         return self._came != 0
 
@@ -74,9 +78,14 @@ class Signals:
         """Of the same thread: sees to it that the main thread takes a signal that came.
 
         One that comes just before the main thread begins to wait in the system does not end that wait by itself.
+        Gives up after 5 s, and at once where the caller has installed a handler of its own.
         """
         main = threading.main_thread().ident
-        while self._came and not self.number and main is not None and hasattr(signal, "pthread_kill"):
+        if main is None or not hasattr(signal, "pthread_kill"):
+            return
+        for _ in range(TRIES):
+            if self.number or not self._is_ours(self._came):
+                return
             signal.pthread_kill(main, self._came)
             time.sleep(RETRY_S)
 
@@ -99,8 +108,12 @@ class Signals:
         signal.set_wakeup_fd(self._wakeup, warn_on_full_buffer=False)
         Signals._innermost = self._outer
         for number, handler in self._before.items():
-            if signal.getsignal(number) == self._handle:
+            if self._is_ours(number):
                 signal.signal(number, handler)
+
+    def _is_ours(self, number: int) -> bool:
+        """Whether this block took the signal, and its handler is still the one that is installed."""
+        return number in self._before and signal.getsignal(number) == self._handle
 
     def _handle(self, number: int, _frame: FrameType | None) -> None:
         """Takes no lock: the code that it interrupts may hold it."""

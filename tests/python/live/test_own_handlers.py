@@ -1,0 +1,66 @@
+"""A handler that the caller installs during a run: the signal is the caller's, and the run goes on."""
+
+import signal
+
+import punctura as pn
+import pytest
+from punctura.live import SimulatedDevice, run_live
+from punctura.live.signals import Signals, ends_on_signals
+
+SCENE = pn.load_scene("k06-fig10")
+
+
+@pytest.fixture
+def calls():
+    """Of a handler for SIGTERM, which `install` installs."""
+    before, numbers = signal.getsignal(signal.SIGTERM), []
+    yield numbers
+    signal.signal(signal.SIGTERM, before)
+
+
+def install(calls):
+    def handle(number, _frame):
+        calls.append(number)
+        if len(calls) > 20 and Signals._innermost:
+            Signals._innermost.number = number  # it is sent without end: let the test fail instead of hang
+
+    signal.signal(signal.SIGTERM, handle)
+
+
+def test_a_run_goes_on_to_its_end_when_the_caller_takes_a_signal_for_itself(calls):
+    ended = []
+
+    def prepare(_loop):
+        install(calls)
+        signal.raise_signal(signal.SIGTERM)
+        return lambda: ended.append("finished")
+
+    run_live(SimulatedDevice(pn.Target([0, 5e-3, 0])), SCENE, 0.2, prepare=prepare)
+    assert calls == [signal.SIGTERM] and ended == ["finished"]
+
+
+def test_a_signal_is_not_sent_to_a_handler_that_the_caller_has_installed_after_it_came(calls, monkeypatch):
+    monkeypatch.setattr("punctura.live.signals.RETRY_S", 1e-3)
+    with ends_on_signals() as signals:
+        signal.set_wakeup_fd(-1)
+        signals._bell._ringer.send(bytes([signal.SIGTERM]))  # as the system does, just before Python's handler runs
+        assert signals.wait(1.0)
+        install(calls)
+        signals.insist()
+        assert calls == []
+
+
+def test_a_main_thread_that_takes_no_signal_is_not_waited_for_without_end(monkeypatch):
+    sent = []
+
+    def kill(_thread, number):
+        sent.append(number)
+        assert len(sent) < 1000
+
+    monkeypatch.setattr("punctura.live.signals.RETRY_S", 0.0)
+    monkeypatch.setattr("punctura.live.signals.signal.pthread_kill", kill)
+    with ends_on_signals() as signals:
+        signals._bell._ringer.send(bytes([signal.SIGTERM]))
+        assert signals.wait(1.0)
+        signals.insist()
+    assert sent == [signal.SIGTERM] * 100
