@@ -11,11 +11,9 @@ from punctura.errors import ConfigurationError
 from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
-from punctura.studio.catalog import Exercises
 from punctura.studio.loaded import from_name, from_tables, from_text, problem_parts
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
-from punctura.studio.shelf import Shelf
 from punctura.studio.wire import requests as ask
 from punctura.studio.wire.messages import Notice, Reply
 
@@ -27,13 +25,11 @@ class NotNow(ValueError):
     """Something that cannot be done as things are; the text says why."""
 
 
-def prepare(request: Any, shelf: Shelf, exercises: Exercises) -> Job:
-    """What the worker shall do. Raises what `refusal` knows, with nothing done."""
+def prepare(request: Any, session: Session) -> Job:
+    """What the worker shall do. Raises what `refusal` knows, with nothing done. A pause is no job: Session.pause."""
     match request:
         case ask.Arm():
             return lambda session: session.arm()
-        case ask.Pause():
-            return lambda session: session.pause()
         case ask.Reset():
             return lambda session: session.reset()
         case ask.Compare():
@@ -41,14 +37,14 @@ def prepare(request: Any, shelf: Shelf, exercises: Exercises) -> Job:
         case ask.Strokes():
             return lambda session: _strokes(session, request.period)
         case ask.PlayMotion():
-            motion = motion_of(shelf.open(request.recording))
+            motion = motion_of(session.shelf.open(request.recording))
             return lambda session: _needs_simulated(session, lambda: session.hand.motion(*motion, time.monotonic()))
         case ask.TripFault():
             return lambda session: _needs_simulated(session, lambda: session.bench.simulated_device.trip())
         case ask.Edit() | ask.Load() | ask.LoadText():
             return _prepare_scene(request)
         case ask.StartRecording() | ask.StopRecording() | ask.StartExercise() | ask.EndExercise():
-            return _prepare_take(request, exercises)
+            return _prepare_take(request, session)
     raise NotNow("this studio cannot do that")
 
 
@@ -107,27 +103,33 @@ def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     do()
 
 
-def _prepare_take(request: Any, exercises: Exercises) -> Job:
+def _prepare_take(request: Any, session: Session) -> Job:
     match request:
         case ask.StartRecording():
-            return lambda session: _start_recording(session, request.name)
+            _refuse_second(session)
+            recording = session.shelf.new_name(request.name, session.run.loaded.scene.name)
+            return lambda session: _start_recording(session, recording)
         case ask.StopRecording():
             return _stop_recording
         case ask.StartExercise():
-            if request.exercise not in exercises.names():
+            if request.exercise not in session.exercises.names():
                 raise NotNow(f"there is no exercise {request.exercise!r}")
-            exercise = exercises.load(request.exercise)
+            exercise = session.exercises.load(request.exercise)
             loaded = from_name(exercise.scene_name)
-            return lambda session: _start_exercise(session, exercise, loaded, request.person)
+            name = session.shelf.new_name(None, exercise.title)
+            return lambda session: _start_exercise(session, exercise, loaded, request.person, name)
         case _:
             return _end_exercise
 
 
-def _start_recording(session: Session, wish: str | None) -> Done:
+def _refuse_second(session: Session) -> None:
     if session.recording:
         raise NotNow(f"{session.recording} is being recorded; stop it first")
+
+
+def _start_recording(session: Session, name: str) -> Done:
+    _refuse_second(session)
     loaded = session.run.loaded
-    name = session.shelf.new_name(wish, loaded.scene.name)
     session.begin(loaded, session.run.pose, name, {"title": name, "scene": loaded.tables()})
     _tell_room(session)
     return "", {"recording": name}
@@ -148,8 +150,9 @@ def _stop_recording(session: Session) -> Future[Done]:
     return done
 
 
-def _start_exercise(session: Session, exercise: Any, loaded: Any, person: str) -> Done:
-    return "", {"recording": session.practise(exercise, loaded, person)}
+def _start_exercise(session: Session, exercise: Any, loaded: Any, person: str, name: str) -> Done:
+    session.practise(exercise, loaded, person, name)
+    return "", {"recording": name}
 
 
 def _end_exercise(session: Session) -> None:

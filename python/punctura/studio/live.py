@@ -7,21 +7,32 @@ import contextlib
 import json
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from punctura.studio.commands import Done, prepare, refusal
+from punctura.studio.commands import prepare, refusal
 from punctura.studio.hub import Hub, Viewer
 from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import LoadText, TakeControl, Target
+from punctura.studio.wire.requests import LoadText, Pause, TakeControl, Target
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
+MOST_ORDERS = 64  # requests of a page that wait for those before them
+
+
+class Order(NamedTuple):
+    """A request that takes its time."""
+
+    request: Any
+    pauses: int  # that were asked for before it
+
+
+Orders = asyncio.Queue[Order]
 
 
 class Closed(Exception):
@@ -35,9 +46,11 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
         await socket.close(FULL, "Too many pages are open.")
         return
     sender = asyncio.create_task(_send(socket, viewer))
-    reader = asyncio.create_task(_read(socket, viewer, hub, session))
+    orders: Orders = asyncio.Queue(MOST_ORDERS)
+    reader = asyncio.create_task(_read(socket, viewer, hub, session, orders))
+    worker = asyncio.create_task(_obey(viewer, hub, session, orders))
     try:
-        await asyncio.wait({sender, reader}, return_when=asyncio.FIRST_COMPLETED)
+        await asyncio.wait({sender, reader, worker}, return_when=asyncio.FIRST_COMPLETED)
         reason = _reason(reader) or viewer.closed
         if reason:
             sender.cancel()
@@ -45,9 +58,9 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
                 await asyncio.wait_for(socket.close(REFUSED, reason[:120]), 2)
     finally:
         hub.leave(viewer)
-        for task in (sender, reader):
+        for task in (sender, reader, worker):
             task.cancel()
-        await asyncio.gather(sender, reader, return_exceptions=True)
+        await asyncio.gather(sender, reader, worker, return_exceptions=True)
 
 
 def _reason(reader: asyncio.Task[None]) -> str:
@@ -64,20 +77,24 @@ async def _send(socket: WebSocket, viewer: Viewer) -> None:
                 await socket.send_bytes(data)
 
 
-async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session) -> None:
+async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:
+    """Does at once what takes no time, above all a pause; the rest waits in `orders`."""
     while True:
         message = await socket.receive()
         if message["type"] == "websocket.disconnect":
+            await orders.join()  # what the page has asked for is still done
             return
         text = message.get("text")
         if text is None:
             raise Closed("Requests are text.")
-        reply = await _answer(text, viewer, hub, session)
-        if reply is not None:
-            viewer.put(reply.model_dump_json())
+        answer = _answer(text, viewer, hub, session)
+        if isinstance(answer, Order):
+            await orders.put(answer)
+        elif answer is not None:
+            viewer.put(answer.model_dump_json())
 
 
-async def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
+def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Order | None:
     try:
         request: Any = parse_request(text)
     except ValidationError as error:
@@ -91,24 +108,45 @@ async def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Repl
     if isinstance(request, TakeControl):
         hub.take_control(viewer)
         return Reply(id=request.id, ok=True)
+    if refused := _refused(request, viewer, hub, session):
+        return refused
+    if isinstance(request, Pause):
+        session.pause()
+    return Order(request, session.pauses)
+
+
+def _refused(request: Any, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
     if hub.holder != viewer.number:
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:
         return Reply(id=request.id, ok=False, text="the run has ended")
+    return None
+
+
+async def _obey(viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:
+    """One order after the other. Control may have gone to another page while one waited."""
+    while True:
+        order = await orders.get()
+        reply = _refused(order.request, viewer, hub, session) or await _do(order, session)
+        viewer.put(reply.model_dump_json())
+        orders.task_done()
+
+
+async def _do(order: Order, session: Session) -> Reply:
+    request = order.request
     try:
-        text, data = await _do(request, session)
+        if isinstance(request, Pause):  # it has been obeyed, and the worker has nothing to say of the time before
+            await asyncio.wrap_future(session.call(lambda: None))
+            return Reply(id=request.id, ok=True)
+        job = await asyncio.to_thread(prepare, request, session)
+        done = await asyncio.wrap_future(session.call(lambda: job(session), order.pauses))
+        if isinstance(done, Future):  # a recording's file takes its time
+            done = await asyncio.wrap_future(done)
     except Exception as error:
         reply = refusal(request.id, error)
         return reply or Reply(id=request.id, ok=False, text=f"a defect, please report it: {error!r}")
+    text, data = done or ("", {})
     return Reply(id=request.id, ok=True, text=text, data=data)
-
-
-async def _do(request: Any, session: Session) -> Done:
-    job = await asyncio.to_thread(prepare, request, session.shelf, session.exercises)
-    done = await asyncio.wrap_future(session.call(lambda: job(session)))
-    if isinstance(done, Future):  # a recording's file takes its time
-        done = await asyncio.wrap_future(done)
-    return done or ("", {})
 
 
 def _not_understood(text: str, error: ValidationError) -> Reply:

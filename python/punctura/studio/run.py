@@ -93,8 +93,7 @@ class Run:
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 
     def start(self) -> None:
-        """Ticks come, and force once the tip is outside tissue."""
-        self.loop.arm()
+        """Ticks come; force, too, where the loop was armed, once the tip is outside tissue."""
         self.loop.start()
 
     def stop(self) -> None:

@@ -12,9 +12,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
-from punctura._core import DeviceError, Fault, ReplayDevice, describe
+from punctura._core import DeviceError, Fault, ReplayDevice, ServoLoop, describe
 from punctura.exercise import Exercise, ResultStore
-from punctura.live import SilenceWatch
 from punctura.record import RecorderStatus
 from punctura.studio.catalog import Exercises
 from punctura.studio.hand import Hand, Pose
@@ -27,6 +26,7 @@ from punctura.studio.run import Bench, Run, Settings
 from punctura.studio.shelf import Shelf
 from punctura.studio.takes import Takes
 from punctura.studio.view import scene_view
+from punctura.studio.watchdog import Watchdog
 from punctura.studio.wire.messages import FaultMessage, Notice, SceneMessage
 from punctura.studio.wire.requests import Target
 
@@ -60,6 +60,9 @@ class Session:
         self.practice: Practice | None = None
         self.recording = ""  # the name of the one that is being made
         self.armed = False
+        self.pauses = 0  # that were asked for so far
+        self._asked_at = 0  # how many of them had been when the request came that the worker obeys
+        self._arming = threading.Lock()  # held for a moment only: `pause` waits for it
         self.compare = False
         self._result_comes = False  # of an exercise that has ended, once its recording is finished
         self.failure: BaseException | None = None
@@ -69,6 +72,7 @@ class Session:
         self._target: Target | None = None
         self._over_at = math.inf  # when a recorded motion had ended
         self._stopping = threading.Event()
+        self._watchdog = Watchdog(lambda loop, words: self._jobs.post(lambda: self._tell_ceased(loop, words)))
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
 
     def start(self) -> None:
@@ -77,7 +81,7 @@ class Session:
     def stop(self) -> None:
         """Zero force; returns when the device is still, and a recording whole."""
         self._stopping.set()
-        self.run.loop.pause()  # the worker may have something to do first
+        self.pause()  # the worker may have something to do first
         self._jobs.post(lambda: None)
         if self._thread.is_alive():
             self._thread.join()
@@ -86,9 +90,25 @@ class Session:
     def running(self) -> bool:
         return self._thread.is_alive()
 
-    def call(self, job: Callable[[], T]) -> Future[T]:
-        """From any thread: `job` in the worker's, and what it gave or raised."""
-        return self._jobs.call(job)
+    def call(self, job: Callable[[], T], pauses: int | None = None) -> Future[T]:
+        """From any thread: `job` in the worker's, and what it gave or raised.
+
+        pauses: how many there were when the user asked for it, now if not given. A job does not arm after a later one.
+        """
+        asked_at = self.pauses if pauses is None else pauses
+
+        def obey() -> T:
+            self._asked_at = asked_at
+            return job()
+
+        return self._jobs.call(obey)
+
+    def pause(self) -> None:
+        """From any thread: takes the force away at once, whatever the worker does."""
+        with self._arming:
+            self.pauses += 1
+            self.run.loop.pause()
+            self.armed = False
 
     def target(self, wish: Target) -> None:
         """From any thread: where the simulated hand shall go. The last one counts."""
@@ -125,12 +145,11 @@ class Session:
         self._follow(self.pump.change(self.run.loop.scene, lambda: self._say_scene(new_run=False)))
 
     def arm(self) -> None:
-        self.run.loop.arm()
-        self.armed = True
-
-    def pause(self) -> None:
-        self.run.loop.pause()
-        self.armed = False
+        """Force once the tip is outside tissue, unless a pause was asked for after what the worker obeys now."""
+        with self._arming:
+            self.armed = self._asked_at == self.pauses
+            if self.armed:
+                self.run.loop.arm()
 
     def reset(self) -> None:
         """Leaves a fault. Where ticks had ceased, by a new run, which is armed only where the hand asks for it."""
@@ -144,13 +163,11 @@ class Session:
         self.compare = on
         self.pump.compare(on)
 
-    def practise(self, exercise: Exercise, loaded: Loaded, person: str) -> str:
-        """A new run with the exercise's scene, recorded. Gives the recording's name."""
-        name = self.shelf.new_name(None, exercise.title)
+    def practise(self, exercise: Exercise, loaded: Loaded, person: str, name: str) -> None:
+        """A new run with the exercise's scene, recorded under this name."""
         about = {"title": exercise.title, "exercise": exercise.name, "scene": loaded.tables()}
         self.begin(loaded, (exercise.start_position, exercise.start_axis), name, about)
         self.practice = Practice(exercise, self.run.loop.scene, person, name)
-        return name
 
     def end_run(self, then: Then | None = None) -> None:
         """No tick any more. What was recorded is finished beside; `then` is told how, in a thread of its own."""
@@ -195,20 +212,19 @@ class Session:
         self.pump = Pump(self.run, self.out)
         self.pump.compare(self.compare)
         self.hand.take(self.run.loop.device, self.run.pose)
-        self.armed = True
+        self.arm()
         self.out.say(no_fault())
         if not self._result_comes:
             self.out.say(no_exercise())
         self._say_scene(new_run=True)
         self.run.start()
-        self._silence = SilenceWatch(self.run.loop)
+        self._watchdog.watch(self.run.loop)
 
-    def _end_silence(self) -> None:
-        """A device without ticks keeps its last force: the run is stopped, which takes it away."""
-        if self.run.loop.running and (words := self._silence.ceased()):
-            # Told first: a call of the maker's that never returns would hold up the stop as well.
+    def _tell_ceased(self, loop: ServoLoop, words: str) -> None:
+        """Of a loop that the watchdog stops."""
+        if loop is self.run.loop:
             self.out.say(FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0))
-            self.end_run()
+            self._guarded(self.end_run)
 
     def _say_scene(self, new_run: bool) -> None:
         view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())
@@ -234,15 +250,16 @@ class Session:
 
     def _work(self) -> None:
         try:
+            self._watchdog.start()
             self._start_run()
             pump_at = status_at = time.monotonic()
             while not self._stopping.is_set():
                 self._jobs.do_next(min(pump_at, self.hand.next_at) - time.monotonic())
+                self._asked_at = self.pauses  # what follows is the worker's own
                 now = time.monotonic()
                 self.hand.drive(now)
                 if now >= pump_at:
                     self._guarded(self._turn)
-                    self._guarded(self._end_silence)
                     pump_at = max(pump_at + PUMP_S, now)  # a turn takes all there is
                 if self.practice and self.practice.end_at and now >= self.practice.end_at:
                     self._guarded(self.begin_again)
@@ -258,6 +275,7 @@ class Session:
         finally:
             self.run.stop()
             self._guarded(self.end_run)
+            self._watchdog.end()
             self._takes.wait()
 
     def _go_round(self) -> None:

@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+import threading
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -116,3 +117,18 @@ def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monke
         run = server.session.run.number
         assert page.ask(do="reset")["ok"]
         page.wait(lambda: page.last and page.last.run == run + 1)
+
+
+def test_ticks_that_cease_end_the_run_while_the_worker_waits_for_a_file(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
+    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 1e9)
+    over = threading.Event()
+    with playing(tmp_path) as (server, page):
+        loop = server.session.run.loop
+        server.session.call(lambda: over.wait(60))
+        try:
+            page.wait(lambda: not loop.running)
+        finally:
+            over.set()
+        told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])
+        assert told[-1]["trouble"].startswith("the device's ticks have ceased")

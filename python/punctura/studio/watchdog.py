@@ -1,0 +1,52 @@
+"""Stops a loop whose ticks have ceased: a device without ticks keeps its last force."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from punctura._core import ServoLoop
+from punctura.live import SilenceWatch
+
+POLL_S = 0.05
+
+
+class Watchdog:
+    """A thread that does nothing else, so that no file, page or exercise holds it up."""
+
+    def __init__(self, tell: Callable[[ServoLoop, str], None]) -> None:
+        """tell: called with a loop that is being stopped, and why. It must not wait for anything."""
+        self._tell = tell
+        self._watched: tuple[ServoLoop, SilenceWatch] | None = None
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._work, name="punctura-watchdog", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def end(self) -> None:
+        """Does not wait for the thread: the driver's own stop, in which it may be, may never return."""
+        self._over.set()
+
+    def watch(self, loop: ServoLoop) -> None:
+        """From any thread: this loop, which has been started, in place of the one before."""
+        self._watched = (loop, SilenceWatch(loop))
+
+    def _work(self) -> None:
+        stopped = None
+        while not self._over.wait(POLL_S):
+            watched = self._watched
+            if watched is None or watched is stopped or not watched[0].running:
+                continue
+            loop, watch = watched
+            if words := self._ceased(watch):
+                stopped = watched
+                self._tell(loop, words)  # first: a driver's stop may never return
+                loop.stop()  # nothing happens to a loop that the worker has stopped meanwhile
+
+    @staticmethod
+    def _ceased(watch: SilenceWatch) -> str:
+        try:
+            return watch.ceased()
+        except Exception as error:  # who cannot see the ticks does not let the force stay
+            return f"the ticks cannot be watched, and the run is stopped; a defect, please report it: {error!r}"
