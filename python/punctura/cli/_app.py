@@ -74,7 +74,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except Ended as end:
             leave(end)
         finally:
-            wait_for_stderr_again()
+            if isinstance(sys.exc_info()[1], SystemExit | None):  # else a traceback comes, which nobody may wait for
+                wait_for_stderr_again()
 
 
 def _where() -> str:

@@ -125,3 +125,23 @@ def test_a_program_in_the_background_is_not_suspended_by_what_it_writes():
         )
         assert (done.returncode, done.stdout) == (0, "0\n")
         assert read_until(master, b"\n") == "from the background\n"
+
+
+# A command with a defect, whose traceback the interpreter prints.
+DEFECT = """
+import punctura.cli._app as app
+from punctura.cli._streams import never_wait_for_stderr
+def command(*_, **__):
+    never_wait_for_stderr()
+    raise RuntimeError("a defect")
+app.build_app = lambda: command
+app.main()
+"""
+
+
+@pytest.mark.parametrize("blocked", BLOCKED)
+def test_a_command_with_a_defect_ends_whoever_does_not_read_its_traceback(blocked):
+    with BLOCKED[blocked]() as stderr:
+        assert subprocess.run([sys.executable, "-c", DEFECT], stderr=stderr, timeout=60).returncode == 1
+    done = subprocess.run([sys.executable, "-c", DEFECT], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and done.stderr.endswith("RuntimeError: a defect\n")
