@@ -1,5 +1,6 @@
 """A device that a loop in Python drives."""
 
+import sys
 import threading
 import time
 
@@ -84,7 +85,10 @@ def test_a_feeder_that_does_not_keep_to_its_rate_is_told():
 
 def test_a_live_run_goes_on_beside_the_thread_that_feeds():
     device = FedDevice(1600, real_time=False)
-    over = threading.Event()
+    over, seen = threading.Event(), []
+
+    class Enough(Exception):
+        pass
 
     def feed():
         while not over.is_set():
@@ -93,10 +97,19 @@ def test_a_live_run_goes_on_beside_the_thread_that_feeds():
 
     feeder = threading.Thread(target=feed)
     feeder.start()
-    summary = run_live(device, SCENE, 0.5)
-    over.set()
-    feeder.join()
-    assert summary.ticks > 100 and (summary.gaps, summary.fault) == (0, "")
+
+    def watch(summary):
+        seen[:] = [summary]
+        if summary.ticks > 100:
+            raise Enough
+
+    try:
+        with pytest.raises(Enough):
+            run_live(device, SCENE, 60, watch=watch)
+    finally:
+        over.set()
+        feeder.join()
+    assert [(summary.gaps, summary.fault) for summary in seen] == [(0, "")]
 
 
 def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given():
@@ -133,20 +146,24 @@ def test_a_pacer_leaves_out_what_has_passed_and_lets_other_threads_run():
 
 
 def test_waiting_for_a_period_lets_other_threads_run():
-    turns = []
+    seen, waits = threading.Event(), []
 
     def wait():
         pacer = Pacer(100)
-        for _ in range(10):
+        while not seen.is_set() and len(waits) < 500:
             pacer.wait()
-            turns.append(len(turns))
+            waits.append("period")
 
     waiter = threading.Thread(target=wait)
-    waiter.start()
-    while waiter.is_alive() and not turns:
-        time.sleep(1e-3)
-    assert len(turns) < 10, "this thread came before the other one had waited for the last time"
-    waiter.join()
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(60)  # s: this thread runs only when the other one lets it
+    try:
+        waiter.start()
+        seen.set()
+        waiter.join()
+    finally:
+        sys.setswitchinterval(interval)
+    assert len(waits) < 500, "no other thread ran during 500 waits"
 
 
 def test_any_thread_may_ask_for_priority():
