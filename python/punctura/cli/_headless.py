@@ -133,7 +133,9 @@ def tell_result(text: str) -> None:
 
 def begun(scene: str, loop: ServoLoop, device: Device) -> str:
     """What runs on what, and how strong it may get."""
-    return f"punctura: {scene} on {device.info.model}, at most {loop.limits.max_force:.3g} N; Ctrl-C ends it"
+    most = loop.limits
+    strong = f"at most {most.max_force:.3g} N, {most.continuous_force:.3g} N rms in any {most.continuous_time:.3g} s"
+    return f"punctura: {scene} on {device.info.model}, {strong}; Ctrl-C ends it"
 
 
 def in_words(summary: RunSummary) -> str:

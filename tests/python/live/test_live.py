@@ -211,7 +211,8 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed_signals
     )
     assert (
-        process.stderr.readline() == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated, at most 3.3 N; Ctrl-C ends it\n"
+        process.stderr.readline()
+        == "punctura: K06 Fig. 10 on PHANTOM Omni, simulated, at most 3.3 N, 0.88 N rms in any 10 s; Ctrl-C ends it\n"
     )
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=60)

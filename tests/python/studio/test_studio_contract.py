@@ -85,7 +85,7 @@ def test_any_ticks_come_back_as_f32(seed):
         columns[name] = rng.normal(size=(n, m))
     for name in ("proxy", "direction"):
         columns[name] = rng.normal(size=(n, m, 3))
-    for name in ("state", "fault"):
+    for name in ("state", "fault", "limit"):
         columns[name] = rng.integers(0, 255, n)
     columns["phase"] = rng.integers(0, 5, (n, m))
     other = rng.normal(size=(n, 3)) if seed % 2 else None

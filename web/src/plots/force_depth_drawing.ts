@@ -51,7 +51,7 @@ export class ForceDepthDrawing {
         if (law) drawBand(pen, this.pane, law, colourOf(theme, i));
       }
     });
-    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force on the hand (N)" });
+    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force of the model (N)" });
     const keys: KeyEntry[] = [];
     if (overlay) keys.push({ text: overlay.title, colour: theme.text });
     if (isCompared(source.history, window.first, end)) keys.push({ text: otherName(source), colour: theme.quiet });
