@@ -228,7 +228,7 @@ TEST_CASE("membranes may change their order, and two may stand in one place") {
   next.resume(step);
   const Snapshot& s = next.step(reading(drive.next(), -5e-3));
   CHECK(s.membranes[2].axial_force == doctest::Approx(before.membranes[0].axial_force).epsilon(0.05));
-  for (std::size_t i : {0, 1}) CHECK(s.membranes[i].phase != Phase::barred);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) CHECK(s.membranes[i].phase != Phase::barred);
 }
 
 TEST_CASE("a run goes on with what the motors have given before") {
