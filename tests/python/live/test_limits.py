@@ -114,7 +114,7 @@ def test_the_command_line_bounds_the_force(tmp_path):
         strongest[name] = said["strongest_N"]
         assert said["limited_ticks"] > 0
     assert strongest == pytest.approx({"file": 0.6, "option": 0.4}, rel=1e-9)
-    assert ", at most 0.4 N; " in done.stderr
+    assert ", at most 0.4 N, 0.88 N rms in any 10 s; " in done.stderr
 
 
 @pytest.mark.parametrize(
