@@ -20,6 +20,7 @@ def run_to_end(loop):
 def recorded(path, device, scene, ticks):
     """Every tick of an armed loop, in `path`."""
     loop = ServoLoop(device, scene)
-    with Recorder(loop, path, ticks):
+    with Recorder(loop, path, ticks) as recorder:
+        assert recorder._listener.capacity >= ticks, "nothing slows this device down: the ring must hold all its ticks"
         run_to_end(loop)
     return path

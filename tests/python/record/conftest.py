@@ -27,6 +27,8 @@ class Run:
         self.loop = ServoLoop(self.device, load_scene(scene) if isinstance(scene, str) else scene, gate, limits)
         self.witness: Listener = self.loop.listen(ticks)
         self.recorder = Recorder(self.loop, path, capacity or ticks)
+        if capacity is None:  # nothing slows this device down: what the ring does not hold may be lost
+            assert self.recorder._listener.capacity >= ticks
 
     def go(self) -> None:
         """All ticks, armed."""

@@ -16,12 +16,12 @@ from punctura.studio import trace
 from punctura.studio.trace import MOST, thinned_trace
 from recorded import recorded
 
-SECONDS = 50  # 80,000 ticks: the ring of a recording holds them, however fast they come
+SECONDS = 40  # 64,000 ticks: the ring holds all of them (69,905 snapshots of three membranes), however late its reader is
 
 
 @pytest.fixture(scope="module")
 def minute(tmp_path_factory):
-    """In and out of the vein, and in again; then still: 50 s at 1600 Hz."""
+    """In and out of the vein, and in again; then still: 40 s at 1600 Hz."""
     exercise = load_exercise("venipuncture")
     axis = np.asarray(exercise.start_axis)
     legs = [(2.0, 0.0), (4.0, 27.8), (2.0, 0.0), (4.0, 27.8), (SECONDS - 12.0, 27.8)]
@@ -82,8 +82,8 @@ def test_the_greatest_force_is_the_peak_force_of_the_result(minute):
 
 
 def test_the_drawing_may_begin_later_and_has_then_more_of_the_rest(minute):
-    time, _, _ = drawn(minute, start=40.0)
-    assert 40.0 <= time[0] < 40.01 and 600 < len(time) <= 2400
+    time, _, _ = drawn(minute, start=30.0)
+    assert 30.0 <= time[0] < 30.01 and 600 < len(time) <= 2400
     assert len(drawn(minute, start=1e9)[0]) == 0
 
 
