@@ -16,7 +16,7 @@ from punctura.studio import trace
 from punctura.studio.trace import MOST, thinned_trace
 from recorded import recorded
 
-SECONDS = 40  # 64,000 ticks: the ring holds all of them (69,905 snapshots of three membranes), however late its reader is
+SECONDS = 40  # 64,000 ticks: all fit into the ring, however late its reader is
 
 
 @pytest.fixture(scope="module")
