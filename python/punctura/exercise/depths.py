@@ -2,51 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
 from punctura import Scene
 from punctura.errors import Problem
-from punctura.exercise.schema import ExerciseFile, Reach
+from punctura.exercise.bounds import LEAST_MM
 
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
+ROUNDING_MM = 1e-9  # of sums and differences of numbers that were written in decimals
+
+Table = dict[str, Any]  # of an exercise file; only values that are sound by themselves
 
 
-def unreachable(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:
-    """Depths that lie behind the space's end. Membranes that are not parallel leave room for any depth."""
-    space = file.space
-    if space.in_front_of is None and space.press_mm > 0:
-        yield Problem("space.press_mm", space.press_mm, "needs space.in_front_of: the membrane that may be pressed")
-    if space.deepest_mm is not None and space.deepest_mm <= space.depth_mm:
-        reason = f"must be more than {space.depth_mm:g}, where the space begins"
-        yield Problem("space.deepest_mm", space.deepest_mm, reason)
+def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -> Iterator[Problem]:
+    """Depths that lie behind the space's end, and a space that is too narrow.
+
+    Membranes that are not parallel leave room for any depth.
+    """
+    if "in_front_of" in space and space["in_front_of"] is None and space.get("press_mm", 0) > 0:
+        yield Problem("space.press_mm", space["press_mm"], "needs space.in_front_of: the membrane that may be pressed")
+    begins = space.get("depth_mm")
+    if begins is None:
         return
-    ends = [(space.deepest_mm, "space.deepest_mm")] if space.deepest_mm is not None else []
-    gap = _gap_mm(file, scene)
-    if gap is not None:
-        ends.append((gap + space.press_mm, f"the {space.in_front_of}"))
-    end, what = min(ends, default=(np.inf, ""))
-    if space.depth_mm > 0 and space.depth_mm >= end:
-        yield Problem("space.depth_mm", space.depth_mm, f"must be less than {end:g}: there the space ends, by {what}")
+    deepest = space.get("deepest_mm")
+    if deepest is not None and deepest < begins + LEAST_MM - ROUNDING_MM:
+        reason = (
+            f"must be at least {begins + LEAST_MM:g} mm: the space begins at {begins:g} mm and must be "
+            f"at least {LEAST_MM:g} mm wide"
+        )
+        yield Problem("space.deepest_mm", deepest, reason)
         return
-    for i, goal in enumerate(file.goal):
-        if not isinstance(goal, Reach) or goal.depth_mm is None:
+    end, by = space_end_mm(space, scene)
+    if begins > end - LEAST_MM + ROUNDING_MM:
+        yield _too_narrow(space, begins, end, by)
+        return
+    for i, goal in goals.items():
+        depth = goal.get("depth_mm")
+        if depth is None:
             continue
-        where = f"goal[{i}].depth_mm"
-        if goal.depth_mm < space.depth_mm:
-            reason = f"must be {space.depth_mm:g} or more: there the space begins, by space.depth_mm"
-            yield Problem(where, goal.depth_mm, reason)
-        elif goal.depth_mm >= end:
-            yield Problem(where, goal.depth_mm, f"must be less than {end:g}: there the space ends, by {what}")
+        if depth < begins:
+            reason = f"must be at least {begins:g} mm: there the space begins, by space.depth_mm"
+            yield Problem(f"goal[{i}].depth_mm", depth, reason)
+        elif depth >= end:
+            yield Problem(f"goal[{i}].depth_mm", depth, f"must be less than {end:g} mm: there the space ends, by {by}")
 
 
-def _gap_mm(file: ExerciseFile, scene: Scene) -> float | None:
-    """From the far face of the one membrane to the near face of the other; None where they are not parallel."""
-    if file.space.in_front_of is None:
+def _too_narrow(space: Table, begins: float, end: float, by: str) -> Problem:
+    wide = f"must be at least {LEAST_MM:g} mm wide"
+    if end < LEAST_MM:
+        place = f"begins {end:.4g} mm behind" if end > 0 else "does not begin behind"
+        reason = f"{place} the {space['behind']}; the space between them {wide}"
+        return Problem("space.in_front_of", space["in_front_of"], reason)
+    reason = f"must be at most {end - LEAST_MM:g} mm: the space ends at {end:g} mm, by {by}, and {wide}"
+    return Problem("space.depth_mm", begins, reason)
+
+
+def space_end_mm(space: Table, scene: Scene | None) -> tuple[float, str]:
+    """How far behind the far face of `behind` the space ends, and what ends it; infinite where nothing does."""
+    ends = [(np.inf, "")]
+    if space.get("deepest_mm") is not None:
+        ends.append((space["deepest_mm"], "space.deepest_mm"))
+    gap = None if scene is None else _gap_mm(space, scene)
+    if gap is not None and "press_mm" in space:
+        ends.append((gap + space["press_mm"], f"the {space['in_front_of']}"))
+    return min(ends)
+
+
+def _gap_mm(space: Table, scene: Scene) -> float | None:
+    """From the far face of `behind` to the near face of `in_front_of`.
+
+    None where there are no two membranes of these names, or they are not parallel.
+    """
+    names = [placed.name for placed in scene.membranes]
+    pair = [space.get("behind"), space.get("in_front_of")]
+    if pair[0] == pair[1] or any(names.count(str(name)) != 1 for name in pair):
         return None
-    by_name = {placed.name: placed for placed in scene.membranes}
-    one, other = by_name[file.space.behind], by_name[file.space.in_front_of]
+    one, other = (scene.membranes[names.index(str(name))] for name in pair)
     normals = [np.asarray(placed.inward_normal) for placed in (one, other)]
     n, m = (normal / np.linalg.norm(normal) for normal in normals)
     if n @ m < PARALLEL:

@@ -6,11 +6,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ATTEMPTS, MOST_N, MOST_S
+
 Text = Annotated[str, Field(min_length=1, max_length=2000)]
 Word = Annotated[str, Field(min_length=1, max_length=200)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
-Above0 = Annotated[float, Field(allow_inf_nan=False, gt=0)]
-From0 = Annotated[float, Field(allow_inf_nan=False, ge=0)]
+Depth = Annotated[float, Field(allow_inf_nan=False, ge=0, le=DEEPEST_MM)]
+Distance = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM, le=DEEPEST_MM)]
+Seconds = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_S, le=MOST_S)]
+Newtons = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_N, le=MOST_N)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
@@ -35,10 +39,10 @@ class Space(_Table):
     name: Word  # as sentences have it: "the vein"
     behind: Word  # names of membranes of the scene
     in_front_of: Word | None = None
-    depth_mm: From0 = 0.0  # where the space begins
-    deepest_mm: Above0 | None = None  # where it ends
+    depth_mm: Depth = 0.0  # where the space begins
+    deepest_mm: Distance | None = None  # where it ends
     sign: Word | None = None  # by which one knows: "the flash-back"
-    press_mm: From0 = 0.0  # how deep the point may be in the second membrane
+    press_mm: Depth = 0.0  # how deep the point may be in the second membrane
 
 
 class _Goal(_Table):
@@ -50,14 +54,14 @@ class Reach(_Goal):
 
     kind: Literal["reach"]
     whole_tip: bool = False
-    depth_mm: Above0 | None = None  # that it must come to, as in [space]; where the space begins, if not given
+    depth_mm: Distance | None = None  # that it must come to, as in [space]; where the space begins, if not given
 
 
 class Stay(_Goal):
     """... and stays there."""
 
     kind: Literal["stay"]
-    seconds: Above0
+    seconds: Seconds
     whole_tip: bool = False
 
 
@@ -74,29 +78,29 @@ class StopAfterPop(_Goal):
 
     kind: Literal["stop_after_pop"]
     membrane: Word
-    within_mm: Above0
-    seconds: Above0 = 0.3  # after the pop
+    within_mm: Distance
+    seconds: Seconds = 0.3  # after the pop
 
 
 class TimeLimit(_Goal):
     """Everything is done in this time from the first touch on."""
 
     kind: Literal["time_limit"]
-    seconds: Above0
+    seconds: Seconds
 
 
 class PeakForce(_Goal):
     """The model's force, all membranes together, stays below."""
 
     kind: Literal["peak_force"]
-    at_most_N: Above0
+    at_most_N: Newtons
 
 
 class Attempts(_Goal):
     """The first membrane is entered no more often."""
 
     kind: Literal["attempts"]
-    at_most: Annotated[int, Field(ge=1)]
+    at_most: Annotated[int, Field(ge=1, le=MOST_ATTEMPTS)]
 
 
 AnyGoal = Annotated[

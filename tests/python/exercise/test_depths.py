@@ -96,11 +96,15 @@ def test_without_an_end_the_space_goes_on(write):
 @pytest.mark.parametrize(
     ("space", "where", "why"),
     [
-        ("depth_mm = 3.1", "space.depth_mm", "must be less than 3.01: there the space ends, by the back vein wall"),
-        ("depth_mm = -1", "space.depth_mm", "greater than or equal to 0"),
-        ("depth_mm = 2\ndeepest_mm = 2", "space.deepest_mm", "must be more than 2, where the space begins"),
-        ("depth_mm = 1", "goal[0].depth_mm", "must be 1 or more: there the space begins, by space.depth_mm"),
-        ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4: there the space ends, by space.deepest_mm"),
+        (
+            "depth_mm = 3.1",
+            "space.depth_mm",
+            "must be at most 2.91 mm: the space ends at 3.01 mm, by the ",
+        ),
+        ("depth_mm = -1", "space.depth_mm", "must be at least 0 mm"),
+        ("depth_mm = 2\ndeepest_mm = 2", "space.deepest_mm", "must be at least 2.1 mm: the space begins at 2 mm"),
+        ("depth_mm = 1", "goal[0].depth_mm", "must be at least 1 mm: there the space begins, by space.depth_mm"),
+        ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4 mm: there the space ends, by space.deepest_mm"),
     ],
 )
 def test_a_depth_that_nobody_can_come_to_is_told(write, space, where, why):

@@ -57,14 +57,53 @@ def test_everything_that_is_wrong_is_told_at_once(write):
     )
     found = problems(wrong)
     assert found["title"] == "is missing"
-    assert found["titel"] == found["start.x"] == "unknown key"
-    assert "at least 3 items" in found["start.position_mm"]
-    assert "greater than 0" in found["goal[0].seconds"]
+    assert found["titel"] == "unknown key; did you mean title?"
+    assert found["start.x"] == "unknown key; known here: position_mm, angle_deg, heading"
+    assert found["start.position_mm"] == "must be three numbers, [x, y, z]"
+    assert found["goal[0].seconds"] == "must be at least 0.01 s"
     assert found["goal[1].kind"].startswith("must be one of reach, stay, never_pass, stop_after_pop")
     assert found["goal[5].kind"] == found["goal[1].kind"]
     assert found["goal[2].membrane"] == "is missing"
-    assert "greater than or equal to 1" in found["goal[3].at_most"]
-    assert "boolean" in found["goal[4].whole_tip"]
+    assert found["goal[3].at_most"] == "must be at least 1"
+    assert found["goal[4].whole_tip"] == "must be true or false"
+
+
+def test_names_and_depths_are_checked_beside_keys_that_are_wrong(write):
+    head = HEAD.replace('"front vein wall"', '"vein"').replace("[space]", "x = 1\n[space]\nsigns = 3\ndepth_mm = 3")
+    head = head.replace("[0, 5, 0]", "[0, -9, 0]").replace('title = "Test"\n', "") + "deepest_mm = 2\n"
+    goals = goal("never_pass", membrane="dura", whole=3), goal("peak_force", at_most_N="x"), goal("attempts", at_most=0)
+    assert problems(write(*goals, head=head)).keys() == {
+        "title", "start.x", "start.position_mm", "space.signs", "space.behind", "space.deepest_mm", "goal[0].whole",
+        "goal[0].membrane", "goal[1].at_most_N", "goal[2].at_most", "goal",
+    }  # fmt: skip
+
+
+def test_what_needs_no_scene_is_checked_beside_a_scene_that_is_not_there(write):
+    head = HEAD.replace('"venipuncture"', '"none.toml"') + "depth_mm = 3\ndeepest_mm = 2\n"
+    assert problems(write(goal("attempts", at_most=1), head=head)).keys() == {"scene", "space.deepest_mm", "goal"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path", "words"),
+    [
+        ('title = "Test"', 'title = ""', "title", "must not be empty"),
+        ('title = "Test"', "title = 3", "title", "must be text, in quotes"),
+        ('title = "Test"', f'title = "{"x" * 201}"', "title", "must have at most 200 characters"),
+        ("[0, 5, 0]", '[0, "5", 0]', "start.position_mm[1]", "must be a number"),
+        ("[0, 5, 0]", "[0, nan, 0]", "start.position_mm[1]", "must be a finite number"),
+        ("[0, 5, 0]", "5", "start.position_mm", "must be three numbers, [x, y, z]"),
+        ("[0, 5, 0]", "[0, 5, 0]\nangle_deg = 5", "start.angle_deg", "must be more than 10 deg"),
+        ("[start]", "[begin]", "begin", "unknown key; known here: title, description, instruction, scene, start, "),
+        ("[start]", "[begin]", "start", "is missing; write a table [start]"),
+        ("[[goal]]", "[[aim]]", "goal", "is missing; write a table [[goal]]"),
+        ("seconds = 3", "time_s = 3", "goal[0].time_s", "unknown key; known here: text, kind, seconds, whole_tip"),
+        ("seconds = 3", "secnds = 3", "goal[0].secnds", "unknown key; did you mean seconds?"),
+    ],
+)
+def test_each_problem_is_told_in_plain_words(write, old, new, path, words):
+    text = HEAD + goal("stay", seconds=3)
+    assert old in text
+    assert problems(write(head=text.replace(old, new)))[path].startswith(words)
 
 
 def test_what_does_not_fit_the_scene_is_told_at_once(write):
@@ -108,7 +147,9 @@ def test_files_that_are_none_are_told(tmp_path):
 @pytest.mark.parametrize("text", ["goal = 3\n", "goal = [3]\n", "[goal]\nkind = 'reach'\n", "[[goal]]\nkind = 3\n"])
 def test_goals_that_are_no_tables_are_told(tmp_path, text):
     (tmp_path / "odd.toml").write_text(text)
-    assert any(path.startswith("goal") for path in problems(tmp_path / "odd.toml"))
+    found = problems(tmp_path / "odd.toml")
+    words = "must be a list of one or more tables", "must be a table, [[goal]]", "must be one of reach, stay"
+    assert any(path.startswith("goal") and reason.startswith(words) for path, reason in found.items())
 
 
 def test_the_schema_names_every_kind_of_goal():

@@ -57,7 +57,7 @@ def test_an_exercise_of_ones_own_runs_and_gives_a_result(page):
 def test_a_file_is_read_anew_and_what_is_wrong_with_it_is_shown_with_path_value_bound_and_reason(page, own):
     sound = own.read_text(encoding="utf-8")
     own.write_text(sound.replace("seconds = 60", "seconds = -60"), encoding="utf-8")
-    wrong = {"path": "goal[1].seconds", "value": "-60", "reason": "input should be greater than 0"}
+    wrong = {"path": "goal[1].seconds", "value": "-60", "reason": "must be at least 0.01 s"}
     assert page.json("/api/exercises")[0]["problems"] == [wrong]
     refused = page.ask(do="start_exercise", exercise="mine")
     assert not refused["ok"] and refused["problems"] == [wrong]
@@ -102,7 +102,7 @@ def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(t
     bad = own_file(tmp_path, HEAD.replace("front vein wall", "vein") + goal("reach", depth_mm=-3))
     code, said = told(capsys, "--exercise", str(bad))
     assert code == 2 and "mine.toml" in said and "Traceback" not in said
-    assert "goal[0].depth_mm" in said and "-3" in said and "greater than 0" in said
+    assert "goal[0].depth_mm" in said and "-3" in said and "must be at least 0.1 mm" in said
     bad.write_text("a = " + 500 * "[" + 500 * "]", encoding="utf-8")
     code, said = told(capsys, "--exercise", str(bad))
     assert code == 2 and "deep in each other" in said

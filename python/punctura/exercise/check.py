@@ -1,0 +1,125 @@
+"""Everything that is wrong with an exercise file, at once.
+
+The keys are checked by the schema, and what goes together by the functions below. These look at every value that is
+sound by itself, also where others in the same table are not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from punctura import Scene
+from punctura.errors import MISSING, Problem
+from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
+from punctura.exercise.depths import Table, unreachable
+from punctura.exercise.exercise import start_axis
+from punctura.exercise.problems import GOALS, Location, located, problem
+from punctura.exercise.schema import ExerciseFile, Space, Start
+
+
+class Sound(NamedTuple):
+    """The values that are sound by themselves, and the defaults of keys that were left out."""
+
+    start: Table
+    space: Table
+    goals: dict[int, Table]  # by their place; a goal whose kind is not known is left out
+
+
+def check_tables(tables: dict[str, Any], scene: Scene | None) -> tuple[ExerciseFile | None, list[Problem]]:
+    """The exercise file of these tables, if it is sound, and every problem if it is not. scene: None if it is not."""
+    file, problems, unsound = None, [], set[Location]()
+    try:
+        file = ExerciseFile.model_validate(tables)
+    except ValidationError as error:
+        errors = error.errors(include_url=False)
+        problems = [problem(e) for e in errors]
+        unsound = {located(e)[0] for e in errors}
+    sound = _sound(tables, unsound)
+    problems += _kinds(tables.get("goal"), sound.goals)
+    problems += _start(sound.start, scene)
+    problems += _names(sound, scene)
+    problems += unreachable(sound.space, sound.goals, scene)
+    return (None if problems else file), problems
+
+
+def _sound(tables: dict[str, Any], unsound: set[Location]) -> Sound:
+    def values(model: type[BaseModel], given: Any, place: Location) -> Table:
+        if not isinstance(given, dict):
+            return {}
+        bad = {where[len(place)] for where in unsound if where[: len(place)] == place and len(where) > len(place)}
+        return {
+            key: given.get(key, field.default)
+            for key, field in model.model_fields.items()
+            if key not in bad and (key in given or not field.is_required())
+        }
+
+    given = tables.get("goal")
+    goals = {}
+    for i, goal in enumerate(given if isinstance(given, list) else []):
+        kind = goal.get("kind") if isinstance(goal, dict) else None
+        if isinstance(kind, str) and kind in GOALS:
+            goals[i] = values(GOALS[kind], goal, ("goal", i))
+    start, space = (values(model, tables.get(key), (key,)) for key, model in (("start", Start), ("space", Space)))
+    return Sound(start, space, goals)
+
+
+def _kinds(given: Any, goals: dict[int, Table]) -> Iterator[Problem]:
+    if not isinstance(given, list) or not given or len(goals) < len(given):
+        return
+    if not any(goal["kind"] in ("reach", "stay") for goal in goals.values()):
+        yield Problem("goal", MISSING, "one at least must be of kind reach or stay: without it nothing can be achieved")
+
+
+def _start(start: Table, scene: Scene | None) -> Iterator[Problem]:
+    position = start.get("position_mm")
+    if position is not None:
+        away = math.hypot(*position)
+        if away > FARTHEST_START_MM:
+            reason = f"must be at most {FARTHEST_START_MM:g} mm from the scene's origin; it is {away:.4g} mm from it"
+            yield Problem("start.position_mm", position, reason)
+        elif scene is not None:
+            yield from _in_front(position, scene)
+    heading = start.get("heading")
+    if heading is None:
+        return
+    if not LEAST_HEADING <= math.hypot(*heading) <= MOST_HEADING:
+        reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
+        yield Problem("start.heading", heading, reason)
+    elif scene is not None and "angle_deg" in start:
+        try:
+            start_axis(scene, start["angle_deg"], heading)
+        except ValueError as bad:
+            yield Problem("start.heading", heading, str(bad))
+
+
+def _in_front(position_mm: list[float], scene: Scene) -> Iterator[Problem]:
+    """An attempt begins in front of all membranes, so the needle must wait there."""
+    depths = []
+    for placed in scene.membranes:
+        normal = np.asarray(placed.inward_normal) / np.linalg.norm(placed.inward_normal)
+        depths.append(float(normal @ (np.asarray(position_mm) - np.asarray(placed.point) * 1e3)))
+    worst = int(np.argmax(depths))
+    if depths[worst] > -LEAST_MM:
+        side = "behind" if depths[worst] > 0 else "in front of"
+        reason = (
+            f"must be at least {LEAST_MM:g} mm in front of every membrane; "
+            f"it is {abs(depths[worst]):.4g} mm {side} the {scene.membranes[worst].name}"
+        )
+        yield Problem("start.position_mm", position_mm, reason)
+
+
+def _names(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
+    space = sound.space
+    asked = [(f"space.{key}", space[key]) for key in ("behind", "in_front_of") if space.get(key) is not None]
+    asked += [(f"goal[{i}].membrane", goal["membrane"]) for i, goal in sound.goals.items() if "membrane" in goal]
+    names = [] if scene is None else [placed.name for placed in scene.membranes]
+    for where, name in asked if scene is not None else []:
+        if names.count(name) != 1:
+            yield Problem(where, name, f"must be one of the scene's membranes: {', '.join(names)}")
+    if space.get("behind") is not None and space["behind"] == space.get("in_front_of"):
+        yield Problem("space.in_front_of", space["in_front_of"], "must be another membrane than space.behind")

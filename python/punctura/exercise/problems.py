@@ -1,0 +1,89 @@
+"""What is wrong with the keys and values of an exercise file, each by itself, in plain words."""
+
+from __future__ import annotations
+
+import difflib
+from typing import get_args
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from punctura.errors import MISSING, Problem
+from punctura.exercise.schema import AnyGoal, ExerciseFile, Space, Start
+from punctura.scene.units import split_key
+
+Location = tuple[int | str, ...]  # of a value in the file: ("goal", 1, "seconds")
+
+GOALS: dict[str, type[BaseModel]] = {
+    get_args(goal.model_fields["kind"].annotation)[0]: goal for goal in get_args(get_args(AnyGoal)[0])
+}
+_TABLES: dict[str, type[BaseModel]] = {"start": Start, "space": Space}
+_HEADS = {"start": "[start]", "space": "[space]", "goal": "[[goal]]"}
+_UNITS = {"seconds": "s"}  # of keys that do not end in their unit
+
+_TYPES = {
+    "string_type": "must be text, in quotes",
+    "string_too_short": "must not be empty",
+    "string_too_long": "must have at most {max_length} characters",
+    "float_type": "must be a number",
+    "finite_number": "must be a finite number",
+    "int_type": "must be a whole number",
+    "bool_type": "must be true or false",
+    "greater_than": "must be more than {gt:g}{unit}",
+    "greater_than_equal": "must be at least {ge:g}{unit}",
+    "less_than_equal": "must be at most {le:g}{unit}",
+}
+
+
+def located(error: ErrorDetails) -> tuple[Location, str]:
+    """Where the value stands in the file, and the kind of the goal that it is in, or "".
+
+    Pydantic names the kind within the location.
+    """
+    loc = error["loc"]
+    if len(loc) > 2 and loc[0] == "goal" and loc[2] in GOALS:
+        return (*loc[:2], *loc[3:]), str(loc[2])
+    return loc, ""
+
+
+def problem(error: ErrorDetails) -> Problem:
+    """What is wrong, where, and what would be right."""
+    location, goal = located(error)
+    path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location).lstrip(".")
+    given = error["input"]
+    if error["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        tag = given.get("kind", MISSING) if isinstance(given, dict) else MISSING
+        return Problem(f"{path}.kind", tag, f"must be one of {', '.join(GOALS)}")
+    return Problem(path, _shown(error), _reason(error, location, goal))
+
+
+def _shown(error: ErrorDetails) -> object:
+    given = error["input"]
+    if error["type"] == "missing" or isinstance(given, dict):
+        return MISSING
+    return MISSING if isinstance(given, list) and any(isinstance(part, dict | list) for part in given) else given
+
+
+def _reason(error: ErrorDetails, location: Location, goal: str) -> str:
+    kind = error["type"]
+    key = next((part for part in reversed(location) if isinstance(part, str)), "")
+    if kind == "missing":
+        return f"is missing; write a table {_HEADS[key]}" if len(location) == 1 and key in _HEADS else "is missing"
+    if kind == "extra_forbidden":
+        return _unknown_key(key, GOALS.get(goal) or _TABLES.get(str(location[0]), ExerciseFile), len(location) == 1)
+    if kind in _TYPES:
+        unit = _UNITS.get(key) or split_key(key)[1].name
+        return _TYPES[kind].format(**error.get("ctx", {}), unit=f" {unit}" if unit else "")
+    if len(location) == 1 and key == "goal":
+        return "must be a list of one or more tables; begin each with [[goal]]"
+    if kind in ("list_type", "too_short", "too_long"):
+        return "must be three numbers, [x, y, z]"
+    if key in _HEADS:
+        return f"must be a table, {_HEADS[key]}"
+    return error["msg"][:1].lower() + error["msg"][1:]
+
+
+def _unknown_key(key: str, table: type[BaseModel], top: bool) -> str:
+    known = list((ExerciseFile if top else table).model_fields)
+    near = difflib.get_close_matches(key, known, n=1) or [k for k in known if split_key(k)[0] == key]
+    return f"unknown key; did you mean {near[0]}?" if near else f"unknown key; known here: {', '.join(known)}"
