@@ -39,7 +39,7 @@ def score(
     """
     from punctura.exercise import Result
     from punctura.exercise import score as judge
-    from punctura.exercise.words import tenths
+    from punctura.exercise.words import state, tenths
 
     result: Result = judge(recording, exercise, person)
     if as_json:
@@ -48,11 +48,11 @@ def score(
     typer.echo(f"{result.title}: {result.verdict}")
     for reason in result.reasons:
         typer.echo(f"  {reason}")
-    width = max(len(goal.state) for goal in result.goals)
+    width = max(len(state(goal)) for goal in result.goals)
     for goal in result.goals:
-        typer.echo(f"  {goal.state:{width}}  {goal.text}")
+        typer.echo(f"  {state(goal):{width}}  {goal.text}")
     m = result.metrics
-    typer.echo(f"  {m.attempts} entries, {m.peak_force:.2f} N at most")
+    typer.echo(f"  {m.attempts} {'entry' if m.attempts == 1 else 'entries'}, {m.peak_force:.2f} N at most")
     typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:

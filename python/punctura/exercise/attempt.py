@@ -19,7 +19,7 @@ from punctura.exercise.limit import Limit, Moment, first_of, moment
 from punctura.exercise.limits import limit_of
 from punctura.exercise.measures import Measures
 from punctura.exercise.result import GoalState, Result, Status
-from punctura.exercise.space import space_of
+from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import Flags, Geometry, Ticks
@@ -36,6 +36,7 @@ class Attempt:
     def __init__(self, exercise: Exercise, scene: Scene) -> None:
         """scene: as it runs, at the device's rate. Raises ConfigurationError where the exercise does not fit it."""
         self.exercise, self.scene = exercise, scene
+        need_membranes(exercise.file, scene)
         self._space = space_of(exercise.file, scene)
         self._judges: list[Limit | Achievement] = [
             limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind)

@@ -71,7 +71,7 @@ class AttemptsJudge(Limit):
 
 
 def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
-    """None for a goal that is achieved. Raises ConfigurationError where the scene lacks what the goal names."""
+    """None for a goal that is achieved. The scene has the membrane that the goal names."""
     if isinstance(goal, Reach | Stay):
         return None
     if isinstance(goal, NeverPass):

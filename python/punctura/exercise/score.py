@@ -6,6 +6,7 @@ import os
 from datetime import datetime, timezone
 from pathlib import Path
 
+from punctura.errors import ConfigurationError, Problem
 from punctura.events.recorded import recorded_ticks
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
@@ -18,10 +19,21 @@ def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: s
     """The result that the attempt had, or would have had, live. Raises RecordingError, ConfigurationError."""
     opened = open_recording(recording)
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
-    attempt = Attempt(wanted, opened.info.scene)
+    try:
+        attempt = Attempt(wanted, opened.info.scene)
+    except ConfigurationError as bad:
+        raise ConfigurationError([_with_remedy(p, wanted) for p in bad.problems], os.fspath(recording)) from None
     for columns, _ in recorded_ticks(opened):
         attempt.add(columns)
         if attempt.settled:
             break
     date = datetime.fromtimestamp(opened.info.began_ns / 1e9, timezone.utc)
     return attempt.finish(person, Path(recording).stem, date)
+
+
+def _with_remedy(problem: Problem, exercise: Exercise) -> Problem:
+    remedy = (
+        f"choose a recording of the exercise {exercise.name} (its scene is {exercise.scene.name!r}), "
+        "or the exercise that was recorded"
+    )
+    return problem._replace(reason=f"{problem.reason}; {remedy}")

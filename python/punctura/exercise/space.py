@@ -60,18 +60,23 @@ class TargetSpace:
         return self.sign or f"you had reached {self.name}"
 
 
-def place_of(scene: Scene, name: str) -> int:
-    """A membrane's number in the scene that runs. Raises ConfigurationError."""
+def need_membranes(file: ExerciseFile, scene: Scene) -> None:
+    """Raises ConfigurationError where the scene that runs lacks membranes that the exercise names."""
+    needed = [file.space.behind, file.space.in_front_of, *(getattr(goal, "membrane", None) for goal in file.goal)]
     names = [placed.name for placed in scene.membranes]
-    if name not in names:
-        known = ", ".join(names)
-        problem = Problem("scene", scene.name, f"has no membrane {name!r}, which the exercise needs; it has {known}")
-        raise ConfigurationError([problem])
-    return names.index(name)
+    lacking = list(dict.fromkeys(repr(name) for name in needed if name is not None and name not in names))
+    if lacking:
+        reason = f"has no membrane {' and no '.join(lacking)}, which the exercise needs; it has {', '.join(names)}"
+        raise ConfigurationError([Problem("scene", scene.name, reason)])
+
+
+def place_of(scene: Scene, name: str) -> int:
+    """A membrane's number in the scene that runs, which has it."""
+    return [placed.name for placed in scene.membranes].index(name)
 
 
 def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
-    """Raises ConfigurationError."""
+    """The space in the scene that runs, which has its membranes."""
     space = file.space
     reach = next((goal for goal in file.goal if isinstance(goal, Reach)), None)
     stay_whole = any(goal.whole_tip for goal in file.goal if isinstance(goal, Stay))

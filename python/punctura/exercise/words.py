@@ -10,6 +10,7 @@ from punctura.exercise.achievements import Achievement, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.limits import AttemptsJudge, ForceJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.measures import Measures
+from punctura.exercise.result import GoalState
 from punctura.exercise.schema import Space
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.stop import StopJudge
@@ -18,6 +19,11 @@ from punctura.exercise.stop import StopJudge
 def tenths(value: float) -> str:
     """With one decimal, rounded as the page rounds: a half goes up."""
     return str(Decimal(value).quantize(Decimal("0.1"), ROUND_HALF_UP))
+
+
+def state(goal: GoalState) -> str:
+    """A goal's state, for people."""
+    return "not decided" if goal.state == "open" else goal.state
 
 
 def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -> str:

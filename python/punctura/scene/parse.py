@@ -23,6 +23,10 @@ def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
     return ConfigurationError([Problem(where, MISSING, reason)], str(path))
 
 
+def _file_of(what: str) -> str:
+    return f"{'an' if what[0] in 'aeiou' else 'a'} {what} file"
+
+
 def read_text(path: Path, what: str = "scene") -> str:
     """The text of a TOML file of ours; a byte-order mark is skipped. what: kind of file, for the messages.
 
@@ -30,7 +34,7 @@ def read_text(path: Path, what: str = "scene") -> str:
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # before it is opened: a pipe could block
-            raise _error(path, f"is a device or a pipe, not a {what} file; save its text in a file")
+            raise _error(path, f"is a device or a pipe, not {_file_of(what)}; save its text in a file")
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
         if len(data) > MOST_BYTES:
@@ -39,7 +43,7 @@ def read_text(path: Path, what: str = "scene") -> str:
     except FileNotFoundError:
         raise _error(path, "there is no such file") from None
     except IsADirectoryError:
-        raise _error(path, f"is a folder, not a {what} file") from None
+        raise _error(path, f"is a folder, not {_file_of(what)}") from None
     except UnicodeDecodeError as bad:
         line = bad.object[: bad.start].count(b"\n") + 1
         raise _error(path, "is not UTF-8 text; save it as UTF-8", f"line {line}") from None

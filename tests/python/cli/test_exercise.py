@@ -53,7 +53,9 @@ def test_a_recording_is_scored(punctura, recording):
     done = punctura("exercise", "score", recording, "--exercise", "venipuncture")
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("Venipuncture: not passed\n  You went through the back vein wall ")
-    assert "missed  Do not go through the back vein wall" in done.stdout
+    assert "\n  missed       Do not go through the back vein wall" in done.stdout
+    assert "\n  not decided  Bring the whole tip" in done.stdout
+    assert "\n  1 entry, " in done.stdout
     done = punctura("exercise", "score", recording, "--exercise", "venipuncture", "--person", "Ada", "--json")
     result = json.loads(done.stdout)
     assert (result["passed"], result["person"], result["recording"]) == (False, "Ada", "try")
@@ -62,7 +64,9 @@ def test_a_recording_is_scored(punctura, recording):
 def test_what_cannot_be_scored_is_told(punctura, recording, tmp_path):
     done = punctura("exercise", "score", recording, "--exercise", "epidural")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "has no membrane 'ligamentum flavum'" in done.stderr
+    assert f"{recording}: 1 problem" in done.stderr
+    assert "has no membrane 'ligamentum flavum' and no 'dura', which the exercise needs; it has skin, " in done.stderr
+    assert "choose a recording of the exercise epidural (its scene is 'Epidural" in done.stderr
     assert punctura("exercise", "score", tmp_path / "none", "--exercise", "epidural").returncode == 1
     done = punctura("exercise", "score", recording, "--exercise", "none")
     assert done.returncode == 2 and "ready exercises: epidural, venipuncture" in done.stderr

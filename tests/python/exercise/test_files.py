@@ -139,6 +139,8 @@ def test_files_that_are_none_are_told(tmp_path):
         load_exercise("lumbar")
     with pytest.raises(ConfigurationError, match="no such file"):
         load_exercise(tmp_path / "none.toml")
+    with pytest.raises(ConfigurationError, match="is a folder, not an exercise file"):
+        load_exercise(tmp_path)
     (tmp_path / "bad.toml").write_text("title = ")
     with pytest.raises(ConfigurationError, match="is not TOML"):
         load_exercise(tmp_path / "bad.toml")

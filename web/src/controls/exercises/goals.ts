@@ -9,7 +9,10 @@ const STATES = {
   "not measured": ["?", "not-measured"],
 } as const;
 
-/** Goals with their state as a sign, a word and a colour. */
+/** A goal's state for people: the file's word is "open" where nothing is decided yet. */
+export const stateWord = (state: ExerciseGoal["state"]): string => (state === "open" ? "not decided" : state);
+
+/** Goals with their state as a sign, a colour and, for a screen reader, a word. */
 export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
   return element(
     "ul",
@@ -20,7 +23,7 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
         "li",
         { class: style },
         element("span", { class: "sign", "aria-hidden": "true" }, sign),
-        element("span", { class: "only-read" }, `${state}: `),
+        element("span", { class: "only-read" }, `${stateWord(state)}: `),
         // A grid's cells: the sign, and all of the words.
         element("span", {}, text, ...(state === "not measured" ? [element("em", {}, " (not measured)")] : [])),
       );
