@@ -27,6 +27,8 @@ def run_page(
     folder = page or serve.PAGE
     serve.need_page(folder)
     exercises = Exercises(own)
+    for file, warning in exercises.warnings:
+        say(f"punctura: warning: {file}: {warning}")
     scene = load_exercise(own[0]).scene_name if own and not wishes.scene else wishes.scene or USUAL_SCENE
     loaded = from_name(scene)
     settings = Settings(

@@ -37,11 +37,14 @@ def score(
 
     Status 0 whether it is passed or not: the first line says so, and whether something was not measured.
     """
-    from punctura.exercise import Result
+    from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge
     from punctura.exercise.words import state, tenths
 
-    result: Result = judge(recording, exercise, person)
+    wanted = load_exercise(exercise)
+    for warning in wanted.warnings:
+        typer.echo(f"punctura: warning: {wanted.path}: {warning}", err=True)
+    result: Result = judge(recording, wanted, person)
     if as_json:
         typer.echo(result.model_dump_json(indent=2))
         return

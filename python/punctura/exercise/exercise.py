@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from punctura import Scene
+from punctura.errors import Problem
 from punctura.exercise.schema import AnyGoal, ExerciseFile
 
 Triple = tuple[float, float, float]
@@ -23,6 +24,7 @@ class Exercise:
     file: ExerciseFile
     scene: Scene  # as its file has it; a device may run it at another rate
     scene_name: str  # a ready scene's name, or a path: load_scene takes it
+    warnings: tuple[Problem, ...] = ()  # what is allowed, but seldom meant
 
     @property
     def title(self) -> str:

@@ -10,6 +10,7 @@ from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.check import check_tables
 from punctura.exercise.exercise import Exercise
+from punctura.exercise.tip import tip_warnings
 from punctura.scene import load_scene, scene_names
 from punctura.scene.parse import read_tables
 
@@ -35,7 +36,7 @@ def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
     problems += scene_problems
     if problems or file is None or scene is None:
         raise ConfigurationError(problems, str(path))
-    return Exercise(path.stem, path, file, scene, scene_name)
+    return Exercise(path.stem, path, file, scene, scene_name, tuple(tip_warnings(file, scene)))
 
 
 def _path_of(name_or_path: str | os.PathLike[str]) -> Path:

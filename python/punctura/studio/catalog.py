@@ -37,6 +37,7 @@ class Exercises:
         """Raises ConfigurationError where a file is no sound exercise, or has the name of another."""
         self._files: dict[str, Path] = {}
         self._titles: dict[str, str] = {}
+        self.warnings: list[tuple[Path, Problem]] = []  # of the files as they are now
         for given in files:
             if given in exercise_names():
                 continue  # it is listed anyhow
@@ -46,6 +47,7 @@ class Exercises:
                 raise ConfigurationError([Problem("", MISSING, reason)], str(exercise.path))
             self._files[exercise.name] = exercise.path.absolute()
             self._titles[exercise.name] = exercise.title
+            self.warnings += [(exercise.path, warning) for warning in exercise.warnings]
 
     def _unfit(self, name: str, path: Path) -> str:
         """Why a file, or its name, by which the page and its results know it, cannot be listed."""
@@ -84,14 +86,18 @@ class Exercises:
         try:
             return _overview(self.load(name))
         except ConfigurationError as error:
-            wrong = [part.model_dump(mode="json") for part in problem_parts(error)]
+            wrong = _for_page(error.problems)
             return _NOTHING | {"name": name, "title": self._files[name].name, "problems": wrong}
 
 
 _NOTHING: dict[str, Any] = {
     "description": "", "instruction": "", "scene": "", "space": [], "space_from": 0.0, "space_to": None,
-    "start_position": [0.0, 0.0, 0.0], "start_axis": [0.0, -1.0, 0.0], "goals": [],
+    "start_position": [0.0, 0.0, 0.0], "start_axis": [0.0, -1.0, 0.0], "goals": [], "warnings": [],
 }  # fmt: skip
+
+
+def _for_page(problems: Sequence[Problem]) -> list[dict[str, Any]]:
+    return [part.model_dump(mode="json") for part in problem_parts(problems)]
 
 
 def _overview(exercise: Exercise) -> dict[str, Any]:
@@ -108,6 +114,7 @@ def _overview(exercise: Exercise) -> dict[str, Any]:
         "start_axis": list(exercise.start_axis),
         "goals": [goal.text for goal in Attempt(exercise, exercise.scene).goals],
         "problems": [],
+        "warnings": _for_page(exercise.warnings),
     }
 
 

@@ -53,7 +53,7 @@ def refusal(number: int, error: Exception) -> Reply | None:
     if isinstance(error, ConfigurationError):
         count = len(error.problems)
         words = f"{count} problem{'s' if count != 1 else ''}"
-        return Reply(id=number, ok=False, text=words, problems=problem_parts(error))
+        return Reply(id=number, ok=False, text=words, problems=problem_parts(error.problems))
     if isinstance(error, ValueError | RuntimeError | OSError):  # DeviceError, RecordingError, BadName are of these
         return Reply(id=number, ok=False, text=str(error))
     return None

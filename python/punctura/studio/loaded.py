@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,9 +63,9 @@ def from_name(path_or_name: str) -> Loaded:
     return from_text(read_text(path), str(path))
 
 
-def problem_parts(error: ConfigurationError) -> list[ProblemPart]:
+def problem_parts(problems: Sequence[Problem]) -> list[ProblemPart]:
     """What is wrong, for the page."""
     return [
         ProblemPart(path=p.path, value="" if p.value is MISSING else repr(p.value)[:200], reason=p.reason)
-        for p in error.problems
+        for p in problems
     ]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from attempts import as_a_device_runs_it, motion_of
+from attempts import HEAD, as_a_device_runs_it, goal, motion_of
 from punctura._core import SimulatedDevice
 from punctura.cli import main
 from punctura.exercise import load_exercise
@@ -59,6 +59,14 @@ def test_a_recording_is_scored(punctura, recording):
     done = punctura("exercise", "score", recording, "--exercise", "venipuncture", "--person", "Ada", "--json")
     result = json.loads(done.stdout)
     assert (result["passed"], result["person"], result["recording"]) == (False, "Ada", "try")
+
+
+def test_a_warning_of_the_exercise_is_printed_beside_the_score(punctura, recording, tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(HEAD + goal("reach", depth_mm=2), encoding="utf-8")
+    done = punctura("exercise", "score", recording, "--exercise", file)
+    assert done.returncode == 0 and done.stdout.startswith("Test: passed")
+    assert done.stderr.startswith(f"punctura: warning: {file}: goal[0]: is met before the front vein wall pops")
 
 
 def test_what_cannot_be_scored_is_told(punctura, recording, tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from attempts import HEAD, goal, ideal, judged
-from punctura import ConfigurationError, ThickLaw
+from punctura import ConfigurationError
 from punctura.exercise import exercise_json_schema, load_exercise
 from runs import moved
 
@@ -135,12 +135,27 @@ def test_each_example_of_the_docs_is_a_sound_exercise(tmp_path, text):
     assert load_exercise(tmp_path / "example.toml").goals
 
 
-def test_the_docs_three_millimetres_past_the_second_membrane_can_be_passed(tmp_path):
+@pytest.fixture
+def docs_example(tmp_path):
+    """The example of the docs that asks for 3 mm past the second membrane."""
     (tmp_path / "example.toml").write_text(next(text for text in EXAMPLES if "depth_mm = 3" in text), encoding="utf-8")
-    exercise = load_exercise(tmp_path / "example.toml")
-    far = -exercise.scene.membranes[1].point[1] * 1e3 + exercise.scene.membranes[1].membrane.thickness * 1e3
-    tip = ThickLaw(exercise.scene.needle, exercise.scene.membranes[1].membrane).X * 1e3
-    deep = far + max(tip, 3) + 0.5
-    for to, passed in ((deep, True), (far + tip + 3, False)):
-        made = judged(exercise, ideal(exercise.scene, (0, 5, 0), (0, -to, 0), stops=4), scene=exercise.scene)
-        assert made.finish().passed is passed, made.finish().reasons
+    return load_exercise(tmp_path / "example.toml")
+
+
+def past_the_second(exercise, depth):
+    """The result of going to this depth of the point behind the second membrane, mm, at 5 mm/s, and resting there."""
+    second = exercise.scene.membranes[1]
+    far = (second.membrane.thickness - second.point[1]) * 1e3
+    columns = ideal(exercise.scene, (0, 5, 0), (0, -far - depth, 0), speed=5e-3, stops=4)
+    return judged(exercise, columns, scene=exercise.scene).finish()
+
+
+def test_the_docs_three_millimetres_past_the_second_membrane_can_be_passed(docs_example):
+    needle = docs_example.scene.needle
+    tip = needle.diameter / math.tan(needle.tip_angle) * 1e3
+    for depth, passed in ((3.5, False), (tip + 2.9, False), (tip + 3.1, True), (8.9, True), (9.1, False)):
+        result = past_the_second(docs_example, depth)
+        assert result.passed is passed, (depth, result.reasons)
+        if passed:
+            assert any(event.what == "pop" and event.membrane == 1 for event in result.events)
+    assert f"is {tip + 3:.2f} mm deep when" in DOCS.read_text(encoding="utf-8") and docs_example.warnings == ()

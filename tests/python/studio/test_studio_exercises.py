@@ -112,6 +112,18 @@ def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(t
     assert code == 2 and "is of the page" in said
 
 
+def test_a_warning_is_printed_and_listed(tmp_path, own, capsys, monkeypatch):
+    from punctura.studio import serve as serving
+
+    (tmp_path / "index.html").write_text("page")
+    own.write_text(own.read_text(encoding="utf-8") + goal("reach", depth_mm=2), encoding="utf-8")
+    monkeypatch.setattr(serving, "run_studio", lambda *_: None)
+    _, said = told(capsys, "--exercise", str(own), "--page", str(tmp_path))
+    assert f"punctura: warning: {own}: goal[2]: is met before the front vein wall pops" in said
+    (entry, *_) = Exercises([own]).overviews()
+    assert [warning["path"] for warning in entry["warnings"]] == ["goal[2]"] and entry["problems"] == []
+
+
 @pytest.mark.parametrize(("scene", "runs"), [((), "Somebody"), (("k06-fig12",), "K06 Fig. 12")])
 def test_without_a_scene_that_of_the_exercise_runs(tmp_path, own, monkeypatch, scene, runs):
     from punctura.studio import serve as serving

@@ -100,17 +100,19 @@ function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
       // A file with a problem can be started, too: it is read anew then, and may have been mended.
       element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
     ),
-    ...(wrong ? [problemList(exercise.problems)] : []),
+    ...(wrong ? [problemList("problems", exercise.problems)] : []),
+    ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
   );
 }
 
-function problemList(problems: readonly ProblemPart[]): HTMLElement {
+function problemList(kind: "problems" | "warnings", problems: readonly ProblemPart[]): HTMLElement {
+  const begin = kind === "warnings" ? "Warning: " : "";
   return element(
     "ul",
-    { class: "file-problems", role: "alert" },
-    ...problems.map((problem) => element("li", {}, sentence(problem))),
+    { class: `file-${kind}`, role: kind === "problems" ? "alert" : "note" },
+    ...problems.map((problem) => element("li", {}, begin + sentence(problem))),
   );
 }
 

@@ -54,6 +54,8 @@ export interface ExerciseOverview {
   readonly goals: readonly string[];
   /** What is wrong with the file of an exercise of one's own; empty where it is sound. */
   readonly problems: readonly ProblemPart[];
+  /** What the file may say, but seldom means. */
+  readonly warnings: readonly ProblemPart[];
 }
 
 /** `GET /api/results/NAME`: python/punctura/exercise/result.py. SI; null: there was none. */
