@@ -10,7 +10,7 @@ import numpy as np
 
 from punctura import Scene
 from punctura.errors import Problem
-from punctura.exercise.schema import AnyGoal, ExerciseFile
+from punctura.exercise.schema import AnyGoal, ExerciseFile, Reach
 
 Triple = tuple[float, float, float]
 
@@ -53,6 +53,12 @@ class Exercise:
         """Where the space begins behind the far face of the first, m, and where it ends, if at a depth."""
         space = self.file.space
         return space.depth_mm * 1e-3, None if space.deepest_mm is None else space.deepest_mm * 1e-3
+
+    @property
+    def goal_depth(self) -> float:
+        """How deep behind the far face of the first the needle must come, m: by its reach goal, or into the space."""
+        reach = next((goal for goal in self.file.goal if isinstance(goal, Reach)), None)
+        return self.space_depth[0] if reach is None or reach.depth_mm is None else reach.depth_mm * 1e-3
 
     def membrane(self, name: str) -> int:
         """A membrane's place in the scene."""

@@ -92,6 +92,7 @@ class Exercises:
 
 _NOTHING: dict[str, Any] = {
     "description": "", "instruction": "", "scene": "", "space": [], "space_from": 0.0, "space_to": None,
+    "goal_from": 0.0,
     "start_position": [0.0, 0.0, 0.0], "start_axis": [0.0, -1.0, 0.0], "goals": [], "warnings": [],
 }  # fmt: skip
 
@@ -110,6 +111,7 @@ def _overview(exercise: Exercise) -> dict[str, Any]:
         "space": list(exercise.space),
         "space_from": exercise.space_depth[0],
         "space_to": exercise.space_depth[1],
+        "goal_from": exercise.goal_depth,
         "start_position": list(exercise.start_position),
         "start_axis": list(exercise.start_axis),
         "goals": [goal.text for goal in Attempt(exercise, exercise.scene).goals],

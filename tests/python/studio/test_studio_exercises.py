@@ -149,3 +149,10 @@ def test_the_depths_of_the_space_are_listed(tmp_path):
     text = HEAD.replace('in_front_of = "back vein wall"', "depth_mm = 1\ndeepest_mm = 2.5") + goal("reach")
     (entry, *_) = Exercises([own_file(tmp_path, text)]).overviews()
     assert entry["space"] == [1] and np.allclose([entry["space_from"], entry["space_to"]], [1e-3, 2.5e-3])
+    assert entry["goal_from"] == entry["space_from"]
+
+
+def test_the_depth_of_the_reach_goal_is_listed(tmp_path):
+    text = HEAD.replace("[space]", "[space]\ndepth_mm = 1") + goal("stay", seconds=1) + goal("reach", depth_mm=2)
+    (entry, *_) = Exercises([own_file(tmp_path, text)]).overviews()
+    assert np.allclose([entry["space_from"], entry["goal_from"]], [1e-3, 2e-3])

@@ -51,6 +51,8 @@ export interface ExerciseOverview {
   readonly space_from: number;
   /** Where it ends, likewise; null: nowhere, or at the second membrane. */
   readonly space_to: number | null;
+  /** How deep the needle must come, likewise: deeper than where the space begins if a `reach` goal says so. */
+  readonly goal_from: number;
   readonly goals: readonly string[];
   /** What is wrong with the file of an exercise of one's own; empty where it is sound. */
   readonly problems: readonly ProblemPart[];

@@ -34,17 +34,17 @@ export function layersOf(membranes: readonly MembraneView[]): Layer[] {
   });
 }
 
-/** The space that an exercise wants to be reached; null where its first membrane is not there. */
+/** The part of the space that an exercise wants to be reached; null where its first membrane is not there. */
 export function spaceOf(
   layers: readonly Layer[],
-  exercise: Pick<ExerciseOverview, "space" | "space_from" | "space_to">,
+  exercise: Pick<ExerciseOverview, "space" | "space_to" | "goal_from">,
 ): Layer | null {
   const [behind, before] = exercise.space.map((place) => layers[place]);
   if (!behind) return null;
   const end = exercise.space_to === null ? Number.POSITIVE_INFINITY : behind.bottom + exercise.space_to;
   return {
     name: "",
-    top: behind.bottom + exercise.space_from,
+    top: behind.bottom + exercise.goal_from,
     bottom: Math.min(end, before?.top ?? Number.POSITIVE_INFINITY),
   };
 }

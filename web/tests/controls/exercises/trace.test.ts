@@ -24,18 +24,25 @@ test("the thinned trace is asked for, not all ticks, from a little before the fi
 test("layers are measured from the first surface, and the space lies between two of them", () => {
   const layers = layersOf(membranes);
   expect(layers.map(({ name }) => name)).toEqual(["skin", "front vein wall", "back vein wall"]);
-  const space = spaceOf(layers, { space: [1, 2], space_from: 0, space_to: null });
+  const space = spaceOf(layers, { space: [1, 2], goal_from: 0, space_to: null });
   expect(space?.top).toBeCloseTo(5.21e-3, 9);
   expect(space?.bottom).toBeCloseTo(8.22e-3, 9);
-  expect(spaceOf(layers, { space: [], space_from: 0, space_to: null })).toBeNull();
+  expect(spaceOf(layers, { space: [], goal_from: 0, space_to: null })).toBeNull();
 });
 
 test("a space behind one membrane begins and ends at a depth, or nowhere", () => {
   const layers = layersOf(membranes);
-  const deep = spaceOf(layers, { space: [1], space_from: 1e-3, space_to: 2e-3 });
+  const deep = spaceOf(layers, { space: [1], goal_from: 1e-3, space_to: 2e-3 });
   expect(deep?.top).toBeCloseTo(6.21e-3, 9);
   expect(deep?.bottom).toBeCloseTo(7.21e-3, 9);
-  expect(spaceOf(layers, { space: [1], space_from: 0, space_to: null })?.bottom).toBe(Number.POSITIVE_INFINITY);
+  expect(spaceOf(layers, { space: [1], goal_from: 0, space_to: null })?.bottom).toBe(Number.POSITIVE_INFINITY);
+});
+
+test("what is to be reached begins at the depth of the reach goal, not where the space begins", () => {
+  const layers = layersOf(membranes);
+  const exercise = { space: [1, 2], space_from: 0.5e-3, space_to: null, goal_from: 2e-3 };
+  expect(spaceOf(layers, exercise)?.top).toBeCloseTo(7.21e-3, 9);
+  expect(spaceOf(layers, exercise)?.bottom).toBeCloseTo(8.22e-3, 9);
 });
 
 test("an envelope keeps every column's extremes, in few points", () => {
