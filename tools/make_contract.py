@@ -112,12 +112,16 @@ def messages() -> dict[str, Any]:
         "max_force": 3.3,
         "rate": 1600.0,
     }
+    limits = {
+        "max_force": 3.3, "continuous_force": 0.88, "continuous_time": 10.0, "ramp_time": 0.5, "warm_motor": 0.8,
+        "max_speed": 8.0, "stale": 0.015, "deadline": 0.02, "axis_tolerance": 0.001, "dead_man_buttons": [1, 3],
+    }  # fmt: skip
     choice = {"name": "a", "title": "A"}
     problem = {"path": "membrane[0].friction", "value": "3.9", "reason": "is too much"}
     goals = [{"text": "a goal", "state": state} for state in ("open", "met", "missed", "not measured")]
     sent = [
-        {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "scenes": [choice],
-         "exercises": [choice], "notes": ["a note"]},
+        {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "limits": limits,
+         "scenes": [choice], "exercises": [choice], "notes": ["a note"]},
         {"kind": "scene", "scene": VIEW, "new_run": True, "run": 3},
         {"kind": "laws", "laws": [LAW]},
         {"kind": "control", "holder": 1, "you": True, "hand": {"position": TRIPLE, "axis": [0.0, -1.0, 0.0]}},

@@ -22,6 +22,7 @@ from punctura.studio.api import Api
 from punctura.studio.catalog import ready_scenes
 from punctura.studio.connections import Connections
 from punctura.studio.figures import Figures
+from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
 from punctura.studio.protocols import CONNECTIONS
@@ -55,6 +56,7 @@ class Studio:
                 max_force=self.session.run.loop.limits.max_force,
                 rate=info.rate,
             ),
+            limits=limits_of(self.session.run),
             scenes=ready_scenes(),
             exercises=self.session.exercises.choices(),
             notes=self.session.run.notes,

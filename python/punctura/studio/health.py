@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from punctura.studio.wire.messages import RecordingStatus, Spread, Status
+from punctura.studio.wire.messages import LimitsPart, RecordingStatus, Spread, Status
 
 if TYPE_CHECKING:
     from punctura.studio.run import Run
@@ -29,6 +29,23 @@ def status_of(session: Session) -> Status:
         hand=session.hand.mode,
         compare=session.compare,
         statements=session.run.loop.device.statements(),
+    )
+
+
+def limits_of(run: Run) -> LimitsPart:
+    """The limits of the present run; the same in all of this studio's, whose device and settings stay."""
+    force, gate = run.loop.limits, run.loop.gate
+    return LimitsPart(
+        max_force=force.max_force,
+        continuous_force=force.continuous_force,
+        continuous_time=force.continuous_time,
+        ramp_time=force.ramp_time,
+        warm_motor=force.warm_motor,
+        max_speed=gate.max_speed,
+        stale=gate.stale,
+        deadline=gate.deadline,
+        axis_tolerance=gate.axis_tolerance,
+        dead_man_buttons=[bit + 1 for bit in range(32) if gate.dead_man >> bit & 1],
     )
 
 

@@ -5,7 +5,7 @@ import json
 
 from punctura.studio import hub as hubs
 from punctura.studio.hub import Hub
-from punctura.studio.wire.messages import Hello, MembraneEvent, Notice, RecordingStatus, SceneMessage
+from punctura.studio.wire.messages import Hello, LimitsPart, MembraneEvent, Notice, RecordingStatus, SceneMessage
 from punctura.studio.wire.messages import Status as Health
 
 FRAME = b"PNT1"
@@ -13,9 +13,17 @@ FRAME = b"PNT1"
 
 def hello(viewer):
     device = {"backend": "", "model": "", "simulated": True, "has_orientation": True, "max_force": 3.3, "rate": 1.0}
-    return Hello.model_validate(
-        {"protocol": 1, "version": "", "viewer": viewer, "device": device, "scenes": [], "exercises": [], "notes": []}
-    )
+    told = {
+        "protocol": 1,
+        "version": "",
+        "viewer": viewer,
+        "device": device,
+        "scenes": [],
+        "exercises": [],
+        "notes": [],
+    }
+    limits = dict.fromkeys(LimitsPart.model_fields, 1.0) | {"dead_man_buttons": []}
+    return Hello.model_validate(told | {"limits": limits})
 
 
 def run(test):

@@ -36,7 +36,11 @@ def test_the_limits_that_were_chosen_are_told_and_hold(tmp_path):
     try:
         with StudioClient(server.address.url, keep_frames=True) as page:
             page.wait(lambda: page.of("hello"))
-            assert page.of("hello")[0]["device"]["max_force"] == 0.4
+            hello = page.of("hello")[0]
+            assert hello["device"]["max_force"] == hello["limits"]["max_force"] == 0.4
+            loop = server.session.run.loop
+            of_loop = {name: getattr(loop.limits, name, getattr(loop.gate, name, [])) for name in hello["limits"]}
+            assert hello["limits"] == of_loop and of_loop["continuous_force"] > 0
             assert page.ask(do="strokes", period=1.0)["ok"]
             page.wait(lambda: sum(e["what"] == "out" for e in page.of("event")) >= 2)
             strongest = np.linalg.norm(all_rows(page, "force"), axis=1).max()

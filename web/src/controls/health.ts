@@ -1,6 +1,7 @@
 import { element, type Panel } from "../panel.ts";
 import type { Spread, Status } from "../wire/messages.ts";
 import { bars, logPlace } from "./histogram.ts";
+import { limitList } from "./limit_figures.ts";
 import { RateMeter } from "./rate.ts";
 
 const MANY_LATE = 1e-4; // share of the ticks
@@ -41,6 +42,7 @@ export const healthPanel: Panel = (host, app) => {
   const [handBox, setHand] = figure("hand", "Who moves the needle");
   const period = spread("Period", "From the beginning of one tick to the next");
   const compute = spread("Compute time", "What a tick takes of its period");
+  const limits = limitList();
   const statements = element("ul", { class: "health-statements" });
   const nothing = element("p", { class: "health-none" }, "No word from the loop yet.");
   const all = element(
@@ -58,6 +60,7 @@ export const healthPanel: Panel = (host, app) => {
       forceBox,
       handBox,
     ),
+    limits.root,
     period.box,
     compute.box,
     element("h3", {}, "The machine"),
@@ -65,6 +68,7 @@ export const healthPanel: Panel = (host, app) => {
   );
   host.append(nothing, all);
 
+  app.hello.watch((hello) => hello && limits.show(hello.limits));
   let told = "";
   app.status.watch((status) => {
     all.hidden = status === null;

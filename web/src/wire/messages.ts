@@ -43,6 +43,7 @@ export interface Hello {
   version: string;
   viewer: number;
   device: DevicePart;
+  limits: LimitsPart;
   scenes: Choice[];
   exercises: Choice[];
   notes: string[];
@@ -54,6 +55,21 @@ export interface DevicePart {
   has_orientation: boolean;
   max_force: number;
   rate: number;
+}
+/**
+ * The limits between the model and the hand, as all runs of this studio have them: docs/safety.md.
+ */
+export interface LimitsPart {
+  max_force: number;
+  continuous_force: number;
+  continuous_time: number;
+  ramp_time: number;
+  warm_motor: number;
+  max_speed: number;
+  stale: number;
+  deadline: number;
+  axis_tolerance: number;
+  dead_man_buttons: number[];
 }
 /**
  * Something to pick from a list.

@@ -3,6 +3,7 @@ import type { MembraneEvent, Spread } from "../../src/wire/messages.ts";
 import type { FloatColumn, TickBatch } from "../../src/wire/ticks.ts";
 import { rowWidth } from "../../src/wire/ticks.ts";
 import { type FakeMembrane, fakeMembranes, fakeScene } from "./fake_model.ts";
+import { LIMITS } from "./limits.ts";
 
 const RATE = 1600;
 const COLUMNS = [
@@ -42,6 +43,7 @@ export class FakeEngine implements Engine {
         max_force: 3.3,
         rate: RATE,
       },
+      limits: LIMITS,
       scenes: [],
       exercises: [],
       notes: [],

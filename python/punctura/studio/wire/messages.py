@@ -21,6 +21,21 @@ class DevicePart(Part):
     rate: Finite  # Hz
 
 
+class LimitsPart(Part):
+    """The limits between the model and the hand, as all runs of this studio have them: docs/safety.md."""
+
+    max_force: Finite  # N
+    continuous_force: Finite  # N rms in any continuous_time
+    continuous_time: Finite  # s
+    ramp_time: Finite  # s
+    warm_motor: Finite  # share of the temperature at which a motor gets no current
+    max_speed: Finite  # m/s, from one reading to the next
+    stale: Finite  # s of the same reading
+    deadline: Finite  # s from one tick to the next
+    axis_tolerance: Finite  # by which the length of the needle's direction may differ from 1
+    dead_man_buttons: list[int]  # one of which must be held; the device's first is 1
+
+
 class Choice(Part):
     """Something to pick from a list."""
 
@@ -36,6 +51,7 @@ class Hello(Part):
     version: str
     viewer: int
     device: DevicePart
+    limits: LimitsPart
     scenes: list[Choice]
     exercises: list[Choice]
     notes: list[str]

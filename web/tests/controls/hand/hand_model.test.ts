@@ -5,6 +5,7 @@ import { App } from "../../../src/state/app.ts";
 import { Source } from "../../../src/state/source.ts";
 import type { DevicePart, SceneView, Status } from "../../../src/wire/messages.ts";
 import { decodeTicks } from "../../../src/wire/ticks.ts";
+import { LIMITS } from "../../support/limits.ts";
 import { makeFrame } from "../../wire/frame.ts";
 
 const DEVICE: DevicePart = {
@@ -18,7 +19,17 @@ let hand: Hand;
 
 const status = (mode: Status["hand"]): void => server.message({ kind: "status", hand: mode } as Status);
 const hello = (device: DevicePart): void =>
-  server.message({ kind: "hello", protocol: 1, version: "", viewer: 1, device, scenes: [], exercises: [], notes: [] });
+  server.message({
+    kind: "hello",
+    protocol: 1,
+    version: "",
+    viewer: 1,
+    device,
+    limits: LIMITS,
+    scenes: [],
+    exercises: [],
+    notes: [],
+  });
 
 /** A tick with the needle at a place, pointing down. */
 function tick(position: Triple): void {
