@@ -84,7 +84,7 @@ def exercise(page: Page) -> None:
         page.wait_for_timeout(100)  # a hand that pushes on steadily, and does not see the flash-back
         if page.get_by_role("dialog").count():
             break
-    expect(page.get_by_role("dialog")).to_contain_text("Peak force", timeout=PATIENCE)
+    expect(page.get_by_role("dialog")).to_contain_text("Peak model force", timeout=PATIENCE)
     expect(page.locator("svg.trace")).to_be_visible(timeout=PATIENCE)
 
 

@@ -36,6 +36,7 @@ def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law
 def test_the_phase_is_told_in_words(page):
     ready(page)
     expect(page.locator(".phases")).to_contain_text("outside")
+    expect(page.locator(".phases thead")).to_contain_text("model force, N")
     drag_in(page, pops=1)
     expect(page.locator(".phases")).to_contain_text("through")
     expect(page.locator(".phases")).to_contain_text("sticking")

@@ -13,7 +13,7 @@ export function angleRow(hand: Hand): HTMLElement {
     step: 1,
     value: 0,
   });
-  const figure = element("output", { class: "figure", for: "hand-angle" }, "–");
+  const figure = element("output", { class: "figure", for: "hand-angle" }, "–°");
   let shown: number | null = null;
   const show = (): void => {
     if (!hand.pose()) return; // nothing is known yet

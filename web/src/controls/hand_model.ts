@@ -145,10 +145,10 @@ export class Hand {
   side(): Triple {
     return alongSkin(this.normal());
   }
-  /** How far the needle is behind the hand, m. */
-  lag(): number {
+  /** How far the needle is behind the hand, m; null where nobody leads the hand from here. */
+  lag(): number | null {
     const { history } = this.app.live;
-    if (!this.target.value || history.length === 0) return 0;
+    if (!this.target.value || history.length === 0) return null;
     const [x = 0, y = 0, z = 0] = history.row("tip", history.end - 1);
     return length(sub(this.target.value.position, [x, y, z]));
   }

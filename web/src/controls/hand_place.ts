@@ -8,10 +8,16 @@ const number = (metres: number | undefined): string =>
     ? "–"
     : (Math.round(metres * 1e5) / 100 + 0).toFixed(2).replace("-", "−");
 
+const LAG_UNKNOWN = "– mm";
+
+/** How far the tip is behind the hand; where nothing leads the hand it has no place, and so the tip no lag. */
+export const lagText = (metres: number | null): string =>
+  metres === null ? LAG_UNKNOWN : `${(metres * 1e3).toFixed(2)} mm`;
+
 /** Where the hand is led and where the tip is, and buttons that move it. */
 export function placeRows(app: App, hand: Hand): HTMLElement {
   const cells = [0, 1].map(() => [0, 1, 2].map(() => element("td", {}, "–")));
-  const lag = element("output", { class: "figure" }, "0.00 mm");
+  const lag = element("output", { class: "figure" }, LAG_UNKNOWN);
   const head = element(
     "tr",
     {},
@@ -39,7 +45,7 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
         if (cell.textContent !== text) cell.textContent = text;
       });
     });
-    const behind = `${(hand.lag() * 1e3).toFixed(2)} mm`;
+    const behind = lagText(hand.lag());
     if (lag.textContent !== behind) lag.textContent = behind;
   });
   return element(

@@ -63,7 +63,7 @@ export const phasesPanel: Panel = (host, app) => {
   const plots = plotsOf(app);
   const when = element("span", { class: "phases-when" });
   const body = element("tbody");
-  const columns = ["membrane", "phase", "depth, mm", "force, N", "friction band, N"];
+  const columns = ["membrane", "phase", "depth, mm", "model force, N", "friction band, N"];
   const head = element("tr", {}, ...columns.map((text) => element("th", { scope: "col" }, text)));
   host.append(
     element("div", { class: "phases-head" }, element("h2", {}, "Membranes"), when),

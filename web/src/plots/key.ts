@@ -2,26 +2,45 @@ import type { Source } from "../state/source.ts";
 import type { Pen } from "./pen.ts";
 import type { Theme } from "./theme.ts";
 
-const CHARACTER = 5.7; // px, about, of a plot's letters
+const SIZE = 11.5; // px
+const CHARACTER = 6; // px, about, of a letter of this size
 const LINE = 16;
+const EDGE = 3; // px
 
-/** A line of a plot and what it is. */
+/** A line or a shade of a plot, and what it is. */
 export interface KeyEntry {
   readonly text: string;
   readonly colour: string;
+  /** How dense the shade is; without it the entry is a line. */
+  readonly shade?: number;
 }
 
 /** The solver that runs beside the present one. */
 export const otherName = (source: Source): string =>
   `${source.scene.value?.solver === "paper" ? "exact" : "paper"} solver`;
 
+/** A shade with a dense edge above it, which is seen also where the shade is narrow or lines lie on it. */
+export function drawShade(
+  pen: Pen,
+  x: number,
+  y: number,
+  width: number,
+  height: number,
+  colour: string,
+  alpha: number,
+): void {
+  pen.box(x, y, width, height, colour, alpha);
+  pen.box(x, y, width, EDGE, colour, 0.9);
+}
+
 /** Entries in a row that ends at `right`, with their middle at y. */
 export function drawKey(pen: Pen, right: number, y: number, entries: readonly KeyEntry[], theme: Theme): void {
   let x = right;
-  for (const { text, colour } of entries) {
-    pen.text(x, y, text, { colour: theme.text, size: 10.5, anchor: "end", halo: theme.panel });
+  for (const { text, colour, shade } of entries) {
+    pen.text(x, y, text, { colour: theme.text, size: SIZE, anchor: "end", halo: theme.panel });
     x -= text.length * CHARACTER + 5;
-    pen.segment(x - LINE, y, x, y, { colour, width: 2 });
+    if (shade === undefined) pen.segment(x - LINE, y, x, y, { colour, width: 2.5 });
+    else drawShade(pen, x - LINE, y - 5, LINE, 10, colour, shade);
     x -= LINE + 12;
   }
 }

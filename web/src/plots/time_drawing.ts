@@ -11,7 +11,7 @@ import { Polyline } from "./polyline.ts";
 import { drawReading } from "./reading.ts";
 import type { Scale } from "./scale.ts";
 import { colourOf, type Theme } from "./theme.ts";
-import { drawLimits, drawMarks, drawStates } from "./time_marks.ts";
+import { drawLimits, drawMarks, drawStates, limitKey } from "./time_marks.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
@@ -89,6 +89,7 @@ export class TimeDrawing {
     const key: KeyEntry[] = [{ text: "sent to the hand", colour: theme.text }];
     if (isCompared(source.history, window.first, window.end))
       key.push({ text: otherName(source), colour: theme.quiet });
+    key.push(...limitKey(source.history, window, theme));
     drawKey(pen, this.depth.left + this.depth.width, this.depth.top - 9, key, theme);
     this.drawLines(pen, source.history, window.first, window.end, theme);
   }
@@ -129,7 +130,7 @@ export class TimeDrawing {
     const gain = slopeOf(y);
     const n = end - first;
     gatherSent(history, first, end, gain, y.px(0), this.ys);
-    this.drawLine(pen, n, theme.text, 1, 0.5);
+    this.drawLine(pen, n, theme.text, 1.25, 0.8);
     const compared = isCompared(history, first, end);
     for (let i = 0; i < history.membranes; i++) {
       if (compared) {

@@ -3,12 +3,14 @@ import { cuts, LIMIT_WORDS } from "../state/limits.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { MARGIN, type Pane } from "./axes.ts";
+import { drawShade, type KeyEntry } from "./key.ts";
 import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
 import { eachLimit, eachState, STATE_WORDS, type State } from "./states.ts";
 import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
 
+const CUT_SHADE = 0.22;
 const NAME = 62; // px that the name of the upper axis takes
 
 /** Shades the ticks in which no force goes out, and says why where there is room. */
@@ -44,10 +46,24 @@ export function drawLimits(pen: Pen, force: Pane, history: History, window: Wind
       if (!cuts(limit)) return;
       const from = Math.max(left, x.px(history.timeOf(first)));
       const to = x.px(end < history.end ? history.timeOf(end) : history.timeOf(end - 1));
-      pen.box(from, top, Math.max(1, to - from), height, theme.danger, 0.12);
-      if (to - from > 84) pen.text(from + 4, top + height - 8, LIMIT_WORDS[limit], { colour: theme.danger, size: 10 });
+      drawShade(pen, from, top, Math.max(1, to - from), height, theme.danger, CUT_SHADE);
+      if (to - from > 96)
+        pen.text(from + 4, top + height - 9, LIMIT_WORDS[limit], {
+          colour: theme.danger,
+          size: 11.5,
+          halo: theme.panel,
+        });
     }),
   );
+}
+
+/** What the shade of drawLimits means, if the window has any. */
+export function limitKey(history: History, window: Window, theme: Theme): KeyEntry[] {
+  let any = false;
+  eachLimit(history, window.first, window.end, (limit) => {
+    any ||= cuts(limit);
+  });
+  return any ? [{ text: "cut by a limit", colour: theme.danger, shade: CUT_SHADE }] : [];
 }
 
 /** Pops with what the force lost; touch and out as a notch on the line of zero. */

@@ -128,4 +128,13 @@ describe("force and depth against time", () => {
     expect(file).toContain('fill="maroon" fill-opacity="0.2"');
     expect(file).toContain(">fault<");
   });
+
+  it("a force that a limit cuts has a shade, and the key says what it means", () => {
+    const { file } = drawn(source({ limit: (tick) => [tick > 10_000 ? 3 : 1] }));
+    expect(file).toContain(">long-run limit<");
+    expect(file).toContain(">cut by a limit<");
+    const shades = [...file.matchAll(/<rect [^>]*width="([\d.]+)" [^>]*fill="maroon" fill-opacity="0.22"/g)];
+    expect(shades.map(([, width]) => Number(width) > 16)).toEqual([true, false]); // the stretch, and the key's sample
+    expect(drawn(source({ limit: () => [1] })).file).not.toContain("cut by a limit"); // growing after arming
+  });
 });

@@ -11,7 +11,7 @@ const NONE = "–";
 const seconds = (value: number | null): string => (value === null ? NONE : `${value.toFixed(1)} s`);
 const millimetres = (value: number | null): string => (value === null ? NONE : `${(value * 1e3).toFixed(1)} mm`);
 
-/** The peak force, as the table and the drawing show it. */
+/** The peak of the model’s force, as the table and the drawing show it. */
 export const peakText = ({ metrics }: { readonly metrics: Pick<ExerciseMetrics, "peak_force"> }): string =>
   `${metrics.peak_force.toFixed(2)} N`;
 
@@ -21,9 +21,9 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
   return [
     { label: "Attempts", value: String(metrics.attempts), help: "How often the first membrane was entered." },
     {
-      label: "Peak force",
+      label: "Peak model force",
       value: peakText({ metrics }),
-      help: "The largest size of the model’s force, all membranes together.",
+      help: "The largest size of the model’s force, all membranes together. A limit may have given the hand less.",
     },
     ...metrics.overshoot.map(({ name, distance, seconds: window }) => ({
       label: `Overshoot after ${name}`,

@@ -23,7 +23,7 @@ const scale =
   (value) =>
     start + ((value - from) / (to - from)) * length;
 
-/** Depth and force of an attempt along its time, with layers, the space to reach, pops, and the peak force as measured. */
+/** Depth and model force of an attempt along its time, with layers, the space to reach, pops, and the peak as measured. */
 export function traceDrawing(
   trace: Trace,
   layers: readonly Layer[],
@@ -55,7 +55,7 @@ export function traceDrawing(
   for (const layer of layers) add(...band(layer, y, "layer", layer.name));
   add(
     ...axis(ticksOf(Math.ceil(shallow), low), y, "depth, mm", DEPTH),
-    ...axis(ticksOf(weakest, strongest * 1.15), f, "force, N", FORCE),
+    ...axis(ticksOf(weakest, strongest * 1.15), f, "model force, N", FORCE),
   );
   for (const second of ticksOf(0, end - start)) {
     const at = x(start + second);
@@ -168,5 +168,5 @@ function wordsOf({ events }: ExerciseResult): string {
   const said = events
     .filter(({ what }) => what === "pop")
     .map(({ name, time }) => `through ${name} at ${time.toFixed(1)} s`);
-  return `Depth of the tip and force on the hand along the time. ${said.join(", ")}.`;
+  return `Depth of the tip and model force along the time. ${said.join(", ")}.`;
 }

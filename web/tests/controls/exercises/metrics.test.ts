@@ -26,7 +26,7 @@ test("measures are told in units for people; what there was not is a dash", () =
   const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
   expect(Object.fromEntries(rows)).toMatchObject({
     Attempts: "2",
-    "Peak force": "0.90 N",
+    "Peak model force": "0.90 N",
     "Overshoot after skin": "2.1 mm",
     "Path straightness": "–",
     "Angle of entry": "30°",

@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import { Hand } from "../../../src/controls/hand_model.ts";
+import { lagText } from "../../../src/controls/hand_place.ts";
 import type { EngineListener, Triple } from "../../../src/engine/engine.ts";
 import { App } from "../../../src/state/app.ts";
 import { Source } from "../../../src/state/source.ts";
@@ -68,6 +69,13 @@ beforeEach(() => {
 });
 
 describe("the hand", () => {
+  it("has a lag only where it is led, and the page shows the unit also where there is none", () => {
+    expect(hand.lag()).toBeNull();
+    expect(lagText(hand.lag())).toBe("– mm");
+    hand.push(0.001);
+    expect(lagText(hand.lag())).toBe("1.00 mm");
+  });
+
   it("begins where the needle is, and goes on from where it was led", () => {
     hand.push(0.001);
     expect(sent[0]!.position[1]).toBeCloseTo(0.009, 8);
