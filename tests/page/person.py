@@ -32,7 +32,13 @@ def events(page: Page, what: str = "") -> Locator:
     return page.locator(f".events-list .event{f'.{what}' if what else ''}")
 
 
-def drag_in(page: Page, pops: int, step: int = 4) -> None:
+def ticks_come(page: Page) -> None:
+    """Waits until the page shows a later tick than it does now."""
+    shown = "document.querySelector('.phases-when').textContent"
+    page.wait_for_function(f"before => {shown} !== before", arg=page.evaluate(shown), timeout=PATIENCE)
+
+
+def drag_in(page: Page, pops: int, step: int = 6) -> None:
     """Drags the needle in, until so many pops have been told."""
     box = view(page).bounding_box()
     assert box
@@ -42,7 +48,7 @@ def drag_in(page: Page, pops: int, step: int = 4) -> None:
     for _ in range(400):
         y += step
         page.mouse.move(x, y)
-        page.wait_for_timeout(40)  # the hand's own pace, not a wait for anything
+        ticks_come(page)  # so that the hand has followed, however slow the computer is
         if events(page, "pop").count() >= pops:
             break
     page.mouse.up()
