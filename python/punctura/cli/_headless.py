@@ -112,7 +112,7 @@ class Tape:
         self._line.end()
         if self.status is None:
             return
-        say(f"punctura: {self.status.file}: {self.status.rows} ticks recorded, {self.status.lost} lost")
+        say(f"punctura: {self.status.file or self._path}: {self.status.rows} ticks recorded, {self.status.lost} lost")
         for text in [*self.status.notes, *([self.status.trouble] if self.status.trouble else [])]:
             say(f"punctura: recording: {text}")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -14,10 +15,14 @@ _OPEN_FILES = "/proc/self/fd"  # on Linux
 
 
 class Amiss(NamedTuple):
-    """What others did to the file. lost: what had been written to it is gone, in part or as a whole."""
+    """What others did to the file.
+
+    lost: what had been written to it is gone, in part or as a whole. place: where the file is now, None if not known.
+    """
 
     words: str
     lost: bool
+    place: Path | None = None
 
 
 class AppendFile:
@@ -30,13 +35,14 @@ class AppendFile:
         """Raises FileExistsError, OSError."""
         self._path = path
         self.size = 0  # of what was written in whole
-        self._folder: int | None = None  # open, to follow it when it is moved
+        self._name: int | None = None  # opened by its name: through this descriptor Linux tells the present name
         # aside: where a damaged file is now that stood at this path
         self._descriptor, self.aside = make_file(path, lambda descriptor: self._begin(descriptor, first))
         try:
             self._counts_names = os.fstat(self._descriptor).st_nlink > 0
-            if os.name == "posix":
-                self._folder = os.open(path.parent, os.O_RDONLY)
+            if sys.platform == "linux" and os.path.isdir(_OPEN_FILES):
+                # Not self._descriptor: that was opened before the file had a name, and keeps saying so.
+                self._name = os.open(path, os.O_PATH)
         except BaseException:
             self.discard()
             raise
@@ -66,18 +72,19 @@ class AppendFile:
         except OSError:
             pass
         place = self.place()
-        where = f"it goes on in {place}" if place else "it goes on under a name that is not known here"
-        return Amiss(f"{self._path} was moved while it was being recorded; {where}", False)
+        where = f"it goes on in {place}" if place else "it goes on under another name, which the system does not tell"
+        return Amiss(f"{self._path} was moved while it was being recorded; {where}", False, place)
 
     def place(self) -> Path | None:
-        """Where the file is now; None where that is not known."""
-        folders = [self._path.parent]
-        if self._folder is not None and os.path.isdir(_OPEN_FILES):
-            folders.append(Path(os.readlink(f"{_OPEN_FILES}/{self._folder}")))
-        for folder in folders:
+        """Where the file is now, also after it was moved or renamed; None where the system does not tell that."""
+        places = [self._path]
+        if self._name is not None:
             with suppress(OSError):
-                if os.path.samestat(os.fstat(self._descriptor), os.stat(folder / self._path.name)):
-                    return folder / self._path.name
+                places.append(Path(os.readlink(f"{_OPEN_FILES}/{self._name}")))
+        for place in places:
+            with suppress(OSError):
+                if os.path.samestat(os.fstat(self._descriptor), os.stat(place)):
+                    return place
         return None
 
     def source(self) -> Path:
@@ -108,6 +115,6 @@ class AppendFile:
         """Releases the lock, too."""
         if self._descriptor >= 0:
             os.close(self._descriptor)
-            if self._folder is not None:
-                os.close(self._folder)
+            if self._name is not None:
+                os.close(self._name)
             self._descriptor = -1

@@ -51,7 +51,7 @@ def finish_recording(
         trouble = amiss.words if amiss else trouble
         part = PartFile(file.source())
         rows = part.survey.rows
-        status = replace(_counted(status, rows, part.survey.last_tick, made), file=file.place() or status.file)
+        status = replace(_counted(status, rows, part.survey.last_tick, made), file=file.place())
         if rows < written and not trouble:  # no memory, perhaps: what was not read now must not be deleted
             trouble = f"only {rows} of the {written} ticks in the file could be read"
         if not trouble:
@@ -67,13 +67,14 @@ def finish_recording(
         if not part and _is_spoiled(bad, amiss):
             status = _counted(status, 0, -1, made)
         elif not part:  # the ticks are on the disk, whatever kept us from reading them
-            status = replace(_counted(status, written, status.last_tick, made), file=file.place() or status.file)
+            status = replace(_counted(status, written, status.last_tick, made), file=file.place())
     finally:
         file.close()
     if not status.rows:
         return replace(status, trouble=f"{trouble}; nothing of it can be read")
-    stays = f"the recording is in {status.file}" + (f", readable up to tick {status.last_tick}" if part else "")
-    how = f"punctura export {status.file} --out FILE.parquet finishes it"
+    place = status.file or "the file that was moved, whose present name this system does not tell"
+    stays = f"the recording is in {place}" + (f", readable up to tick {status.last_tick}" if part else "")
+    how = f"punctura export {status.file or 'MOVED_FILE'} --out FILE.parquet finishes it"
     return replace(status, trouble=f"{trouble}; {stays}; {how}")
 
 

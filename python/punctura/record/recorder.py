@@ -103,7 +103,7 @@ class Recorder:
         in_ring = int(self._listener.lost)
         missing = self._next_tick - self._began - self._kept  # before the last tick that went to the backlog
         return RecorderStatus(
-            file=self._part,
+            file=self._writer.place,
             rows=self._writer.rows,
             last_tick=self._writer.last_tick,
             bytes=self._writer.size,

@@ -11,7 +11,7 @@ from typing import Any
 class RecorderStatus:
     """A moment's account. `trouble` is what is wrong now, in words; empty if nothing is."""
 
-    file: Path  # where the recording stands at this moment
+    file: Path | None  # where the recording is now; None if it was moved, and the system does not tell where to
     finished: bool = False
     rows: int = 0  # ticks on the disk
     last_tick: int = -1  # the last of them
@@ -32,4 +32,4 @@ class RecorderStatus:
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return asdict(self) | {"file": str(self.file)}
+        return asdict(self) | {"file": str(self.file) if self.file else None}

@@ -25,6 +25,7 @@ class Writer:
 
     def __init__(self, file: AppendFile, backlog: Backlog, path: Path) -> None:
         self._file, self._backlog, self._path = file, backlog, path
+        self.place: Path | None = path  # of the file, as AppendFile.place has it
         self.rows = 0
         self.last_tick = -1
         self.ruined = 0  # ticks that were on the disk, and are not any more
@@ -76,8 +77,10 @@ class Writer:
         """Words for a file that was moved. Raises _Lost for one that is gone or was cut off."""
         amiss = self._file.amiss()
         if amiss is None:
+            self.place = self._path
             return ""
         if not amiss.lost:
+            self.place = amiss.place
             return amiss.words
         if not self._lost:
             self._lost = True

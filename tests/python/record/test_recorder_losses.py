@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
 
 import pytest
+from punctura.cli import main
 from punctura.record import Recorder, RecordingError, finish, open_recording
 from punctura.record.stream import Decoder, Encoder
 
@@ -173,13 +175,42 @@ def test_a_folder_that_is_moved_is_told_while_it_runs_and_its_file_is_whole(begu
         assert status.file == there and (status.rows, status.lost) == (4000, 0) and str(there) in status.trouble
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux reads an open file whose name is not known")
-def test_a_file_that_is_renamed_is_told_and_counted(begun):
-    run = begun(lambda run: run.part.rename(run.part.with_name("aside")))
-    run.wait(lambda: "under a name that is not known here" in run.recorder.status().trouble)
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the present name of an open file")
+
+
+@on_linux
+def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works(begun):
+    run = begun(lambda run: run.part.rename(run.part.with_name("first")))
+    aside = run.part.with_name("aside.parquet.part")
+    run.wait(lambda: f"it goes on in {run.part.with_name('first')}" in run.recorder.status().trouble)
+    assert run.recorder.status().file == run.part.with_name("first")
+    run.part.with_name("first").rename(aside)  # and a second time
     status = run.recorder.finish()
-    assert not status.finished and (status.rows, status.lost) == (4000, 0)
-    assert open_recording(run.part.with_name("aside")).rows == 4000
+    assert not status.finished and (status.rows, status.lost) == (4000, 0) and status.file == aside
+    remedy = re.search(r"punctura (export .+) --out FILE.parquet finishes it", status.trouble)
+    assert remedy and str(run.part) not in remedy[0]
+    with pytest.raises(SystemExit, match="0"):
+        main([*remedy[1].split(), "--out", str(run.path)])
+    assert open_recording(run.path).rows == 4000
+
+
+@on_linux
+def test_where_the_present_name_is_not_known_no_path_is_given(begun):
+    aside = []
+
+    def move(run):
+        aside.append(run.part.rename(run.part.with_name("aside")))
+        os.close(run.recorder._file._name)
+        run.recorder._file._name = None  # as on a system that does not tell it
+
+    run = begun(move)
+    run.wait(lambda: "which the system does not tell" in run.recorder.status().trouble)
+    assert run.recorder.status().file is None
+    status = run.recorder.finish()
+    assert status.file is None and status.to_dict()["file"] is None and (status.rows, status.lost) == (4000, 0)
+    assert "whose present name this system does not tell" in status.trouble
+    assert "punctura export MOVED_FILE --out FILE.parquet finishes it" in status.trouble
+    assert open_recording(aside[0]).rows == 4000
 
 
 @on_posix
