@@ -99,7 +99,7 @@ def _causes(status: RecorderStatus) -> dict[str, int]:
 def _in_words(status: RecorderStatus, made: int) -> str:
     reasons = (
         (status.lost_in_ring, "came faster than they could be taken"),
-        (status.lost_in_backlog, "found no room in memory while the disk was slow, full or gone"),
+        *((count, f"could not be written: {cause}") for cause, count in status.unwritten.items()),
         (status.lost_otherwise, "were lost otherwise"),
     )
     why = ", ".join(f"{count} {reason}" for count, reason in reasons if count)

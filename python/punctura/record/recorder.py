@@ -70,7 +70,7 @@ class Recorder:
         self._width = len(loop.scene.membranes)  # that the present stream has columns for
         self._kept = 0  # ticks that went to the backlog
         self._carried: list[str] = []  # scenes taken in ticks that were lost
-        self._dropped = 0
+        self._unwritten: dict[str, int] = {}  # ticks that could not be written, by cause
         self._defect = ""
         self._final: RecorderStatus | None = None
         self._stop = threading.Event()
@@ -100,16 +100,18 @@ class Recorder:
         """How it is doing; from any thread."""
         if self._final is not None:
             return self._final
-        in_ring = int(self._listener.lost)
+        in_ring, unwritten = int(self._listener.lost), dict(self._unwritten)
+        dropped = sum(unwritten.values())
         missing = self._next_tick - self._began - self._kept  # before the last tick that went to the backlog
         return RecorderStatus(
             file=self._writer.place,
             rows=self._writer.rows,
             last_tick=self._writer.last_tick,
             bytes=self._writer.size,
-            lost=max(in_ring + self._dropped, missing) + self._writer.ruined,
+            lost=max(in_ring + dropped, missing) + self._writer.ruined,
             lost_in_ring=in_ring,
-            lost_in_backlog=self._dropped,
+            lost_in_backlog=dropped,
+            unwritten=unwritten,
             waiting_bytes=self._backlog.waiting_bytes,
             slowest_write_s=self._writer.slowest_s,
             trouble=self._writer.trouble or self._defect,
@@ -128,7 +130,8 @@ class Recorder:
             self._backlog.put(Piece(self._encoder.end(), 0, -1))
             self._backlog.close()
             self._writer.join()
-            self._dropped += self._backlog.rows()
+            if rows := self._backlog.rows():
+                self._drop(rows)
             after = {"device_after": describe_device(self._loop.device)}
             if self._defect:
                 self._writer.note(self._defect)
@@ -198,8 +201,12 @@ class Recorder:
                 self._next_tick = int(snapshots["tick"][-1]) + 1
                 self._kept += n
             else:
-                self._dropped += n
+                self._drop(n)
         return n
+
+    def _drop(self, rows: int) -> None:
+        cause = self._writer.why_unwritten or "the disk was too slow"
+        self._unwritten[cause] = self._unwritten.get(cause, 0) + rows
 
     def _keep(self, snapshots: Columns, scenes: list[list[str] | None]) -> bool:
         """One batch to the backlog. False: there is no room."""

@@ -18,8 +18,9 @@ class RecorderStatus:
     bytes: int = 0
     lost: int = 0  # ticks that will never be in the file
     lost_in_ring: int = 0  # of these: the reader of the ring came too late
-    lost_in_backlog: int = 0  # of these: the disk was too slow, or full for too long
+    lost_in_backlog: int = 0  # of these: could not be written, because the disk was too slow, full or gone
     lost_otherwise: int = 0  # of these: a defect, no memory, or a file that others have changed; known at the end
+    unwritten: dict[str, int] = field(default_factory=dict)  # lost_in_backlog by its causes, in words
     waiting_bytes: int = 0
     slowest_write_s: float = 0.0
     trouble: str = ""

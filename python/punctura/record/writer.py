@@ -31,6 +31,7 @@ class Writer:
         self.ruined = 0  # ticks that were on the disk, and are not any more
         self.slowest_s = 0.0
         self.trouble = ""
+        self.why_unwritten = ""  # why nothing can be written now; empty while it can
         self.notes: list[str] = []
         self._trouble_began = 0.0
         self._lost = False  # what had been written is gone, and nothing more can be added to it
@@ -99,6 +100,7 @@ class Writer:
 
     def _tell(self, moved: str, now: float) -> None:
         """After a write: what is wrong with the file's place, or what was wrong and is over."""
+        self.why_unwritten = ""
         if moved:
             self._trouble_began = self._trouble_began if self.trouble else now
             self.trouble = moved
@@ -110,10 +112,10 @@ class Writer:
         if not self.trouble:
             self._trouble_began = now
         if isinstance(bad, _Lost):
-            self.trouble = str(bad)
+            self.trouble = self.why_unwritten = str(bad)
             return
         reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else str(bad) or type(bad).__name__
-        self.trouble = f"{self._path} could not be written: {reason}"
+        self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}", reason
 
 
 class _Lost(Exception):

@@ -6,6 +6,7 @@ import errno
 import os
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
@@ -67,6 +68,9 @@ def test_on_a_disk_that_stays_full_the_file_is_readable_up_to_there_and_the_rest
     status = run.recorder.finish()
     assert not status.finished and "No space left" in status.trouble and "readable up to tick" in status.trouble
     assert 0 < status.rows < 20_000 and status.rows + status.lost == 20_000
+    cause = os.strerror(errno.ENOSPC)
+    assert status.unwritten == {cause: status.lost}
+    assert status.notes[-1] == f"{status.lost} of 20000 ticks are lost: {status.lost} could not be written: {cause}"
     recording = open_recording(run.path)
     assert recording.rows == status.rows and recording.column("tick")[-1] == status.last_tick
 
@@ -91,6 +95,26 @@ def test_what_finds_no_room_in_memory_is_missing_in_the_file_by_number(start, di
     assert status.finished and status.lost_in_ring == 0 and status.rows + status.lost == run.ticks
     assert open_recording(run.path).lost == status.lost
     assert open_recording(run.path).info.data["lost"] == {"ring": 0, "backlog": status.lost, "other": 0}
+
+
+def test_ticks_that_a_slow_disk_costs_are_told_as_such(start, disk, monkeypatch):
+    monkeypatch.setattr("punctura.record.recorder._BACKLOG_BYTES", 2_000_000)
+    monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
+    taken = threading.Event()
+
+    def write(self, data):
+        if self.size:
+            assert taken.wait(60)
+        whole_write(self, data)
+
+    disk(write)
+    run = start(ticks=16_000)
+    run.go()
+    run.wait(lambda: run.recorder.status().lost_in_backlog > 0)
+    taken.set()
+    status = run.recorder.finish()
+    assert status.finished and status.unwritten == {"the disk was too slow": status.lost}
+    assert status.notes[-1].endswith(f"{status.lost} could not be written: the disk was too slow")
 
 
 def test_a_slow_disk_loses_nothing(start, disk):

@@ -148,6 +148,9 @@ def test_a_file_that_is_removed_or_changed_is_told_while_it_runs(begun, meddle, 
         assert 0 < status.rows < 2000 and f"readable up to tick {status.rows - 1}" in status.trouble
     else:
         assert status.rows == 0 and status.lost == 4000 and status.trouble.endswith("nothing of it can be read")
+    assert "memory" not in status.notes[-1]
+    (cause,) = status.unwritten
+    assert words in cause and status.unwritten[cause] == 2000
 
 
 @on_posix
