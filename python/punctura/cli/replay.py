@@ -22,7 +22,7 @@ def command(
 ) -> None:
     """Computes every tick of a recording again and compares it bit for bit.
 
-    Status 0: all ticks are identical. 1: some are not, or could not be computed.
+    Status 0: all ticks are identical. 1: some are not, some could not be computed, or there are none.
     """
     from punctura.record import replay
 
@@ -32,6 +32,8 @@ def command(
         typer.echo(f"punctura: note: {note}", err=True)
     if as_json:
         typer.echo(json.dumps(result.to_dict(), indent=2))
+    elif result.ticks == 0:
+        typer.echo(f"{result.file}: nothing was compared")
     elif result.first_difference is None:
         rest = "" if result.complete else "; the others could not be computed"
         typer.echo(f"{result.file}: {result.ticks} ticks, identical{rest}")

@@ -32,7 +32,7 @@ class ReplayResult:
     file: str
     ticks: int = 0
     identical: bool = True  # of the ticks that were computed
-    complete: bool = True  # all ticks of the recording were
+    complete: bool = True  # all ticks of the recording were; False also where it has none
     first_difference: dict[str, Any] | None = None  # tick, column, recorded, computed
     same_build: bool = True
     notes: list[str] = field(default_factory=list)
@@ -71,6 +71,9 @@ def replay(
                 output.write(worded(computed, recording.schema))
             if not result.complete:
                 break
+    if recording.rows == 0:
+        result.complete = False
+        result.notes.append("the recording holds no tick: there is nothing to replay")
     if recording.damaged:
         result.complete = False
     if result.complete and recording.lost:

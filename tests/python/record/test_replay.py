@@ -169,6 +169,18 @@ def test_the_command_says_what_differs(start, capsys):
     assert json.loads(capsys.readouterr().out)["first_difference"]["tick"] == 7
 
 
+def test_a_recording_without_a_tick_is_not_called_identical(start, capsys):
+    run = start(ticks=0, capacity=64)
+    assert run.recorder.finish().finished
+    result = replay(run.path)
+    assert result.ticks == 0 and not result.complete and "there is nothing to replay" in result.notes[-1]
+    with pytest.raises(SystemExit, match="1"):
+        main(["replay", str(run.path)])
+    said = capsys.readouterr()
+    assert "nothing was compared" in said.out and "identical" not in said.out
+    assert "holds no tick: there is nothing to replay" in said.err
+
+
 def test_a_file_that_is_damaged_inside_is_not_called_identical(start, tmp_path):
     """One bit of a part's length: what comes after cannot be found, and it is most of the file."""
     kept = tmp_path / "kept.parquet.part"
