@@ -4,7 +4,9 @@ import csv
 import io
 import os
 import socket
+import sys
 import time
+from contextlib import suppress
 from urllib.parse import quote
 
 import pyarrow.parquet as pq
@@ -61,9 +63,9 @@ def test_what_is_sent_is_what_an_export_writes(tmp_path, kind):
 class Unread:
     """A download whose answer begins, and is never read on."""
 
-    def __init__(self, served, path):
+    def __init__(self, served, path, kind="csv"):
         self.socket = socket.create_connection(("127.0.0.1", served.address.port))
-        head = f"GET {quote(path)}?format=csv HTTP/1.1\r\nHost: 127.0.0.1:{served.address.port}\r\n"
+        head = f"GET {quote(path)}?format={kind} HTTP/1.1\r\nHost: 127.0.0.1:{served.address.port}\r\n"
         self.socket.sendall((head + f"Authorization: Bearer {served.address.token}\r\n\r\n").encode())
         self.begin = self.socket.recv(15)
 
@@ -79,6 +81,32 @@ def test_a_download_that_nobody_reads_holds_no_file_and_gives_its_place_back(ser
     page.wait(lambda: page.get(address + "?format=csv")[0] == 200)
     for one in unread:
         one.socket.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the open files of a process")
+def test_a_finished_file_that_nobody_reads_is_closed_after_the_same_time(served, page, monkeypatch):
+    monkeypatch.setattr(connections, "UNREAD_S", 0.3)
+    folder = served.session.shelf.folder
+    folder.mkdir()
+    file = folder / "run.parquet"
+    file.write_bytes(bytes(50_000_000))  # sent as it is, without a look inside; more than the system keeps
+    before = set(served.connections.known)
+    unread = Unread(served, "/api/recordings/run/download", "parquet")
+    assert unread.begin == b"HTTP/1.1 200 OK"
+    page.wait(lambda: set(served.connections.known) <= before)
+    page.wait(lambda: not opened(file))
+    unread.socket.settimeout(60)
+    assert sum(map(len, iter(lambda: unread.socket.recv(1 << 20), b""))) < 50_000_000
+    unread.socket.close()
+
+
+def opened(file):
+    """How often this process has it open."""
+    count = 0
+    for number in os.listdir("/proc/self/fd"):
+        with suppress(OSError):
+            count += os.readlink(f"/proc/self/fd/{number}") == str(file)
+    return count
 
 
 def test_a_download_that_is_broken_off_gives_its_place_back_at_once(served, page):
