@@ -55,13 +55,14 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     for note in filter(None, notes):
         say(f"punctura: note: {note}")
 
+    limits = wishes.limits
+
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened))
-        if note := room_note(loop):
+        for note in [*limits.rating_notes(loop), *filter(None, [room_note(loop)])]:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
 
-    limits = wishes.limits
     summary = run_live(
         opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
     )

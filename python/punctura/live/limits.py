@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from punctura._core import Device, ForceLimits, GateLimits
+from punctura._core import Device, ForceLimits, GateLimits, ServoLoop
 from punctura.errors import ConfigurationError, Problem
 from punctura.live.choose import gate_for
 from punctura.live.tables import Buttons, Number, read_table
@@ -24,6 +24,7 @@ FORCE: dict[str, Number | Buttons] = {
     "ramp_time_s": Number("ramp_time"),
     "warm_motor": Number("warm_motor"),
 }
+_RATED = {name: FORCE[name].field for name in ("max_force_N", "continuous_force_N")}  # no device gives more
 GATE: dict[str, Number | Buttons] = {
     "max_speed_m_per_s": Number("max_speed"),
     "stale_ms": Number("stale", 1000),
@@ -34,10 +35,11 @@ GATE: dict[str, Number | Buttons] = {
 
 
 class Limits(NamedTuple):
-    """force: what bounds the force. gate: those fields of GateLimits that were chosen, SI."""
+    """force: what bounds the force. gate, chosen: those fields of GateLimits and ForceLimits that were chosen, SI."""
 
     force: ForceLimits = ForceLimits()
     gate: Mapping[str, Any] = MappingProxyType({})
+    chosen: Mapping[str, float] = MappingProxyType({})
 
     def gate_on(self, device: Device) -> GateLimits:
         """What was not chosen is as gate_for has it. Raises ConfigurationError where the device cannot keep to it."""
@@ -59,13 +61,24 @@ class Limits(NamedTuple):
 
     def at_most(self, max_force: float) -> Limits:
         """With this greatest norm of the force, N. Raises ConfigurationError."""
-        return self._replace(force=self.force.replace(max_force=max_force))
+        chosen = {**self.chosen, "max_force": max_force}
+        return self._replace(force=self.force.replace(max_force=max_force), chosen=MappingProxyType(chosen))
+
+    def rating_notes(self, loop: ServoLoop) -> list[str]:
+        """For each force that was chosen above the rating of the loop's device, a note with both numbers."""
+        model, notes = loop.device.info.model or loop.device.info.backend, []
+        for name, field in _RATED.items():
+            chosen, given = self.chosen.get(field, 0), getattr(loop.limits, field)
+            if chosen > given:
+                notes.append(f"{name} = {chosen:g} is above the rating of {model}: {given:g} N is the limit")
+        return notes
 
 
 def load_limits(path: str | os.PathLike[str]) -> Limits:
     """Reads a limits file. Raises ConfigurationError with all of its problems."""
     table = read_table(path, "limits", FORCE | GATE, _refused)
-    return Limits(ForceLimits(**_fields(FORCE, table)), _fields(GATE, table))
+    force = _fields(FORCE, table)
+    return Limits(ForceLimits(**force), _fields(GATE, table), force)
 
 
 def _fields(keys: Mapping[str, Number | Buttons], table: dict[str, Any]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import sys
 
 import punctura as pn
 import pytest
-from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, SimulatedDevice
+from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
 from punctura.live import Limits, load_limits, run_live
 
 ALL = """
@@ -115,6 +115,35 @@ def test_the_command_line_bounds_the_force(tmp_path):
         assert said["limited_ticks"] > 0
     assert strongest == pytest.approx({"file": 0.6, "option": 0.4}, rel=1e-9)
     assert ", at most 0.4 N, 0.88 N rms in any 10 s; " in done.stderr
+
+
+def test_a_force_above_the_devices_rating_is_told_with_both_numbers(tmp_path):
+    limits = limits_of(tmp_path, "max_force_N = 5\ncontinuous_force_N = 2.5")
+    weak = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    loop = ServoLoop(weak, SCENE, limits.gate_on(weak), limits.force)
+    assert loop.limits.max_force == 3.3
+    assert limits.rating_notes(loop) == [
+        "max_force_N = 5 is above the rating of PHANTOM Omni, simulated: 3.3 N is the limit",
+        "continuous_force_N = 2.5 is above the rating of PHANTOM Omni, simulated: 0.88 N is the limit",
+    ]
+    assert [note.split()[2] for note in Limits().at_most(3.5).rating_notes(loop)] == ["3.5"]
+
+
+def test_a_force_that_was_not_chosen_or_is_within_the_rating_is_not_told():
+    weak = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
+    loop = ServoLoop(weak, SCENE)
+    assert loop.limits.max_force == 1.0
+    assert Limits().rating_notes(loop) == Limits().at_most(1.0).rating_notes(loop) == []
+
+
+def test_the_command_line_tells_a_force_above_the_devices_rating(tmp_path):
+    path = tmp_path / "limits.toml"
+    path.write_text("max_force_N = 9\n")
+    run = ("run", "--headless", "--device", "simulated", "--duration", "0.1")
+    for more, asked in ((("--limits", str(path)), "9"), (("--max-force-N", "5"), "5")):
+        done = punctura(*run, *more)
+        assert done.returncode == 0
+        assert f"note: max_force_N = {asked} is above the rating of PHANTOM Omni, simulated: 3.3 N" in done.stderr
 
 
 @pytest.mark.parametrize(

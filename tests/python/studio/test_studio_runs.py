@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 from punctura.exercise import load_exercise
+from punctura.live import Limits
 from punctura.studio.client import StudioClient
+from punctura.studio.run import Settings
+
+from .conftest import serve
 
 DOWN = [0.0, -1.0, 0.0]
 SLANTED = [np.sin(np.pi / 3), -np.cos(np.pi / 3), 0.0]
@@ -36,6 +40,16 @@ def test_a_target_of_the_run_before_moves_nothing_in_the_next(served, page, begi
         ]
     page.target([0.0, 4e-3, 0.0], DOWN)
     page.wait(lambda: at(served)[0] == [0.0, 4e-3, 0.0])
+
+
+def test_a_page_is_told_of_a_force_above_the_devices_rating(tmp_path):
+    server = serve(tmp_path, settings=Settings(limits=Limits().at_most(5.0)))
+    try:
+        with StudioClient(server.address.url) as page:
+            page.wait(lambda: page.of("hello"))
+            assert any("max_force_N = 5 is above the rating" in note for note in page.of("hello")[0]["notes"])
+    finally:
+        server.stop()
 
 
 def test_frames_and_scene_messages_have_the_same_number(page):
