@@ -2,8 +2,10 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import punctura as pn
 import pytest
@@ -39,6 +41,14 @@ def test_a_file_sets_every_limit_in_the_units_of_its_keys(tmp_path):
     limits = limits_of(tmp_path, ALL)
     assert limits.force == ForceLimits(0.5, 0.3, 7, 0.25, 0.7)
     assert limits.gate_on(with_buttons(3)) == GateLimits(3.2, 0.010, 0.0125, 0.01, 0b101)
+
+
+def test_the_example_in_the_docs_is_a_limits_file(tmp_path):
+    text = (Path(__file__).parents[3] / "docs" / "safety.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"^```toml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    limits = limits_of(tmp_path, example)
+    assert limits.force == ForceLimits(max_force=0.5, continuous_force=0.3)
+    assert limits.gate_on(with_buttons(1)) == GateLimits(dead_man=0b1)
 
 
 def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
