@@ -18,7 +18,13 @@ from typing import Annotated
 import typer
 
 from punctura.cli._leave import leave
-from punctura.cli._streams import open_closed_streams, wait_for_stderr_again
+from punctura.cli._streams import (
+    StdoutError,
+    give_up_stdout,
+    name_stdout,
+    open_closed_streams,
+    wait_for_stderr_again,
+)
 from punctura.errors import ConfigurationError
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
@@ -63,6 +69,7 @@ def build_app() -> typer.Typer:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with its exit status."""
     open_closed_streams()
+    name_stdout()
     with ends_on_signals(ENDING) as signals:
         try:
             with signals.raised():
@@ -70,6 +77,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except ConfigurationError as error:
             _fail(error, CALLED_WRONGLY)
         except (ValueError, OSError) as error:
+            if isinstance(error, StdoutError):
+                give_up_stdout()
             _fail(f"{error}{_where()}", FAILED)
         except Ended as end:
             leave(end)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import sys
 from contextlib import suppress
-from typing import TextIO, cast
+from typing import Any, TextIO, cast
 
 from punctura.live import DroppingStream
 
@@ -19,6 +21,43 @@ def open_closed_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+
+
+class StdoutError(OSError):
+    """Standard output cannot be written; errno says why."""
+
+    def __str__(self) -> str:
+        return f"standard output cannot be written: {self.strerror}"
+
+
+class _NamedStdout(io.FileIO):
+    """Its errors say that it is standard output: those of the system have no name for it."""
+
+    def write(self, data: Any) -> int:
+        try:
+            return super().write(data)
+        except OSError as error:
+            if error.errno == errno.EPIPE:  # a reader that has seen enough, as in `punctura ... | head`
+                raise
+            raise StdoutError(error.errno, error.strerror) from None
+
+
+def name_stdout() -> None:
+    """From here on an error of sys.stdout, as on a full disk, says that it is standard output."""
+    plain = sys.stdout
+    if not isinstance(plain, io.TextIOWrapper):
+        return
+    raw = getattr(plain.buffer, "raw", plain.buffer)  # a stream without a buffer (python -u) is raw itself
+    if type(raw) is not io.FileIO:  # a console on Windows, or what a program has put there
+        return
+    named: Any = _NamedStdout(raw.fileno(), "wb", closefd=False)
+    sys.stdout = io.TextIOWrapper(
+        named if raw is plain.buffer else io.BufferedWriter(named),
+        plain.encoding,
+        plain.errors,
+        line_buffering=plain.line_buffering,
+        write_through=plain.write_through,
+    )
 
 
 def never_wait_for_stderr() -> DroppingStream:

@@ -50,6 +50,22 @@ def test_each_verb_is_a_file_and_tells_how_it_is_used():
         assert done.returncode == 0 and f"Usage: punctura {verb}" in done.stdout
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="only Linux has a file that is always full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("arguments", [["scenes"], ["--help"], ["schema"], ["--version"]], ids=" ".join)
+def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "punctura.cli", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+        )
+    said = "punctura: standard output cannot be written: No space left on device\n"
+    assert (done.returncode, done.stderr) == (1, said)
+
+
 def test_an_unknown_verb_is_a_usage_error():
     done = punctura("fly")
     assert done.returncode == 2 and "No such command 'fly'" in done.stderr and not done.stdout
