@@ -96,11 +96,11 @@ class Tape:
         self.tell_fault(summary.fault)
 
     def tell_fault(self, fault: str) -> None:
-        """At once, and once: a call of the maker's that never returns would hold up the end of the run."""
-        if fault and not self._fault:
-            self._fault = fault
+        """At once, and what is added to it later: a call of the maker's that never returns would hold up the end."""
+        if fault and fault != self._fault:
+            news, self._fault = fault.removeprefix(f"{self._fault}: "), fault
             self._line.end()
-            say(f"punctura: {fault}")
+            say(f"punctura: {news}")
 
     @property
     def whole(self) -> bool:

@@ -48,7 +48,7 @@ def run_live(
                     ended = supervisor.wait(POLL_S)
                     summary.add(listener.read())
                     summary.fault = summary.fault or watched.silence
-                    if summary.fault:
+                    if summary.fault and ended:  # not before the stop: the driver may take time to answer
                         summary.blame(device)
                     if watch:
                         watch(summary)

@@ -12,7 +12,10 @@ HELD_BY_NOBODY: tuple[type, ...] = (SimulatedDevice, ReplayDevice, FedDevice)
 
 
 class SilenceWatch:
-    """Of one run, asked a few times a second by a thread that may stop the loop."""
+    """Of one run, asked a few times a second by a thread that may stop the loop.
+
+    It does not ask the driver what is wrong: that may take time, and the stop must not wait for it.
+    """
 
     def __init__(self, loop: ServoLoop) -> None:
         self._loop = loop
@@ -30,6 +33,7 @@ class SilenceWatch:
             return ""
         if now - self._since < self._longest:
             return ""
-        words = f"the device's ticks have ceased, for {now - self._since:.1f} s, and the run is stopped"
-        advice = "should the device still pull, switch it off"
-        return f"{words}: {advice}. {self._loop.device.trouble()}".rstrip(". ")
+        return (
+            f"the device's ticks have ceased, for {now - self._since:.1f} s, and the run is stopped: "
+            "should the device still pull, switch it off"
+        )

@@ -223,8 +223,13 @@ class Session:
     def _tell_ceased(self, loop: ServoLoop, words: str) -> None:
         """Of a loop that the watchdog stops."""
         if loop is self.run.loop:
-            self.out.say(FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0))
+            self._say_ceased(words)
             self._guarded(self.end_run)
+            if trouble := loop.device.trouble():  # after the stop: the driver may take time to answer
+                self._say_ceased(f"{words}. {trouble}")
+
+    def _say_ceased(self, words: str) -> None:
+        self.out.say(FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0))
 
     def _say_scene(self, new_run: bool) -> None:
         view = scene_view(self.run.loaded, self.run.scenes, self.run.rate, self.pump.laws())

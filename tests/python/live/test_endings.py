@@ -6,13 +6,16 @@ import pty
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import punctura as pn
 import pytest
 from heed import heed_signals
 from punctura._core import DeviceInfo, FedDevice, ServoLoop
+from punctura.cli._headless import Tape
 from punctura.live import SilenceWatch, run_live
+from punctura.live.supervisor import Supervisor
 from punctura.record import open_recording
 
 SCENE = pn.load_scene("k06-fig10")
@@ -113,7 +116,7 @@ class Silent:
         return {"ticks": self.ticks}
 
     def trouble(self):
-        return "The cable is out."
+        raise AssertionError("the driver is asked before the stop")
 
 
 def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
@@ -130,7 +133,47 @@ def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
         assert watch.ceased() == ""
         now[0] += 0.2 * longest
         assert watch.ceased().startswith("the device's ticks have ceased, for ")
-        assert watch.ceased().endswith("still pull, switch it off. The cable is out")
+        assert watch.ceased().endswith("still pull, switch it off")
+
+
+def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
+    told, blamed = threading.Event(), []
+
+    class LateStop(Supervisor):
+        """Stops only when the run's own thread has told of the fault."""
+
+        def __init__(self, signals, begin, over, end, duration):
+            super().__init__(signals, begin, over, lambda: told.wait(60) and end(), duration)
+
+    def blame(summary, device):
+        blamed.append(told.is_set())
+        summary.fault += ": the cable is out"
+
+    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
+    monkeypatch.setattr("punctura.live.session.Supervisor", LateStop)
+    monkeypatch.setattr("punctura.live.RunSummary.blame", blame)
+    said = []
+
+    def watch(summary):
+        said.append(summary.fault)
+        if summary.fault:
+            told.set()
+
+    run_live(FedDevice(rate=1600, info=DeviceInfo(model="a stylus")), SCENE, watch=watch)
+    first = next(fault for fault in said if fault)
+    assert first.endswith("switch it off") and blamed and all(blamed)
+    assert said[-1].endswith("switch it off: the cable is out")
+
+
+def test_what_the_driver_says_later_is_told_after_the_fault(capsys):
+    class Line:
+        def end(self):
+            pass
+
+    tape = Tape(None, Line())
+    for fault in ("ticks have ceased", "ticks have ceased", "ticks have ceased: the cable is out"):
+        tape.tell_fault(fault)
+    assert capsys.readouterr().err == "punctura: ticks have ceased\npunctura: the cable is out\n"
 
 
 def test_a_run_whose_ticks_cease_ends_with_a_fault(monkeypatch):

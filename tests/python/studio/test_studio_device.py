@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from punctura import load_scene
-from punctura._core import SimulatedDevice
+from punctura._core import ReplayDevice, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
@@ -110,9 +110,14 @@ def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monke
 def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())  # as hardware, whose driver calls no more
     monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 1e9)
+    asked = []
     with playing(tmp_path) as (server, page):
+        loop = server.session.run.loop
+        monkeypatch.setattr(ReplayDevice, "trouble", lambda device: asked.append(loop.running) or "The cable is out")
         told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])[-1]
         assert told["trouble"].startswith("the device's ticks have ceased")
+        page.wait(lambda: any("switch it off. The cable is out" in m["trouble"] for m in page.of("fault")))
+        assert asked == [False]  # whether the loop ran when the driver was asked what is wrong
         page.wait(lambda: not server.session.run.loop.running)  # it is told before it is stopped
         run = server.session.run.number
         assert page.ask(do="reset")["ok"]
