@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
@@ -15,6 +16,16 @@ Columns = dict[str, Any]
 
 # The limits that cut a force; the ramp after arming is no news.
 LIMIT_WORDS = {"peak": "peak limit", "continuous": "long-run limit", "temperature": "warm motors"}
+
+
+def strongest(force: NDArray[np.float64], ceiling: NDArray[np.float64]) -> float:
+    """The greatest norm of the forces (n, 3), N, under the ceilings (n,) that permitted them.
+
+    A force that was scaled to its ceiling exceeds it by the rounding of its three numbers: that is the ceiling itself.
+    """
+    norm = np.linalg.norm(force, axis=1)
+    rounding = 8 * np.finfo(float).eps * ceiling
+    return float(np.where(norm <= ceiling + rounding, np.minimum(norm, ceiling), norm).max())
 
 
 @dataclass
@@ -60,7 +71,7 @@ class RunSummary:
         self.gaps += int(tick[-1]) + 1 - self._next_tick - n
         self._next_tick = int(tick[-1]) + 1
         self.ticks += n
-        self.strongest_N = max(self.strongest_N, float(np.linalg.norm(columns["force"], axis=1).max()))
+        self.strongest_N = max(self.strongest_N, strongest(columns["force"], columns["ceiling"]))
         deepest = columns["depth"].max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
         self.limited_by = {name: int(columns[f"{name}_limited"][-1]) for name in LIMIT_WORDS}

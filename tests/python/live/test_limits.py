@@ -7,10 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
 from punctura.live import Limits, load_limits, run_live
+from punctura.live.summary import strongest
 
 ALL = """
 max_force_N = 0.5
@@ -116,14 +118,14 @@ def test_the_command_line_bounds_the_force(tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("max_force_N = 0.6\nramp_time_s = 0.01\n")
     run = ("run", "--headless", "--device", "simulated", "--duration", "2.5", "--json", "--limits", str(path))
-    strongest = {}
+    said_strongest = {}
     for name, more in {"file": (), "option": ("--max-force-N", "0.4")}.items():
         done = punctura(*run, *more)
         assert done.returncode == 0, done.stderr
         said = json.loads(done.stdout)
-        strongest[name] = said["strongest_N"]
+        said_strongest[name] = said["strongest_N"]
         assert said["limited_ticks"] > 0
-    assert strongest == pytest.approx({"file": 0.6, "option": 0.4}, rel=1e-9)
+    assert said_strongest == {"file": 0.6, "option": 0.4}
     assert ", at most 0.4 N, 0.88 N rms in any 10 s; " in done.stderr
 
 
@@ -173,6 +175,19 @@ def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, wor
     done = punctura("run", "--headless", "--device", "simulated", *(a.format(buttons=path) for a in arguments))
     assert done.returncode == 2
     assert words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_the_strongest_force_is_the_ceiling_where_only_rounding_exceeds_it_and_else_as_it_is():
+    random = np.random.default_rng(3)
+    wanted = random.normal(size=(10_000, 3))
+    norm = np.linalg.norm(wanted, axis=1)
+    ceiling = np.full(10_000, 0.2)
+    force = wanted / norm[:, None] * 0.2  # as the limits do it
+    assert np.linalg.norm(force, axis=1).max() > 0.2
+    assert strongest(force, ceiling) == 0.2
+    assert strongest(force[:1] * 0.5, ceiling[:1]) == pytest.approx(0.1)
+    for excess in (1e-14, 1e-6, 1.0):
+        assert strongest(force * (1 + excess), ceiling) > 0.2
 
 
 def test_a_run_keeps_to_a_file_of_limits(tmp_path):
