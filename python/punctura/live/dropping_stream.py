@@ -14,6 +14,7 @@ from contextlib import suppress
 from typing import Any, TextIO
 
 ROOM_BYTES = 1 << 16
+CUT = " ... punctura: the rest of this line is left out: it is too long"
 LINGER_S = 1.0  # that the end of the program waits for a reader
 RETRY_S = 0.05
 
@@ -26,7 +27,10 @@ class DroppingStream(io.TextIOBase):
     """
 
     def __init__(self, stream: TextIO, room: int = ROOM_BYTES) -> None:
-        """room: bytes that wait for the reader at most; of more, the oldest are dropped."""
+        """room: bytes that wait for the reader at most; of more, the oldest lines are dropped.
+
+        Of a line that alone has more, so many bytes are kept, and words that say so.
+        """
         self.stream = stream  # which would close its file if nobody held it
         self._raw: Any = getattr(stream.buffer, "raw", stream.buffer)  # a stream without a buffer is raw itself
         self._encoding = stream.encoding
@@ -34,7 +38,8 @@ class DroppingStream(io.TextIOBase):
         self._change = threading.Condition()  # may be taken again by a signal handler that writes
         self._pieces: deque[bytes] = deque()
         self._bytes = 0  # that wait, or are being written
-        self._begun = ""  # of a line
+        self._begun = b""  # of a line
+        self._cut = False  # that line is longer than the room
         self._dropped = 0  # lines, before the first piece that waits
         self._since = math.inf  # when the write began that waits
         self._over = False
@@ -46,24 +51,25 @@ class DroppingStream(io.TextIOBase):
             raise TypeError(f"text is needed, not {type(text).__name__}")
         if not self._over:  # at the very end a thread that was cut off may have the lock
             with self._change:
-                lines, end, self._begun = (self._begun + text).rpartition("\n")
-                if end:
-                    self._put(lines + end)
+                *lines, rest = text.split("\n")
+                for line in lines:
+                    self._add(line)
+                    self._put(self._taken("\n"))
+                self._add(rest)
         return len(text)
 
     def flush(self) -> None:
         """Hands on what has been written of a line. Does not wait until it is read."""
         if self._begun and not self._over:
             with self._change:
-                text, self._begun = self._begun, ""
-                self._put(text)
+                self._put(self._taken())
 
     def offer(self, text: str) -> bool:
         """Takes the text only if nothing else waits: for a status line, of which only the newest counts."""
         with self._change:
             if self._bytes or self._over:
                 return False
-            self._put(text)
+            self._put(self._encoded(text)[: self._room])
             return True
 
     def end(self, seconds: float = LINGER_S) -> None:
@@ -83,8 +89,27 @@ class DroppingStream(io.TextIOBase):
                 os.dup2(nowhere, self.fileno())
                 os.close(nowhere)
 
-    def _put(self, text: str) -> None:
-        data = text.encode(self._encoding, "backslashreplace")
+    def _encoded(self, text: str) -> bytes:
+        return text.encode(self._encoding, "backslashreplace")
+
+    def _add(self, text: str) -> None:
+        """More of the line that has begun, as far as there is room."""
+        if self._cut:
+            return
+        left = self._room - len(self._begun)
+        data = self._encoded(text[: left + 1])  # a character has a byte at least
+        if len(data) > left:
+            self._cut = True
+            data = self._encoded(data[:left].decode(self._encoding, "ignore"))  # whole characters
+        self._begun += data
+
+    def _taken(self, end: str = "") -> bytes:
+        """The line that has begun, so that another one can begin."""
+        data = self._begun + self._encoded((CUT if self._cut else "") + end)
+        self._begun, self._cut = b"", False
+        return data
+
+    def _put(self, data: bytes) -> None:
         self._pieces.append(data)
         self._bytes += len(data)
         while self._bytes > self._room and len(self._pieces) > 1:

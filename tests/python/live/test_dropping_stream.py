@@ -8,6 +8,7 @@ import time
 
 import pytest
 from punctura.live import DroppingStream
+from punctura.live.dropping_stream import CUT
 from terminals import BLOCKED, go_on, read_until, stop, terminal
 
 
@@ -31,6 +32,38 @@ def test_a_writer_never_waits_and_memory_has_a_bound(blocked):
         assert not stream.offer("a status line")
         stream.end(0.01)
         print("after the end", file=stream, flush=True)
+
+
+def test_a_line_of_any_length_and_a_text_of_many_lines_have_a_bound():
+    most = 10_000 + len(CUT) + 1
+    with BLOCKED["a pipe that nobody reads"]() as number, open(number, "w", closefd=False) as file:
+        stream = stuck(file, 10_000)
+        stream.write("x" * 1_000_000)  # a line without end
+        stream.write("x" * 1_000_000)
+        assert len(stream._begun) <= 10_000
+        stream.write("y" * 1_000_000 + "\n")
+        assert sum(map(len, stream._pieces)) <= most and not stream._begun
+        stream.write("a line\n" * 100_000)
+        assert sum(map(len, stream._pieces)) <= 10_000 and stream._dropped > 90_000
+        stream.write("z" * 1_000_000)
+        stream.flush()
+        assert sum(map(len, stream._pieces)) <= most
+        stream.end(0.01)
+
+
+def test_a_line_that_is_cut_says_so_and_the_next_is_whole():
+    reading, writing = os.pipe()
+    with open(reading, "rb") as there:
+        with open(writing, "w", encoding="utf-8") as file:
+            stream = DroppingStream(file, 100)
+            stream.write("a" * 70)
+            stream.write("\u20ac" * 70)  # three bytes each: ten of them have room
+            stream.write("b\n")
+            first = ("a" * 70 + "\u20ac" * 10 + CUT + "\n").encode()
+            assert there.read(len(first)) == first
+            stream.write("the next\n")
+            stream.end()
+        assert there.read() == b"the next\n"
 
 
 def test_a_terminal_that_comes_back_is_told_what_it_has_missed():
