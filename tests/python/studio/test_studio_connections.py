@@ -2,6 +2,7 @@
 
 import importlib
 import re
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -188,6 +189,13 @@ def test_every_limit_stands_in_the_docs():
     names = {name: value for name, value in vars(limits).items() if name.isupper() and name != "SWEEP_S"}
     missing = [name for name, value in names.items() if not re.search(rf"(?<![\d,]){value:,.0f}(?![\d,])", table)]
     assert len(names) > 20 and not missing
+
+
+@pytest.mark.parametrize("package", ["uvicorn", "websockets"])
+def test_packages_whose_inside_is_used_have_an_upper_bound_which_holds_here(package):
+    text = (DOCS.parents[1] / "pyproject.toml").read_text(encoding="utf-8")
+    (bound,) = re.findall(rf'"{package}>=[\d.]+,<([\d.]+)"', text)
+    assert [int(n) for n in version(package).split(".")] < [int(n) for n in bound.split(".")]
 
 
 @pytest.mark.parametrize("name", ["handle_ping", "handle_cont", "handle_text"])
