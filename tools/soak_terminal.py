@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import pty
 import select
 import signal
 import socket
@@ -23,7 +22,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import termios
 import threading
 import time
 from pathlib import Path
@@ -33,31 +31,16 @@ from punctura.studio.client import StudioClient
 from resident import resident_mb
 from studio_process import Memory, StudioProcess, blank_page
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
+
+from terminals import go_on, stop, stopped_terminal, terminal, unread_pipe
+
 MOST_GROWTH, WARM = 0.25, 0.3  # of the memory, after this share of the time
 MOST_ANSWER_S = 10.0
 MOST_END_S = 60.0  # with a long recording to finish
 FLOODERS = 4
 ASK_EVERY_S = 0.5
 LOGGED = b"Unsupported upgrade request."
-
-
-def stopped_terminal() -> tuple[int, int]:
-    """Its two ends; programs write to the second one."""
-    master, slave = pty.openpty()
-    termios.tcflow(slave, termios.TCOOFF)
-    return master, slave
-
-
-def full_pipe() -> int:
-    """Its writing end. The reading end stays open, and nobody reads."""
-    _, writing = os.pipe()
-    os.set_blocking(writing, False)
-    try:
-        while True:
-            os.write(writing, b"\n" * 65536)
-    except BlockingIOError:
-        os.set_blocking(writing, True)
-    return writing
 
 
 class Headless:
@@ -128,21 +111,27 @@ class Flood:
 def drained(master: int, slave: int) -> list[bytes]:
     """What comes once the terminal goes on, until nothing more comes for a second. Then it is stopped again."""
     said = b""
-    termios.tcflow(slave, termios.TCOON)
+    go_on(slave)
     while select.select([master], [], [], 1)[0]:
         said += os.read(master, 65536)
-    termios.tcflow(slave, termios.TCOOFF)
+    stop(slave)
     return said.splitlines()
 
 
 def soak(seconds: float, folder: Path) -> int:
-    terminals = [stopped_terminal() for _ in range(2)]
-    runs = [
-        Headless("stopped terminal", folder, terminals[0][1], seconds),
-        Headless("unread stderr", folder, full_pipe(), seconds),
-    ]
+    with stopped_terminal() as quiet, unread_pipe() as full, terminal() as ends:
+        stop(ends[1])
+        runs = [
+            Headless("stopped terminal", folder, quiet, seconds),
+            Headless("unread stderr", folder, full, seconds),
+        ]
+        return soak_beside(runs, ends, seconds, folder)
+
+
+def soak_beside(runs: list[Headless], ends: tuple[int, int], seconds: float, folder: Path) -> int:
+    """ends: of the studio's terminal, which is stopped; the studio writes to the second one."""
     memory, answers = Memory(seconds, WARM), []
-    master, slave = terminals[1]
+    master, slave = ends
     with StudioProcess(folder, page=blank_page(folder), terminal=slave) as studio:
         flood = Flood(studio.port)
         with StudioClient(studio.url, patience=60) as page:
