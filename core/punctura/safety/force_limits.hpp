@@ -50,6 +50,7 @@ class ForceLimiter {
       : limits_(limits),
         budget_(limits.continuous_time, limits.continuous_force),
         period_(period),
+        steady_(std::min(limits.max_force, std::sqrt(budget_.rate()))),
         hold_(std::max(period, longest_hold)),
         ramp_step_(period / limits.ramp_time),
         ceiling_(permitted(0)) {}
@@ -113,9 +114,8 @@ class ForceLimiter {
   }
 
   double permitted(double temperature) const noexcept {
-    const double steady = std::min(limits_.max_force, std::sqrt(budget_.rate()));
     const double share = std::min(1.0, 2 * budget_.left());
-    const double wanted = steady + share * (limits_.max_force - steady);
+    const double wanted = steady_ + share * (limits_.max_force - steady_);
     return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
   }
 
@@ -133,7 +133,9 @@ class ForceLimiter {
 
   ForceLimits limits_;
   ForceBudget budget_;
-  double period_, hold_, ramp_step_;
+  double period_;
+  double steady_;  ///< the force that may be given without end, N
+  double hold_, ramp_step_;
   double gain_ = 0, ceiling_;
   double held_square_ = 0;  ///< of the force that the device holds since the last tick, N^2
   Limit limit_ = Limit::none;
