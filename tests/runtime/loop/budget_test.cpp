@@ -28,6 +28,18 @@ Scene stiff_scene() {
   return scene;
 }
 
+/// A loop on a device of its own, armed, after a second in front of the wall.
+struct ArmedRun {
+  std::shared_ptr<HandCranked> device = std::make_shared<HandCranked>();
+  ServoLoop loop{device, stiff_scene(), by_test_clock()};
+
+  ArmedRun() {
+    loop.start();
+    loop.arm();
+    device->move(2e-3, 1e-3, 1600);
+  }
+};
+
 /// Forces that went to a device over many runs, one a tick.
 class Felt {
  public:
@@ -81,11 +93,8 @@ TEST_CASE("through 1,000 random runs on one device no 10 s exceed its rating") {
 }
 
 TEST_CASE("the force that a device holds after its last tick counts until the stop") {
-  auto device = std::make_shared<HandCranked>();
-  ServoLoop loop(device, stiff_scene(), by_test_clock());
-  loop.start();
-  loop.arm();
-  device->move(2e-3, 1e-3, 1600);
+  ArmedRun run;
+  auto& [device, loop] = run;
   clock_ns += 1'000'000'000;
   const auto held = vector(device->move(1e-3, -6e-3, 400)).squaredNorm();
   REQUIRE(held > 3);
@@ -118,11 +127,8 @@ TEST_CASE("time between two runs is rest, and a run that follows at once has non
 }
 
 TEST_CASE("a loop that starts again goes on with what its device has given") {
-  auto device = std::make_shared<HandCranked>();
-  ServoLoop loop(device, stiff_scene(), by_test_clock());
-  loop.start();
-  loop.arm();
-  device->move(2e-3, 1e-3, 1600);
+  ArmedRun run;
+  auto& [device, loop] = run;
   CHECK(loop.latest().ceiling == 3.3);
   device->move(1e-3, -6e-3, 1600);
   loop.stop();
