@@ -1,10 +1,15 @@
 // Finding, opening and describing an HD device.
 #include "punctura_runtime/backends/openhaptics/openhaptics.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include "core/support/paper_scene.hpp"
 #include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
+#include "punctura_runtime/os/os.hpp"
 #include "runtime/support/environment.hpp"
 #include "runtime/support/fake_hd.hpp"
 
@@ -34,6 +39,15 @@ std::string refusal(const OpenHapticsOptions& options) {
 }
 
 bool says(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+
+/// A file of this test's own: the name of its source need not be that of a file.
+struct NoLibrary {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("punctura-no-library-" + std::to_string(os::now_ns()));
+
+  NoLibrary() { std::ofstream(path) << "this is no library\n"; }
+  ~NoLibrary() { std::filesystem::remove(path); }
+};
 
 std::string all_statements(const Device& device) {
   std::string all;
@@ -81,7 +95,8 @@ TEST_CASE("a library that is not there is told with all the places where it was 
 }
 
 TEST_CASE("a file that is there but is no library is told with the reason") {
-  const auto loaded = hd::load(__FILE__);
+  const NoLibrary file;
+  const auto loaded = hd::load(file.path.string().c_str());
   CHECK(loaded.state == State::library_not_found);
   CHECK(says(loaded.detail, "does not load"));
 }
