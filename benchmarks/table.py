@@ -54,7 +54,7 @@ def table(result: dict[str, Any]) -> Iterator[str]:
 
 def wakeup_table(wakeups: dict[str, Any]) -> Iterator[str]:
     priority = wakeups["priority"]
-    how = f"first-in-first-out priority {priority}" if priority else "no real-time priority, which was not granted"
+    how = f"SCHED_FIFO real-time priority {priority}" if priority else "no real-time priority, which was not granted"
     where = ", ".join(str(processor) for processor in wakeups["processors"])
     yield f"Wake-up latency at {wakeups['rate_hz']:g} Hz, {how}, on each processor in turn ({where}), us"
     heads = "".join(f"{head:>10}" for head in ("median", "99 %", "99.9 %", "largest"))

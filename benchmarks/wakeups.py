@@ -156,7 +156,7 @@ def measure_wakeups(program: Path, seconds: float) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         _, said = begin_loop(program, Slice(0.1, PRIORITY, processors[0], folder))()
-        granted = said["realtime"].get(f"first-in-first-out priority {PRIORITY}", False)
+        granted = said["realtime"].get(f"SCHED_FIFO real-time priority {PRIORITY}", False)
         result |= {"realtime": said["realtime"], "priority": PRIORITY if granted else 0, "conditions": []}
         count = max(1, round(seconds / SLICE_S))
         where = [processors[i % len(processors)] for i in range(count)]

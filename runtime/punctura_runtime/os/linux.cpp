@@ -96,7 +96,7 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   if (settings.priority > 0) {
     sched_param parameter{};
     parameter.sched_priority = settings.priority;
-    items.push_back(item("first-in-first-out priority " + std::to_string(settings.priority),
+    items.push_back(item("SCHED_FIFO real-time priority " + std::to_string(settings.priority),
                          pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter),
                          "allow it with 'rtprio 99' for your group in /etc/security/limits.conf"));
   }

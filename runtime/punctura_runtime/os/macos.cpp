@@ -40,7 +40,7 @@ void sleep_until_ns(std::int64_t time) noexcept { mach_wait_until(ticks_from_ns(
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   std::vector<RealtimeItem> items;
   if (settings.priority > 0) {
-    // macOS has no first-in-first-out priority for programs; a time-constraint thread is what its audio uses.
+    // macOS has no SCHED_FIFO priority for a program's threads; a time-constraint thread is what its audio uses.
     thread_time_constraint_policy_data_t policy{};
     const TimeConstraint wanted = TimeConstraint::of(settings.period);
     policy.period = static_cast<std::uint32_t>(ticks_from_ns(wanted.period));

@@ -23,7 +23,7 @@ struct RealtimeItem {
 };
 
 struct RealtimeSettings {
-  int priority = 80;        ///< of first-in-first-out scheduling, 1 to 99; 0 asks for none
+  int priority = 80;        ///< real-time priority under SCHED_FIFO, 1 to 99; 0 asks for none
   int processor = -1;       ///< the one to stay on; -1 is any
   bool lock_memory = true;  ///< no page of ours is put aside
   bool awake = true;        ///< the processor does not go to sleep between ticks

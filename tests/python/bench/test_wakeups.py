@@ -21,7 +21,7 @@ options = dict(zip(sys.argv[1::2], sys.argv[2::2]))
 n = round(float(options["--seconds"]) * float(options["--rate"]))
 array.array("q", [90000] * 320 + [6000] * (n - 320)).tofile(open(options["--dump"], "wb"))
 granted = {granted}
-print(json.dumps({{"ticks": n, "missed": 1, "realtime": {{"first-in-first-out priority 80": granted}}}}))
+print(json.dumps({{"ticks": n, "missed": 1, "realtime": {{"SCHED_FIFO real-time priority 80": granted}}}}))
 """
 CYCLICTEST = """
 import sys
