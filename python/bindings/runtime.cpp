@@ -87,7 +87,8 @@ void bind_runtime(nb::module_& m) {
       .def(
           "go_on_from", [](Device& d, const Device& previous) { d.exertion = previous.exertion; }, nb::arg("previous"),
           "This object stands for the same motors as another one: its next run goes on with what they have given.")
-      .def("trouble", &Device::trouble, "What went wrong, in words; empty if nothing did.")
+      .def("trouble", &Device::trouble, nb::call_guard<nb::gil_scoped_release>(),
+           "What went wrong, in words; empty if nothing did.")
       .def("statements", &Device::statements, "What its user should know of how it runs. After the loop's start.");
 
   const SimulatedOptions options;
@@ -193,7 +194,8 @@ void bind_runtime(nb::module_& m) {
           nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
           nb::sig("def listen(self, capacity: int | None = None) -> Listener"),
           "Before start: every tick's snapshot from then on. capacity: how many of the present scene wait for a late reader;\n"
-          "without it `room`. Never more than 32 MB of them: the listener's `capacity` is what there is.")
+          "without it `room`. A larger one than 32 MB hold is cut to that, without an error: the listener's `capacity` says\n"
+          "how many there are room for. Snapshots that find no room are lost, and counted in its `lost`.")
       .def_prop_ro(
           "room", [](const ServoLoop& loop) { return loop.room(); },
           "Snapshots of the present scene that a listener holds: 8 s of them, or as many as 32 MB hold.")
