@@ -1,0 +1,41 @@
+// The forces of K06 as they were recorded once, bit for bit: both solvers, both scalars, one and three dimensions.
+#include <doctest/doctest.h>
+
+#include "../support/cases.hpp"
+#include "golden_hashes.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+constexpr GoldenHashes recorded[golden_count] = {
+#include "golden_forces.inc"
+};
+}  // namespace
+
+TEST_CASE("the forces on 200 random scenes are those that were recorded once, to the last bit") {
+  const std::size_t count = std::min(golden_count, static_cast<std::size_t>(cases(golden_count)));
+  for (std::size_t k = 0; k < count; ++k) {
+    const GoldenHashes now = golden_hashes(k);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      INFO("scene " << k << ", " << golden_names[i]);
+      CHECK(now[i] == recorded[k][i]);
+    }
+  }
+}
+
+TEST_CASE("the golden scenes reach every phase with both solvers") {
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    std::array<int, 5> ticks{};
+    for (std::size_t k = 0; k < 40; ++k) {
+      GoldenCase c = golden_case(k);
+      c.scene.servo.solver = solver;
+      auto insertion = build_insertion(c.scene);
+      for (const Vector3d& p : c.positions) {
+        insertion.step(p, c.axis);
+        for (const auto& proxy : insertion.proxies()) ++ticks[static_cast<std::size_t>(proxy.phase())];
+      }
+    }
+    for (int n : ticks) CHECK(n > 100);
+  }
+}
