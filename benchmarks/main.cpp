@@ -82,8 +82,8 @@ int main(int argc, char** argv) {
     if (std::string(argv[i]) == "--seconds") seconds = std::atof(argv[i + 1]);
     if (std::string(argv[i]) == "--dump") dump_file = argv[i + 1];
   }
-  std::printf("{\n  \"compiler\": \"%s\", \"flags\": \"%s\", \"eigen\": \"%d.%d.%d\", \"ticks\": %zu, \"work\": [",
-              BENCH_COMPILER, BENCH_FLAGS, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, ticks);
+  std::printf("{\n  \"compiler\": \"%s\", \"flags\": \"%s\", \"ticks\": %zu, \"work\": [", BENCH_COMPILER, BENCH_FLAGS,
+              ticks);
 
   std::vector<std::pair<punctura::Scene, Motion>> works;
   for (const std::size_t n : {1u, 2u, 8u, 64u}) {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import shutil
@@ -18,16 +17,6 @@ class ProgramError(RuntimeError):
     """The program could not be built, or its contestants did not agree."""
 
 
-def eigen_folder() -> Path | None:
-    """Eigen as the virtual environment holds it; None leaves it to CMake to find the system's."""
-    cmeel = importlib.util.find_spec("cmeel")
-    for place in (cmeel.submodule_search_locations or []) if cmeel else []:
-        folder = Path(place).parent / "cmeel.prefix/include/eigen3"
-        if (folder / "Eigen/Core").is_file():
-            return folder
-    return None
-
-
 def tool(name: str) -> str | None:
     """A program beside this Python, or else on the path."""
     beside = Path(sys.executable).parent / name
@@ -36,15 +25,13 @@ def tool(name: str) -> str | None:
 
 def build(folder: Path, target: str = "bench_ticks") -> Path:
     """Configures where needed and compiles; gives the path of the program."""
-    cmake, ninja, eigen = tool("cmake"), tool("ninja"), eigen_folder()
+    cmake, ninja = tool("cmake"), tool("ninja")
     if cmake is None:
         raise ProgramError("no CMake found; ./bench brings one")
     configure = [cmake, "-S", str(ROOT), "-B", str(folder), "-DPUNCTURA_BENCH=ON", "-DCMAKE_BUILD_TYPE=None"]
     if ninja is not None:
         configure += ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"]
-    if eigen is not None:
-        configure.append(f"-DPUNCTURA_EIGEN_DIR={eigen}")
-    # What was configured for another place, compiler or Eigen is laid anew.
+    # What was configured for another place or compiler is laid anew.
     wanted, stamp = "\n".join([*configure, os.environ.get("CXX", "")]), folder / "configured-with"
     if not stamp.is_file() or stamp.read_text() != wanted:
         shutil.rmtree(folder, ignore_errors=True)

@@ -78,7 +78,7 @@ def measure(program: Path, seconds: float) -> dict[str, Any]:
         dump = Path(folder) / "work.f64"
         result = call(program, seconds, dump)
         depth, force = np.fromfile(dump).reshape(2, -1)
-    result["versions"] = versions() | {"Eigen": result.pop("eigen")}
+    result["versions"] = versions()
     return {"machine": machine()} | result | {"loops": time_loops(depth, force, LOOP_TICKS, LOOP_REPETITIONS)}
 
 

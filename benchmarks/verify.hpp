@@ -43,7 +43,7 @@ inline void check_exact(punctura::Scene scene, const Motion& motion) {
     for (std::size_t i = 0; i < e_prev.size(); ++i) {
       const auto& proxy = insertion.proxies()[i];
       const punctura::Vector3d coupling = K * proxy.offset() + B * (proxy.offset() - e_prev[i]) / T;  // K06 (21)
-      worst = std::max(worst, (proxy.force() - coupling).cwiseAbs().maxCoeff());
+      worst = std::max(worst, (proxy.force() - coupling).maxAbs());
       const double f = proxy.axial_force();
       const auto band = proxy.band();
       double beyond = std::max({band.lower - f, f - band.upper, 0.0});  // K06 (23)

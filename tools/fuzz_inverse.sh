@@ -7,9 +7,6 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
 seconds=${1:-600}
 mkdir -p build/fuzz/inverse
-for eigen in "${PUNCTURA_EIGEN_DIR:-}" .venv/lib/python3*/site-packages/cmeel.prefix/include/eigen3 /usr/include/eigen3; do
-  [ ! -f "$eigen/Eigen/Core" ] || break
-done
 
 # The first inputs: a true message as a text, and as a frame.
 message='{"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":0.0,"y":-0.12,"z":0.15}},"status":{"calibrated":true}}],"wireless_verse_grip":[{"state":{"orientation":{"w":1,"x":0,"y":0,"z":0},"buttons":{"a":true}}}]}'
@@ -17,7 +14,7 @@ printf '\0%s' "$message" >build/fuzz/inverse/text
 printf '\1HTTP/1.1 101 x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: x' >build/fuzz/inverse/answer
 printf '\x40\x01\x05{"inv\x89\x01?\x80\x09erse3":3}\x81\x02{}' >build/fuzz/inverse/frames
 
-clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -isystem "$eigen" -Icore -Iruntime -Itests \
+clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Icore -Iruntime -Itests \
   tests/fuzz/inverse_fuzz.cpp runtime/punctura_runtime/backends/inverse/{frames,handshake,json,state,service,url,websocket}.cpp \
   runtime/punctura_runtime/os/{linux,posix_socket}.cpp -o build/fuzz/inverse_fuzz
 build/fuzz/inverse_fuzz -max_total_time="$seconds" -max_len=8192 -timeout=5 -rss_limit_mb=512 -print_final_stats=1 \

@@ -11,16 +11,13 @@ venv=build/macos/venv
 
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 "$venv/bin/python" -c 'import ziglang' 2>/dev/null || "$venv/bin/pip" install -q --disable-pip-version-check "ziglang==0.17.*"
-for eigen in "${PUNCTURA_EIGEN_DIR:-}" .venv/lib/python3*/site-packages/cmeel.prefix/include/eigen3 /usr/include/eigen3; do
-  [ ! -f "$eigen/Eigen/Core" ] || break
-done
 mkdir -p "$out" build/macos/include && ln -sfn /usr/include/doctest build/macos/include/doctest
 export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/build/macos/cache
 
 # The same warnings as elsewhere, all of them errors. The fakes' places stand in the tests; they are not opened here. doctest asks
 # for a constant of <cfloat>, which it counts on some other header to include, and for __COUNTER__, which this Clang calls an extension.
 compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
-flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core -isystem "$eigen" -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
+flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
   '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"' '-DFAKE_HD="fake_hd"'
   '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
 

@@ -63,15 +63,12 @@ step_format() {
 }
 step_types() { mypy; }
 
-# compile PRESET [TARGET...]: configures when needed, then builds on all cores. A folder made elsewhere, or by another Eigen, is laid anew.
+# compile PRESET [TARGET...]: configures when needed, then builds on all cores. A folder made elsewhere is laid anew.
 compile() {
   local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
   shift
-  eigen=$(site)/cmeel.prefix/include/eigen3
-  if [ -f "$cache" ] && ! { grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" && grep -qF "=$eigen" "$cache"; }; then
-    fresh=--fresh
-  fi
-  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF -DPUNCTURA_EIGEN_DIR="$eigen" && cmake --build --preset "$preset" ${1:+--target "$@"}
+  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
 # The C++ tests as GCC compiles them, each header alone among them.
@@ -103,11 +100,11 @@ step_tsan() {
 
 # Installed, then found by a project that knows nothing of this tree.
 step_consumer() {
-  local prefix=$root/build/consumer-prefix eigen=$(site)/cmeel.prefix
+  local prefix=$root/build/consumer-prefix
   rm -rf "$prefix" build/consumer build/install
-  cmake -S . -B build/install -G Ninja -DPUNCTURA_EIGEN_DIR="$eigen/include/eigen3" -DCMAKE_INSTALL_PREFIX="$prefix" &&
+  cmake -S . -B build/install -G Ninja -DCMAKE_INSTALL_PREFIX="$prefix" &&
     cmake --install build/install &&
-    cmake -S tests/consumer -B build/consumer -G Ninja -DCMAKE_PREFIX_PATH="$prefix;$eigen" &&
+    cmake -S tests/consumer -B build/consumer -G Ninja -DCMAKE_PREFIX_PATH="$prefix" &&
     cmake --build build/consumer && build/consumer/consumer
 }
 

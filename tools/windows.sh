@@ -14,7 +14,7 @@ command -v x86_64-w64-mingw32-g++-posix >/dev/null || need="$need g++-mingw-w64-
 wine=$(command -v wine64 || command -v wine || true)
 [ -n "$wine" ] || [ -x /usr/lib/wine/wine64 ] || need="$need wine wine64"
 [ -e /usr/include/doctest/doctest.h ] || need="$need doctest-dev"
-[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first: it brings CMake, Ninja and Eigen" >&2; exit 1; }
+[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first: it brings CMake and Ninja" >&2; exit 1; }
 if [ -n "$need" ]; then
   if [ "$(id -u)" = 0 ]; then
     apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq $need >/dev/null
@@ -26,11 +26,10 @@ fi
 wine=$(command -v wine64 || command -v wine || echo /usr/lib/wine/wine64)
 
 export PATH=$root/.venv/bin:$PATH
-eigen=$(python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/cmeel.prefix/include/eigen3
 # doctest lies among the system's own headers, which are not for Windows: take it alone.
 mkdir -p build/windows/include && ln -sfn /usr/include/doctest build/windows/include/doctest
 cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" -DCMAKE_BUILD_TYPE=Release \
-  -DPUNCTURA_TESTS=ON -DPUNCTURA_EIGEN_DIR="$eigen" -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
+  -DPUNCTURA_TESTS=ON -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
 
 # A Wine of its own, which does not ask for Mono and Gecko. Fewer random cases: ./test takes them all, and the code is the same.
 export WINEPREFIX=$root/build/windows/wine WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml=" PUNCTURA_CASES="${PUNCTURA_CASES:-20}"

@@ -37,7 +37,7 @@ inline RestNoise rest_noise(const Method& method, Dither kind, Axes axes, punctu
   double norm = 0, along = 0;
   for (int k = 0; k < 3200; ++k) {
     Vector3d p = rest;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const double d = dither(kind, k, noise);
       if (axes == Axes::all || (i == 1) == (axes == Axes::along)) p[i] += d;
     }

@@ -1,8 +1,8 @@
 // Where the device stands in the scene.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 
 #include "punctura/device/sample.hpp"
 #include "punctura/model/vector3.hpp"
@@ -25,26 +25,37 @@ struct Placement {
 class Placer {
  public:
   explicit Placer(const Placement& p) noexcept
-      : rotation_(Eigen::Quaterniond(p.rotation[0], p.rotation[1], p.rotation[2], p.rotation[3])
-                      .normalized()
-                      .toRotationMatrix()),
-        offset_(vector(p.offset)),
-        scale_(p.scale),
-        tip_offset_(p.tip_offset) {}
+      : rotation_(matrix(p.rotation)), offset_(vector(p.offset)), scale_(p.scale), tip_offset_(p.tip_offset) {}
 
   DeviceSample to_scene(const DeviceSample& from) const noexcept {
     DeviceSample to = from;
-    const Vector3d axis = rotation_ * vector(from.axis);
+    const Vector3d axis = rotated(vector(from.axis));
     to.axis = plain(axis);
-    to.position = plain(Vector3d(rotation_ * (scale_ * vector(from.position)) + offset_ + tip_offset_ * axis));
+    to.position = plain(rotated(scale_ * vector(from.position)) + offset_ + tip_offset_ * axis);
     return to;
   }
   std::array<double, 3> to_device(const std::array<double, 3>& force) const noexcept {
-    return plain(Vector3d(rotation_.transpose() * vector(force)));
+    const auto& [x, y, z] = rotation_;  // the transposed matrix is the inverse rotation
+    return plain(x * force[0] + y * force[1] + z * force[2]);
   }
 
  private:
-  Eigen::Matrix3d rotation_;
+  using Rows = std::array<Vector3d, 3>;
+
+  /// The rotation of a quaternion of any length.
+  static Rows matrix(const std::array<double, 4>& wxyz) noexcept {
+    auto [w, x, y, z] = wxyz;
+    const double length = std::sqrt(w * w + x * x + y * y + z * z);
+    w /= length, x /= length, y /= length, z /= length;
+    return {Vector3d(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            Vector3d(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+            Vector3d(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
+  }
+  Vector3d rotated(const Vector3d& v) const noexcept {
+    return {rotation_[0].dot(v), rotation_[1].dot(v), rotation_[2].dot(v)};
+  }
+
+  Rows rotation_;
   Vector3d offset_;
   double scale_, tip_offset_;
 };

@@ -1,20 +1,116 @@
 // Three-dimensional vectors, m or N. Axes: right-handed, x right, y up, z towards the user.
 #pragma once
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include "punctura/model/finite_math.hpp"
 
 namespace punctura {
 
-template <typename Scalar>
-using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+/// A vector that is trivially copyable, so that states and records may hold it. The names are those of Eigen, whose vectors
+/// convert by `Eigen::Vector3d(v.data())` and `Vector3d(e.data())`.
+template <typename Scalar_>
+class Vector3 {
+ public:
+  using Scalar = Scalar_;
+
+  constexpr Vector3() noexcept = default;  ///< zero
+  constexpr Vector3(Scalar x, Scalar y, Scalar z) noexcept : v_{x, y, z} {}
+  constexpr explicit Vector3(const std::array<Scalar, 3>& v) noexcept : v_(v) {}
+  constexpr explicit Vector3(const Scalar* v) noexcept : v_{v[0], v[1], v[2]} {}  ///< of three numbers in a row
+
+  static constexpr Vector3 Zero() noexcept { return {}; }
+  static constexpr Vector3 Constant(Scalar s) noexcept { return {s, s, s}; }
+
+  constexpr Scalar x() const noexcept { return v_[0]; }
+  constexpr Scalar y() const noexcept { return v_[1]; }
+  constexpr Scalar z() const noexcept { return v_[2]; }
+  constexpr Scalar& x() noexcept { return v_[0]; }
+  constexpr Scalar& y() noexcept { return v_[1]; }
+  constexpr Scalar& z() noexcept { return v_[2]; }
+  constexpr Scalar operator[](std::size_t i) const noexcept { return v_[i]; }
+  constexpr Scalar& operator[](std::size_t i) noexcept { return v_[i]; }
+  constexpr const Scalar* data() const noexcept { return v_.data(); }
+  constexpr auto begin() const noexcept { return v_.begin(); }
+  constexpr auto end() const noexcept { return v_.end(); }
+  constexpr auto begin() noexcept { return v_.begin(); }
+  constexpr auto end() noexcept { return v_.end(); }
+  constexpr const std::array<Scalar, 3>& array() const noexcept { return v_; }
+
+  template <typename Other>
+  constexpr Vector3<Other> cast() const noexcept {
+    return {static_cast<Other>(v_[0]), static_cast<Other>(v_[1]), static_cast<Other>(v_[2])};
+  }
+
+  constexpr bool operator==(const Vector3&) const noexcept = default;
+  constexpr Vector3 operator-() const noexcept { return {-v_[0], -v_[1], -v_[2]}; }
+  constexpr Vector3& operator+=(const Vector3& b) noexcept { return *this = *this + b; }
+  constexpr Vector3& operator-=(const Vector3& b) noexcept { return *this = *this - b; }
+  constexpr Vector3& operator*=(Scalar s) noexcept { return *this = *this * s; }
+  constexpr Vector3& operator/=(Scalar s) noexcept { return *this = *this / s; }
+  friend constexpr Vector3 operator+(const Vector3& a, const Vector3& b) noexcept {
+    return {a.v_[0] + b.v_[0], a.v_[1] + b.v_[1], a.v_[2] + b.v_[2]};
+  }
+  friend constexpr Vector3 operator-(const Vector3& a, const Vector3& b) noexcept {
+    return {a.v_[0] - b.v_[0], a.v_[1] - b.v_[1], a.v_[2] - b.v_[2]};
+  }
+  friend constexpr Vector3 operator*(const Vector3& a, Scalar s) noexcept {
+    return {a.v_[0] * s, a.v_[1] * s, a.v_[2] * s};
+  }
+  friend constexpr Vector3 operator*(Scalar s, const Vector3& a) noexcept { return a * s; }
+  friend constexpr Vector3 operator/(const Vector3& a, Scalar s) noexcept {
+    return {a.v_[0] / s, a.v_[1] / s, a.v_[2] / s};
+  }
+
+  constexpr void setZero() noexcept { *this = {}; }
+
+  /// The order of the sum is part of the promise that forces keep their bits; it was not the same for both scalars when they
+  /// were recorded.
+  constexpr Scalar dot(const Vector3& b) const noexcept {
+    const Scalar x = v_[0] * b.v_[0], y = v_[1] * b.v_[1], z = v_[2] * b.v_[2];
+    if constexpr (std::is_same_v<Scalar, float>) return x + (y + z);
+    return (x + y) + z;
+  }
+  constexpr Vector3 cross(const Vector3& b) const noexcept {
+    return {v_[1] * b.v_[2] - v_[2] * b.v_[1], v_[2] * b.v_[0] - v_[0] * b.v_[2], v_[0] * b.v_[1] - v_[1] * b.v_[0]};
+  }
+  constexpr Scalar squaredNorm() const noexcept { return dot(*this); }
+  Scalar norm() const noexcept { return std::sqrt(squaredNorm()); }
+
+  /// The length, also where squares overflow or vanish.
+  Scalar stableNorm() const noexcept {
+    const Scalar largest = maxAbs(), inverse = 1 / largest;
+    if (!std::isfinite(largest) || !std::isfinite(inverse)) return std::hypot(v_[0], v_[1], v_[2]);
+    return largest * (*this * inverse).norm();
+  }
+
+  /// Of length 1; itself where it has no length.
+  Vector3 normalized() const noexcept {
+    const Scalar squared = squaredNorm();
+    return squared > 0 ? *this / std::sqrt(squared) : *this;
+  }
+  /// The same, also where squares overflow or vanish.
+  Vector3 stableNormalized() const noexcept {
+    const Scalar largest = maxAbs();
+    const Scalar squared = (*this / largest).squaredNorm();
+    return squared > 0 ? *this / (std::sqrt(squared) * largest) : *this;
+  }
+  Scalar maxAbs() const noexcept { return std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])}); }
+  bool allFinite() const noexcept { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
+
+ private:
+  std::array<Scalar, 3> v_{};
+};
 
 using Vector3d = Vector3<double>;
+static_assert(std::is_trivially_copyable_v<Vector3d>);
 
-/// Plain storage for records: Eigen's vectors are not trivially copyable.
-inline std::array<double, 3> plain(const Vector3d& v) noexcept { return {v.x(), v.y(), v.z()}; }
-inline Vector3d vector(const std::array<double, 3>& v) noexcept { return {v[0], v[1], v[2]}; }
+/// Plain storage for records.
+inline std::array<double, 3> plain(const Vector3d& v) noexcept { return v.array(); }
+inline Vector3d vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

@@ -41,7 +41,7 @@ class Proxy3d {
   /// at another membrane: a_ and n_ tell. Else it loses its place, so that no second proxy goes on from it.
   bool resume(Proxy3d& previous) noexcept {
     if (previous.a_ != a_ || previous.n_ != n_) return false;
-    previous.a_.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
+    previous.a_ = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     started_ = previous.started_;
     contact_ = previous.contact_;
     phase_ = previous.phase_;

@@ -71,7 +71,7 @@ class ForceLimiter {
   Vector3d step(const Vector3d& wanted, double motor_temperature = 0, double elapsed = unknown_time) noexcept {
     count(elapsed);
     gain_ = std::min(1.0, gain_ + ramp_step_);
-    if (gain_ < 1 && !wanted.isZero(0)) act(Limit::ramp, counters_.ramp);
+    if (gain_ < 1 && wanted != Vector3d()) act(Limit::ramp, counters_.ramp);
     Vector3d force = gain_ * wanted;
 
     ceiling_ = permitted(motor_temperature);

@@ -1,6 +1,8 @@
 // The forces of K06 as they were recorded once, bit for bit: both solvers, both scalars, one and three dimensions.
 #include <doctest/doctest.h>
 
+#include <string>
+
 #include "../support/cases.hpp"
 #include "golden_hashes.hpp"
 
@@ -18,7 +20,7 @@ TEST_CASE("the forces on 200 random scenes are those that were recorded once, to
   for (std::size_t k = 0; k < count; ++k) {
     const GoldenHashes now = golden_hashes(k);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      INFO("scene " << k << ", " << golden_names[i]);
+      INFO("scene " << k << ", " << std::string(golden_names[i]));
       CHECK(now[i] == recorded[k][i]);
     }
   }

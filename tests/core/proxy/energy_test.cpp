@@ -5,8 +5,6 @@
 // below zero in the tip zone, and the membrane pushes the needle out: that much, and no more.
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
-
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
 #include "punctura/proxy/insertion.hpp"
@@ -47,7 +45,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
 
   auto path = random_motion(noise, 1500, reach, T);
   const Vector3d home = -0.5 * reach * axis;  // in front of all, however they are turned
-  const Vector3d side = axis.unitOrthogonal();
+  const Vector3d side = axis.cross(std::abs(axis.x()) < 0.5 ? Vector3d(1, 0, 0) : Vector3d(0, 1, 0)).normalized();
   Cycle cycle;
   Vector3d p_prev = home;
   std::vector<Vector3d> q_prev(sites.size(), home);

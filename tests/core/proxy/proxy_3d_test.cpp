@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
-
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
@@ -57,17 +55,20 @@ TEST_CASE("rotating and moving the scene rotates the force") {
   for (int i = 0; i < cases(200); ++i) {
     const LawCase c = random_law(noise, 1e-3);
     const ThickLaw law(c.needle, c.membrane);
-    const Eigen::Quaterniond turn(
-        Eigen::Vector4d(noise.normal(), noise.normal(), noise.normal(), noise.normal()).normalized());
+    const Vector3d turn_axis = random_direction(noise);
+    const double half_angle = between(noise, 0, 3);
+    const auto turn = [w = std::cos(half_angle), u = std::sin(half_angle) * turn_axis](const Vector3d& v) -> Vector3d {
+      return v + 2 * (w * u.cross(v) + u.cross(u.cross(v)));  // by the quaternion (w, u)
+    };
     const Vector3d shift(0.01, -0.02, 0.03);
     const Vector3d axis = (down + 0.5 * random_direction(noise)).normalized();
     for (Solver solver : {Solver::paper, Solver::exact}) {
       Proxy3d<ThickLaw> here(law, Vector3d::Zero(), down, {2000, 1}, T, solver);
-      Proxy3d<ThickLaw> there(law, shift, turn * down, {2000, 1}, T, solver);
+      Proxy3d<ThickLaw> there(law, shift, turn(down), {2000, 1}, T, solver);
       for (double p : random_motion(noise, 300, law.constants().X + 2 * law.thickness(), T)) {
         const Vector3d tip = p * axis + 1e-5 * random_direction(noise);
-        const Vector3d f = here.step(tip, axis), g = there.step(turn * tip + shift, turn * axis);
-        REQUIRE((turn * f - g).norm() < 1e-7 * (1 + f.norm()));
+        const Vector3d f = here.step(tip, axis), g = there.step(turn(tip) + shift, turn(axis));
+        REQUIRE((turn(f) - g).norm() < 1e-6 * (1 + f.norm()));  // the recursion makes rounding errors grow
       }
     }
   }
@@ -94,7 +95,7 @@ TEST_CASE("outside, the offset fades to next to nothing, and never into denormal
   bool normal = true;
   for (int k = 0; k < 16000; ++k) {
     proxy.step({0, 1e-3, 0}, down);
-    normal = normal && proxy.offset().unaryExpr([](double e) { return e == 0 || std::isnormal(e); }).all();
+    for (double e : proxy.offset()) normal = normal && (e == 0 || std::isnormal(e));
   }
   CHECK(normal);
   CHECK(proxy.offset().norm() < 1e-150);

@@ -1,5 +1,4 @@
 // The scheduler's thread, and the device that it moves.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,17 +11,17 @@ namespace fake_hd {
 namespace {
 using Locked = std::lock_guard<std::mutex>;
 
-std::array<double, 3> plain(const punctura::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+using punctura::plain;
 
 /// A rotation whose third column points against the axis, with the columns stretched.
 std::array<double, 16> pose(const fake_hd_settings& s, const std::array<double, 3>& position) {
   using punctura::Vector3d;
   const Vector3d z = -Vector3d(s.axis[0], s.axis[1], s.axis[2]);
-  const Vector3d x = (std::abs(z.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY()).cross(z).normalized();
+  const Vector3d x = Vector3d(std::abs(z.x()) < 0.9 ? 1 : 0, std::abs(z.x()) < 0.9 ? 0 : 1, 0).cross(z).normalized();
   std::array<double, 16> m{};
   const std::array<Vector3d, 3> columns{x, z.cross(x), z};
   for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t r = 0; r < 3; ++r) m[4 * c + r] = s.stretch * columns[c][static_cast<Eigen::Index>(r)];
+    for (std::size_t r = 0; r < 3; ++r) m[4 * c + r] = s.stretch * columns[c][r];
   std::copy(position.begin(), position.end(), m.begin() + 12);
   m[15] = 1;
   return m;
