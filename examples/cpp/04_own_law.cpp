@@ -1,4 +1,4 @@
-// A friction law of your own: anything that gives its band at a depth, and the pieces of which the band is made.
+// A friction law of your own: anything that gives the pieces of which its band is made.
 #include <cstdio>
 
 #include "punctura/punctura.hpp"
@@ -13,7 +13,6 @@ class GelLaw {
     pieces_.pieces[1] = {0, {0, -slope, 0}, {0, slope, 0}};
     pieces_.pieces[2] = {bottom, {-slope * bottom, 0, 0}, {slope * bottom, 0, 0}};
   }
-  punctura::Band<double> band(double q) const noexcept { return pieces_.band(q); }
   const punctura::PiecewiseBand<double, 3>& pieces() const noexcept { return pieces_; }
 
  private:

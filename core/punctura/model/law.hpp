@@ -1,25 +1,51 @@
-// The door for friction laws: K06's two, and those of other authors.
+// What a friction law gives: the door for K06's two laws and for those of other authors.
 #pragma once
 
 #include <concepts>
+#include <type_traits>
+#include <utility>
 
-#include "punctura/model/band.hpp"
+#include "punctura/model/piecewise_band.hpp"
 
 namespace punctura {
 
-/// A law gives its band at a depth, and the quadratic pieces of which that band is made (PiecewiseBand).
-/// Lower edge <= upper edge everywhere, both 0 before the first break, both constant behind the last.
+/// A law gives the quadratic pieces of its band, a PiecewiseBand. Lower edge <= upper edge everywhere, both 0 before the first
+/// break, both constant behind the last.
 template <typename L>
-concept Law = requires(const L law, typename L::Scalar depth) {
+concept Law = requires(const L law, typename L::Scalar q) {
   typename L::Scalar;
-  { law.band(depth) } noexcept -> std::same_as<Band<typename L::Scalar>>;
-  { law.pieces().band(depth) } noexcept -> std::same_as<Band<typename L::Scalar>>;
+  { law.pieces().band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
 };
 
-/// A law that can be laid out anew for the obliquity at which the needle enters, K06 (17).
+/// A law whose pieces depend on the obliquity at which the needle enters, K06 (17).
 template <typename L>
-concept ObliqueLaw = Law<L> && requires(L law, typename L::Scalar cos_beta) {
-  { law.set_obliquity(cos_beta) } noexcept;
+concept ObliqueLaw = Law<L> && requires(const L law, typename L::Scalar cos_beta) {
+  { law.pieces(cos_beta) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
 };
+
+/// A law that remembers what the needle did to the membrane, such as the deepest point that it has cut. The Memory{} of a membrane
+/// that no needle has touched is kept until the proxy is reset, also while the needle is outside.
+template <typename L>
+concept LawWithMemory =
+    requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta, typename L::Scalar depth) {
+      requires std::is_trivially_copyable_v<typename L::Memory>;
+      /// The proxy has come to this depth (m, along the needle). True where the pieces change by it.
+      { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
+      { law.pieces(cos_beta, memory) } noexcept;
+    };
+
+struct NoMemory {};
+template <typename L>
+struct MemoryOf {
+  using type = NoMemory;
+};
+template <LawWithMemory L>
+struct MemoryOf<L> {
+  using type = typename L::Memory;
+};
+
+/// The pieces of a law, as its proxies hold them.
+template <Law L>
+using PiecesOf = std::remove_cvref_t<decltype(std::declval<const L&>().pieces())>;
 
 }  // namespace punctura

@@ -1,8 +1,10 @@
 // A friction band that is at most quadratic in depth between a few break points: what both solvers work on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "punctura/model/band.hpp"
 
@@ -17,6 +19,13 @@ struct Quadratic {
   constexpr Scalar slope(Scalar x) const noexcept { return c1 + 2 * c2 * x; }
 };
 
+/// Both edges between two break points.
+template <typename Scalar>
+struct BandPiece {
+  Scalar origin{};                     ///< depth where x = 0, m
+  Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
+};
+
 /// N pieces, N-1 breaks in ascending order. The first break (the surface) belongs to the piece behind it, the
 /// others to the piece before them, as the closed interval [0, X] of K06 (13) asks.
 template <typename Scalar_, std::size_t N>
@@ -24,10 +33,7 @@ struct PiecewiseBand {
   using Scalar = Scalar_;
   static constexpr std::size_t size = N;
 
-  struct Piece {
-    Scalar origin{};                     ///< depth where x = 0, m
-    Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
-  };
+  using Piece = BandPiece<Scalar>;
 
   std::array<Scalar, N - 1> breaks{};
   std::array<Piece, N> pieces{};
@@ -46,6 +52,19 @@ struct PiecewiseBand {
     const Piece& piece = pieces[i];
     const Scalar x = q - piece.origin;
     return {piece.lower.value(x), piece.upper.value(x)};
+  }
+
+  /// The same band with room for M >= N pieces, so that laws with different numbers of pieces fit into one type. The last piece
+  /// goes on without end.
+  template <std::size_t M>
+  constexpr PiecewiseBand<Scalar, M> with_room() const noexcept {
+    static_assert(M >= N);
+    PiecewiseBand<Scalar, M> more;
+    more.breaks.fill(std::numeric_limits<Scalar>::infinity());
+    more.pieces.fill(pieces[N - 1]);
+    std::copy(breaks.begin(), breaks.end(), more.breaks.begin());
+    std::copy(pieces.begin(), pieces.end(), more.pieces.begin());
+    return more;
   }
 };
 

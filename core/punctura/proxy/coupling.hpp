@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <type_traits>
+
+#include "punctura/model/vector3.hpp"
 
 namespace punctura {
 
@@ -16,9 +20,27 @@ struct BasicCoupling {
 using Coupling = BasicCoupling<double>;
 using CouplingF = BasicCoupling<float>;
 
-/// The coupling sampled with period T, and what every tick needs of it.
-template <typename Scalar>
+/// What a proxy asks of its coupling, sampled with the period T. `Vector` is a scalar on one line, a Vector3 in space.
+///
+/// Any coupling that is linear in the offset of this tick can be one: f = f* + g (e - (e_prev - dp)), where f* is the force that
+/// holds the proxy still. One that relaxes keeps the force of its branch in Memory.
+template <typename C, typename Vector>
+concept SampledCouplingOf = requires(const C c, const Vector& v, typename C::template Memory<Vector>& memory) {
+  requires std::is_trivially_copyable_v<typename C::template Memory<Vector>>;
+  { c.g } -> std::convertible_to<typename C::Scalar>;      // N/m: force per proxy displacement within one tick
+  { c.inv_g } -> std::convertible_to<typename C::Scalar>;  // m/N
+  { c.holding_force(v, v, v, memory) } noexcept -> std::same_as<Vector>;  // f*(p, p_prev, e_prev), N
+  { c.free_offset(v, memory) } noexcept -> std::same_as<Vector>;          // e after a tick without force, m
+  { c.advance(memory, v, v) } noexcept;                                   // the tick is over: (memory, e, e_prev)
+};
+
+/// K06's coupling sampled with period T, and what every tick needs of it.
+template <typename Scalar_>
 struct SampledCoupling {
+  using Scalar = Scalar_;
+  template <typename Vector>
+  struct Memory {};
+
   Scalar K, B, T;
   Scalar g;         ///< (K T + B) / T, N/m: force per proxy displacement within one tick
   Scalar inv_g;     ///< T / (K T + B), m/N
@@ -32,19 +54,29 @@ struct SampledCoupling {
         inv_g(T / (K * T + B)),
         B_over_D(B / (K * T + B)) {}
 
-  /// The offset after a tick without force, K06 (25). It fades by B / D a tick; adding a number and taking it away again stops that
-  /// far below any meaning, before it ends in denormal numbers, which many processors compute slowly.
-  template <typename Vector>
-  Vector relaxed(const Vector& e_prev) const noexcept {
-    const Vector far_below = Vector::Constant(std::sqrt(std::numeric_limits<Scalar>::min()));
-    return (B_over_D * e_prev + far_below) - far_below;
-  }
-
   /// f*: the force that would hold the proxy still. K06 (27), (38).
   template <typename Vector>
-  auto holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev) const noexcept {
+  Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
+                       const Memory<Vector>&) const noexcept {
     return -g * (p - p_prev) + K * e_prev;
   }
+
+  /// e after a tick without force, K06 (25) with f = 0.
+  template <typename Vector>
+  Vector free_offset(const Vector& e_prev, const Memory<Vector>&) const noexcept {
+    return B_over_D * e_prev;
+  }
+
+  template <typename Vector>
+  void advance(Memory<Vector>&, const Vector&, const Vector&) const noexcept {}
 };
+
+/// e, or 0 where it is far below any meaning: it fades by B / D a tick, and would end in denormal numbers, which many processors
+/// compute slowly. Adding a number and taking it away again stops that without a branch.
+template <typename Scalar>
+Vector3<Scalar> without_denormals(const Vector3<Scalar>& e) noexcept {
+  const auto far_below = Vector3<Scalar>::Constant(std::sqrt(std::numeric_limits<Scalar>::min()));
+  return (e + far_below) - far_below;
+}
 
 }  // namespace punctura

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "punctura/model/law.hpp"
+#include "punctura/model/piecewise_band.hpp"
 #include "punctura/proxy/solver.hpp"
 
 namespace punctura {
@@ -34,13 +34,13 @@ Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
 /// are bounded. On each piece it is at most quadratic; at a break where the edge jumps (thin law) gap may pass zero in the
 /// jump, and the proxy then rests on the break with a force between the two edges.
 template <int direction, typename Pieces>
-typename Pieces::Scalar slide(const Pieces& law, std::size_t i, typename Pieces::Scalar q_prev,
+typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
                               typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   using Scalar = typename Pieces::Scalar;
   constexpr std::size_t last = direction > 0 ? Pieces::size - 1 : 0;
   Scalar start = q_prev;
   for (;; i = direction > 0 ? i + 1 : i - 1) {
-    const auto& piece = law.pieces[i];
+    const auto& piece = band.pieces[i];
     const auto& edge = direction > 0 ? piece.lower : piece.upper;
     const Scalar y = start - piece.origin;
     const Scalar coupling = f_star + g * (start - q_prev);
@@ -49,7 +49,7 @@ typename Pieces::Scalar slide(const Pieces& law, std::size_t i, typename Pieces:
     if (i == last) return edge.c0;  // constant from here on: the coupling meets it somewhere
 
     const Scalar x = first_root(direction * edge.c2, edge.slope(y) - g, gap);
-    const Scalar end = law.breaks[direction > 0 ? i : i - 1];
+    const Scalar end = band.breaks[direction > 0 ? i : i - 1];
     if (x >= 0 && x <= direction * (end - start)) return edge.value(y + direction * x);
     start = end;
   }
@@ -59,10 +59,9 @@ typename Pieces::Scalar slide(const Pieces& law, std::size_t i, typename Pieces:
 ///
 /// f*, by (27), is what holds the proxy still. If the band at q_prev allows it, the proxy sticks; else it slides towards
 /// the side on which f* lies. Bounded time: every piece is visited at most once.
-template <Law L>
-Friction<typename L::Scalar> exact_friction(const L& law, typename L::Scalar q_prev, typename L::Scalar f_star,
-                                            typename L::Scalar g) noexcept {
-  const auto& pieces = law.pieces();
+template <typename Pieces>
+Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename Pieces::Scalar q_prev,
+                                                 typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   const std::size_t i = pieces.index(q_prev);
   const auto band = pieces.band(q_prev, i);
   if (f_star < band.lower) return {slide<+1>(pieces, i, q_prev, f_star, g), Phase::sliding_in};

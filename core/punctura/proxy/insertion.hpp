@@ -19,31 +19,35 @@ enum class Direction : std::uint8_t {
 };
 
 /// A membrane in its place: law, a point of its surface (m), inward normal (of length 1).
-template <typename Scalar>
-struct MembraneSite {
-  BasicThickLaw<Scalar> law;
-  Vector3<Scalar> point, inward_normal;
+template <ObliqueLaw L>
+struct SiteOf {
+  L law;
+  Vector3<typename L::Scalar> point, inward_normal;
 };
 
 /// The model from measured position to force: position conditioning, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
 ///
-/// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction.
-template <typename Scalar_>
-class BasicInsertion {
+/// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction. L: the membranes' law,
+/// which may be a MixedLaw; C: the coupling.
+template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
+class InsertionOf {
  public:
-  using Scalar = Scalar_;
+  using Scalar = typename L::Scalar;
   using Vector = Vector3<Scalar>;
-  using Proxy = Proxy3d<BasicThickLaw<Scalar>>;
+  using Proxy = Proxy3d<L, C>;
 
-  BasicInsertion(const std::vector<MembraneSite<Scalar>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
-                 Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
-                 Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
+  InsertionOf(const std::vector<SiteOf<L>>& sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
+              Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
+              Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
       : conditioner_(conditioning, low_pass_hz, encoder_step, period), from_motion_(tracker(direction, period)) {
     proxies_.reserve(sites.size());
-    for (const auto& site : sites)
-      proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, period, solver);
+    for (const auto& site : sites) proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, solver);
     reset();
   }
+
+  InsertionOf(const std::vector<SiteOf<L>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
+              Solver solver = Solver::exact)
+      : InsertionOf(sites, C(coupling, period), period, solver) {}
 
   void reset() noexcept {
     conditioner_.reset();
@@ -54,13 +58,19 @@ class BasicInsertion {
   }
 
   /// Goes on from where another insertion of the same period is, which loses its history. Each membrane goes on from the
-  /// one in the same place, whatever its number; a membrane in a new place starts afresh. Takes no memory.
-  void resume(BasicInsertion& previous) noexcept {
+  /// one in the same place, whatever its number; of several in one place, the first from the first. A membrane in a new place
+  /// starts afresh. Takes no memory.
+  void resume(InsertionOf& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
-    for (Proxy& proxy : proxies_)
-      for (Proxy& other : previous.proxies_)
-        if (proxy.resume(other)) break;
+    for (std::size_t i = 0; i < proxies_.size(); ++i) {
+      std::size_t before = count_same(proxies_, i, proxies_[i]);
+      for (const Proxy& other : previous.proxies_)
+        if (proxies_[i].same_place(other) && before-- == 0) {
+          proxies_[i].resume(other);
+          break;
+        }
+    }
   }
 
   /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).
@@ -85,6 +95,11 @@ class BasicInsertion {
   }
 
  private:
+  /// How many of the first n proxies are in the same place.
+  static std::size_t count_same(const std::vector<Proxy>& proxies, std::size_t n, const Proxy& proxy) noexcept {
+    return static_cast<std::size_t>(std::count_if(proxies.begin(), proxies.begin() + static_cast<std::ptrdiff_t>(n),
+                                                  [&](const Proxy& other) { return other.same_place(proxy); }));
+  }
   /// None where the device gives the direction.
   static std::optional<EntryDirection<Scalar>> tracker(Direction direction, Scalar period) {
     if (direction == Direction::motion) return std::make_optional<EntryDirection<Scalar>>(period);
@@ -97,6 +112,11 @@ class BasicInsertion {
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
 };
 
+/// With K06's law and coupling.
+template <typename Scalar>
+using MembraneSite = SiteOf<BasicThickLaw<Scalar>>;
+template <typename Scalar>
+using BasicInsertion = InsertionOf<BasicThickLaw<Scalar>>;
 using Insertion = BasicInsertion<double>;
 using InsertionF = BasicInsertion<float>;
 

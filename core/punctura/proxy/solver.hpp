@@ -19,4 +19,7 @@ enum class Phase : std::uint8_t {
   barred,       ///< inside, but not entered from the front: no force until the tip has been outside, in front
 };
 
+/// Whether friction acts.
+constexpr bool inside(Phase phase) noexcept { return phase != Phase::outside && phase != Phase::barred; }
+
 }  // namespace punctura

@@ -27,24 +27,35 @@ class SceneError : public std::invalid_argument {
   std::vector<Problem> problems_;
 };
 
-/// The model of a scene without device and safety. Scalar: double, or float. Throws SceneError.
-template <typename Scalar = double>
-BasicInsertion<Scalar> build_insertion(const Scene& scene) {
+/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane)`, both in Scalar.
+/// Throws SceneError.
+template <typename Scalar, typename LawOf>
+auto build_insertion(const Scene& scene, LawOf&& law_of) {
   if (auto problems = check(scene); !problems.empty()) throw SceneError(std::move(problems));
 
+  using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}))>;
   const auto to = [](double x) { return static_cast<Scalar>(x); };
   const BasicNeedle<Scalar> needle{to(scene.needle.diameter), to(scene.needle.tip_angle)};
-  std::vector<MembraneSite<Scalar>> sites;
+  std::vector<SiteOf<L>> sites;
   for (const PlacedMembrane& placed : scene.membranes) {
     const Membrane& m = placed.membrane;
     const BasicMembrane<Scalar> membrane{to(m.stiffness), to(m.precompression), to(m.friction), to(m.thickness)};
     const Vector3d normal = vector(placed.inward_normal).stableNormalized();
-    sites.push_back({BasicThickLaw<Scalar>(needle, membrane), vector(placed.point).template cast<Scalar>(),
-                     normal.template cast<Scalar>()});
+    sites.push_back(
+        {law_of(needle, membrane), vector(placed.point).template cast<Scalar>(), normal.template cast<Scalar>()});
   }
-  return BasicInsertion<Scalar>(sites, {to(scene.coupling.stiffness), to(scene.coupling.damping)},
-                                to(1 / scene.servo.rate), scene.servo.solver, to(scene.servo.low_pass), scene.direction,
-                                scene.servo.conditioning, to(scene.servo.encoder_step));
+  const Scalar period = to(1 / scene.servo.rate);
+  const SampledCoupling<Scalar> coupling({to(scene.coupling.stiffness), to(scene.coupling.damping)}, period);
+  return InsertionOf<L>(sites, coupling, period, scene.servo.solver, to(scene.servo.low_pass), scene.direction,
+                        scene.servo.conditioning, to(scene.servo.encoder_step));
+}
+
+/// The same with K06's law. Scalar: double, or float.
+template <typename Scalar = double>
+BasicInsertion<Scalar> build_insertion(const Scene& scene) {
+  return build_insertion<Scalar>(scene, [](const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) {
+    return BasicThickLaw<Scalar>(needle, membrane);
+  });
 }
 
 /// The whole tick of a scene: input gate, model, force limits. Throws SceneError, for scene and limits together.

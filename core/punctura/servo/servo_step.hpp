@@ -145,10 +145,9 @@ class ServoStep {
     snapshot_.state = state_;
     snapshot_.fault = fault_;
     for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
-      const auto& proxy = insertion_.proxies()[i];
-      snapshot_.membranes[i] = {proxy.depth(),      proxy.axial_force(),     proxy.band().lower,
-                                proxy.band().upper, plain(proxy.position()), plain(proxy.direction()),
-                                proxy.phase()};
+      const auto& t = insertion_.proxies()[i].tick();
+      snapshot_.membranes[i] = {t.depth,        t.axial_force,      t.band.lower, t.band.upper,
+                                plain(t.proxy), plain(t.direction), t.phase};
     }
   }
 

@@ -101,7 +101,7 @@ TEST_CASE("the exact solver finds the first root in the direction of motion") {
     for (double p : random_motion(noise, 300, reach, T)) {
       if (first) p_prev = p;
       first = false;
-      const double q_prev = p_prev + e_prev, f_star = sampled.holding_force(p, p_prev, e_prev);
+      const double q_prev = p_prev + e_prev, f_star = sampled.holding_force(p, p_prev, e_prev, {});
       proxy.step(p);
       const double q = proxy.position();
       const double sense = proxy.phase() == Phase::sliding_in ? 1 : proxy.phase() == Phase::sliding_out ? -1 : 0;

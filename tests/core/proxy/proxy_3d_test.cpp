@@ -50,8 +50,19 @@ TEST_CASE("along the normal, three dimensions are one") {
   CHECK(worst < 1e-9);
 }
 
+/// The largest slope of either edge, N/m, for a needle that enters within 27 degrees of the normal.
+double steepest(const ThickLaw& law) {
+  double most = 0;
+  for (const auto& piece : law.pieces(0.89).pieces)
+    for (const auto& edge : {piece.lower, piece.upper})
+      for (double x : {0.0, std::max(law.constants().X, law.thickness())})
+        most = std::max(most, std::abs(edge.slope(x)));
+  return most;
+}
+
 TEST_CASE("rotating and moving the scene rotates the force") {
   Noise noise(31);
+  int of_paper = 0;
   for (int i = 0; i < cases(200); ++i) {
     const LawCase c = random_law(noise, 1e-3);
     const ThickLaw law(c.needle, c.membrane);
@@ -63,15 +74,18 @@ TEST_CASE("rotating and moving the scene rotates the force") {
     const Vector3d shift(0.01, -0.02, 0.03);
     const Vector3d axis = (down + 0.5 * random_direction(noise)).normalized();
     for (Solver solver : {Solver::paper, Solver::exact}) {
+      if (solver == Solver::paper && steepest(law) > 0.5 * 3600) continue;  // (31) makes rounding errors grow there
+      of_paper += solver == Solver::paper;
       Proxy3d<ThickLaw> here(law, Vector3d::Zero(), down, {2000, 1}, T, solver);
       Proxy3d<ThickLaw> there(law, shift, turn(down), {2000, 1}, T, solver);
       for (double p : random_motion(noise, 300, law.constants().X + 2 * law.thickness(), T)) {
         const Vector3d tip = p * axis + 1e-5 * random_direction(noise);
         const Vector3d f = here.step(tip, axis), g = there.step(turn(tip) + shift, turn(axis));
-        REQUIRE((turn(f) - g).norm() < 1e-6 * (1 + f.norm()));  // the recursion makes rounding errors grow
+        REQUIRE((turn(f) - g).norm() < 1e-7 * (1 + f.norm()));
       }
     }
   }
+  CHECK(of_paper >= cases(200) / 10);
 }
 
 TEST_CASE("there is no force outside, and at rest no motion") {
@@ -142,7 +156,7 @@ TEST_CASE("b and U are held from entry until the membrane is left") {
     const Vector3d slanted = Vector3d(1, -1, 0).normalized();
     for (int k = 0; k < 800; ++k) proxy.step(Vector3d(0, 1e-3, 0) + slanted * (5e-3 * k * T), k < 500 ? slanted : down);
     CHECK(proxy.direction() == slanted);
-    CHECK(proxy.law().path_length() == doctest::Approx(1e-3 * std::sqrt(2.0)));
+    CHECK(proxy.state().pieces.breaks[1] == doctest::Approx(1e-3 * std::sqrt(2.0)));  // U < X
   }
 }
 

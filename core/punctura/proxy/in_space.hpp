@@ -1,0 +1,111 @@
+// K06 section 3.2 as plain data: what is fixed, what a tick changes, what a tick gives. One proxy and one membrane in space.
+#pragma once
+
+#include <type_traits>
+
+#include "punctura/model/law.hpp"
+#include "punctura/model/vector3.hpp"
+#include "punctura/proxy/coupling.hpp"
+#include "punctura/proxy/exact_friction.hpp"
+
+namespace punctura {
+
+/// cos(80 degrees): a needle that enters flatter than that grazes, U = H / cos(beta) has no bound there, and it is given no
+/// force (docs/errata.md, E6).
+template <typename Scalar>
+inline constexpr Scalar grazing_cosine = Scalar(0.17364817766693034885);
+
+/// What is fixed while a proxy runs.
+template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
+struct SpaceParams {
+  using Vector = Vector3<typename L::Scalar>;
+
+  L law;
+  Vector a;  ///< any point of the surface, m
+  Vector n;  ///< inward normal, of length 1
+  C coupling;
+};
+
+/// What a tick leaves to the next. SpaceState<L>{} is a proxy that has not seen a sample: one that starts inside stays barred until
+/// it has been outside, in front.
+template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
+struct SpaceState {
+  using Scalar = typename L::Scalar;
+  using Vector = Vector3<Scalar>;
+
+  bool started = false;
+  Phase phase = Phase::barred;
+  Vector p{};  ///< p(k), m: the device's position
+  Vector e{};  ///< e(k) = q(k) - p(k), m
+  Vector f{};  ///< f(k), N
+  Vector b{};  ///< the needle's direction at entry, held while inside
+  Scalar cos_beta{1};
+  PiecesOf<L> pieces{};  ///< of the law for cos_beta, while inside
+  typename MemoryOf<L>::type law{};
+  typename C::template Memory<Vector> coupling{};
+};
+
+/// What a tick gives.
+template <typename Scalar>
+struct SpaceTick {
+  Vector3<Scalar> force;      ///< f(k), N, on the device
+  Vector3<Scalar> proxy;      ///< q(k), m
+  Vector3<Scalar> direction;  ///< b, held from entry on
+  Scalar axial_force;         ///< b.f(k), N
+  /// Along b while inside, m: of the proxy q(k), or of q* with the paper's solver. Else along the normal, from the surface.
+  Scalar depth;
+  Band<Scalar> band;  ///< bounds the axial force, N: taken at depth, 0 outside
+  Phase phase;
+};
+
+/// Lays the law out for the needle as it stands in the membrane, and the membrane as it is now.
+template <typename L, typename C>
+void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept {
+  if constexpr (LawWithMemory<L>)
+    state.pieces = params.law.pieces(state.cos_beta, state.law);
+  else
+    state.pieces = params.law.pieces(state.cos_beta);
+}
+
+/// The tip has just passed the surface: b and U are fixed until it leaves. K06 (41)
+template <typename L, typename C>
+void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+           const typename SpaceState<L, C>::Vector& axis) noexcept {
+  state.phase = Phase::barred;
+  state.cos_beta = params.n.dot(axis);
+  if (!(state.cos_beta >= grazing_cosine<typename L::Scalar>)) return;
+  state.phase = Phase::sticking;
+  state.b = axis;
+  lay_out(params, state);
+}
+
+/// The end of a tick inside: friction along b is known, so is where the proxy goes.
+template <typename L, typename C, typename Scalar>
+SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p,
+                                const Vector3<Scalar>& p_prev, const Vector3<Scalar>& f_star,
+                                const Friction<Scalar>& friction, Scalar depth) noexcept {
+  const Vector3<Scalar> e_prev = state.e;
+  const Band<Scalar> band = state.pieces.band(depth);
+  state.f = f_star + state.b * (friction.force - state.b.dot(f_star));           // K06 (39)
+  state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (state.f - f_star);  // K06 (25) and (37), as on a line
+  params.coupling.advance(state.coupling, state.e, e_prev);
+  state.p = p;
+  state.phase = friction.phase;
+  if constexpr (LawWithMemory<L>)
+    if (params.law.advance(state.law, params.n.dot(p + state.e - params.a) / state.cos_beta)) lay_out(params, state);
+  return {state.f, p + state.e, state.b, friction.force, depth, band, state.phase};
+}
+
+/// The end of a tick outside, or barred: no force.
+template <typename L, typename C, typename Scalar>
+SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+                                 const Vector3<Scalar>& p) noexcept {
+  const Vector3<Scalar> e_prev = state.e;
+  state.f = {};
+  state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0
+  params.coupling.advance(state.coupling, state.e, e_prev);
+  state.p = p;
+  return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
+}
+
+}  // namespace punctura

@@ -1,0 +1,67 @@
+// Different laws in one scene, membrane by membrane.
+#pragma once
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "punctura/model/law.hpp"
+
+namespace punctura {
+
+/// One of several laws. Which one it is is asked only when a needle enters, and by laws with memory: the solvers see pieces alone.
+template <ObliqueLaw... Laws>
+class MixedLaw {
+ public:
+  using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
+  static constexpr std::size_t room = std::max({PiecesOf<Laws>::size...});
+  using Pieces = PiecewiseBand<Scalar, room>;
+  using Memory = std::variant<typename MemoryOf<Laws>::type...>;  ///< of the law in use, from its first advance() on
+
+  template <ObliqueLaw L>
+    requires(std::same_as<L, Laws> || ...)
+  MixedLaw(const L& law) noexcept : law_(law), pieces_(law.pieces().template with_room<room>()) {}
+
+  const Pieces& pieces() const noexcept { return pieces_; }
+  Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
+
+  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
+    Pieces all;
+    ask([&]<std::size_t i>(const auto& law) {
+      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
+        const auto* own = std::get_if<i>(&memory);
+        using Own = std::variant_alternative_t<i, Memory>;
+        all = law.pieces(cos_beta, own ? *own : Own{}).template with_room<room>();
+      } else {
+        all = law.pieces(cos_beta).template with_room<room>();
+      }
+    });
+    return all;
+  }
+
+  bool advance(Memory& memory, Scalar depth) const noexcept {
+    bool changed = false;
+    ask([&]<std::size_t i>(const auto& law) {
+      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
+        if (memory.index() != i) memory.template emplace<i>();
+        changed = law.advance(*std::get_if<i>(&memory), depth);
+      }
+    });
+    return changed;
+  }
+
+ private:
+  /// Calls ask<i>(law) for the law in use, the i-th.
+  template <typename Ask>
+  void ask(Ask&& with) const noexcept {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      ((law_.index() == i ? with.template operator()<i>(*std::get_if<i>(&law_)) : void()), ...);
+    }(std::index_sequence_for<Laws...>());
+  }
+
+  std::variant<Laws...> law_;
+  Pieces pieces_;
+};
+
+}  // namespace punctura

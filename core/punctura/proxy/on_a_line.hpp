@@ -1,0 +1,67 @@
+// K06 section 3.1 as plain data: what is fixed, what a tick changes, what a tick gives. One proxy on the axis of the needle.
+#pragma once
+
+#include <type_traits>
+
+#include "punctura/model/law.hpp"
+#include "punctura/proxy/coupling.hpp"
+#include "punctura/proxy/exact_friction.hpp"
+
+namespace punctura {
+
+/// What is fixed while a proxy runs.
+template <Law L, typename C = SampledCoupling<typename L::Scalar>>
+struct LineParams {
+  L law;
+  C coupling;
+};
+
+/// What a tick leaves to the next. LineState<L>{} is a proxy that has not seen a sample: e = f = 0.
+template <Law L, typename C = SampledCoupling<typename L::Scalar>>
+struct LineState {
+  using Scalar = typename L::Scalar;
+
+  bool started = false;
+  Phase phase = Phase::sticking;
+  Scalar p{};  ///< p(k), m: the device's depth
+  Scalar e{};  ///< e(k) = q(k) - p(k), m
+  Scalar f{};  ///< f(k), N
+  typename MemoryOf<L>::type law{};
+  typename C::template Memory<Scalar> coupling{};
+};
+
+/// What a tick gives.
+template <typename Scalar>
+struct LineTick {
+  Scalar force;       ///< f(k), N, on the device
+  Scalar proxy;       ///< q(k), m
+  Scalar depth;       ///< where the band was taken, m: q(k), or q* with the paper's solver
+  Band<Scalar> band;  ///< N, at depth
+  Phase phase;
+};
+
+/// The pieces of the law as the membrane is now.
+template <typename L, typename C>
+decltype(auto) pieces_now(const LineParams<L, C>& params, const LineState<L, C>& state) noexcept {
+  if constexpr (LawWithMemory<L>)
+    return params.law.pieces(typename L::Scalar(1), state.law);
+  else
+    return params.law.pieces();
+}
+
+/// The end of a tick: friction is known, so is where the proxy goes.
+template <typename L, typename C, typename Scalar>
+void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Scalar p_prev, Scalar f_star,
+            const Friction<Scalar>& friction) noexcept {
+  const Scalar e_prev = state.e;
+  // K06 (25) and (26) in one: a proxy that sticks (f = f*) keeps its place to the last bit.
+  state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);
+  params.coupling.advance(state.coupling, state.e, e_prev);
+  if constexpr (LawWithMemory<L>) params.law.advance(state.law, p + state.e);
+  state.started = true;
+  state.p = p;
+  state.f = friction.force;
+  state.phase = friction.phase;
+}
+
+}  // namespace punctura

@@ -1,0 +1,192 @@
+// The doors for other authors: laws with memory and with any number of pieces, different laws in one scene, couplings that relax.
+#include <doctest/doctest.h>
+
+#include "../support/allocations.hpp"
+#include "../support/paper_scene.hpp"
+#include "../support/random_motion.hpp"
+#include "punctura/proxy/mixed_law.hpp"
+#include "punctura/proxy/proxy_1d.hpp"
+#include "punctura/scene/build.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+constexpr double T = 1 / 1600.0;
+
+struct Cut {
+  double cut = 0;  ///< the deepest point, m
+};
+/// One newton to cut further than the deepest point cut so far; nothing in the hole.
+struct CutLaw {
+  using Scalar = double;
+  using Memory = Cut;
+  PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
+    return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
+  }
+  bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
+};
+static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
+
+/// A law that came with any number of pieces.
+template <std::size_t n>
+struct TableLaw {
+  using Scalar = double;
+  PiecewiseBand<double, n> table;
+  const PiecewiseBand<double, n>& pieces() const noexcept { return table; }
+  PiecewiseBand<double, n> pieces(double) const noexcept { return table; }
+};
+
+/// K06's coupling beside a branch of stiffness K_m that relaxes: f_m = a (f_m + K_m (e - e_prev)), a = exp(-T / tau).
+struct RelaxingCoupling {
+  using Scalar = double;
+  template <typename Vector>
+  struct Memory {
+    Vector force{};  ///< f_m, N
+  };
+  SampledCoupling<double> base;
+  double K_m, a;
+  double g = base.g + a * K_m, inv_g = 1 / g;
+
+  template <typename Vector>
+  Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
+                       const Memory<Vector>& m) const noexcept {
+    return -g * (p - p_prev) + base.K * e_prev + a * m.force;
+  }
+  template <typename Vector>
+  Vector free_offset(const Vector& e_prev, const Memory<Vector>& m) const noexcept {
+    return ((base.B / base.T + a * K_m) * e_prev - a * m.force) * inv_g;
+  }
+  template <typename Vector>
+  void advance(Memory<Vector>& m, const Vector& e, const Vector& e_prev) const noexcept {
+    m.force = a * (m.force + K_m * (e - e_prev));
+  }
+};
+static_assert(SampledCouplingOf<RelaxingCoupling, double> && SampledCouplingOf<RelaxingCoupling, Vector3d>);
+static_assert(SampledCouplingOf<SampledCoupling<double>, double> &&
+              SampledCouplingOf<SampledCoupling<double>, Vector3d>);
+
+}  // namespace
+
+// The exact solver only: this band jumps at the proxy itself, and (31) takes it there at a place where the proxy is not.
+TEST_CASE("a law with memory: the second pass through a hole meets nothing before its end") {
+  Proxy1d line(CutLaw{}, Coupling{400, 1}, T);
+  Proxy3d space(CutLaw{}, Vector3d(0, 0, 0), Vector3d(0, -1, 0), Coupling{400, 1}, T);
+  const auto force_at = [&](double depth) {
+    const double f = line.step(depth);
+    CHECK(-space.step({0, -depth, 0}, {0, -1, 0}).y() == doctest::Approx(f).epsilon(1e-9));
+    return f;
+  };
+  const auto move = [&](double from, double to) {
+    double f = 0;
+    for (int k = 0; k <= 800; ++k) f = force_at(from + (to - from) * k / 800);
+    return f;
+  };
+  CHECK(move(-2e-3, 8e-3) == doctest::Approx(-1));
+  const double cut = line.state().law.cut;
+  CHECK(cut > 5e-3);
+  move(8e-3, -2e-3);
+  CHECK(move(-2e-3, 0.8 * cut) == 0);
+  CHECK(line.state().law.cut == cut);
+  CHECK(move(0.8 * cut, 12e-3) == doctest::Approx(-1));
+  CHECK(space.state().law.cut > cut);
+}
+
+TEST_CASE("a law may have any number of pieces: K06's own among seventeen gives its forces to the last bit") {
+  Noise noise(90);
+  const LawCase c = random_law(noise, 1e-3);
+  const ThickLaw law(c.needle, c.membrane);
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d own(law, Coupling{400, 1}, T, solver);
+    Proxy1d table(TableLaw<17>{law.pieces().with_room<17>()}, Coupling{400, 1}, T, solver);
+    for (double p : random_motion(noise, 3000, law.constants().X + 2 * law.thickness(), T))
+      REQUIRE(table.step(p) == own.step(p));
+  }
+}
+
+TEST_CASE("a scene may mix laws, and a tick of it takes no memory") {
+  using Mixed = MixedLaw<ThickLaw, CutLaw>;
+  Scene scene = paper_scene(1e-3);
+  scene.servo.low_pass = 0;
+  scene.membranes.push_back({"cut", paper_membrane(1e-3), {0, -4e-3, 0}, {0, -1, 0}});
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    scene.servo.solver = solver;
+    bool first = true;
+    auto mixed = build_insertion<double>(scene, [&](const Needle& needle, const Membrane& membrane) -> Mixed {
+      const bool k06 = std::exchange(first, false);
+      return k06 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
+    });
+    Proxy3d wall(ThickLaw(paper_needle, paper_membrane(1e-3)), {0, 0, 0}, {0, -1, 0}, scene.coupling, T, solver);
+    Proxy3d cut(CutLaw{}, {0, -4e-3, 0}, {0, -1, 0}, scene.coupling, T, solver);
+    Noise noise(91);
+    const Vector3d down(0, -1, 0);
+    for (double p : random_motion(noise, 3000, 12e-3, T)) {
+      const Vector3d tip = p * down;
+      const auto before = allocations();
+      const Vector3d force = mixed.step(tip, down);
+      REQUIRE(allocations() == before);
+      REQUIRE(force == Vector3d() + wall.step(tip, down) + cut.step(tip, down));
+    }
+    CHECK(cut.state().law.cut > 1e-3);
+  }
+}
+
+TEST_CASE("a coupling with memory: a needle that is held still feels the tissue relax") {
+  const double tau = 0.1, K_m = 300;
+  const RelaxingCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
+  const TableLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N, both ways
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d line(grip, coupling, solver);
+    Proxy3d space(grip, Vector3d(0, 0, 0), Vector3d(0, -1, 0), coupling, solver);
+    const auto hold = [&](double depth, int ticks) {
+      double f = 0;
+      for (int k = 0; k < ticks; ++k) {
+        f = line.step(depth);
+        CHECK(-space.step({0, -depth, 0}, {0, -1, 0}).y() == doctest::Approx(f).epsilon(1e-9));
+      }
+      return f;
+    };
+    for (int k = 0; k <= 1600; ++k) hold(-1e-3 + 11e-3 * k / 1600, 1);
+    hold(9.6e-3, 1);  // unloads, with the proxy at rest from here on
+    const double offset = line.offset(), first = hold(9.6e-3, 160), second = hold(9.6e-3, 160),
+                 last = hold(9.6e-3, 4000);
+    CHECK(line.phase() == Phase::sticking);
+    CHECK(line.offset() == offset);
+    CHECK((second - last) / (first - last) == doctest::Approx(std::exp(-1.0)).epsilon(1e-6));
+    CHECK(last == doctest::Approx(400 * offset).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("with no stiffness in its branch, a coupling that relaxes is K06's") {
+  Noise noise(92);
+  const ThickLaw law(paper_needle, paper_membrane(1e-3));
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d plain(law, Coupling{400, 1}, T, solver);
+    Proxy1d relaxing(law, RelaxingCoupling{{Coupling{400, 1}, T}, 0, 0.9}, solver);
+    for (double p : random_motion(noise, 3000, 8e-3, T)) {
+      const double f = plain.step(p);
+      REQUIRE(relaxing.step(p) == doctest::Approx(f).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("a state that is given back, and a copy of an insertion, go on to the same bits") {
+  Noise noise(93);
+  const auto motion = random_motion(noise, 2000, 10e-3, T);
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d proxy(ThickLaw(paper_needle, paper_membrane(1e-3)), Coupling{400, 1}, T, solver);
+    auto insertion = build_insertion(paper_scene(1e-3, solver));
+    for (std::size_t k = 0; k < 1000; ++k) proxy.step(motion[k]), insertion.step({0, -motion[k], 0}, {0, -1, 0});
+    const auto state = proxy.state();
+    auto copy = insertion;
+    std::vector<double> forces;
+    for (std::size_t k = 1000; k < 2000; ++k) {
+      forces.push_back(proxy.step(motion[k]));
+      REQUIRE(copy.step({0, -motion[k], 0}, {0, -1, 0}) == insertion.step({0, -motion[k], 0}, {0, -1, 0}));
+    }
+    proxy.reset();
+    proxy.set_state(state);
+    for (std::size_t k = 1000; k < 2000; ++k) REQUIRE(proxy.step(motion[k]) == forces[k - 1000]);
+  }
+}
