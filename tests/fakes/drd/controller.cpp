@@ -178,7 +178,7 @@ int Controller::read(double (&position)[3]) {
   const auto every = static_cast<std::uint64_t>(settings.repeat_every);
   const bool repeated = frozen_ || (every > 0 && reads_ % every == 0);
   if (!repeated) reading_ = plant_->measured();
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     position[i] = reading_[i] + (leap_ && i == 2 ? 0.25 : 0);
     if (nan_) position[i] = std::numeric_limits<double>::quiet_NaN();
   }
@@ -251,7 +251,7 @@ Report Controller::report() {
   r.now = time_;
   r.last_force = last_force_;
   r.injected = happened_;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     r.force[i] = given_[i];
     r.sent[i] = sent_[i];
     r.position[i] = plant_->tip()[i];
