@@ -12,6 +12,9 @@ from punctura.scene.limits import MOST_BYTES
 
 READERS = {"limits": load_limits, "placement": load_placement, "exercise": load_exercise, "scene": load_scene}
 SOUND = {"limits": "max_force_N = 0.5", "placement": "scale = 0.5"}
+FILE_OF = {
+    "limits": "a limits file", "placement": "a placement file", "exercise": "an exercise file", "scene": "a scene file"
+}  # fmt: skip
 every_reader = pytest.mark.parametrize("what", READERS)
 
 
@@ -49,12 +52,12 @@ def test_a_device_and_a_pipe_are_refused_unread(what, refusal, tmp_path):
     pipe = tmp_path / "pipe.toml"
     os.mkfifo(pipe)
     for path in (Path("/dev/zero"), pipe):
-        assert f"is a device or a pipe, not a {what} file; save its text in a file" in refusal(what, None, path)
+        assert f"is a device or a pipe, not {FILE_OF[what]}; save its text in a file" in refusal(what, None, path)
 
 
 @every_reader
 def test_a_folder_a_missing_file_and_bytes_that_are_no_text_are_told(what, refusal, tmp_path):
-    assert f"is a folder, not a {what} file" in refusal(what, None, tmp_path)
+    assert f"is a folder, not {FILE_OF[what]}" in refusal(what, None, tmp_path)
     assert "there is no such file" in refusal(what, None, tmp_path / "none.toml")
     assert "line 2: is not UTF-8 text; save it as UTF-8" in refusal(what, b"\n\xff")
 
