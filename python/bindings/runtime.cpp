@@ -80,12 +80,13 @@ void bind_runtime(nb::module_& m) {
   nb::class_<Device>(m, "Device", "An open haptic device. It calls the tick from a thread of its own.")
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_rw(
-          "spent", [](const Device& d) { return d.exertion.spent; },
-          [](Device& d, double spent) { d.exertion = {spent, unknown}; },
+          "spent", [](const Device& d) { return d.motor_use.spent; },
+          [](Device& d, double spent) { d.motor_use = {spent, unknown}; },
           "What its motors had given at the end of the last run and not recovered from, N^2 s. The next run goes on with\n"
           "it: the limit on continuous force holds across runs. What is set counts in full; no time counts as rest.")
       .def(
-          "go_on_from", [](Device& d, const Device& previous) { d.exertion = previous.exertion; }, nb::arg("previous"),
+          "go_on_from", [](Device& d, const Device& previous) { d.motor_use = previous.motor_use; },
+          nb::arg("previous"),
           "This object stands for the same motors as another one: its next run goes on with what they have given.")
       .def("trouble", &Device::trouble, nb::call_guard<nb::gil_scoped_release>(),
            "What went wrong, in words; empty if nothing did.")

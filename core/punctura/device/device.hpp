@@ -31,7 +31,7 @@ class DeviceError : public std::runtime_error {
 };
 
 /// What the motors of a device have given lately: runs come and go, and the motors stay warm.
-struct Exertion {
+struct MotorUse {
   double spent = 0;       ///< N^2 s, see ForceBudget::spent
   double time = unknown;  ///< s, on the clock of the loop that was stopped then; NaN: no time counts as rest
 };
@@ -69,7 +69,7 @@ class Device {
   virtual std::vector<std::string> statements() const { return {}; }
 
   /// Of the loops that run on the device, one after the other. They guard it.
-  Exertion exertion{};
+  MotorUse motor_use{};
 };
 
 }  // namespace punctura

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-from punctura.live.bell import Bell
+from punctura.live.wake_socket import WakeSocket
 
 RETRY_S = 0.05
 TRIES = 100
@@ -44,10 +44,10 @@ class Signals:
 
     _innermost: Signals | None = None
 
-    def __init__(self, bell: Bell) -> None:
+    def __init__(self, wake_socket: WakeSocket) -> None:
         self.number = 0  # of the first signal, as soon as the main thread has taken it
         self._came = 0
-        self._bell = bell
+        self._wake_socket = wake_socket
         self._raises = False
         self._before: dict[int, Any] = {}
         self._wakeup = -1
@@ -69,12 +69,12 @@ class Signals:
 
         A signal for which the caller has installed a handler of its own meanwhile is the caller's.
         """
-        for number in self._bell.wait(seconds):
+        for number in self._wake_socket.wait(seconds):
             if self._is_ours(number):
                 self._came = self._came or number
         return self._came != 0
 
-    def insist(self) -> None:
+    def resend(self) -> None:
         """Of the same thread: sees to it that the main thread takes a signal that came.
 
         One that comes just before the main thread begins to wait in the system does not end that wait by itself.
@@ -91,7 +91,7 @@ class Signals:
 
     def wake(self) -> None:
         """From any thread."""
-        self._bell.ring()
+        self._wake_socket.wake()
 
     def take(self, names: Sequence[str]) -> None:
         """Installs the handlers. What the program ignores already (nohup) stays ignored."""
@@ -101,7 +101,7 @@ class Signals:
             if before not in (signal.SIG_IGN, None):
                 self._before[number] = before
                 signal.signal(number, self._handle)
-        self._wakeup = signal.set_wakeup_fd(self._bell.fileno(), warn_on_full_buffer=False)
+        self._wakeup = signal.set_wakeup_fd(self._wake_socket.fileno(), warn_on_full_buffer=False)
 
     def give_back(self) -> None:
         """Installs what was there before, where nobody has installed something else meanwhile."""
@@ -132,8 +132,8 @@ def ends_on_signals(names: Sequence[str] = ENDING_A_RUN) -> Iterator[Signals]:
 
     Does nothing in a thread other than the main one: only that one may take signals.
     """
-    with Bell() as bell:
-        signals = Signals(bell)
+    with WakeSocket() as wake_socket:
+        signals = Signals(wake_socket)
         if threading.current_thread() is not threading.main_thread():
             yield signals
             return

@@ -71,7 +71,7 @@ class Supervisor:
                 self._watch()
             finally:
                 self._end()
-                self._signals.insist()
+                self._signals.resend()
         except BaseException as error:  # raised in the thread that waits
             self._error = error
         finally:

@@ -28,7 +28,7 @@ Loops& all_loops() {
 }
 
 /// Guards what devices keep between two runs.
-std::mutex& exertions() {
+std::mutex& motor_use_mutex() {
   static std::mutex mutex;
   return mutex;
 }
@@ -115,8 +115,8 @@ void ServoLoop::end_run() noexcept {
   const double now = seconds();
   if (last_begin_ != 0) step_->end(now - static_cast<double>(last_begin_) * 1e-9);
   {
-    const std::lock_guard motors(exertions());
-    device_->exertion = {step_->spent(), now};
+    const std::lock_guard motors(motor_use_mutex());
+    device_->motor_use = {step_->spent(), now};
   }
   handover_.collect();
   take();
@@ -130,8 +130,8 @@ double ServoLoop::spent() {
 /// The time since the last run on this device counts as rest, up to the first call. So a recorder that asks before start()
 /// is told what the run begins with.
 double ServoLoop::rested() {
-  const std::lock_guard lock(exertions());
-  Exertion& motors = device_->exertion;
+  const std::lock_guard lock(motor_use_mutex());
+  MotorUse& motors = device_->motor_use;
   if (!rest_counted_) {
     ForceBudget budget(settings_.limits.continuous_time, settings_.limits.continuous_force);
     budget.set_spent(motors.spent);

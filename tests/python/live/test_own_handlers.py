@@ -43,10 +43,10 @@ def test_a_signal_is_not_sent_to_a_handler_that_the_caller_has_installed_after_i
     monkeypatch.setattr("punctura.live.signals.RETRY_S", 1e-3)
     with ends_on_signals() as signals:
         signal.set_wakeup_fd(-1)
-        signals._bell._ringer.send(bytes([signal.SIGTERM]))  # as the system does, just before Python's handler runs
+        signals._wake_socket._sender.send(bytes([signal.SIGTERM]))  # as the system does, just before Python's handler runs
         assert signals.wait(1.0)
         install(calls)
-        signals.insist()
+        signals.resend()
         assert calls == []
 
 
@@ -60,7 +60,7 @@ def test_a_main_thread_that_takes_no_signal_is_not_waited_for_without_end(monkey
     monkeypatch.setattr("punctura.live.signals.RETRY_S", 0.0)
     monkeypatch.setattr("punctura.live.signals.signal.pthread_kill", kill)
     with ends_on_signals() as signals:
-        signals._bell._ringer.send(bytes([signal.SIGTERM]))
+        signals._wake_socket._sender.send(bytes([signal.SIGTERM]))
         assert signals.wait(1.0)
-        signals.insist()
+        signals.resend()
     assert sent == [signal.SIGTERM] * 100

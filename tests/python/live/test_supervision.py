@@ -167,7 +167,7 @@ def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):
 class Interrupts:
     """Sends this process a signal before the n-th line that the main thread runs in these files."""
 
-    FILES = ("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/bell.py", "/contextlib.py")
+    FILES = ("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/wake_socket.py", "/contextlib.py")
 
     def __init__(self, n):
         self.left = n

@@ -100,7 +100,7 @@ TEST_CASE("the force that a device holds after its last tick counts until the st
   REQUIRE(held > 3);
   clock_ns += 200'000'000;  // ticks have ceased
   loop.stop();
-  CHECK(device->exertion.spent > 0.15 * held);
+  CHECK(device->motor_use.spent > 0.15 * held);
 }
 
 TEST_CASE("time between two runs is rest, and a run that follows at once has none") {
@@ -114,7 +114,7 @@ TEST_CASE("time between two runs is rest, and a run that follows at once has non
     device->move(1e-3, -6e-3, 1600);
     device->move(-6e-3, -6e-3, 1600);
   }
-  const double spent = device->exertion.spent;
+  const double spent = device->motor_use.spent;
   CHECK(spent > 1);
   ServoLoop at_once(device, stiff_scene(), by_test_clock());
   CHECK(at_once.spent() == spent);

@@ -7,34 +7,34 @@ from contextlib import suppress
 from types import TracebackType
 
 
-class Bell:
-    """One thread waits; any thread, and the system's own signal handler by `fileno`, may ring."""
+class WakeSocket:
+    """One thread waits; any thread may wake it, and so may the signal handler of the system, by `fileno`."""
 
     def __init__(self) -> None:
-        self._waiter, self._ringer = socket.socketpair()
-        self._ringer.setblocking(False)  # a full socket wakes as well
+        self._receiver, self._sender = socket.socketpair()
+        self._sender.setblocking(False)  # a full socket wakes as well
 
     def fileno(self) -> int:
         """For signal.set_wakeup_fd: each signal is one byte, its number."""
-        return self._ringer.fileno()
+        return self._sender.fileno()
 
-    def ring(self) -> None:
+    def wake(self) -> None:
         with suppress(BlockingIOError):
-            self._ringer.send(b"\0")
+            self._sender.send(b"\0")
 
     def wait(self, seconds: float) -> bytes:
-        """What has come, 0 for a `ring`; empty if nothing came in this time (s, above 0)."""
-        self._waiter.settimeout(seconds)
+        """What has come, 0 for a `wake`; empty if nothing came in this time (s, above 0)."""
+        self._receiver.settimeout(seconds)
         try:
-            return self._waiter.recv(256)
+            return self._receiver.recv(256)
         except TimeoutError:
             return b""
 
-    def __enter__(self) -> Bell:
+    def __enter__(self) -> WakeSocket:
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._waiter.close()
-        self._ringer.close()
+        self._receiver.close()
+        self._sender.close()
