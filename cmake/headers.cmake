@@ -11,7 +11,7 @@ function(punctura_add_header_checks target)
     file(CONFIGURE OUTPUT ${source} CONTENT "#include \"@header@\"\n#include \"@header@\"\n" @ONLY)
     list(APPEND sources ${source})
   endforeach()
-  add_library(${target} OBJECT ${sources})
+  add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
   target_link_libraries(${target} PRIVATE punctura::runtime punctura_warnings)
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE -O0 -g0)  # nobody runs them

@@ -5,6 +5,13 @@ has_compiler() {
   printf '#include <concepts>\nint main() { return std::same_as<int, int> ? 0 : 1; }\n' |
     $1 -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1
 }
+has_sanitizers() {
+  local program
+  program=$(mktemp) && printf 'int main() { return 0; }\n' | clang++ -fsanitize=address,undefined -x c++ - -o "$program" >/dev/null 2>&1
+  local code=$?
+  rm -f "$program"
+  return $code
+}
 has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
 has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
 has_cyclictest() { command -v cyclictest >/dev/null; }
@@ -25,6 +32,7 @@ find_missing() {
   if [ "$1" = bench ]; then has_cyclictest || ! known rt-tests || lack rt-tests "cyclictest, of rt-tests"; fi
   [ "$1" = test ] || return 0
   has_compiler clang++ || lack clang "clang++, for the second opinion on warnings"
+  has_sanitizers || lack libclang-rt-dev "the address and undefined-behaviour sanitizers of clang++ (Fedora: compiler-rt)"
   has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
   # An independent solver that the clamp is compared with, for the system's Python. Only some releases of Debian have it;

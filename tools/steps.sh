@@ -1,6 +1,6 @@
 # The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
 
-all_steps="tree format types web cpp clang asan tsan consumer examples python page"
+all_steps="tree format types web cpp asan tsan consumer examples python page"
 fast_steps="tree format types web cpp python"
 
 choose_steps() {
@@ -71,7 +71,7 @@ compile() {
   cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# The C++ tests as GCC compiles them, each header alone among them.
+# The C++ tests as GCC compiles them.
 step_cpp() {
   compile dev && build/dev/tests/core/core_tests || return
   if [ -x build/dev/tests/core/golden_forces_fma ] && grep -qsw fma /proc/cpuinfo; then
@@ -80,12 +80,10 @@ step_cpp() {
   build/dev/tests/runtime/runtime_tests
 }
 
-# The same with Clang, for its warnings.
-step_clang() { compile clang; }
-
-# The sanitizers are slow: a few of the random cases reach the same code.
+# All sources as Clang compiles them, for its warnings, and each header alone; the tests under sanitizers. Those are slow: a few of
+# the random cases reach the same code.
 step_asan() {
-  compile asan core_tests runtime_tests || return
+  compile asan all punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
   build/asan/tests/core/core_tests && build/asan/tests/runtime/runtime_tests
 }
@@ -118,7 +116,7 @@ step_python() {
     echo "note: no archive of this system has python3-siconos: the comparison with Siconos is left out, that with SciPy is made."
     but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
-  python -m pytest -n 2 ${but[@]+"${but[@]}"}
+  python -m pytest -n 2 --durations=15 ${but[@]+"${but[@]}"}
 }
 
 # The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
@@ -141,7 +139,7 @@ step_web() {
 }
 
 # The studio in a real browser, as a person uses it.
-step_page() { python -m pytest tests/page; }
+step_page() { python -m pytest --durations=8 tests/page; }
 
 # Every example runs, in a folder of its own.
 step_examples() {
