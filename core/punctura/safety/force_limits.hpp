@@ -67,7 +67,7 @@ class ForceLimiter {
   }
 
   /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1. elapsed: s since
-  /// the tick before; a period if not given.
+  /// the tick before; a period if not given; NaN in the first tick of a run.
   Vector3d step(const Vector3d& wanted, double motor_temperature = 0, double elapsed = unknown_time) noexcept {
     count(elapsed);
     gain_ = std::min(1.0, gain_ + ramp_step_);
@@ -121,7 +121,10 @@ class ForceLimiter {
 
   /// The force of the tick before, for the time that it was held.
   void count(double elapsed) noexcept {
-    budget_.spend(held_square_, elapsed >= 0 && std::isfinite(elapsed) ? elapsed : period_);
+    const bool known = elapsed >= 0 && std::isfinite(elapsed);
+    // Before the first tick of a run no time has passed: a period of rest for each run would add up over many runs.
+    const bool first = std::isnan(elapsed) && held_square_ == 0;
+    budget_.spend(held_square_, known ? elapsed : first ? 0 : period_);
     held_square_ = 0;
     limit_ = Limit::none;
   }
