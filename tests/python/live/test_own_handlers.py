@@ -43,7 +43,8 @@ def test_a_signal_is_not_sent_to_a_handler_that_the_caller_has_installed_after_i
     monkeypatch.setattr("punctura.live.signals.RETRY_S", 1e-3)
     with ends_on_signals() as signals:
         signal.set_wakeup_fd(-1)
-        signals._wake_socket._sender.send(bytes([signal.SIGTERM]))  # as the system does, just before Python's handler runs
+        # As the system does, just before Python's handler runs
+        signals._wake_socket._sender.send(bytes([signal.SIGTERM]))
         assert signals.wait(1.0)
         install(calls)
         signals.resend()
