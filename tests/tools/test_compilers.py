@@ -14,7 +14,7 @@ def test_warnings_are_errors_only_with_a_compiler_that_the_tests_are_run_with(tm
     script = tmp_path / "ask.cmake"
     asked = [compiler.split(" ") for compiler in TESTED + OTHERS]
     script.write_text(
-        f"include({ROOT}/cmake/tested_compilers.cmake)\n"
+        f'include("{ROOT}/cmake/tested_compilers.cmake")\n'
         + "".join(f'punctura_compiler_is_tested("{id}" "{at}" answer)\nmessage("${{answer}}")\n' for id, at in asked)
     )
     said = subprocess.run(["cmake", "-P", script], capture_output=True, text=True, check=True)
