@@ -54,10 +54,9 @@ class Rows {
  public:
   /// Throws ValueError where the shape is neither (n, 3) nor (3,).
   Rows(Input array, std::size_t n, const char* name);
-  Vector3d operator[](std::size_t i) const noexcept {
-    const double* row = data_ + stride_ * i;
-    return {row[0], row[1], row[2]};
-  }
+  Vector3d operator[](std::size_t i) const noexcept { return Vector3d(data_ + stride_ * i); }
+  /// Throws ValueError where a row is not finite or has no length.
+  void check(const char* name) const;
 
  private:
   Input array_;

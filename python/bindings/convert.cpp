@@ -1,7 +1,7 @@
 // Conversions and errors that all binding files use.
 #include "bindings.hpp"
 
-#include <cmath>
+#include "ticks.hpp"
 
 namespace punctura::bindings {
 
@@ -31,6 +31,16 @@ Rows::Rows(Input array, std::size_t n, const char* name) : array_(std::move(arra
     throw nb::value_error(text.c_str());
   }
   if (one) stride_ = 0;
+}
+
+void Rows::check(const char* name) const {
+  check_finite(data_, array_.size(), name, 3);
+  const std::size_t rows = array_.size() / 3;
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (Vector3d(data_ + 3 * i) != Vector3d()) continue;
+    const std::string place = rows > 1 ? "[" + std::to_string(i) + "]" : "";
+    throw nb::value_error((name + place + " must be a direction: at least one of its three numbers not 0").c_str());
+  }
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "bindings.hpp"
 #include "insertion_trace.hpp"
+#include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -61,22 +62,19 @@ class AnyExperiment {
     const auto put = [](std::vector<double>& column, std::size_t i, const Triple& v) {
       std::copy(v.begin(), v.end(), &column[3 * i]);
     };
-    {
-      nb::gil_scoped_release release;
-      for (std::size_t i = 0; i < n; ++i) {
-        const Snapshot& s = experiment.step();
-        time[i] = s.sample.time;
-        put(position, i, s.sample.position);
-        put(tip, i, plain(experiment.tip()));
-        put(desired, i, plain(experiment.desired().position));
-        put(force, i, s.force);
-        put(model_force, i, s.model_force);
-        for (std::size_t j = 0; j < m; ++j) {
-          const MembraneRecord& r = s.membranes[j];
-          columns.set(i, j, r.depth, r.axial_force, r.lower, r.upper, r.phase);
-        }
+    make_ticks(n, [&](std::size_t i) {
+      const Snapshot& s = experiment.step();
+      time[i] = s.sample.time;
+      put(position, i, s.sample.position);
+      put(tip, i, plain(experiment.tip()));
+      put(desired, i, plain(experiment.desired().position));
+      put(force, i, s.force);
+      put(model_force, i, s.model_force);
+      for (std::size_t j = 0; j < m; ++j) {
+        const MembraneRecord& r = s.membranes[j];
+        columns.set(i, j, r.depth, r.axial_force, r.lower, r.upper, r.phase);
       }
-    }
+    });
     const Snapshot& last = experiment.servo().snapshot();
     return {{to_numpy(std::move(force), {n, 3}), std::move(columns)},
             to_numpy(std::move(time), {n}),

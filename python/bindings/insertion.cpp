@@ -4,6 +4,7 @@
 #include "bindings.hpp"
 #include "insertion_trace.hpp"
 #include "punctura/scene/build.hpp"
+#include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -12,20 +13,18 @@ InsertionTrace run(Insertion& insertion, const nb::object& positions, const nb::
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
+  check_finite(p.data(), 3 * n, "p", 3);
+  if (insertion.uses_axis()) axes.check("axis");
   MembraneColumns columns(n, insertion.proxies().size());
   std::vector<double> force(3 * n);
-  {
-    nb::gil_scoped_release release;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double* row = p.data() + 3 * i;
-      const Vector3d now = insertion.step({row[0], row[1], row[2]}, axes[i].stableNormalized());
-      std::copy(now.begin(), now.end(), &force[3 * i]);
-      for (std::size_t j = 0; j < insertion.proxies().size(); ++j) {
-        const auto& proxy = insertion.proxies()[j];
-        columns.set(i, j, proxy.depth(), proxy.axial_force(), proxy.band().lower, proxy.band().upper, proxy.phase());
-      }
+  make_ticks(n, [&](std::size_t i) {
+    const Vector3d now = insertion.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
+    std::copy(now.begin(), now.end(), &force[3 * i]);
+    for (std::size_t j = 0; j < insertion.proxies().size(); ++j) {
+      const auto& tick = insertion.proxies()[j].tick();
+      columns.set(i, j, tick.depth, tick.axial_force, tick.band.lower, tick.band.upper, tick.phase);
     }
-  }
+  });
   return {to_numpy(std::move(force), {n, 3}), std::move(columns)};
 }
 
@@ -49,11 +48,17 @@ void bind_insertion(nb::module_& m) {
             new (self) Insertion(build_insertion(scene));
           },
           nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
+      .def(
+          "__copy__", [](const Insertion& i) { return Insertion(i); }, "One that goes on to the same bits.")
+      .def(
+          "__deepcopy__", [](const Insertion& i, const nb::dict&) { return Insertion(i); }, nb::arg("memo"),
+          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Insertion"))
       .def("reset", &Insertion::reset, "Forgets all motion.")
       .def(
           "step",
           [](Insertion& insertion, const Triple& p, const Triple& axis) {
-            return plain(insertion.step(vector(p), vector(axis).stableNormalized()));
+            check_finite(p.data(), 3, "p");
+            return plain(insertion.step(vector(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
           },
           nb::arg("p"), nb::arg("axis"),
           "One tick: measured position (m) and direction of the needle give the force on the device (N).")

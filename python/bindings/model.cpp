@@ -1,4 +1,5 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "value.hpp"
@@ -30,6 +31,38 @@ std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane)
   const bool membrane_good = check(membrane, "membrane", problems);
   if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
   return problems;
+}
+
+Needle make_needle(double diameter, double tip_angle) {
+  const Needle made{diameter, tip_angle};
+  std::vector<Problem> problems;
+  check(made, "needle", problems);
+  raise_if(problems);
+  warn_unusual({{"needle.diameter", diameter, 1e-5, 0.05, "m", "mm", 1e-3}});
+  return made;
+}
+
+Membrane make_membrane(double stiffness, double precompression, double friction, double thickness) {
+  const Membrane made{stiffness, precompression, friction, thickness};
+  std::vector<Problem> problems;
+  check(made, "membrane", problems);
+  raise_if(problems);
+  warn_unusual({{"membrane.stiffness", stiffness, 1, 1e6, "N/m", "N/mm", 1e3},
+                {"membrane.precompression", precompression, 1e-4, 100, "N", "mN", 1e-3},
+                {"membrane.thickness", thickness, 1e-9, 0.1, "m", "mm", 1e-3}});
+  return made;
+}
+
+ThinLaw make_thin_law(const Needle& needle, const Membrane& membrane) {
+  raise_if(problems_of(needle, membrane));
+  return {needle, membrane};
+}
+
+ThickLaw make_thick_law(const Needle& needle, const Membrane& membrane, double obliquity) {
+  auto problems = problems_of(needle, membrane);
+  check_field(obliquity_field, obliquity, "", problems);
+  raise_if(problems);
+  return {needle, membrane, obliquity};
 }
 
 template <typename L>
@@ -64,42 +97,42 @@ nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
 
 void bind_model(nb::module_& m) {
   auto needle = nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
-                    .def(nb::init<double, double>(), nb::arg("diameter"), nb::arg("tip_angle"))
+                    .def_static(
+                        "unchecked", [](double diameter, double tip_angle) { return Needle{diameter, tip_angle}; },
+                        nb::arg("diameter"), nb::arg("tip_angle"), "For a scene that is checked as a whole.")
                     .def_ro("diameter", &Needle::diameter, "w, m")
                     .def_ro("tip_angle", &Needle::tip_angle, "theta, rad");
+  def_init(needle, {{"diameter", "float"}, {"tip_angle", "float"}}, &make_needle, "Raises ConfigurationError.");
   def_value(needle, {"diameter", "tip_angle"});
 
   auto membrane =
       nb::class_<Membrane>(m, "Membrane", "A membrane that grips the needle with dry friction. K06 section 2")
-          .def(nb::init<double, double, double, double>(), nb::arg("stiffness"), nb::arg("precompression"),
-               nb::arg("friction"), nb::arg("thickness"))
+          .def_static(
+              "unchecked",
+              [](double stiffness, double precompression, double friction, double thickness) {
+                return Membrane{stiffness, precompression, friction, thickness};
+              },
+              nb::arg("stiffness"), nb::arg("precompression"), nb::arg("friction"), nb::arg("thickness"),
+              "For a scene that is checked as a whole.")
           .def_ro("stiffness", &Membrane::stiffness, "kappa, N/m")
           .def_ro("precompression", &Membrane::precompression, "c, N")
           .def_ro("friction", &Membrane::friction, "mu, -")
           .def_ro("thickness", &Membrane::thickness, "H, m; 0 is the thin law");
+  def_init(membrane,
+           {{"stiffness", "float"}, {"precompression", "float"}, {"friction", "float"}, {"thickness", "float"}},
+           &make_membrane, "Raises ConfigurationError.");
   def_value(membrane, {"stiffness", "precompression", "friction", "thickness"});
 
-  bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)")
-      .def(
-          "__init__",
-          [](ThinLaw* self, const Needle& needle, const Membrane& membrane) {
-            raise_if(problems_of(needle, membrane));
-            new (self) ThinLaw(needle, membrane);
-          },
-          nb::arg("needle"), nb::arg("membrane"), "Raises ConfigurationError with every bound that is broken.");
+  auto thin =
+      bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");
+  def_init(thin, {{"needle", "Needle"}, {"membrane", "Membrane"}}, &make_thin_law,
+           "Raises ConfigurationError with every bound that is broken.");
 
-  bind_law<ThickLaw>(m, "ThickLaw", "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)")
-      .def(
-          "__init__",
-          [](ThickLaw* self, const Needle& needle, const Membrane& membrane, double obliquity) {
-            auto problems = problems_of(needle, membrane);
-            check_field(obliquity_field, obliquity, "", problems);
-            raise_if(problems);
-            new (self) ThickLaw(needle, membrane, obliquity);
-          },
-          nb::arg("needle"), nb::arg("membrane"), nb::arg("obliquity") = 0.0,
-          "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.")
-      .def_prop_ro("H", &ThickLaw::thickness, "Thickness, m")
+  auto thick = bind_law<ThickLaw>(m, "ThickLaw",
+                                  "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)");
+  def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
+           &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.");
+  thick.def_prop_ro("H", &ThickLaw::thickness, "Thickness, m")
       .def_prop_ro("U", &ThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");
 }
 

@@ -1,10 +1,12 @@
 // core/punctura/proxy: the discrete-time systems of K06 section 3, one membrane.
 #include "punctura/proxy/proxy_3d.hpp"
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"
+#include "ticks.hpp"
 #include "value.hpp"
 
 #include <nanobind/stl/variant.h>
@@ -15,7 +17,10 @@ namespace {
 void check_coupling(const Coupling& coupling, double period, std::vector<Problem>& problems) {
   check_field(coupling_fields[0], coupling.stiffness, "coupling", problems);
   check_field(coupling_fields[1], coupling.damping, "coupling", problems);
-  if (!(period > 0 && std::isfinite(period))) problems.push_back({"period", period, "must be greater than 0 s"});
+  if (!(period > 0 && std::isfinite(period)))
+    problems.push_back({"period", period, "must be greater than 0 s"});
+  else if (period >= 1)
+    problems.push_back({"period", period, "must be less than 1 s: the period of a tick is wanted, not its rate in Hz"});
 }
 
 /// One Python class for proxies on either law.
@@ -35,13 +40,9 @@ class AnyProxy1d {
 
   nb::object run(const nb::object& depths) {
     const Input p = input_1d(depths, "p");
+    check_finite(p.data(), p.size(), "p", 1);
     std::vector<double> f(p.size());
-    {
-      nb::gil_scoped_release release;
-      visit([&](auto& proxy) {
-        for (std::size_t i = 0; i < f.size(); ++i) f[i] = proxy.step(p.data()[i]);
-      });
-    }
+    visit([&](auto& proxy) { make_ticks(f.size(), [&](std::size_t i) { f[i] = proxy.step(p.data()[i]); }); });
     return to_numpy(std::move(f), {p.size()});
   }
 
@@ -51,19 +52,47 @@ class AnyProxy1d {
 
 using Proxy = Proxy3d<ThickLaw>;
 
+Coupling make_coupling(double stiffness, double damping) {
+  const Coupling made{stiffness, damping};
+  std::vector<Problem> problems;
+  check_field(coupling_fields[0], stiffness, "coupling", problems);
+  check_field(coupling_fields[1], damping, "coupling", problems);
+  raise_if(problems);
+  warn_unusual({{"coupling.stiffness", stiffness, 5, 1e6, "N/m", "N/mm", 1e3}});
+  return made;
+}
+
+AnyProxy1d make_line(std::variant<ThinLaw, ThickLaw> law, Coupling coupling, double period, std::string solver) {
+  std::vector<Problem> problems;
+  check_coupling(coupling, period, problems);
+  raise_if(problems);
+  return {law, coupling, period, solver_from(solver)};
+}
+
+Proxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling, double period,
+                 std::string solver) {
+  std::vector<Problem> problems;
+  const bool needle_good = check(needle, "needle", problems), membrane_good = check(membrane, "membrane", problems);
+  if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
+  check_coupling(coupling, period, problems);
+  if (!vector(point).allFinite())
+    problems.push_back({"point", detail::offender(point), "must be three finite numbers"});
+  raise_if(problems);
+  return {ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling, period,
+          solver_from(solver)};
+}
+
 nb::object run_3d(Proxy& proxy, const nb::object& positions, const nb::object& axis) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
+  check_finite(p.data(), 3 * n, "p", 3);
+  axes.check("axis");
   std::vector<double> f(3 * n);
-  {
-    nb::gil_scoped_release release;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double* row = p.data() + 3 * i;
-      const Vector3d now = proxy.step({row[0], row[1], row[2]}, axes[i].stableNormalized());
-      std::copy(now.begin(), now.end(), &f[3 * i]);
-    }
-  }
+  make_ticks(n, [&](std::size_t i) {
+    const Vector3d now = proxy.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
+    std::copy(now.begin(), now.end(), &f[3 * i]);
+  });
   return to_numpy(std::move(f), {n, 3});
 }
 
@@ -80,27 +109,34 @@ void bind_proxy(nb::module_& m) {
 
   auto coupling =
       nb::class_<Coupling>(m, "Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)")
-          .def(nb::init<double, double>(), nb::arg("stiffness"), nb::arg("damping"))
+          .def_static(
+              "unchecked", [](double stiffness, double damping) { return Coupling{stiffness, damping}; },
+              nb::arg("stiffness"), nb::arg("damping"), "For a scene that is checked as a whole.")
           .def_ro("stiffness", &Coupling::stiffness, "K, N/m")
           .def_ro("damping", &Coupling::damping, "B, N s/m");
+  def_init(coupling, {{"stiffness", "float"}, {"damping", "float"}}, &make_coupling, "Raises ConfigurationError.");
   def_value(coupling, {"stiffness", "damping"});
 
-  nb::class_<AnyProxy1d>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)")
+  auto line = nb::class_<AnyProxy1d>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)");
+  def_init(line,
+           {{"law", "ThinLaw | ThickLaw"},
+            {"coupling", "Coupling"},
+            {"period", "float"},
+            {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
+           &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
+  line.def(
+          "__copy__", [](const AnyProxy1d& p) { return AnyProxy1d(p); }, "One that goes on to the same bits.")
       .def(
-          "__init__",
-          [](AnyProxy1d* self, const std::variant<ThinLaw, ThickLaw>& law, const Coupling& coupling, double period,
-             const std::string& solver) {
-            std::vector<Problem> problems;
-            check_coupling(coupling, period, problems);
-            raise_if(problems);
-            new (self) AnyProxy1d(law, coupling, period, solver_from(solver));
-          },
-          nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
-          "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.")
+          "__deepcopy__", [](const AnyProxy1d& p, const nb::dict&) { return AnyProxy1d(p); }, nb::arg("memo"),
+          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Proxy1d"))
       .def(
           "reset", [](AnyProxy1d& p) { p.visit([](auto& x) { x.reset(); }); }, "Forgets all motion.")
       .def(
-          "step", [](AnyProxy1d& p, double depth) { return p.visit([&](auto& x) { return x.step(depth); }); },
+          "step",
+          [](AnyProxy1d& p, double depth) {
+            check_finite(&depth, 1, "p");
+            return p.visit([&](auto& x) { return x.step(depth); });
+          },
           nb::arg("p"), "One tick: p, the device's depth (m), gives the force on the device (N).")
       .def("run", &AnyProxy1d::run, nb::arg("p"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
@@ -116,31 +152,29 @@ void bind_proxy(nb::module_& m) {
           "Where the band was taken, m: q(k), or q*(k) with the paper's solver")
       .def_prop_ro("phase", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.phase(); }); });
 
-  nb::class_<Proxy>(m, "Proxy3d", "The proxy of one membrane in space. K06 section 3.2, (41)")
+  auto space = nb::class_<Proxy>(m, "Proxy3d", "The proxy of one membrane in space. K06 section 3.2, (41)");
+  def_init(
+      space,
+      {{"needle", "Needle"},
+       {"membrane", "Membrane"},
+       {"point", "Sequence[float]"},
+       {"inward_normal", "Sequence[float]"},
+       {"coupling", "Coupling"},
+       {"period", "float"},
+       {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
+      &make_space,
+      "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.");
+  space.def(
+           "__copy__", [](const Proxy& p) { return Proxy(p); }, "One that goes on to the same bits.")
       .def(
-          "__init__",
-          [](Proxy* self, const Needle& needle, const Membrane& membrane, const Triple& point,
-             const Triple& inward_normal, const Coupling& coupling, double period, const std::string& solver) {
-            std::vector<Problem> problems;
-            const bool needle_good = check(needle, "needle", problems),
-                       membrane_good = check(membrane, "membrane", problems);
-            if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
-            check_coupling(coupling, period, problems);
-            if (!vector(point).allFinite())
-              problems.push_back({"point", detail::offender(point), "must be three finite numbers"});
-            raise_if(problems);
-            new (self) Proxy(ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling,
-                             period, solver_from(solver));
-            self->reset();
-          },
-          nb::arg("needle"), nb::arg("membrane"), nb::arg("point"), nb::arg("inward_normal"), nb::arg("coupling"),
-          nb::arg("period"), nb::arg("solver") = "exact",
-          "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.")
+          "__deepcopy__", [](const Proxy& p, const nb::dict&) { return Proxy(p); }, nb::arg("memo"),
+          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Proxy3d"))
       .def("reset", &Proxy::reset, "Forgets all motion. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
           [](Proxy& proxy, const Triple& p, const Triple& axis) {
-            return plain(proxy.step(vector(p), vector(axis).stableNormalized()));
+            check_finite(p.data(), 3, "p");
+            return plain(proxy.step(vector(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"),
           "One tick: position p (m) and direction of the needle give the force on the device (N).")

@@ -1,6 +1,7 @@
 // core/punctura/scene: what a run needs, and everything that can be wrong with it.
 #include "punctura/scene/scene.hpp"
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "value.hpp"
@@ -21,6 +22,22 @@ Conditioning conditioning_from(const std::string& name) {
 }
 
 const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
+
+PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal) {
+  return {std::move(name), membrane, point, inward_normal};
+}
+
+ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
+                         double encoder_step) {
+  return {rate, low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning), encoder_step};
+}
+
+Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector<PlacedMembrane> membranes,
+                 ServoSettings servo, std::string direction) {
+  Scene made{std::move(name), needle, coupling, std::move(membranes), servo, direction_from(direction)};
+  raise_if(check(made));
+  return made;
+}
 
 template <std::size_t n>
 void describe_fields(nb::list& out, const char* path, const Field (&fields)[n]) {
@@ -44,9 +61,6 @@ void describe_fields(nb::list& out, const char* path, const Field (&fields)[n]) 
 void bind_scene(nb::module_& m) {
   auto placed =
       nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane in its place.")
-          .def(nb::init<std::string, Membrane, Triple, Triple>(), nb::arg("name"), nb::arg("membrane"),
-               nb::arg("point"), nb::arg("inward_normal"),
-               "point: any point of the surface, m. inward_normal: a direction of any length but 0.")
           .def_ro("name", &PlacedMembrane::name)
           .def_ro("membrane", &PlacedMembrane::membrane)
           .def_prop_ro(
@@ -55,49 +69,40 @@ void bind_scene(nb::module_& m) {
           .def_prop_ro(
               "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
               nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0");
+  def_init(
+      placed,
+      {{"name", "str"}, {"membrane", "Membrane"}, {"point", "Sequence[float]"}, {"inward_normal", "Sequence[float]"}},
+      &make_placed, "point: any point of the surface, m. inward_normal: a direction of any length but 0.");
   def_value(placed, {"name", "membrane", "point", "inward_normal"});
 
   const ServoSettings defaults;
-  auto servo =
-      nb::class_<ServoSettings>(m, "ServoSettings",
-                                "Rate of the servo loop, position conditioning and solver. K06 section 4")
-          .def(
-              "__init__",
-              [](ServoSettings* self, double rate, double low_pass, const std::string& solver,
-                 const std::string& conditioning, double encoder_step) {
-                new (self) ServoSettings{rate, low_pass, solver_from(solver, "servo.solver"),
-                                         conditioning_from(conditioning), encoder_step};
-              },
-              nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
-              nb::arg("solver") = name_of(defaults.solver), nb::arg("conditioning") = name_of(defaults.conditioning),
-              nb::arg("encoder_step") = defaults.encoder_step,
-              "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\", K06's filter, of cutoff low_pass (Hz; 0 is "
-              "off), or \"line_fit\", for a device whose encoders count in steps of encoder_step (m; 0 is off).")
-          .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
-          .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff, Hz, for conditioning \"low_pass\"; 0 is off")
-          .def_prop_ro(
-              "solver", [](const ServoSettings& s) { return name_of(s.solver); }, "\"exact\" or \"paper\"")
-          .def_prop_ro(
-              "conditioning", [](const ServoSettings& s) { return name_of(s.conditioning); },
-              "\"low_pass\" or \"line_fit\"")
-          .def_ro("encoder_step", &ServoSettings::encoder_step,
-                  "Step of the device's encoders, m, for conditioning \"line_fit\"; 0 is an ideal sensor");
+  auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
+                                         "Rate of the servo loop, position conditioning and solver. K06 section 4")
+                   .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
+                   .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff, Hz, for conditioning \"low_pass\"; 0 is off")
+                   .def_prop_ro(
+                       "solver", [](const ServoSettings& s) { return name_of(s.solver); },
+                       nb::sig("def solver(self) -> typing.Literal['exact', 'paper']"), "\"exact\" or \"paper\"")
+                   .def_prop_ro(
+                       "conditioning", [](const ServoSettings& s) { return name_of(s.conditioning); },
+                       nb::sig("def conditioning(self) -> typing.Literal['low_pass', 'line_fit']"),
+                       "\"low_pass\" or \"line_fit\"")
+                   .def_ro("encoder_step", &ServoSettings::encoder_step,
+                           "Step of the device's encoders, m, for conditioning \"line_fit\"; 0 is an ideal sensor");
+  def_init(
+      servo,
+      {{"rate", "float", nb::float_(defaults.rate)},
+       {"low_pass", "float", nb::float_(defaults.low_pass)},
+       {"solver", "typing.Literal['exact', 'paper']", nb::str(name_of(defaults.solver).c_str())},
+       {"conditioning", "typing.Literal['low_pass', 'line_fit']", nb::str(name_of(defaults.conditioning))},
+       {"encoder_step", "float", nb::float_(defaults.encoder_step)}},
+      &make_servo,
+      "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\", K06's filter, of cutoff low_pass (Hz; 0 is "
+      "off), or \"line_fit\", for a device whose encoders count in steps of encoder_step (m; 0 is off).");
   def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
 
   auto scene =
       nb::class_<Scene>(m, "Scene", "Everything a run needs, checked as a whole.")
-          .def(
-              "__init__",
-              [](Scene* self, const std::string& name, const Needle& needle, const Coupling& coupling,
-                 const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo_settings,
-                 const std::string& direction) {
-                Scene made{name, needle, coupling, membranes, servo_settings, direction_from(direction)};
-                raise_if(check(made));
-                new (self) Scene(std::move(made));
-              },
-              nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"),
-              nb::arg("servo") = defaults, nb::arg("direction") = "stylus",
-              "direction: \"stylus\", as measured at entry, or \"motion\", as the tip has come. Raises ConfigurationError with all problems.")
           .def_ro("name", &Scene::name)
           .def_ro("needle", &Scene::needle)
           .def_ro("coupling", &Scene::coupling)
@@ -107,7 +112,17 @@ void bind_scene(nb::module_& m) {
           .def_ro("servo", &Scene::servo)
           .def_prop_ro(
               "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
-              "\"stylus\" or \"motion\"");
+              nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"");
+  def_init(
+      scene,
+      {{"name", "str"},
+       {"needle", "Needle"},
+       {"coupling", "Coupling"},
+       {"membranes", "Sequence[PlacedMembrane]"},
+       {"servo", "ServoSettings", nb::cast(defaults)},
+       {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")}},
+      &make_scene,
+      "direction: \"stylus\", as measured at entry, or \"motion\", as the tip has come. Raises ConfigurationError with all problems.");
   def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction"});
 
   m.def(

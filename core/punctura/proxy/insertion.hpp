@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -73,8 +74,11 @@ class InsertionOf {
     }
   }
 
-  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N).
-  const Vector& step(const Vector& position, const Vector& axis) noexcept {
+  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N). A position that is not finite,
+  /// or an axis where it is used, gives NaN, and the insertion is as if that tick had not been.
+  Vector step(const Vector& position, const Vector& axis) noexcept {
+    if (!position.allFinite() || (uses_axis() && !axis.allFinite()))
+      return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
     force_.setZero();

@@ -1,6 +1,9 @@
 // K06 section 3.1: one proxy on the axis of the needle.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/paper.hpp"
 
@@ -23,8 +26,10 @@ class Proxy1d {
   /// Forgets all motion: the next sample is where the device starts, at e = f = 0.
   void reset() noexcept { set_state({}); }
 
-  /// One tick: p (m), the depth of the device, gives f (N), the force on it. K06 (33).
+  /// One tick: p (m), the depth of the device, gives f (N), the force on it. K06 (33). A p that is not finite gives NaN, and the
+  /// proxy is as if that tick had not been.
   Scalar step(Scalar p) noexcept {
+    if (!std::isfinite(p)) return std::numeric_limits<Scalar>::quiet_NaN();
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p) : Exact::step(params_, state_, p);
     return tick_.force;
   }

@@ -1,6 +1,8 @@
 // K06 section 3.2: one proxy, one membrane, in space.
 #pragma once
 
+#include <limits>
+
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/paper.hpp"
 
@@ -31,8 +33,10 @@ class Proxy3d {
     tick_.phase = state_.phase;
   }
 
-  /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41).
-  const Vector& step(const Vector& p, const Vector& axis) noexcept {
+  /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41). A p or an
+  /// axis that is not finite gives NaN, and the proxy is as if that tick had not been.
+  Vector step(const Vector& p, const Vector& axis) noexcept {
+    if (!p.allFinite() || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
     return tick_.force;
   }

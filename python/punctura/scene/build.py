@@ -77,15 +77,15 @@ def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts
     membranes = []
     for i, raw in enumerate(tables if isinstance(tables, list) else []):
         m = reader.table(raw, f"membrane[{i}]", MembraneTable)
-        membrane = Membrane(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
+        membrane = Membrane.unchecked(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
         membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"]))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")
     arguments = (
         name if isinstance(name, str) else "scene",
-        Needle(needle["diameter"], needle["tip_angle"]),
-        Coupling(coupling["stiffness"], coupling["damping"]),
+        Needle.unchecked(needle["diameter"], needle["tip_angle"]),
+        Coupling.unchecked(coupling["stiffness"], coupling["damping"]),
         membranes,
         ServoSettings(**servo),
         needle["direction"],

@@ -190,3 +190,30 @@ TEST_CASE("a state that is given back, and a copy of an insertion, go on to the 
     for (std::size_t k = 1000; k < 2000; ++k) REQUIRE(proxy.step(motion[k]) == forces[k - 1000]);
   }
 }
+
+TEST_CASE("a tick that is not finite gives NaN and leaves no trace") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  Noise noise(94);
+  const auto motion = random_motion(noise, 2000, 8e-3, T);
+  const Vector3d down(0, -1, 0);
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    const ThickLaw law(paper_needle, paper_membrane(1e-3));
+    Proxy1d line(law, Coupling{400, 1}, T, solver), clean_line = line;
+    Proxy3d space(law, Vector3d(), down, Coupling{400, 1}, T, solver), clean_space = space;
+    Insertion all = build_insertion(paper_scene(1e-3, solver)), clean_all = all;
+    for (std::size_t k = 0; k < motion.size(); ++k) {
+      const Vector3d tip = motion[k] * down;
+      if (k % 7 == 0)
+        for (double bad : {nan, inf, -inf}) {
+          CHECK(std::isnan(line.step(bad)));
+          CHECK(std::isnan(space.step({0, bad, 0}, down).x()));
+          CHECK(std::isnan(space.step(tip, {bad, 0, 0}).x()));
+          CHECK(std::isnan(all.step({bad, 0, 0}, down).x()));
+          CHECK(std::isnan(all.step(tip, {bad, 0, 0}).x()));
+        }
+      REQUIRE(line.step(motion[k]) == clean_line.step(motion[k]));
+      REQUIRE(space.step(tip, down) == clean_space.step(tip, down));
+      REQUIRE(all.step(tip, down) == clean_all.step(tip, down));
+    }
+  }
+}

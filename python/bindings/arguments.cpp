@@ -1,0 +1,70 @@
+#include "arguments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace punctura::bindings {
+namespace {
+
+std::string nearest(const std::string& word, const std::vector<Argument>& wanted) {
+  nb::list names;
+  for (const Argument& a : wanted) names.append(a.name);
+  const nb::object found = nb::module_::import_("difflib").attr("get_close_matches")(word, names, 1, 0.5);
+  return nb::len(found) > 0 ? "; did you mean " + nb::cast<std::string>(found[0]) + "?" : "";
+}
+
+}  // namespace
+
+Arguments::Arguments(const std::string& call, const std::vector<Argument>& wanted, const nb::args& args,
+                     const nb::kwargs& kwargs)
+    : call_(call), wanted_(wanted), values_(wanted.size()) {
+  std::string faults;
+  const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : "; ") + fault; };
+  if (args.size() > wanted_.size())
+    add("takes " + std::to_string(wanted_.size()) + " arguments, not " + std::to_string(args.size()));
+  for (std::size_t i = 0; i < std::min<std::size_t>(args.size(), wanted_.size()); ++i) values_[i] = args[i];
+  for (const auto& [key, value] : kwargs) {
+    const auto word = nb::cast<std::string>(key);
+    const auto same = [&](const Argument& a) { return word == a.name; };
+    const auto i = static_cast<std::size_t>(std::find_if(wanted_.begin(), wanted_.end(), same) - wanted_.begin());
+    if (i == wanted_.size())
+      add("there is no argument " + word + nearest(word, wanted_));
+    else if (values_[i])
+      add(word + " is given twice");
+    else
+      values_[i] = nb::borrow(value);
+  }
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    if (!values_[i]) values_[i] = wanted_[i].otherwise;
+    if (!values_[i]) add(std::string(wanted_[i].name) + " is missing");
+  }
+  if (!faults.empty()) refuse(faults);
+}
+
+void Arguments::refuse(std::size_t i) const {
+  const std::string type = wanted_[i].type, given = nb::cast<std::string>(values_[i].type().attr("__name__"));
+  const std::string wanted = type == "float" ? "number" : type;
+  refuse(std::string(wanted_[i].name) + " must be a " + wanted + ", not " + given);
+}
+
+void Arguments::refuse(const std::string& faults) const {
+  std::string takes;
+  for (const Argument& a : wanted_)
+    takes += std::string(takes.empty() ? "" : ", ") + a.name + ": " + a.type + (a.otherwise ? " (optional)" : "");
+  throw nb::type_error((call_ + "(): " + faults + ". It takes (" + takes + ")").c_str());
+}
+
+void warn_unusual(const std::vector<Usual>& numbers) {
+  for (const Usual& n : numbers) {
+    const double meant = n.value * n.factor;
+    const bool usual = n.value == 0 || (std::abs(n.value) >= n.low && std::abs(n.value) <= n.high);
+    if (usual || !(std::abs(meant) >= n.low && std::abs(meant) <= n.high)) continue;
+    char text[240];
+    std::snprintf(text, sizeof text, "%s = %g %s is unusual. If you meant %g %s, write %g: all numbers are in SI units",
+                  n.path, n.value, n.unit, n.value, n.other_unit, meant);
+    if (PyErr_WarnEx(PyExc_UserWarning, text, 1) != 0) throw nb::python_error();
+  }
+}
+
+}  // namespace punctura::bindings

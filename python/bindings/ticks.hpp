@@ -1,0 +1,44 @@
+// Many ticks in one call: without Python's lock, with an ear for Ctrl-C; and what a tick may be given.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "bindings.hpp"
+
+namespace punctura::bindings {
+
+/// Calls tick(i) for i = 0 ... n-1. Ctrl-C is heard between two chunks, and the ticks made until then stay made.
+template <typename Tick>
+void make_ticks(std::size_t n, Tick&& tick) {
+  constexpr std::size_t chunk = 1 << 14;  // 64 membranes: about 0.1 s
+  for (std::size_t from = 0; from < n; from += chunk) {
+    {
+      nb::gil_scoped_release release;
+      for (std::size_t i = from; i < std::min(n, from + chunk); ++i) tick(i);
+    }
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+  }
+}
+
+/// Throws ValueError that names the argument, its place in an array and what to do, where a number is not finite.
+inline void check_finite(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
+  const double* bad = std::find_if(values, values + n, [](double x) { return !std::isfinite(x); });
+  if (bad == values + n) return;
+  const std::size_t at = static_cast<std::size_t>(bad - values);
+  const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
+  throw nb::value_error((std::string(name) + place + " must be finite and holds " + std::to_string(*bad) +
+                         ": leave such ticks out, or fill them in. No tick was made")
+                            .c_str());
+}
+/// The direction of the needle as a unit vector. Throws ValueError where it has no length.
+inline Vector3d direction(const Triple& axis) {
+  check_finite(axis.data(), 3, "axis");
+  const Vector3d unit = vector(axis).stableNormalized();
+  if (!(unit.squaredNorm() > 0))
+    throw nb::value_error("axis must be a direction: at least one of its three numbers not 0");
+  return unit;
+}
+
+}  // namespace punctura::bindings

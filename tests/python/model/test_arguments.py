@@ -1,0 +1,92 @@
+"""What a constructor says of arguments that cannot be, the moment they are given."""
+
+import warnings
+
+import punctura as pn
+import pytest
+
+NEEDLE = {"diameter": 1.08e-3, "tip_angle": 0.28}
+WALL = {"stiffness": 570, "precompression": 0.41, "friction": 0.2, "thickness": 1e-4}
+
+
+@pytest.mark.parametrize(
+    ("make", "path"),
+    [
+        (lambda: pn.Needle(-1, 5), "needle.diameter"),
+        (lambda: pn.Needle(1e-3, 5), "needle.tip_angle"),
+        (lambda: pn.Needle(float("nan"), 0.28), "needle.diameter"),
+        (lambda: pn.Membrane(**WALL).replace(friction=-1), "membrane.friction"),
+        (lambda: pn.Membrane(**WALL | {"thickness": float("inf")}), "membrane.thickness"),
+        (lambda: pn.Coupling(0, 1), "coupling.stiffness"),
+        (lambda: pn.Coupling(400, 1).replace(damping=-1), "coupling.damping"),
+        (
+            lambda: pn.Proxy1d(pn.ThickLaw(pn.Needle(**NEEDLE), pn.Membrane(**WALL)), pn.Coupling(400, 1), 1600),
+            "period",
+        ),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_at_once(make, path):
+    with pytest.raises(pn.ConfigurationError) as error:
+        make()
+    assert path in [problem.path for problem in error.value.problems]
+
+
+def test_all_values_that_cannot_be_are_told_together():
+    with pytest.raises(pn.ConfigurationError) as error:
+        pn.Needle(-1, 5)
+    assert [problem.path for problem in error.value.problems] == ["needle.diameter", "needle.tip_angle"]
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: pn.Needle(diametre=1e-3, tip_angle=0.28), "no argument diametre; did you mean diameter?"),
+        (lambda: pn.Needle(1e-3), "tip_angle is missing"),
+        (lambda: pn.Needle("1 mm", 0.28), "diameter must be a number, not str"),
+        (lambda: pn.Needle(1e-3, 0.28, 3), "takes 2 arguments, not 3"),
+        (lambda: pn.Needle(1e-3, diameter=1e-3, tip_angle=0.28), "diameter is given twice"),
+        (lambda: pn.Membrane(570, 0.41, mu=0.2, thickness=1e-4), "friction is missing"),
+        (lambda: pn.Coupling(400, damping=None), "damping must be a number, not NoneType"),
+        (lambda: pn.ThickLaw(pn.Needle(**NEEDLE), pn.Needle(**NEEDLE)), "membrane must be a Membrane, not Needle"),
+        (
+            lambda: pn.Proxy1d(pn.ThinLaw(pn.Needle(**NEEDLE), pn.Membrane(**WALL)), pn.Coupling(400, 1), periode=1e-3),
+            "no argument periode; did you mean period?",
+        ),
+        (lambda: pn.ServoSettings(rate=1600, lowpass=300), "no argument lowpass; did you mean low_pass?"),
+        (lambda: pn.Needle(**NEEDLE).replace(angle=0.3), "no argument angle; did you mean tip_angle?"),
+    ],
+)
+def test_an_argument_that_does_not_fit_is_named(make, says):
+    with pytest.raises(TypeError) as error:
+        make()
+    assert says in str(error.value)
+    assert "It takes (" in str(error.value)
+    assert "incompatible function arguments" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: pn.Needle(1.08, 0.28), "needle.diameter = 1.08 m is unusual. If you meant 1.08 mm, write 0.00108"),
+        (lambda: pn.Membrane(0.57, 0.41, 0.2, 1e-4), "If you meant 0.57 N/mm, write 570"),
+        (lambda: pn.Membrane(570, 410, 0.2, 1e-4), "If you meant 410 mN, write 0.41"),
+        (lambda: pn.Membrane(570, 0.41, 0.2, 1.0), "If you meant 1 mm, write 0.001"),
+        (lambda: pn.Coupling(0.4, 1), "If you meant 0.4 N/mm, write 400"),
+    ],
+)
+def test_a_number_in_another_unit_gives_a_warning_that_names_the_unit(make, says):
+    with pytest.warns(UserWarning) as told:
+        made = make()
+    assert says in str(told[0].message)
+    assert made is not None
+
+
+def test_usual_numbers_give_no_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for name in pn.scene_names():
+            scene = pn.load_scene(name)
+            pn.Needle(scene.needle.diameter, scene.needle.tip_angle)
+            for placed in scene.membranes:
+                placed.membrane.replace()
+            scene.coupling.replace()

@@ -1,0 +1,101 @@
+"""A number that is not finite is refused where it is given, and leaves no trace in the state."""
+
+import copy
+import signal
+import threading
+import time
+
+import numpy as np
+import punctura as pn
+import pytest
+
+NAN, INF = float("nan"), float("inf")
+DOWN = (0, -1, 0)
+
+
+def line():
+    law = pn.ThickLaw(pn.Needle(1.08e-3, 0.28), pn.Membrane(570, 0.41, 0.2, 1e-3))
+    return pn.Proxy1d(law, pn.Coupling(400, 1), 1 / 1600)
+
+
+def space():
+    needle, wall = pn.Needle(1.08e-3, 0.28), pn.Membrane(570, 0.41, 0.2, 1e-3)
+    return pn.Proxy3d(needle, wall, (0, 0, 0), DOWN, pn.Coupling(400, 1), 1 / 1600)
+
+
+def insertion():
+    return pn.Insertion(pn.load_scene("k06-fig12"))
+
+
+def depths(n=2000):
+    return np.linspace(-1e-3, 9e-3, n)
+
+
+def positions(n=2000):
+    return depths(n)[:, None] * np.array(DOWN)
+
+
+@pytest.mark.parametrize("bad", [NAN, INF, -INF])
+@pytest.mark.parametrize("make", [space, insertion])
+def test_in_space_the_argument_is_named_and_the_state_stays(make, bad):
+    touched, clean = make(), make()
+    for p, axis, says in [
+        ((0, bad, 0), DOWN, "p must be finite"),
+        ((0, 0, 0), (0, bad, 0), "axis must be finite"),
+        ((0, 0, 0), (0, 0, 0), "axis must be a direction"),
+    ]:
+        with pytest.raises(ValueError, match=says):
+            touched.step(p, axis)
+    spoilt = positions()
+    spoilt[7, 1] = bad
+    with pytest.raises(ValueError, match=r"p\[7\] must be finite .* No tick was made"):
+        touched.run(spoilt, DOWN)
+    axes = np.tile(np.array(DOWN, float), (2000, 1))
+    axes[11] = 0
+    with pytest.raises(ValueError, match=r"axis\[11\] must be a direction"):
+        touched.run(positions(), axes)
+    gave, wanted = touched.run(positions(), DOWN), clean.run(positions(), DOWN)
+    if make is insertion:
+        gave, wanted = gave.force, wanted.force
+    assert np.array_equal(gave, wanted) and np.isfinite(gave).all()
+
+
+@pytest.mark.parametrize("bad", [NAN, INF])
+def test_on_a_line_the_argument_is_named_and_the_state_stays(bad):
+    touched, clean = line(), line()
+    with pytest.raises(ValueError, match="p must be finite"):
+        touched.step(bad)
+    with pytest.raises(ValueError, match=r"p\[3\] must be finite"):
+        touched.run([0, 0, 0, bad])
+    assert np.array_equal(touched.run(depths()), clean.run(depths()))
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
+def test_a_copy_goes_on_to_the_same_bits_and_alone(copied):
+    first = line()
+    first.run(depths()[:1200])
+    second = copied(first)
+    forces = first.run(depths()[1200:])
+    assert np.array_equal(second.run(depths()[1200:]), forces)
+    for make in (space, insertion):
+        one = make()
+        one.run(positions()[:1200], DOWN)
+        other = copied(one)
+        gave, wanted = other.run(positions()[1200:], DOWN), one.run(positions()[1200:], DOWN)
+        assert np.array_equal(getattr(gave, "force", gave), getattr(wanted, "force", wanted))
+
+
+def test_ctrl_c_is_heard_during_a_long_run():
+    """Ten million ticks, which take seconds: the signal ends the call before they are made."""
+    proxy, p = line(), np.zeros(10_000_000)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        sender = threading.Timer(0.05, signal.raise_signal, [signal.SIGINT])
+        sender.start()
+        with pytest.raises(KeyboardInterrupt):
+            for _ in range(1000):
+                proxy.run(p)
+                time.sleep(0)
+        sender.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
