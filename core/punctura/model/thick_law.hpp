@@ -54,15 +54,16 @@ class BasicThickLaw {
     const Scalar shaft_over_H = thin ? 0 : (U - X) / H_;  // membrane on the shaft when the tip begins to leave
 
     std::array<Quadratic<Scalar>, 5> phi{};  // phi[0], q < 0: 0
-    // q in [0, min(U,X)]: A q (q + 2Q) / 2H
-    phi[1] = {0, A * Q / H_, A / (2 * H_)};
     // q in [U, X]: A U (2q - U + 2Q) / 2H; or q in [X, U]: F (q - X) / H + A X (X + 2Q) / 2H
     phi[2] = {A * m_over_H * (m / 2 + Q), thin ? A * U_over_H : F / H_, 0};
-    // q in [max(U,X), X+U]: F (q - X) / H + A (U + X - q)(q - U + X + 2Q) / 2H
-    phi[3] = {A * m_over_H * (X + Q - m / 2) + F * shaft_over_H, (A * (m - X - Q) + F) / H_, -A / (2 * H_)};
     // q > X + U: F U / H
     phi[4] = {F * U_over_H, 0, 0};
-    if (!(U > 0)) {  // H = 0: the surface is met at once, the far face left at once
+    if (U > 0) {
+      // q in [0, min(U,X)]: A q (q + 2Q) / 2H
+      phi[1] = {0, A * Q / H_, A / (2 * H_)};
+      // q in [max(U,X), X+U]: F (q - X) / H + A (U + X - q)(q - U + X + 2Q) / 2H
+      phi[3] = {A * m_over_H * (X + Q - m / 2) + F * shaft_over_H, (A * (m - X - Q) + F) / H_, -A / (2 * H_)};
+    } else {  // H = 0: the surface is met at once, the far face left at once
       phi[1] = phi[2];
       phi[3] = phi[4];
     }

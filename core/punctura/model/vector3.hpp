@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "punctura/model/finite_math.hpp"
@@ -21,6 +22,7 @@ class Vector3 {
   constexpr Vector3() noexcept = default;  ///< zero
   constexpr Vector3(Scalar x, Scalar y, Scalar z) noexcept : v_{x, y, z} {}
   constexpr explicit Vector3(const std::array<Scalar, 3>& v) noexcept : v_(v) {}
+  Vector3(std::nullptr_t) = delete;                                               // of Vector3(0)
   constexpr explicit Vector3(const Scalar* v) noexcept : v_{v[0], v[1], v[2]} {}  ///< of three numbers in a row
 
   static constexpr Vector3 Zero() noexcept { return {}; }
@@ -83,9 +85,11 @@ class Vector3 {
 
   /// The length, also where squares overflow or vanish.
   Scalar stableNorm() const noexcept {
-    const Scalar largest = maxAbs(), inverse = 1 / largest;
-    if (!std::isfinite(largest) || !std::isfinite(inverse)) return std::hypot(v_[0], v_[1], v_[2]);
-    return largest * (*this * inverse).norm();
+    if (!allFinite()) return std::abs(v_[0]) + std::abs(v_[1]) + std::abs(v_[2]);  // infinite, or NaN
+    const Scalar largest = maxAbs();
+    if (largest < 1 / std::numeric_limits<Scalar>::max())
+      return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest has no number
+    return largest * (*this * (1 / largest)).norm();
   }
 
   /// Of length 1; itself where it has no length.
@@ -96,8 +100,8 @@ class Vector3 {
   /// The same, also where squares overflow or vanish.
   Vector3 stableNormalized() const noexcept {
     const Scalar largest = maxAbs();
-    const Scalar squared = (*this / largest).squaredNorm();
-    return squared > 0 ? *this / (std::sqrt(squared) * largest) : *this;
+    if (!(largest > 0)) return *this;
+    return *this / (std::sqrt((*this / largest).squaredNorm()) * largest);
   }
   Scalar maxAbs() const noexcept { return std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])}); }
   bool allFinite() const noexcept { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }

@@ -23,7 +23,8 @@ using CouplingF = BasicCoupling<float>;
 /// What a proxy asks of its coupling, sampled with the period T. `Vector` is a scalar on one line, a Vector3 in space.
 ///
 /// Any coupling that is linear in the offset of this tick can be one: f = f* + g (e - (e_prev - dp)), where f* is the force that
-/// holds the proxy still. One that relaxes keeps the force of its branch in Memory.
+/// holds the proxy still. One that relaxes keeps the force of its branch in Memory, and
+/// keeps it from fading into denormal numbers.
 template <typename C, typename Vector>
 concept SampledCouplingOf = requires(const C c, const Vector& v, typename C::template Memory<Vector>& memory) {
   requires std::is_trivially_copyable_v<typename C::template Memory<Vector>>;

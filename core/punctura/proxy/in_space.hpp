@@ -17,7 +17,9 @@ inline constexpr Scalar grazing_cosine = Scalar(0.17364817766693034885);
 
 /// What is fixed while a proxy runs.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
+  requires SampledCouplingOf<C, Vector3<typename L::Scalar>>
 struct SpaceParams {
+  static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
   using Vector = Vector3<typename L::Scalar>;
 
   L law;
@@ -91,8 +93,10 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   params.coupling.advance(state.coupling, state.e, e_prev);
   state.p = p;
   state.phase = friction.phase;
-  if constexpr (LawWithMemory<L>)
-    if (params.law.advance(state.law, params.n.dot(p + state.e - params.a) / state.cos_beta)) lay_out(params, state);
+  if constexpr (LawWithMemory<L>) {
+    const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
+    if (now > 0 && params.law.advance(state.law, now)) lay_out(params, state);
+  }
   return {state.f, p + state.e, state.b, friction.force, depth, band, state.phase};
 }
 

@@ -10,7 +10,8 @@
 
 namespace punctura {
 
-/// One of several laws. Which one it is is asked only when a needle enters, and by laws with memory: the solvers see pieces alone.
+/// One of several laws. The solvers see its pieces alone, which are made when a needle enters and when a law with memory says that
+/// they have changed; on a line, in each tick.
 template <ObliqueLaw... Laws>
 class MixedLaw {
  public:
@@ -26,19 +27,8 @@ class MixedLaw {
   const Pieces& pieces() const noexcept { return pieces_; }
   Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
 
-  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
-    Pieces all;
-    ask([&]<std::size_t i>(const auto& law) {
-      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
-        const auto* own = std::get_if<i>(&memory);
-        using Own = std::variant_alternative_t<i, Memory>;
-        all = law.pieces(cos_beta, own ? *own : Own{}).template with_room<room>();
-      } else {
-        all = law.pieces(cos_beta).template with_room<room>();
-      }
-    });
-    return all;
-  }
+  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept { return made(memory, cos_beta); }
+  Pieces pieces(const Memory& memory) const noexcept { return made(memory); }
 
   bool advance(Memory& memory, Scalar depth) const noexcept {
     bool changed = false;
@@ -52,6 +42,22 @@ class MixedLaw {
   }
 
  private:
+  /// The pieces of the law in use, for cos_beta or, without it, as the law was made.
+  template <typename... Angle>
+  Pieces made(const Memory& memory, Angle... cos_beta) const noexcept {
+    Pieces all;
+    ask([&]<std::size_t i>(const auto& law) {
+      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
+        using Own = std::variant_alternative_t<i, Memory>;
+        const auto* own = std::get_if<i>(&memory);
+        all = law.pieces(cos_beta..., own ? *own : Own{}).template with_room<room>();
+      } else {
+        all = law.pieces(cos_beta...).template with_room<room>();
+      }
+    });
+    return all;
+  }
+
   /// Calls ask<i>(law) for the law in use, the i-th.
   template <typename Ask>
   void ask(Ask&& with) const noexcept {

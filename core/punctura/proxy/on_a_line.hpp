@@ -11,7 +11,9 @@ namespace punctura {
 
 /// What is fixed while a proxy runs.
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
+  requires SampledCouplingOf<C, typename L::Scalar>
 struct LineParams {
+  static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
   L law;
   C coupling;
 };
@@ -44,7 +46,7 @@ struct LineTick {
 template <typename L, typename C>
 decltype(auto) pieces_now(const LineParams<L, C>& params, const LineState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>)
-    return params.law.pieces(typename L::Scalar(1), state.law);
+    return params.law.pieces(state.law);
   else
     return params.law.pieces();
 }
@@ -57,7 +59,8 @@ void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Sc
   // K06 (25) and (26) in one: a proxy that sticks (f = f*) keeps its place to the last bit.
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);
   params.coupling.advance(state.coupling, state.e, e_prev);
-  if constexpr (LawWithMemory<L>) params.law.advance(state.law, p + state.e);
+  if constexpr (LawWithMemory<L>)
+    if (p + state.e > 0) params.law.advance(state.law, p + state.e);
   state.started = true;
   state.p = p;
   state.f = friction.force;

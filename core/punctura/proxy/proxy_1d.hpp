@@ -38,7 +38,8 @@ class Proxy1d {
   const State& state() const noexcept { return state_; }
   void set_state(const State& state) noexcept {
     state_ = state;
-    tick_ = {state.f, state.p + state.e, state.p + state.e, {}, state.phase};
+    tick_ = {};  // until the next step
+    tick_.phase = state.phase;
   }
 
   const Params& params() const noexcept { return params_; }

@@ -54,6 +54,11 @@ class Proxy3d {
 
   /// All that the next tick depends on: a copy of it, given back, goes on to the same bits.
   const State& state() const noexcept { return state_; }
+  void set_state(const State& state) noexcept {
+    state_ = state;
+    tick_ = {};  // until the next step
+    tick_.phase = state.phase;
+  }
   const Params& params() const noexcept { return params_; }
   const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
   const L& law() const noexcept { return params_.law; }

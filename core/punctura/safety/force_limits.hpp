@@ -75,7 +75,7 @@ class ForceLimiter {
     Vector3d force = gain_ * wanted;
 
     ceiling_ = permitted(motor_temperature);
-    if (const double norm = force.stableNorm(); norm > ceiling_) {
+    if (const double norm = force.stableNorm(); !(norm <= ceiling_)) {
       force = force / norm * ceiling_;
       if (cool(motor_temperature) < 1)
         act(Limit::temperature, counters_.temperature);
@@ -123,8 +123,9 @@ class ForceLimiter {
   void count(double elapsed) noexcept {
     const bool known = elapsed >= 0 && std::isfinite(elapsed);
     // Before the first tick of a run no time has passed: a period of rest for each run would add up over many runs.
-    const bool first = std::isnan(elapsed) && held_square_ == 0;
-    budget_.spend(held_square_, known ? elapsed : first ? 0 : period_);
+    // So would one for each wrong stamp.
+    const bool no_time = !known && elapsed != unknown_time && held_square_ == 0;
+    budget_.spend(held_square_, known ? elapsed : no_time ? 0 : period_);
     held_square_ = 0;
     limit_ = Limit::none;
   }

@@ -27,13 +27,13 @@ class SceneError : public std::invalid_argument {
   std::vector<Problem> problems_;
 };
 
-/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane)`, both in Scalar.
-/// Throws SceneError.
+/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane, i)`: both in
+/// Scalar, and the membrane's number in the scene. Throws SceneError.
 template <typename Scalar, typename LawOf>
 auto build_insertion(const Scene& scene, LawOf&& law_of) {
   if (auto problems = check(scene); !problems.empty()) throw SceneError(std::move(problems));
 
-  using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}))>;
+  using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}, std::size_t{}))>;
   const auto to = [](double x) { return static_cast<Scalar>(x); };
   const BasicNeedle<Scalar> needle{to(scene.needle.diameter), to(scene.needle.tip_angle)};
   std::vector<SiteOf<L>> sites;
@@ -41,8 +41,8 @@ auto build_insertion(const Scene& scene, LawOf&& law_of) {
     const Membrane& m = placed.membrane;
     const BasicMembrane<Scalar> membrane{to(m.stiffness), to(m.precompression), to(m.friction), to(m.thickness)};
     const Vector3d normal = vector(placed.inward_normal).stableNormalized();
-    sites.push_back(
-        {law_of(needle, membrane), vector(placed.point).template cast<Scalar>(), normal.template cast<Scalar>()});
+    sites.push_back({law_of(needle, membrane, sites.size()), vector(placed.point).template cast<Scalar>(),
+                     normal.template cast<Scalar>()});
   }
   const Scalar period = to(1 / scene.servo.rate);
   const SampledCoupling<Scalar> coupling({to(scene.coupling.stiffness), to(scene.coupling.damping)}, period);
@@ -53,9 +53,8 @@ auto build_insertion(const Scene& scene, LawOf&& law_of) {
 /// The same with K06's law. Scalar: double, or float.
 template <typename Scalar = double>
 BasicInsertion<Scalar> build_insertion(const Scene& scene) {
-  return build_insertion<Scalar>(scene, [](const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) {
-    return BasicThickLaw<Scalar>(needle, membrane);
-  });
+  return build_insertion<Scalar>(scene, [](const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
+                                           std::size_t) { return BasicThickLaw<Scalar>(needle, membrane); });
 }
 
 /// The whole tick of a scene: input gate, model, force limits. Throws SceneError, for scene and limits together.

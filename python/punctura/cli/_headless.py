@@ -113,7 +113,8 @@ class Tape:
         self._line.end()
         if self.status is None:
             return
-        say(f"punctura: {self.status.file or self._path}: {self.status.rows} ticks recorded, {self.status.lost} lost")
+        name = self.status.file or f"the file that was {self._path}"
+        say(f"punctura: {name}: {self.status.rows} ticks recorded, {self.status.lost} lost")
         for text in [*self.status.notes, *([self.status.trouble] if self.status.trouble else [])]:
             say(f"punctura: recording: {text}")
 

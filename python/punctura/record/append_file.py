@@ -72,7 +72,7 @@ class AppendFile:
         except OSError:
             pass
         place = self.place()
-        where = f"it goes on in {place}" if place else "it goes on under another name, which the system does not tell"
+        where = f"it goes on in {place}" if place else "it goes on under another name; this system does not report it"
         return Amiss(f"{self._path} was moved while it was being recorded; {where}", False, place)
 
     def place(self) -> Path | None:

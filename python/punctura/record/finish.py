@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -72,9 +73,10 @@ def finish_recording(
         file.close()
     if not status.rows:
         return replace(status, trouble=f"{trouble}; nothing of it can be read")
-    place = status.file or "the file that was moved, whose present name this system does not tell"
+    place = status.file or "the file that was moved; this system does not report its present name"
     stays = f"the recording is in {place}" + (f", readable up to tick {status.last_tick}" if part else "")
-    how = f"punctura export {status.file or 'MOVED_FILE'} --out FILE.parquet finishes it"
+    source = shlex.quote(str(status.file)) if status.file else "MOVED_FILE"
+    how = f"punctura export {source} --out FILE.parquet finishes it"
     return replace(status, trouble=f"{trouble}; {stays}; {how}")
 
 

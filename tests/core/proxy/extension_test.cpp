@@ -25,6 +25,7 @@ struct CutLaw {
   PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
     return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
   }
+  PiecewiseBand<double, 3> pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
   bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
 };
 static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
@@ -112,10 +113,8 @@ TEST_CASE("a scene may mix laws, and a tick of it takes no memory") {
   scene.membranes.push_back({"cut", paper_membrane(1e-3), {0, -4e-3, 0}, {0, -1, 0}});
   for (Solver solver : {Solver::paper, Solver::exact}) {
     scene.servo.solver = solver;
-    bool first = true;
-    auto mixed = build_insertion<double>(scene, [&](const Needle& needle, const Membrane& membrane) -> Mixed {
-      const bool k06 = std::exchange(first, false);
-      return k06 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
+    auto mixed = build_insertion<double>(scene, [](const Needle& needle, const Membrane& membrane, std::size_t i) {
+      return i == 0 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
     });
     Proxy3d wall(ThickLaw(paper_needle, paper_membrane(1e-3)), {0, 0, 0}, {0, -1, 0}, scene.coupling, T, solver);
     Proxy3d cut(CutLaw{}, {0, -4e-3, 0}, {0, -1, 0}, scene.coupling, T, solver);
@@ -216,4 +215,43 @@ TEST_CASE("a tick that is not finite gives NaN and leaves no trace") {
       REQUIRE(all.step(tip, down) == clean_all.step(tip, down));
     }
   }
+}
+
+TEST_CASE("on a line, a law among others keeps the obliquity that it was made with") {
+  Noise noise(95);
+  const ThickLaw oblique(paper_needle, paper_membrane(1e-3), 0.5);
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d alone(oblique, Coupling{400, 1}, T, solver);
+    Proxy1d among(MixedLaw<ThickLaw, CutLaw>(oblique), Coupling{400, 1}, T, solver);
+    for (double p : random_motion(noise, 2000, 8e-3, T)) REQUIRE(among.step(p) == alone.step(p));
+  }
+}
+
+TEST_CASE("the memory of a membrane outlasts a change of the scene, and ends with a reset") {
+  Proxy3d first(CutLaw{}, Vector3d(), Vector3d(0, -1, 0), Coupling{400, 1}, T);
+  for (int k = 0; k <= 800; ++k) first.step({0, 2e-3 - 10e-3 * k / 800, 0}, {0, -1, 0});
+  const double cut = first.state().law.cut;
+  CHECK(cut > 4e-3);
+  Proxy3d second(CutLaw{}, Vector3d(), Vector3d(0, -1, 0), Coupling{500, 1}, T);
+  second.resume(first);
+  CHECK(second.state().law.cut == cut);
+  Proxy3d third = second;
+  third.reset();
+  CHECK(third.state().law.cut == 0);
+  third.set_state(second.state());
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d p(0, -8e-3 - 1e-5 * k, 0);
+    REQUIRE(third.step(p, {0, -1, 0}) == second.step(p, {0, -1, 0}));
+  }
+}
+
+TEST_CASE("lengths of vectors that are zero, tiny, huge or no numbers") {
+  const double inf = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::denorm_min();
+  CHECK(Vector3d().stableNorm() == 0);
+  CHECK(Vector3d().stableNormalized() == Vector3d());
+  CHECK(Vector3d(3e200, 4e200, 0).stableNorm() == doctest::Approx(5e200));
+  CHECK(Vector3d(tiny, 0, 0).stableNorm() == tiny);
+  CHECK(Vector3d(inf, 0, 0).stableNorm() == inf);
+  CHECK(std::isnan(Vector3d(std::nan(""), 0, 0).stableNorm()));
+  CHECK(Vector3d(0, 3e-200, 4e-200).stableNormalized().norm() == doctest::Approx(1));
 }

@@ -217,3 +217,14 @@ TEST_CASE("a force too great for its square to be a number is clamped like any o
   CHECK(force.norm() == doctest::Approx(3.3));
   CHECK(force.y() < 0);
 }
+
+TEST_CASE("a time that is not known gives no rest: wrong stamps do not fill the budget") {
+  ForceLimiter limiter({}, 1 / 1600.0);
+  const double all = 4 * 0.25 * 0.88 * 0.88 * 10;  // N^2 s, more than it can hold
+  limiter.set_spent(all);
+  const double spent = limiter.budget().spent();
+  for (int k = 0; k < 1000; ++k) limiter.rest(0, k % 2 == 0 ? -0.01 : std::numeric_limits<double>::quiet_NaN());
+  CHECK(limiter.budget().spent() == spent);
+  limiter.rest(0, 1);
+  CHECK(limiter.budget().spent() < spent);
+}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import shlex
 import sys
 
 import pytest
@@ -184,7 +185,7 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells 
 @on_linux
 def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works(begun):
     run = begun(lambda run: run.part.rename(run.part.with_name("first")))
-    aside = run.part.with_name("aside.parquet.part")
+    aside = run.part.with_name("put aside.parquet.part")
     run.wait(lambda: f"it goes on in {run.part.with_name('first')}" in run.recorder.status().trouble)
     assert run.recorder.status().file == run.part.with_name("first")
     run.part.with_name("first").rename(aside)  # and a second time
@@ -193,7 +194,7 @@ def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works
     remedy = re.search(r"punctura (export .+) --out FILE.parquet finishes it", status.trouble)
     assert remedy and str(run.part) not in remedy[0]
     with pytest.raises(SystemExit, match="0"):
-        main([*remedy[1].split(), "--out", str(run.path)])
+        main([*shlex.split(remedy[1]), "--out", str(run.path)])
     assert open_recording(run.path).rows == 4000
 
 
@@ -207,11 +208,11 @@ def test_where_the_present_name_is_not_known_no_path_is_given(begun):
         run.recorder._file._name = None  # as on a system that does not tell it
 
     run = begun(move)
-    run.wait(lambda: "which the system does not tell" in run.recorder.status().trouble)
+    run.wait(lambda: "this system does not report it" in run.recorder.status().trouble)
     assert run.recorder.status().file is None
     status = run.recorder.finish()
     assert status.file is None and status.to_dict()["file"] is None and (status.rows, status.lost) == (4000, 0)
-    assert "whose present name this system does not tell" in status.trouble
+    assert "this system does not report its present name" in status.trouble
     assert "punctura export MOVED_FILE --out FILE.parquet finishes it" in status.trouble
     assert open_recording(aside[0]).rows == 4000
 

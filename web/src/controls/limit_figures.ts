@@ -11,7 +11,7 @@ export interface LimitFigure {
 const CUT = "The force is cut to it, and the header says so.";
 const FAULT = "Beyond it the loop ends the force with a fault.";
 const duration = (seconds: number): string => (seconds < 1 ? `${number(seconds * 1e3)} ms` : `${number(seconds)} s`);
-const number = (value: number): string => String(Number(value.toPrecision(3)));
+const number = (value: number): string => String(Number(value.toPrecision(6)));
 
 /** The limits of docs/safety.md, as the present runs have them. */
 export function limitFigures(limits: LimitsPart): LimitFigure[] {
