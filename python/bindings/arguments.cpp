@@ -1,3 +1,4 @@
+// Reads the arguments of a call by name, and says what does not fit.
 #include "arguments.hpp"
 
 #include <algorithm>

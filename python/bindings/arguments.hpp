@@ -42,7 +42,7 @@ class Arguments {
   std::vector<nb::object> values_;
 };
 
-/// The constructor of T: `make` gets the arguments in the order of `wanted`. signature: without the name and self, "(x: float)".
+/// The constructor of T: `make` gets the arguments in the order of `wanted`.
 template <typename T, typename... A>
 void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...), const char* doc) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));

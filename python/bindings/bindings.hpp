@@ -64,6 +64,8 @@ class Rows {
   std::size_t stride_;
 };
 
+/// Every bound that a needle, a membrane or the pair of them breaks.
+std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
 /// Throws punctura.ConfigurationError that carries every problem, if there is one.
 void raise_if(const std::vector<Problem>& problems);
 /// The same for a word that is not one of those allowed.

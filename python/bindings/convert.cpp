@@ -36,11 +36,8 @@ Rows::Rows(Input array, std::size_t n, const char* name) : array_(std::move(arra
 void Rows::check(const char* name) const {
   check_finite(data_, array_.size(), name, 3);
   const std::size_t rows = array_.size() / 3;
-  for (std::size_t i = 0; i < rows; ++i) {
-    if (Vector3d(data_ + 3 * i) != Vector3d()) continue;
-    const std::string place = rows > 1 ? "[" + std::to_string(i) + "]" : "";
-    throw nb::value_error((name + place + " must be a direction: at least one of its three numbers not 0").c_str());
-  }
+  for (std::size_t i = 0; i < rows; ++i)
+    check_direction(Vector3d(data_ + 3 * i), name + (rows > 1 ? "[" + std::to_string(i) + "]" : std::string()));
 }
 
 namespace {
@@ -57,6 +54,14 @@ nb::object problem(const std::string& path, const Value& value, const std::strin
 }
 
 }  // namespace
+
+std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane) {
+  std::vector<Problem> problems;
+  const bool needle_good = check(needle, "needle", problems);
+  const bool membrane_good = check(membrane, "membrane", problems);
+  if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
+  return problems;
+}
 
 void raise_if(const std::vector<Problem>& problems) {
   if (problems.empty()) return;

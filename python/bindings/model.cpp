@@ -25,14 +25,6 @@ nb::tuple bounds(const L& law, const nb::object& depths) {
   return nb::make_tuple(to_numpy(std::move(lower), shape), to_numpy(std::move(upper), shape));
 }
 
-std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane) {
-  std::vector<Problem> problems;
-  const bool needle_good = check(needle, "needle", problems);
-  const bool membrane_good = check(membrane, "membrane", problems);
-  if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
-  return problems;
-}
-
 Needle make_needle(double diameter, double tip_angle) {
   const Needle made{diameter, tip_angle};
   std::vector<Problem> problems;

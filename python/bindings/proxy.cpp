@@ -15,8 +15,7 @@ namespace punctura::bindings {
 namespace {
 
 void check_coupling(const Coupling& coupling, double period, std::vector<Problem>& problems) {
-  check_field(coupling_fields[0], coupling.stiffness, "coupling", problems);
-  check_field(coupling_fields[1], coupling.damping, "coupling", problems);
+  check(coupling, problems);
   if (!(period > 0 && std::isfinite(period)))
     problems.push_back({"period", period, "must be greater than 0 s"});
   else if (period >= 1)
@@ -55,8 +54,7 @@ using Proxy = Proxy3d<ThickLaw>;
 Coupling make_coupling(double stiffness, double damping) {
   const Coupling made{stiffness, damping};
   std::vector<Problem> problems;
-  check_field(coupling_fields[0], stiffness, "coupling", problems);
-  check_field(coupling_fields[1], damping, "coupling", problems);
+  check(made, problems);
   raise_if(problems);
   warn_unusual({{"coupling.stiffness", stiffness, 5, 1e6, "N/m", "N/mm", 1e3}});
   return made;
@@ -71,9 +69,7 @@ AnyProxy1d make_line(std::variant<ThinLaw, ThickLaw> law, Coupling coupling, dou
 
 Proxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling, double period,
                  std::string solver) {
-  std::vector<Problem> problems;
-  const bool needle_good = check(needle, "needle", problems), membrane_good = check(membrane, "membrane", problems);
-  if (needle_good && membrane_good) check_insertion(needle, membrane, "membrane", problems);
+  auto problems = problems_of(needle, membrane);
   check_coupling(coupling, period, problems);
   if (!vector(point).allFinite())
     problems.push_back({"point", detail::offender(point), "must be three finite numbers"});

@@ -32,13 +32,18 @@ inline void check_finite(const double* values, std::size_t n, const char* name, 
                          ": leave such ticks out, or fill them in. No tick was made")
                             .c_str());
 }
+
+/// Throws ValueError where a direction has no length.
+inline void check_direction(const Vector3d& axis, const std::string& name) {
+  if (axis == Vector3d())
+    throw nb::value_error((name + " must be a direction: at least one of its three numbers not 0").c_str());
+}
+
 /// The direction of the needle as a unit vector. Throws ValueError where it has no length.
 inline Vector3d direction(const Triple& axis) {
   check_finite(axis.data(), 3, "axis");
-  const Vector3d unit = vector(axis).stableNormalized();
-  if (!(unit.squaredNorm() > 0))
-    throw nb::value_error("axis must be a direction: at least one of its three numbers not 0");
-  return unit;
+  check_direction(vector(axis), "axis");
+  return vector(axis).stableNormalized();
 }
 
 }  // namespace punctura::bindings

@@ -32,7 +32,6 @@ struct Exact {
     using Vector = Vector3<Scalar>;
     const auto& [law, a, n, c] = params;
     const Vector p_prev = state.started ? state.p : p;
-    state.started = true;
     const Vector f_star = c.holding_force(p, p_prev, state.e, state.coupling);  // K06 (38)
 
     if (!inside(state.phase)) {

@@ -91,6 +91,7 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   state.f = f_star + state.b * (friction.force - state.b.dot(f_star));           // K06 (39)
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (state.f - f_star);  // K06 (25) and (37), as on a line
   params.coupling.advance(state.coupling, state.e, e_prev);
+  state.started = true;
   state.p = p;
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
@@ -108,6 +109,7 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   state.f = {};
   state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0
   params.coupling.advance(state.coupling, state.e, e_prev);
+  state.started = true;
   state.p = p;
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
 }

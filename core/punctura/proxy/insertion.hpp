@@ -65,7 +65,7 @@ class InsertionOf {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
-      std::size_t before = count_same(proxies_, i, proxies_[i]);
+      std::size_t before = same_before(i);
       for (const Proxy& other : previous.proxies_)
         if (proxies_[i].same_place(other) && before-- == 0) {
           proxies_[i].resume(other);
@@ -77,12 +77,14 @@ class InsertionOf {
   /// One tick: measured position (m) and unit direction of the needle give the force on the device (N). A position that is not finite,
   /// or an axis where it is used, gives NaN, and the insertion is as if that tick had not been.
   Vector step(const Vector& position, const Vector& axis) noexcept {
-    if (!position.allFinite() || (uses_axis() && !axis.allFinite()))
-      return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    if (!position.allFinite() || (uses_axis() && !axis.allFinite())) return no_number;
     tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
+    // Positions near the largest number may overflow on the way; checked here, once for all membranes.
+    if (!tip_.allFinite() || !direction.allFinite()) return force_ = no_number;
     force_.setZero();
-    for (Proxy& proxy : proxies_) force_ += proxy.step(tip_, direction);
+    for (Proxy& proxy : proxies_) force_ += proxy.step_finite(tip_, direction);
     return force_;
   }
 
@@ -99,10 +101,11 @@ class InsertionOf {
   }
 
  private:
-  /// How many of the first n proxies are in the same place.
-  static std::size_t count_same(const std::vector<Proxy>& proxies, std::size_t n, const Proxy& proxy) noexcept {
-    return static_cast<std::size_t>(std::count_if(proxies.begin(), proxies.begin() + static_cast<std::ptrdiff_t>(n),
-                                                  [&](const Proxy& other) { return other.same_place(proxy); }));
+  /// How many proxies before the i-th are in its place.
+  std::size_t same_before(std::size_t i) const noexcept {
+    const auto first = proxies_.begin();
+    return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
+                                                  [&](const Proxy& other) { return other.same_place(proxies_[i]); }));
   }
   /// None where the device gives the direction.
   static std::optional<EntryDirection<Scalar>> tracker(Direction direction, Scalar period) {

@@ -31,7 +31,6 @@ struct Paper {
     using Vector = Vector3<Scalar>;
     const auto& [law, a, n, c] = params;
     const Vector p_prev = state.started ? state.p : p;
-    state.started = true;
     const Vector f_star = c.holding_force(p, p_prev, state.e, state.coupling);             // K06 (38)
     const Vector q_star = p + c.free_offset(state.e, state.coupling) + c.inv_g * state.f;  // K06 (40)
 

@@ -27,16 +27,16 @@ class Proxy3d {
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
 
   /// Forgets all motion. A proxy that starts inside stays barred until it has been outside, in front.
-  void reset() noexcept {
-    state_ = {};
-    tick_ = {};
-    tick_.phase = state_.phase;
-  }
+  void reset() noexcept { set_state({}); }
 
   /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41). A p or an
   /// axis that is not finite gives NaN, and the proxy is as if that tick had not been.
   Vector step(const Vector& p, const Vector& axis) noexcept {
     if (!p.allFinite() || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    return step_finite(p, axis);
+  }
+  /// The same for a p and an axis that are known to be finite.
+  const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
     return tick_.force;
   }

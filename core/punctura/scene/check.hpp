@@ -61,12 +61,17 @@ inline double offender(const std::array<double, 3>& v) noexcept {
 }
 }  // namespace detail
 
+inline bool check(const Coupling& coupling, std::vector<Problem>& problems) {
+  const bool stiffness = check_field(coupling_fields[0], coupling.stiffness, "coupling", problems);
+  const bool damping = check_field(coupling_fields[1], coupling.damping, "coupling", problems);
+  return stiffness && damping;
+}
+
 /// All problems of a scene, each with its path (`membrane[1].friction`), SI value and reason. Empty: it may be built.
 inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
   check(scene.needle, "needle", problems);
-  check_field(coupling_fields[0], scene.coupling.stiffness, "coupling", problems);
-  check_field(coupling_fields[1], scene.coupling.damping, "coupling", problems);
+  check(scene.coupling, problems);
   check_field(servo_fields[0], scene.servo.rate, "servo", problems);
   check_field(servo_fields[1], scene.servo.low_pass, "servo", problems);
   check_field(servo_fields[2], scene.servo.encoder_step, "servo", problems);
