@@ -125,7 +125,7 @@ timed "$system" root "run, first time, to the studio's page" "'a clone/run' run 
 timed "$system" root "run, second time" "'a clone/run' run --no-browser --duration 1" 0
 timed "$system" root "run reproduce" "'a clone/run' reproduce" 0
 timed "$system" root "test, after run" "'a clone/test'" 0
-timed "$system" root "test, second time" "'a clone/test'" 0
+timed "$system" root "test tree, second time" "'a clone/test' tree" 0
 installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
 sizes=$(inside "$system" root 'cd "a clone" && du -sh .venv build | tr "\t\n" " ;"')
 

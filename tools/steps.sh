@@ -71,13 +71,26 @@ compile() {
   cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# The C++ tests as GCC compiles them.
+# side_by_side A B: runs both programs at once, since each needs one processor. What a program said that failed comes last.
+side_by_side() {
+  local said=build/log/side-by-side a_failed=0 b_failed=0 a
+  "$1" >"$said-a.log" 2>&1 &
+  a=$!
+  "$2" >"$said-b.log" 2>&1 || b_failed=1
+  wait $a || a_failed=1
+  if [ $a_failed -eq 1 ]; then cat "$said-b.log" "$said-a.log"; else cat "$said-a.log" "$said-b.log"; fi
+  return $((a_failed || b_failed))
+}
+both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }
+
+# The C++ tests as GCC compiles them; the golden forces also where it may fuse a multiplication and an addition.
 step_cpp() {
-  compile dev && build/dev/tests/core/core_tests || return
-  if [ -x build/dev/tests/core/golden_forces_fma ] && grep -qsw fma /proc/cpuinfo; then
-    build/dev/tests/core/golden_forces_fma || return
+  if grep -qsw fma /proc/cpuinfo; then
+    compile dev all golden_forces_fma && build/dev/tests/core/golden_forces_fma || return
+  else
+    compile dev || return
   fi
-  build/dev/tests/runtime/runtime_tests
+  both_tests dev
 }
 
 # All sources as Clang compiles them, for its warnings, and each header alone; the tests under sanitizers. Those are slow: a few of
@@ -85,7 +98,7 @@ step_cpp() {
 step_asan() {
   compile asan all punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
-  build/asan/tests/core/core_tests && build/asan/tests/runtime/runtime_tests
+  both_tests asan
 }
 step_tsan() {
   local run=build/tsan/tests/runtime/runtime_tests said
@@ -116,7 +129,7 @@ step_python() {
     echo "note: no archive of this system has python3-siconos: the comparison with Siconos is left out, that with SciPy is made."
     but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
-  python -m pytest -n 2 --durations=15 ${but[@]+"${but[@]}"}
+  python -m pytest -n 3 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
 }
 
 # The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
@@ -139,7 +152,7 @@ step_web() {
 }
 
 # The studio in a real browser, as a person uses it.
-step_page() { python -m pytest --durations=8 tests/page; }
+step_page() { python -m pytest -n 2 --durations=8 tests/page; }
 
 # Every example runs, in a folder of its own.
 step_examples() {

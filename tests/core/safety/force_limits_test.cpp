@@ -6,7 +6,10 @@
 #include <random>
 #include <vector>
 
+#include "../support/cases.hpp"
+
 using namespace punctura;
+using punctura::test::cases;
 
 namespace {
 constexpr double T = 1 / 1600.0;
@@ -87,13 +90,13 @@ TEST_CASE("in no 10 s is the force above its rating, and the ceiling comes down 
   CHECK(limiter.limit() == Limit::continuous);
 }
 
-TEST_CASE("in no 10 s is the force above its rating, whatever is asked, and through 1,000 runs and resets") {
+TEST_CASE("in no 10 s is the force above its rating, whatever is asked, and through many runs and resets") {
   std::mt19937_64 random(20261122);
   std::uniform_real_distribution<double> share(0, 1);
   const ForceLimits limits;
   WorstWindow worst;
   double spent = 0;
-  for (int run = 0; run < 1000; ++run) {
+  for (int run = 0; run < cases(1000); ++run) {
     ForceLimiter limiter(limits, T);
     limiter.set_spent(spent);
     const auto ticks = static_cast<int>(1600 * 4 * share(random));

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "core/support/cases.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
 
@@ -60,7 +61,7 @@ class Felt {
 };
 }  // namespace
 
-TEST_CASE("through 1,000 random runs on one device no 10 s exceed its rating") {
+TEST_CASE("through many random runs on one device no 10 s exceed its rating") {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> share(0, 1);
   auto device = std::make_shared<HandCranked>();
@@ -73,7 +74,7 @@ TEST_CASE("through 1,000 random runs on one device no 10 s exceed its rating") {
     }
     y = to;
   };
-  for (int run = 0; run < 1000; ++run) {
+  for (int run = 0; run < cases(1000); ++run) {
     ServoLoop loop(device, stiff_scene(), by_test_clock());
     loop.start();
     loop.arm();
