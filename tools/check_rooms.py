@@ -13,6 +13,7 @@ from sources import CPP_SUFFIXES, Finding, report, sources
 # From the top down. A folder of core, then what stands on core.
 ROOMS = (
     "core/punctura/model",
+    "core/punctura/state",
     "core/punctura/signal",
     "core/punctura/proxy",
     "core/punctura/device",

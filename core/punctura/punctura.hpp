@@ -10,4 +10,6 @@
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura/scene/values.hpp"
 #include "punctura/servo/servo_step.hpp"
+#include "punctura/state/archive.hpp"

@@ -6,21 +6,18 @@
 #include <cstdio>
 
 namespace punctura::bindings {
-namespace {
 
-std::string nearest(const std::string& word, const std::vector<Argument>& wanted) {
-  nb::list names;
-  for (const Argument& a : wanted) names.append(a.name);
-  const nb::object found = nb::module_::import_("difflib").attr("get_close_matches")(word, names, 1, 0.5);
+std::string nearest(const std::string& word, const nb::list& words) {
+  const nb::object found = nb::module_::import_("difflib").attr("get_close_matches")(word, words, 1, 0.5);
   return nb::len(found) > 0 ? "; did you mean " + nb::cast<std::string>(found[0]) + "?" : "";
 }
-
-}  // namespace
 
 Arguments::Arguments(const std::string& call, const std::vector<Argument>& wanted, const nb::args& args,
                      const nb::kwargs& kwargs)
     : call_(call), wanted_(wanted), values_(wanted.size()) {
   std::string faults;
+  nb::list names;
+  for (const Argument& a : wanted_) names.append(a.name);
   const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : "; ") + fault; };
   if (args.size() > wanted_.size())
     add("takes " + std::to_string(wanted_.size()) + " arguments, not " + std::to_string(args.size()));
@@ -30,7 +27,7 @@ Arguments::Arguments(const std::string& call, const std::vector<Argument>& wante
     const auto same = [&](const Argument& a) { return word == a.name; };
     const auto i = static_cast<std::size_t>(std::find_if(wanted_.begin(), wanted_.end(), same) - wanted_.begin());
     if (i == wanted_.size())
-      add("there is no argument " + word + nearest(word, wanted_));
+      add("there is no argument " + word + nearest(word, names));
     else if (values_[i])
       add(word + " is given twice");
     else

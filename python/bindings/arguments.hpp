@@ -9,6 +9,9 @@
 
 namespace punctura::bindings {
 
+/// "; did you mean friction?", or nothing where no word is near.
+std::string nearest(const std::string& word, const nb::list& words);
+
 struct Argument {
   const char* name;
   const char* type;        ///< as a type checker writes it

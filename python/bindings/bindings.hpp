@@ -8,9 +8,13 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <vector>
 
+#include "punctura/model/thick_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/solver.hpp"
@@ -40,6 +44,12 @@ Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);
 using Triple = std::array<double, 3>;
 
+/// Three numbers of one call: a NumPy vector is read as fast as a list.
+struct Point {
+  Triple numbers;
+  Vector3d vector() const noexcept { return Vector3d(numbers); }
+};
+
 /// Hands a buffer to NumPy without a copy, in the shape given.
 template <typename T>
 nb::object to_numpy(std::vector<T>&& buffer, const std::vector<std::size_t>& shape) {
@@ -64,6 +74,17 @@ class Rows {
   std::size_t stride_;
 };
 
+/// Laws that know what they were made of.
+struct GivenThinLaw : ThinLaw {
+  Needle needle;
+  Membrane membrane;
+};
+struct GivenThickLaw : ThickLaw {
+  Needle needle;
+  Membrane membrane;
+  double obliquity;
+};
+
 /// Every bound that a needle, a membrane or the pair of them breaks.
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
 /// Throws punctura.ConfigurationError that carries every problem, if there is one.
@@ -79,3 +100,36 @@ std::string name_of(Solver solver);
 Vector3d unit(const Triple& direction, const std::string& path);
 
 }  // namespace punctura::bindings
+
+template <>
+struct nanobind::detail::type_caster<punctura::bindings::Point> {
+  NB_TYPE_CASTER(punctura::bindings::Point, const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating]"))
+
+  bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
+    if (!PyList_Check(from.ptr()) && !PyTuple_Check(from.ptr()) && read_buffer(from.ptr())) return true;
+    make_caster<punctura::bindings::Triple> triple;
+    if (!triple.from_python(from, flags, cleanup)) return false;
+    value.numbers = triple.value;
+    return true;
+  }
+
+ private:
+  /// Of three doubles in a row.
+  bool read_buffer(PyObject* from) noexcept {
+    if (!PyObject_CheckBuffer(from)) return false;
+    Py_buffer view;
+    if (PyObject_GetBuffer(from, &view, PyBUF_FORMAT | PyBUF_STRIDES) != 0) {
+      PyErr_Clear();
+      return false;
+    }
+    const bool fits =
+        view.ndim == 1 && view.shape[0] == 3 && view.format != nullptr && view.format[0] == 'd' && view.format[1] == 0;
+    if (fits)
+      for (std::size_t i = 0; i < 3; ++i)
+        std::memcpy(&value.numbers[i],
+                    static_cast<const char*>(view.buf) + static_cast<std::ptrdiff_t>(i) * view.strides[0],
+                    sizeof(double));
+    PyBuffer_Release(&view);
+    return fits;
+  }
+};

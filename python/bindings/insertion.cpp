@@ -4,12 +4,28 @@
 #include "bindings.hpp"
 #include "insertion_trace.hpp"
 #include "punctura/scene/build.hpp"
+#include "state.hpp"
 #include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
 
-InsertionTrace run(Insertion& insertion, const nb::object& positions, const nb::object& axis) {
+/// An insertion that knows its scene.
+struct SceneInsertion : Insertion {
+  explicit SceneInsertion(Scene given) : Insertion(build_insertion(given)), scene(std::move(given)) {}
+  Scene scene;
+
+  std::vector<std::byte> save() const { return save_state<Insertion>(*this); }
+  bool load(std::span<const std::byte> state) { return load_state<Insertion>(*this, state); }
+  nb::tuple arguments() const { return nb::make_tuple(scene); }
+};
+
+std::array<double, 3> step(Insertion& insertion, const Point& p, const Point& axis) {
+  check_finite(p.numbers.data(), 3, "p");
+  return plain(insertion.step(p.vector(), insertion.uses_axis() ? direction(axis.numbers) : Vector3d()));
+}
+
+InsertionTrace run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
@@ -37,37 +53,38 @@ void bind_insertion(nb::module_& m) {
       nb::sig("def force(self) -> numpy.typing.NDArray[numpy.float64]"), "On the device, (n, 3), N");
   def_membrane_columns(trace);
 
-  nb::class_<Insertion>(
+  auto insertion = nb::class_<SceneInsertion>(
       m, "Insertion",
       "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
-      "The model's own force: no safety limits.")
+      "The model's own force: no safety limits.");
+  def_state(insertion);
+  insertion
       .def(
           "__init__",
-          [](Insertion* self, const Scene& scene) {
+          [](SceneInsertion* self, const Scene& scene) {
             raise_if(check(scene));
-            new (self) Insertion(build_insertion(scene));
+            new (self) SceneInsertion(scene);
           },
           nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
+      .def_ro("scene", &SceneInsertion::scene)
+      .def("reset", &SceneInsertion::reset, "Forgets all motion.")
       .def(
-          "__copy__", [](const Insertion& i) { return Insertion(i); }, "One that goes on to the same bits.")
-      .def(
-          "__deepcopy__", [](const Insertion& i, const nb::dict&) { return Insertion(i); }, nb::arg("memo"),
-          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Insertion"))
-      .def("reset", &Insertion::reset, "Forgets all motion.")
-      .def(
-          "step",
-          [](Insertion& insertion, const Triple& p, const Triple& axis) {
-            check_finite(p.data(), 3, "p");
-            return plain(insertion.step(vector(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
-          },
+          "step", [](SceneInsertion& self, const Point& p, const Point& axis) { return step(self, p, axis); },
           nb::arg("p"), nb::arg("axis"),
           "One tick: measured position (m) and direction of the needle give the force on the device (N).")
+      .def(
+          "peek",
+          [](const SceneInsertion& self, const Point& p, const Point& axis) {
+            Insertion copy = self;
+            return step(copy, p, axis);
+          },
+          nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> InsertionTrace"),
            "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.")
       .def_prop_ro(
-          "tip", [](const Insertion& i) { return plain(i.tip()); }, "The conditioned position, m")
-      .def_prop_ro("force", [](const Insertion& i) { return plain(i.force()); }, "N");
+          "tip", [](const SceneInsertion& i) { return plain(i.tip()); }, "The conditioned position, m")
+      .def_prop_ro("force", [](const SceneInsertion& i) { return plain(i.force()); }, "N");
 }
 
 }  // namespace punctura::bindings

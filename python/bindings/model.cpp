@@ -1,7 +1,6 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
 #include "arguments.hpp"
 #include "bindings.hpp"
-#include "punctura/model/thick_law.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
@@ -45,21 +44,23 @@ Membrane make_membrane(double stiffness, double precompression, double friction,
   return made;
 }
 
-ThinLaw make_thin_law(const Needle& needle, const Membrane& membrane) {
+GivenThinLaw make_thin_law(Needle needle, Membrane membrane) {
   raise_if(problems_of(needle, membrane));
-  return {needle, membrane};
+  return {{needle, membrane}, needle, membrane};
 }
 
-ThickLaw make_thick_law(const Needle& needle, const Membrane& membrane, double obliquity) {
+GivenThickLaw make_thick_law(Needle needle, Membrane membrane, double obliquity) {
   auto problems = problems_of(needle, membrane);
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);
-  return {needle, membrane, obliquity};
+  return {{needle, membrane, obliquity}, needle, membrane, obliquity};
 }
 
 template <typename L>
 nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
   return nb::class_<L>(m, name, doc)
+      .def_ro("needle", &L::needle)
+      .def_ro("membrane", &L::membrane)
       .def_prop_ro(
           "X", [](const L& l) { return l.constants().X; }, "Length of the tip, m. K06 (15)")
       .def_prop_ro(
@@ -115,17 +116,20 @@ void bind_model(nb::module_& m) {
            &make_membrane, "Raises ConfigurationError.");
   def_value(membrane, {"stiffness", "precompression", "friction", "thickness"});
 
-  auto thin =
-      bind_law<ThinLaw>(m, "ThinLaw", "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");
+  auto thin = bind_law<GivenThinLaw>(m, "ThinLaw",
+                                     "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");
   def_init(thin, {{"needle", "Needle"}, {"membrane", "Membrane"}}, &make_thin_law,
            "Raises ConfigurationError with every bound that is broken.");
+  def_value(thin, {"needle", "membrane"});
 
-  auto thick = bind_law<ThickLaw>(m, "ThickLaw",
-                                  "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)");
+  auto thick = bind_law<GivenThickLaw>(m, "ThickLaw",
+                                       "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)");
   def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
            &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.");
-  thick.def_prop_ro("H", &ThickLaw::thickness, "Thickness, m")
-      .def_prop_ro("U", &ThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");
+  def_value(thick, {"needle", "membrane", "obliquity"});
+  thick.def_ro("obliquity", &GivenThickLaw::obliquity, "beta, rad")
+      .def_prop_ro("H", &GivenThickLaw::thickness, "Thickness, m")
+      .def_prop_ro("U", &GivenThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");
 }
 
 }  // namespace punctura::bindings

@@ -1,9 +1,16 @@
 // Table of contents: one file per room of core/punctura.
+#include <string>
+
 #include "bindings.hpp"
 
 NB_MODULE(_core, m) {
   using namespace punctura::bindings;
   m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
+  m.def("version", [] { return PUNCTURA_VERSION; }, "Of Punctura.");
+  const std::string base = nb::cast<std::string>(m.attr("__name__")) + ".PuncturaError";
+  m.attr("PuncturaError") = nb::steal(PyErr_NewExceptionWithDoc(
+      base.c_str(), "The base of every exception of Punctura's own. An argument of a wrong type raises TypeError.",
+      nullptr, nullptr));
   bind_model(m);
   bind_proxy(m);
   bind_scene(m);

@@ -3,9 +3,9 @@
 
 #include "arguments.hpp"
 #include "bindings.hpp"
-#include "punctura/model/thick_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"
+#include "state.hpp"
 #include "ticks.hpp"
 #include "value.hpp"
 
@@ -22,21 +22,27 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
     problems.push_back({"period", period, "must be less than 1 s: the period of a tick is wanted, not its rate in Hz"});
 }
 
-/// One Python class for proxies on either law.
-class AnyProxy1d {
- public:
-  using Thin = Proxy1d<ThinLaw>;
-  using Thick = Proxy1d<ThickLaw>;
+using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw>;
 
-  AnyProxy1d(const std::variant<ThinLaw, ThickLaw>& law, const Coupling& coupling, double period, Solver solver)
-      : proxy_(std::visit(
-            [&](const auto& l) -> std::variant<Thin, Thick> { return Proxy1d(l, coupling, period, solver); }, law)) {}
+/// One Python class for proxies on either law, which knows what it was made of.
+class LineProxy {
+ public:
+  LineProxy(GivenLaw law, const Coupling& coupling, double period, Solver solver)
+      : law_(std::move(law)), coupling_(coupling), period_(period), solver_(solver), proxy_(made()) {}
 
   template <typename Function>
   auto visit(Function&& function) {
     return std::visit(function, proxy_);
   }
+  template <typename Function>
+  auto visit(Function&& function) const {
+    return std::visit(function, proxy_);
+  }
 
+  double peek(double depth) const {
+    check_finite(&depth, 1, "p");
+    return visit([&](auto proxy) { return proxy.step(depth); });
+  }
   nb::object run(const nb::object& depths) {
     const Input p = input_1d(depths, "p");
     check_finite(p.data(), p.size(), "p", 1);
@@ -45,11 +51,43 @@ class AnyProxy1d {
     return to_numpy(std::move(f), {p.size()});
   }
 
+  std::vector<std::byte> save() const {
+    return visit([](const auto& proxy) { return save_state(proxy); });
+  }
+  bool load(std::span<const std::byte> state) {
+    return visit([&](auto& proxy) { return load_state(proxy, state); });
+  }
+  nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
+
  private:
-  std::variant<Thin, Thick> proxy_;
+  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>>;
+  Proxies made() const {
+    if (const auto* thin = std::get_if<GivenThinLaw>(&law_))
+      return Proxy1d<ThinLaw>(*thin, coupling_, period_, solver_);
+    return Proxy1d<ThickLaw>(std::get<GivenThickLaw>(law_), coupling_, period_, solver_);
+  }
+
+  GivenLaw law_;
+  Coupling coupling_;
+  double period_;
+  Solver solver_;
+  Proxies proxy_;
 };
 
-using Proxy = Proxy3d<ThickLaw>;
+/// A proxy in space, which knows what it was made of.
+struct SpaceProxy : Proxy3d<ThickLaw> {
+  Needle needle;
+  Membrane membrane;
+  Triple point, inward_normal;
+  Coupling coupling;
+  double period;
+
+  std::vector<std::byte> save() const { return save_state<Proxy3d<ThickLaw>>(*this); }
+  bool load(std::span<const std::byte> state) { return load_state<Proxy3d<ThickLaw>>(*this, state); }
+  nb::tuple arguments() const {
+    return nb::make_tuple(needle, membrane, point, inward_normal, coupling, period, name_of(solver()));
+  }
+};
 
 Coupling make_coupling(double stiffness, double damping) {
   const Coupling made{stiffness, damping};
@@ -60,25 +98,31 @@ Coupling make_coupling(double stiffness, double damping) {
   return made;
 }
 
-AnyProxy1d make_line(std::variant<ThinLaw, ThickLaw> law, Coupling coupling, double period, std::string solver) {
+LineProxy make_line(GivenLaw law, Coupling coupling, double period, std::string solver) {
   std::vector<Problem> problems;
   check_coupling(coupling, period, problems);
   raise_if(problems);
-  return {law, coupling, period, solver_from(solver)};
+  return {std::move(law), coupling, period, solver_from(solver)};
 }
 
-Proxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling, double period,
-                 std::string solver) {
+SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling,
+                      double period, std::string solver) {
   auto problems = problems_of(needle, membrane);
   check_coupling(coupling, period, problems);
   if (!vector(point).allFinite())
     problems.push_back({"point", detail::offender(point), "must be three finite numbers"});
   raise_if(problems);
-  return {ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling, period,
-          solver_from(solver)};
+  return {{ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling, period,
+           solver_from(solver)},
+          needle,
+          membrane,
+          point,
+          inward_normal,
+          coupling,
+          period};
 }
 
-nb::object run_3d(Proxy& proxy, const nb::object& positions, const nb::object& axis) {
+nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::object& axis) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
@@ -113,42 +157,39 @@ void bind_proxy(nb::module_& m) {
   def_init(coupling, {{"stiffness", "float"}, {"damping", "float"}}, &make_coupling, "Raises ConfigurationError.");
   def_value(coupling, {"stiffness", "damping"});
 
-  auto line = nb::class_<AnyProxy1d>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)");
+  auto line = nb::class_<LineProxy>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line,
            {{"law", "ThinLaw | ThickLaw"},
             {"coupling", "Coupling"},
             {"period", "float"},
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
            &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
+  def_state(line);
   line.def(
-          "__copy__", [](const AnyProxy1d& p) { return AnyProxy1d(p); }, "One that goes on to the same bits.")
-      .def(
-          "__deepcopy__", [](const AnyProxy1d& p, const nb::dict&) { return AnyProxy1d(p); }, nb::arg("memo"),
-          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Proxy1d"))
-      .def(
-          "reset", [](AnyProxy1d& p) { p.visit([](auto& x) { x.reset(); }); }, "Forgets all motion.")
+          "reset", [](LineProxy& p) { p.visit([](auto& x) { x.reset(); }); }, "Forgets all motion.")
       .def(
           "step",
-          [](AnyProxy1d& p, double depth) {
+          [](LineProxy& p, double depth) {
             check_finite(&depth, 1, "p");
             return p.visit([&](auto& x) { return x.step(depth); });
           },
           nb::arg("p"), "One tick: p, the device's depth (m), gives the force on the device (N).")
-      .def("run", &AnyProxy1d::run, nb::arg("p"),
+      .def("peek", &LineProxy::peek, nb::arg("p"), "What step(p) would give, without that tick.")
+      .def("run", &LineProxy::run, nb::arg("p"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
            "Many ticks, from the present state on: p (n,), m, gives f (n,), N.")
       .def_prop_ro(
-          "force", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
+          "force", [](LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
       .def_prop_ro(
-          "offset", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.offset(); }); }, "e(k) = q(k) - p(k), m")
+          "offset", [](LineProxy& p) { return p.visit([](auto& x) { return x.offset(); }); }, "e(k) = q(k) - p(k), m")
       .def_prop_ro(
-          "position", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.position(); }); }, "q(k), m")
+          "position", [](LineProxy& p) { return p.visit([](auto& x) { return x.position(); }); }, "q(k), m")
       .def_prop_ro(
-          "depth", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.depth(); }); },
+          "depth", [](LineProxy& p) { return p.visit([](auto& x) { return x.depth(); }); },
           "Where the band was taken, m: q(k), or q*(k) with the paper's solver")
-      .def_prop_ro("phase", [](AnyProxy1d& p) { return p.visit([](auto& x) { return x.phase(); }); });
+      .def_prop_ro("phase", [](LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); });
 
-  auto space = nb::class_<Proxy>(m, "Proxy3d", "The proxy of one membrane in space. K06 section 3.2, (41)");
+  auto space = nb::class_<SpaceProxy>(m, "Proxy3d", "The proxy of one membrane in space. K06 section 3.2, (41)");
   def_init(
       space,
       {{"needle", "Needle"},
@@ -160,41 +201,46 @@ void bind_proxy(nb::module_& m) {
        {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
       &make_space,
       "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.");
-  space.def(
-           "__copy__", [](const Proxy& p) { return Proxy(p); }, "One that goes on to the same bits.")
-      .def(
-          "__deepcopy__", [](const Proxy& p, const nb::dict&) { return Proxy(p); }, nb::arg("memo"),
-          nb::sig("def __deepcopy__(self, memo: dict[int, typing.Any]) -> Proxy3d"))
-      .def("reset", &Proxy::reset, "Forgets all motion. A start inside gives no force until the tip has been outside.")
+  def_state(space);
+  space
+      .def("reset", &SpaceProxy::reset,
+           "Forgets all motion. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
-          [](Proxy& proxy, const Triple& p, const Triple& axis) {
-            check_finite(p.data(), 3, "p");
-            return plain(proxy.step(vector(p), direction(axis)));
+          [](SpaceProxy& proxy, const Point& p, const Point& axis) {
+            check_finite(p.numbers.data(), 3, "p");
+            return plain(proxy.step(p.vector(), direction(axis.numbers)));
           },
           nb::arg("p"), nb::arg("axis"),
           "One tick: position p (m) and direction of the needle give the force on the device (N).")
+      .def(
+          "peek",
+          [](const SpaceProxy& proxy, const Point& p, const Point& axis) {
+            check_finite(p.numbers.data(), 3, "p");
+            return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
+          },
+          nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
       .def(
           "run", &run_3d, nb::arg("p"), nb::arg("axis"),
           nb::sig(
               "def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
           "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,). Gives f (n, 3), N.")
       .def_prop_ro(
-          "force", [](const Proxy& p) { return plain(p.force()); }, "f(k), N")
+          "force", [](const SpaceProxy& p) { return plain(p.force()); }, "f(k), N")
       .def_prop_ro(
-          "offset", [](const Proxy& p) { return plain(p.offset()); }, "e(k) = q(k) - p(k), m")
+          "offset", [](const SpaceProxy& p) { return plain(p.offset()); }, "e(k) = q(k) - p(k), m")
       .def_prop_ro(
-          "position", [](const Proxy& p) { return plain(p.position()); }, "q(k), m")
+          "position", [](const SpaceProxy& p) { return plain(p.position()); }, "q(k), m")
       .def_prop_ro(
-          "direction", [](const Proxy& p) { return plain(p.direction()); }, "b, held from entry on")
-      .def_prop_ro("axial_force", &Proxy::axial_force, "b.f(k), N")
+          "direction", [](const SpaceProxy& p) { return plain(p.direction()); }, "b, held from entry on")
+      .def_prop_ro("axial_force", &SpaceProxy::axial_force, "b.f(k), N")
       .def_prop_ro(
-          "depth", &Proxy::depth,
+          "depth", &SpaceProxy::depth,
           "Inside: along b, m, of q(k), or of q*(k) with the paper's solver. Else along the normal from the surface")
       .def_prop_ro(
-          "bounds", [](const Proxy& p) { return std::array<double, 2>{p.band().lower, p.band().upper}; },
+          "bounds", [](const SpaceProxy& p) { return std::array<double, 2>{p.band().lower, p.band().upper}; },
           "The band that bounds the axial force, (lower, upper), N; (0, 0) outside")
-      .def_prop_ro("phase", &Proxy::phase);
+      .def_prop_ro("phase", &SpaceProxy::phase);
 }
 
 }  // namespace punctura::bindings

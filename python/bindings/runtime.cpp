@@ -75,7 +75,7 @@ constexpr const char* read_doc =
 }  // namespace
 
 void bind_runtime(nb::module_& m) {
-  nb::exception<DeviceError>(m, "DeviceError", PyExc_RuntimeError);
+  nb::exception<DeviceError>(m, "DeviceError", nb::make_tuple(m.attr("PuncturaError"), nb::borrow(PyExc_RuntimeError)));
 
   nb::class_<Device>(m, "Device", "An open haptic device. It calls the tick from a thread of its own.")
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)

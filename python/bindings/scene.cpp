@@ -3,7 +3,7 @@
 
 #include "arguments.hpp"
 #include "bindings.hpp"
-#include "punctura/scene/check.hpp"
+#include "punctura/scene/values.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
@@ -39,9 +39,71 @@ Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector
   return made;
 }
 
-template <std::size_t n>
-void describe_fields(nb::list& out, const char* path, const Field (&fields)[n]) {
-  const auto text = [](std::string_view s) { return nb::str(s.data(), s.size()); };
+nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
+
+/// A number of one scene: what it is, and what it may be.
+struct SceneField {
+  std::string path;
+  double value;
+  Field field;
+};
+
+nb::list fields_of(const Scene& scene) {
+  nb::list all;
+  for_each_value(scene, [&](const std::string& path, const Field& field, double value) {
+    all.append(SceneField{path, value, field});
+  });
+  return all;
+}
+
+Scene with_values(Scene scene, const nb::dict& values) {
+  std::vector<Problem> problems;
+  for (const auto& [key, given] : values) {
+    if (!nb::isinstance<nb::str>(key))
+      throw nb::type_error("with_values(): paths must be str: {\"membrane[0].friction\": 0.3}");
+    const auto path = nb::cast<std::string>(key);
+    double number = 0;
+    try {
+      number = nb::cast<double>(given);
+    } catch (const nb::cast_error&) {
+      throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
+    }
+    if (double* place = value_at(scene, path)) {
+      *place = number;
+      continue;
+    }
+    nb::list paths;
+    for (nb::handle field : fields_of(scene)) paths.append(field.attr("path"));
+    problems.push_back(
+        {path, number, "is not a number of this scene (scene.fields() lists them)" + nearest(path, paths)});
+  }
+  for (const Problem& problem : check(scene)) problems.push_back(problem);
+  raise_if(problems);
+  return scene;
+}
+
+void bind_scene_field(nb::module_& m) {
+  nb::class_<SceneField>(m, "SceneField", "A number of a scene: its path, its value and its bounds, in SI units.")
+      .def_ro("path", &SceneField::path, "As in problems: membrane[0].friction")
+      .def_ro("value", &SceneField::value)
+      .def_prop_ro(
+          "symbol", [](const SceneField& f) { return text(f.field.symbol); }, "K06's")
+      .def_prop_ro("unit", [](const SceneField& f) { return text(f.field.unit); })
+      .def_prop_ro("min", [](const SceneField& f) { return f.field.range.min; })
+      .def_prop_ro("max", [](const SceneField& f) { return f.field.range.max; })
+      .def_prop_ro(
+          "min_open", [](const SceneField& f) { return f.field.range.min_open; }, "The bound itself is not allowed")
+      .def_prop_ro(
+          "max_open", [](const SceneField& f) { return f.field.range.max_open; }, "The bound itself is not allowed")
+      .def("__repr__", [](nb::handle self) -> nb::str {
+        const nb::str form("SceneField(path={!r}, value={!r}, unit={!r}, min={!r}, max={!r})");
+        return nb::str(form.attr("format")(self.attr("path"), self.attr("value"), self.attr("unit"), self.attr("min"),
+                                           self.attr("max")));
+      });
+}
+
+template <typename Owner, std::size_t n>
+void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fields)[n]) {
   for (const Field& field : fields) {
     nb::dict d;
     d["path"] = std::string(path) + "." + std::string(field.name);
@@ -101,6 +163,7 @@ void bind_scene(nb::module_& m) {
       "off), or \"line_fit\", for a device whose encoders count in steps of encoder_step (m; 0 is off).");
   def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
 
+  bind_scene_field(m);
   auto scene =
       nb::class_<Scene>(m, "Scene", "Everything a run needs, checked as a whole.")
           .def_ro("name", &Scene::name)
@@ -112,7 +175,13 @@ void bind_scene(nb::module_& m) {
           .def_ro("servo", &Scene::servo)
           .def_prop_ro(
               "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
-              nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"");
+              nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
+          .def("fields", &fields_of, nb::sig("def fields(self) -> list[SceneField]"),
+               "Every number of the scene with its path, unit and bounds.")
+          .def(
+              "with_values", &with_values, nb::arg("values"),
+              nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
+              "The same with other numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises ConfigurationError.");
   def_init(
       scene,
       {{"name", "str"},

@@ -2,6 +2,7 @@
 
 from punctura._core import (
     Coupling,
+    DeviceError,
     Experiment,
     ExperimentTrace,
     Hand,
@@ -14,21 +15,27 @@ from punctura._core import (
     Plant,
     Proxy1d,
     Proxy3d,
+    PuncturaError,
     RecordedMotion,
     Scene,
+    SceneField,
     ServoSettings,
     Strokes,
     Target,
     ThickLaw,
     ThinLaw,
+    version,
 )
 from punctura.errors import ConfigurationError, Problem
 from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
 from punctura.simulation import MotionError, SimulationSummary, simulate
 
+__version__ = version()
+
 __all__ = [
     "ConfigurationError",
     "Coupling",
+    "DeviceError",
     "Experiment",
     "ExperimentTrace",
     "Hand",
@@ -43,14 +50,17 @@ __all__ = [
     "Problem",
     "Proxy1d",
     "Proxy3d",
+    "PuncturaError",
     "RecordedMotion",
     "Scene",
+    "SceneField",
     "ServoSettings",
     "SimulationSummary",
     "Strokes",
     "Target",
     "ThickLaw",
     "ThinLaw",
+    "__version__",
     "load_scene",
     "save_scene",
     "scene_json_schema",

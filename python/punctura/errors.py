@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
+from punctura._core import PuncturaError
+
 
 class _Missing:
     """Stands for the value of a field that is not there."""
@@ -33,7 +35,7 @@ def _brief(text: str) -> str:
     return text if len(text) <= 200 else f"{text[:150]} ... ({len(text)} characters)"
 
 
-class ConfigurationError(ValueError):
+class ConfigurationError(PuncturaError, ValueError):
     """A needle, membrane or scene that cannot be. `problems` holds every one of its faults."""
 
     def __init__(self, problems: Sequence[Problem], source: str = "") -> None:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <numbers>
@@ -33,33 +34,46 @@ struct Range {
   }
 };
 
-/// A field with its range: the name that stands in the struct, the symbol of K06, the unit.
+/// A quantity with its range: its name, the symbol of K06, the unit.
 struct Field {
   std::string_view name, symbol, unit;
   Range range;
 };
 
-inline constexpr double no_bound = std::numeric_limits<double>::infinity();
-
-inline constexpr Field needle_fields[] = {
-    {"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"}},
-    {"tip_angle",
-     "theta",
-     "rad",
-     {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"}},
+/// A field of a struct: what it is, and where it stands.
+template <typename Owner>
+struct FieldOf : Field {
+  double Owner::* member;
 };
 
-inline constexpr Field membrane_fields[] = {
-    {"stiffness",
-     "kappa",
-     "N/m",
-     {0, no_bound, true, true, "must be greater than 0: Q = c/(kappa tan(theta)), K06 (15)"}},
-    {"precompression", "c", "N", {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"}},
-    {"friction",
-     "mu",
-     "-",
-     {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"}},
-    {"thickness", "H", "m", {0, no_bound, false, true, "must be 0 (the thin law) or more"}},
+inline constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+inline constexpr FieldOf<Needle> needle_fields[] = {
+    {{"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"}}, &Needle::diameter},
+    {{"tip_angle",
+      "theta",
+      "rad",
+      {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"}},
+     &Needle::tip_angle},
+};
+
+inline constexpr FieldOf<Membrane> membrane_fields[] = {
+    {{"stiffness",
+      "kappa",
+      "N/m",
+      {0, no_bound, true, true, "must be greater than 0: Q = c/(kappa tan(theta)), K06 (15)"}},
+     &Membrane::stiffness},
+    {{"precompression",
+      "c",
+      "N",
+      {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"}},
+     &Membrane::precompression},
+    {{"friction",
+      "mu",
+      "-",
+      {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"}},
+     &Membrane::friction},
+    {{"thickness", "H", "m", {0, no_bound, false, true, "must be 0 (the thin law) or more"}}, &Membrane::thickness},
 };
 
 /// The angle between the needle and the membrane's inward normal. K06 Fig. 4.
@@ -78,17 +92,21 @@ inline bool check_field(const Field& field, double v, const std::string& path, s
   return false;
 }
 
+/// Adds a problem for each field of `owner` that is outside its range. Returns whether there is none.
+template <typename Owner, std::size_t n>
+bool check_fields(const FieldOf<Owner> (&fields)[n], const Owner& owner, const std::string& path,
+                  std::vector<Problem>& problems) {
+  bool good = true;
+  for (const auto& field : fields) good &= check_field(field, owner.*field.member, path, problems);
+  return good;
+}
+
 inline bool check(const Needle& needle, const std::string& path, std::vector<Problem>& problems) {
-  const bool diameter = check_field(needle_fields[0], needle.diameter, path, problems);
-  const bool tip_angle = check_field(needle_fields[1], needle.tip_angle, path, problems);
-  return diameter && tip_angle;
+  return check_fields(needle_fields, needle, path, problems);
 }
 
 inline bool check(const Membrane& membrane, const std::string& path, std::vector<Problem>& problems) {
-  const double values[] = {membrane.stiffness, membrane.precompression, membrane.friction, membrane.thickness};
-  bool good = true;
-  for (std::size_t i = 0; i < 4; ++i) good &= check_field(membrane_fields[i], values[i], path, problems);
-  return good;
+  return check_fields(membrane_fields, membrane, path, problems);
 }
 
 /// K06 (7): insertion is possible at all only where mu tan(theta) < 1. Call it with a sound needle and membrane.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,22 @@ class EntryDirection {
   /// Goes on with the history of another one of the same period, which loses it. Takes no memory.
   void resume(EntryDirection& previous) noexcept {
     if (previous.recent_.size() == recent_.size()) std::swap(*this, previous);
+  }
+
+  template <typename Archive>
+  void archive(Archive& state) {
+    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
+    state.index(ticks_, any);
+    state.index(head_, path_.size());
+    state.index(tail_, path_.size());
+    state.number(length_);
+    state.number(last_);
+    for (Vector& point : recent_) state.number(point);
+    for (Mark& mark : path_) {
+      state.number(mark.point);
+      state.number(mark.length);
+      state.index(mark.tick, any);
+    }
   }
 
   /// One tick: p (m), the filtered tip, gives the direction in which it has come.

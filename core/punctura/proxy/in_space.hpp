@@ -45,6 +45,17 @@ struct SpaceState {
   PiecesOf<L> pieces{};  ///< of the law for cos_beta, while inside
   typename MemoryOf<L>::type law{};
   typename C::template Memory<Vector> coupling{};
+
+  /// Without the pieces: lay_out() makes them of the rest.
+  template <typename Archive>
+  void archive(Archive& state) {
+    state.flag(started);
+    state.choice(phase, Phase::barred);
+    for (Vector* vector : {&p, &e, &f, &b}) state.number(*vector);
+    state.number(cos_beta);
+    state.memory(law);
+    state.memory(coupling);
+  }
 };
 
 /// What a tick gives.
@@ -58,6 +69,13 @@ struct SpaceTick {
   Scalar depth;
   Band<Scalar> band;  ///< bounds the axial force, N: taken at depth, 0 outside
   Phase phase;
+
+  template <typename Archive>
+  void archive(Archive& state) {
+    for (Vector3<Scalar>* vector : {&force, &proxy, &direction}) state.number(*vector);
+    for (Scalar* number : {&axial_force, &depth, &band.lower, &band.upper}) state.number(*number);
+    state.choice(phase, Phase::barred);
+  }
 };
 
 /// Lays the law out for the needle as it stands in the membrane, and the membrane as it is now.

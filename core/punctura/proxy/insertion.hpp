@@ -88,6 +88,15 @@ class InsertionOf {
     return force_;
   }
 
+  template <typename Archive>
+  void archive(Archive& state) {
+    conditioner_.archive(state);
+    if (from_motion_) from_motion_->archive(state);
+    for (Proxy& proxy : proxies_) proxy.archive(state);
+    state.number(tip_);
+    state.number(force_);
+  }
+
   const Vector& tip() const noexcept { return tip_; }      ///< the conditioned position, m
   const Vector& force() const noexcept { return force_; }  ///< the sum of all membranes, N
   bool uses_axis() const noexcept { return !from_motion_; }

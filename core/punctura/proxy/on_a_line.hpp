@@ -30,6 +30,15 @@ struct LineState {
   Scalar f{};  ///< f(k), N
   typename MemoryOf<L>::type law{};
   typename C::template Memory<Scalar> coupling{};
+
+  template <typename Archive>
+  void archive(Archive& state) {
+    state.flag(started);
+    state.choice(phase, Phase::barred);
+    for (Scalar* number : {&p, &e, &f}) state.number(*number);
+    state.memory(law);
+    state.memory(coupling);
+  }
 };
 
 /// What a tick gives.
@@ -40,6 +49,12 @@ struct LineTick {
   Scalar depth;       ///< where the band was taken, m: q(k), or q* with the paper's solver
   Band<Scalar> band;  ///< N, at depth
   Phase phase;
+
+  template <typename Archive>
+  void archive(Archive& state) {
+    for (Scalar* number : {&force, &proxy, &depth, &band.lower, &band.upper}) state.number(*number);
+    state.choice(phase, Phase::barred);
+  }
 };
 
 /// The pieces of the law as the membrane is now.

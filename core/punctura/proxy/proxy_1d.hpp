@@ -42,7 +42,14 @@ class Proxy1d {
     tick_.phase = state.phase;
   }
 
+  template <typename Archive>
+  void archive(Archive& state) {
+    state_.archive(state);
+    tick_.archive(state);
+  }
+
   const Params& params() const noexcept { return params_; }
+  Solver solver() const noexcept { return solver_; }
   const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
   const L& law() const noexcept { return params_.law; }
   Scalar force() const noexcept { return state_.f; }                ///< f(k), N

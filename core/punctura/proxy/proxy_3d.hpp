@@ -59,7 +59,15 @@ class Proxy3d {
     tick_ = {};  // until the next step
     tick_.phase = state.phase;
   }
+  template <typename Archive>
+  void archive(Archive& state) {
+    state_.archive(state);
+    tick_.archive(state);
+    if (Archive::reading && inside(state_.phase)) lay_out(params_, state_);
+  }
+
   const Params& params() const noexcept { return params_; }
+  Solver solver() const noexcept { return solver_; }
   const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
   const L& law() const noexcept { return params_.law; }
   const Vector& force() const noexcept { return state_.f; }          ///< f(k), N

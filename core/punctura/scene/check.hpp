@@ -14,39 +14,45 @@
 
 namespace punctura {
 
-inline constexpr Field coupling_fields[] = {
-    {"stiffness",
-     "K",
-     "N/m",
-     {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
-    {"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}},
+inline constexpr FieldOf<Coupling> coupling_fields[] = {
+    {{"stiffness",
+      "K",
+      "N/m",
+      {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
+     &Coupling::stiffness},
+    {{"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}}, &Coupling::damping},
 };
 
-inline constexpr Field servo_fields[] = {
-    {"rate",
-     "1/T",
-     "Hz",
-     {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
-    {"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}},
-    {"encoder_step",
-     "-",
-     "m",
-     {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"}},
+inline constexpr FieldOf<ServoSettings> servo_fields[] = {
+    {{"rate",
+      "1/T",
+      "Hz",
+      {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
+     &ServoSettings::rate},
+    {{"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}}, &ServoSettings::low_pass},
+    {{"encoder_step",
+      "-",
+      "m",
+      {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"}},
+     &ServoSettings::encoder_step},
 };
 
-inline constexpr Field gate_fields[] = {
-    {"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}},
-    {"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
-    {"deadline", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
-    {"axis_tolerance", "-", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"}},
+inline constexpr FieldOf<GateLimits> gate_fields[] = {
+    {{"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::max_speed},
+    {{"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::stale},
+    {{"deadline", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::deadline},
+    {{"axis_tolerance", "-", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"}},
+     &GateLimits::axis_tolerance},
 };
 
-inline constexpr Field limit_fields[] = {
-    {"max_force", "-", "N", {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"}},
-    {"continuous_force", "-", "N", {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"}},
-    {"continuous_time", "-", "s", {0, no_bound, true, true, "must be greater than 0"}},
-    {"ramp_time", "-", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"}},
-    {"warm_motor", "-", "-", {0, 1, false, true, "must be from 0 to below 1"}},
+inline constexpr Range a_force = {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"};
+inline constexpr FieldOf<ForceLimits> limit_fields[] = {
+    {{"max_force", "-", "N", a_force}, &ForceLimits::max_force},
+    {{"continuous_force", "-", "N", a_force}, &ForceLimits::continuous_force},
+    {{"continuous_time", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &ForceLimits::continuous_time},
+    {{"ramp_time", "-", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"}},
+     &ForceLimits::ramp_time},
+    {{"warm_motor", "-", "-", {0, 1, false, true, "must be from 0 to below 1"}}, &ForceLimits::warm_motor},
 };
 
 namespace detail {
@@ -62,9 +68,7 @@ inline double offender(const std::array<double, 3>& v) noexcept {
 }  // namespace detail
 
 inline bool check(const Coupling& coupling, std::vector<Problem>& problems) {
-  const bool stiffness = check_field(coupling_fields[0], coupling.stiffness, "coupling", problems);
-  const bool damping = check_field(coupling_fields[1], coupling.damping, "coupling", problems);
-  return stiffness && damping;
+  return check_fields(coupling_fields, coupling, "coupling", problems);
 }
 
 /// All problems of a scene, each with its path (`membrane[1].friction`), SI value and reason. Empty: it may be built.
@@ -72,9 +76,7 @@ inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
   check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
-  check_field(servo_fields[0], scene.servo.rate, "servo", problems);
-  check_field(servo_fields[1], scene.servo.low_pass, "servo", problems);
-  check_field(servo_fields[2], scene.servo.encoder_step, "servo", problems);
+  check_fields(servo_fields, scene.servo, "servo", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
   if (scene.membranes.size() > max_membranes)
     problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be 64 membranes at most"});
@@ -115,11 +117,8 @@ inline std::vector<Problem> check(const Placement& placement) {
 /// All problems of the safety limits.
 inline std::vector<Problem> check(const GateLimits& gate, const ForceLimits& limits) {
   std::vector<Problem> problems;
-  const double gate_values[] = {gate.max_speed, gate.stale, gate.deadline, gate.axis_tolerance};
-  const double limit_values[] = {limits.max_force, limits.continuous_force, limits.continuous_time, limits.ramp_time,
-                                 limits.warm_motor};
-  for (std::size_t i = 0; i < 4; ++i) check_field(gate_fields[i], gate_values[i], "gate", problems);
-  for (std::size_t i = 0; i < 5; ++i) check_field(limit_fields[i], limit_values[i], "limits", problems);
+  check_fields(gate_fields, gate, "gate", problems);
+  check_fields(limit_fields, limits, "limits", problems);
   return problems;
 }
 

@@ -57,6 +57,13 @@ class PositionConditioner {
     low_pass_.resume(previous.low_pass_);
   }
 
+  template <typename Archive>
+  void archive(Archive& state) {
+    if (fits_)
+      for (auto& line : lines_) line.archive(state);
+    low_pass_.archive(state);
+  }
+
   Vector step(const Vector& measured) noexcept {
     if (!fits_) return low_pass_.step(measured);
     return low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});

@@ -39,6 +39,13 @@ class LineFit {
     started_ = std::exchange(previous.started_, false);
   }
 
+  template <typename Archive>
+  void archive(Archive& state) {
+    state.flag(started_);
+    state.index(newest_, size_);
+    for (Scalar& sample : ring_) state.number(sample);
+  }
+
   Scalar step(Scalar x) noexcept {
     if (tolerance_ == 0) return x;
     if (!started_) std::fill(ring_.begin(), ring_.end(), x);

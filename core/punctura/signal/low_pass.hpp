@@ -24,6 +24,12 @@ class LowPass {
     started_ = previous.started_;
   }
 
+  template <typename Archive>
+  void archive(Archive& state) {
+    state.flag(started_);
+    state.number(y_);
+  }
+
   Value step(const Value& x) noexcept {
     if (off_ || !started_) {
       y_ = x;

@@ -1,7 +1,6 @@
 """Finds the verbs, runs one, and turns what goes wrong into a sentence and an exit status.
 
-0: done. 1: the run failed (a motion that cannot be used, a full disk). 2: called wrongly (usage, scene, paths).
-128 and a signal's number: ended by that signal.
+The statuses stand in _status.py.
 """
 
 from __future__ import annotations
@@ -11,13 +10,14 @@ import os
 import pkgutil
 import sys
 from collections.abc import Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from punctura import PuncturaError, __version__
 from punctura.cli._leave import leave
+from punctura.cli._status import CALLED_WRONGLY, FAILED
 from punctura.cli._streams import (
     StdoutError,
     give_up_stdout,
@@ -29,12 +29,10 @@ from punctura.errors import ConfigurationError
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
 
-FAILED, CALLED_WRONGLY = 1, 2
-
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"punctura {version('punctura')}")
+        typer.echo(f"punctura {__version__}")
         raise typer.Exit
 
 
@@ -51,7 +49,7 @@ def build_app() -> typer.Typer:
     app = typer.Typer(
         callback=_start,
         no_args_is_help=True,
-        add_completion=False,
+        context_settings={"help_option_names": ["-h", "--help"]},  # for every verb
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
     )
@@ -76,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 build_app()(None if arguments is None else list(arguments), prog_name="punctura")
         except ConfigurationError as error:
             _fail(error, CALLED_WRONGLY)
-        except (ValueError, OSError) as error:
+        except (PuncturaError, ValueError, OSError) as error:
             if isinstance(error, StdoutError):
                 give_up_stdout()
             _fail(f"{error}{_where()}", FAILED)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import typer
 
 from punctura._core import Device, Placement, ServoLoop
+from punctura.cli._status import FAILED
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
 from punctura.live import (
@@ -26,7 +27,6 @@ from punctura.live import (
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
-FAILED = 1
 USUAL_SCENE = "k06-fig10"
 
 

@@ -6,6 +6,7 @@ import signal
 import sys
 from typing import NoReturn
 
+from punctura.cli._status import SIGNAL
 from punctura.cli._streams import give_up_stdout
 from punctura.live import Ended
 from punctura.live.signals import ignore_more_signals
@@ -17,4 +18,4 @@ def leave(end: Ended, more: str = "") -> NoReturn:
     give_up_stdout()
     words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}{more}"
     print(f"punctura: {words}", file=sys.stderr)
-    sys.exit(128 + end.number)
+    sys.exit(SIGNAL + end.number)

@@ -10,8 +10,7 @@ from typing import Annotated
 import typer
 
 from punctura.cli._progress import progress_bar
-
-FAILED = 1
+from punctura.cli._status import FAILED
 
 
 def command(

@@ -9,8 +9,7 @@ from typing import Annotated
 import typer
 
 from punctura.cli._progress import progress_bar
-
-DIFFERS = 1
+from punctura.cli._status import FAILED
 
 
 def command(
@@ -44,4 +43,4 @@ def command(
             f"is {first['computed']!r}"
         )
     if not (result.identical and result.complete):
-        raise typer.Exit(DIFFERS)
+        raise typer.Exit(FAILED)

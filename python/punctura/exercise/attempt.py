@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from datetime import datetime, timezone
-from importlib.metadata import version
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Scene
+from punctura import Scene, __version__
 from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
@@ -196,7 +195,7 @@ class Attempt:
             person=person,
             recording=recording,
             date=when.isoformat(timespec="seconds"),
-            version=version("punctura"),
+            version=__version__,
             passed=self.passed,
             reasons=self._reasons() + words.force_cut(self._measures.force_cut),
             goals=self._goals(ended=True),

@@ -14,6 +14,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from punctura._core import PuncturaError
 from punctura.exercise.result import Result
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
@@ -29,7 +30,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-class ResultsError(ValueError):
+class ResultsError(PuncturaError, ValueError):
     """A result that is not there or cannot be read, a name that is none."""
 
 

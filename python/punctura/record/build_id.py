@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import platform
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from punctura import _core
@@ -14,12 +13,8 @@ from punctura import _core
 @cache
 def build_id() -> str:
     """Version, compiler, and a digest of the compiled core itself: two builds of one name compute the same."""
-    try:
-        number = version("punctura")
-    except PackageNotFoundError:
-        number = "unknown"
     digest = hashlib.sha256(Path(_core.__file__).read_bytes()).hexdigest()[:16]
-    return f"punctura {number}; {_core.compiler()}; core {digest}"
+    return f"punctura {_core.version()}; {_core.compiler()}; core {digest}"
 
 
 def machine() -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from punctura._core import PuncturaError
 
-class RecordingError(ValueError):
+
+class RecordingError(PuncturaError, ValueError):
     """A recording that cannot be begun, read or run again: which file, what is wrong, what to do."""

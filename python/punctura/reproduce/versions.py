@@ -5,11 +5,13 @@ from __future__ import annotations
 import platform
 from importlib.metadata import version
 
+from punctura import __version__
+
 
 def versions() -> dict[str, str]:
     """Name and version of what the numbers and pictures depend on."""
     return {
-        "punctura": version("punctura"),
+        "punctura": __version__,
         "python": platform.python_version(),
         "numpy": version("numpy"),
         "matplotlib": version("matplotlib"),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from punctura._core import PuncturaError
 
-class MotionError(ValueError):
+
+class MotionError(PuncturaError, ValueError):
     """A motion file that cannot be used: which file, which line (0 for the file as a whole), what, and what to do."""
 
     def __init__(self, file: str | Path, line: int, what: str) -> None:

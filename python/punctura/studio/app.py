@@ -6,7 +6,6 @@ import asyncio
 import re
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
 
+from punctura import __version__
 from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
 from punctura.studio.catalog import ready_scenes
@@ -32,7 +32,6 @@ from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
 
 _ASSET = re.compile(r"(?<=\")\./assets/[^\"?]+(?=\")")
-VERSION = version("punctura")  # read from a file: once, not for each page
 NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."
 
 
@@ -46,7 +45,7 @@ class Studio:
         info = self.session.bench.device.info
         return Hello(
             protocol=NUMBER,
-            version=VERSION,
+            version=__version__,
             viewer=viewer,
             device=DevicePart(
                 backend=info.backend,

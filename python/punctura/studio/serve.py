@@ -15,7 +15,7 @@ from pathlib import Path
 
 import uvicorn
 
-from punctura._core import DeviceError
+from punctura._core import DeviceError, PuncturaError
 from punctura.exercise import ResultStore
 from punctura.live.signals import ends_on_signals
 from punctura.live.supervisor import Supervisor
@@ -36,7 +36,7 @@ PAGE = Path(__file__).parent / "page"
 TOKEN_VARIABLE = "PUNCTURA_STUDIO_TOKEN"
 
 
-class StudioError(OSError):
+class StudioError(PuncturaError, OSError):
     """The studio cannot be served; the text says what to do."""
 
 

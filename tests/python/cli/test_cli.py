@@ -16,6 +16,7 @@ import pytest
 from heed import heed_signals
 from punctura import scene_names
 from punctura.cli import _progress
+from punctura.cli._status import CALLED_WRONGLY, DONE, FAILED
 
 HEADER = "time_s,x_m,y_m,z_m\n"
 
@@ -46,8 +47,30 @@ def test_without_a_verb_it_lists_the_verbs():
 
 def test_each_verb_is_a_file_and_tells_how_it_is_used():
     for verb in ("scenes", "schema", "simulate"):
-        done = punctura(verb, "--help")
-        assert done.returncode == 0 and f"Usage: punctura {verb}" in done.stdout
+        for asks in ("--help", "-h"):
+            done = punctura(verb, asks)
+            assert done.returncode == 0 and f"Usage: punctura {verb}" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (["scenes"], DONE),
+        (["run", "--headless", "--device", "none-such", "k06-fig10"], CALLED_WRONGLY),
+        (["replay", "no-such-file.parquet"], FAILED),
+        (["export", "no-such-file.parquet", "--out", "x.csv"], FAILED),
+        (["place", "--device", "none-such"], CALLED_WRONGLY),
+        (["no-such-verb"], CALLED_WRONGLY),
+        (["simulate", "k06-fig10"], CALLED_WRONGLY),
+        (["run", "no-such-scene", "--headless"], CALLED_WRONGLY),
+        (["run", "--headless", "--duration", "soon"], CALLED_WRONGLY),
+    ],
+    ids=lambda x: " ".join(x) if isinstance(x, list) else "",
+)
+def test_every_verb_ends_with_a_status_of_the_table(arguments, status, tmp_path):
+    done = punctura(*arguments, cwd=tmp_path)
+    assert done.returncode == status and "Traceback" not in done.stderr
+    assert status == DONE or done.stderr.strip()
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="only Linux has a file that is always full")

@@ -1,0 +1,45 @@
+// Every number of a scene by its path, as problems name it: "membrane[0].friction".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "punctura/scene/check.hpp"
+
+namespace punctura {
+
+inline constexpr Field point_fields[] = {
+    {"point[0]", "a", "m", {}}, {"point[1]", "a", "m", {}}, {"point[2]", "a", "m", {}}};
+inline constexpr Field normal_fields[] = {
+    {"inward_normal[0]", "n", "-", {}}, {"inward_normal[1]", "n", "-", {}}, {"inward_normal[2]", "n", "-", {}}};
+
+/// Calls visit(path, field, number) for each number, in the order of the file. SceneT: Scene or const Scene; number is a reference into it.
+template <typename SceneT, typename Visit>
+void for_each_value(SceneT& scene, Visit&& visit) {
+  const auto all = [&](const std::string& path, const auto& fields, auto& owner) {
+    for (const auto& field : fields) visit(path + "." + std::string(field.name), field, owner.*field.member);
+  };
+  all("needle", needle_fields, scene.needle);
+  all("coupling", coupling_fields, scene.coupling);
+  all("servo", servo_fields, scene.servo);
+  for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
+    const std::string path = "membrane[" + std::to_string(i) + "]";
+    auto& placed = scene.membranes[i];
+    all(path, membrane_fields, placed.membrane);
+    for (std::size_t k = 0; k < 3; ++k)
+      visit(path + "." + std::string(point_fields[k].name), point_fields[k], placed.point[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      visit(path + "." + std::string(normal_fields[k].name), normal_fields[k], placed.inward_normal[k]);
+  }
+}
+
+/// The number at that path, in SI; nullptr where there is none. The scene is not checked: call check() after the last change.
+inline double* value_at(Scene& scene, std::string_view path) {
+  double* found = nullptr;
+  for_each_value(scene, [&](const std::string& at, const Field&, double& number) {
+    if (at == path) found = &number;
+  });
+  return found;
+}
+
+}  // namespace punctura

@@ -1,0 +1,50 @@
+"""Every number of a scene by its path: listed with unit and bounds, changed with a check."""
+
+import math
+
+import numpy as np
+import pytest
+from punctura import ConfigurationError, load_scene, scene_names
+
+
+def test_every_number_of_a_scene_is_listed_with_its_unit_and_bounds():
+    scene = load_scene("venipuncture")
+    fields = {field.path: field for field in scene.fields()}
+    assert len(fields) == len(scene.fields()) == 2 + 2 + 3 + 10 * len(scene.membranes)
+    friction = fields["membrane[1].friction"]
+    assert (friction.value, friction.unit, friction.symbol) == (scene.membranes[1].membrane.friction, "-", "mu")
+    assert (friction.min, friction.max, friction.min_open, friction.max_open) == (0, math.inf, True, True)
+    assert fields["membrane[2].point[1]"].value == scene.membranes[2].point[1]
+    assert fields["servo.rate"].unit == "Hz" and (fields["servo.rate"].min, fields["servo.rate"].max) == (100, 1e5)
+    assert repr(friction).startswith("SceneField(path='membrane[1].friction', value=")
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_its_own_values_give_the_same_scene(name):
+    scene = load_scene(name)
+    assert scene.with_values({field.path: field.value for field in scene.fields()}) == scene
+
+
+def test_one_changed_value_changes_that_field_alone():
+    scene = load_scene("k06-fig12")
+    for field in scene.fields():
+        value = field.value + 1e-4 if field.path != "servo.encoder_step" else 1e-5
+        changed = scene.with_values({field.path: np.float64(value)})
+        before, after = scene.fields(), changed.fields()
+        assert [b.path for b, a in zip(before, after, strict=True) if b.value != a.value] == [field.path]
+    assert scene == load_scene("k06-fig12")
+
+
+def test_a_path_that_is_none_and_a_value_that_cannot_be_are_told_together():
+    scene = load_scene("k06-fig10")
+    with pytest.raises(ConfigurationError) as raised:
+        scene.with_values({"membrane[0].frictoin": 0.3, "membrane[0].thickness": -1.0, "membrane[9].friction": 0.2})
+    text = str(raised.value)
+    assert "did you mean membrane[0].friction?" in text
+    assert "membrane[9].friction" in text and "membrane[0].thickness" in text
+    with pytest.raises(TypeError, match=r"membrane\[0\].friction must be a number"):
+        scene.with_values({"membrane[0].friction": "0.3"})
+    with pytest.raises(TypeError, match="paths must be str"):
+        scene.with_values({0: 0.3})
+    with pytest.raises(ConfigurationError, match="finite"):
+        scene.with_values({"membrane[0].friction": math.nan})
