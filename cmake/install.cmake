@@ -1,15 +1,24 @@
-# Installs the core for header-only use: find_package(punctura) and link punctura::punctura.
+# Installs the headers of core and, where it is built, the runtime: find_package(punctura) gives punctura::punctura,
+# find_package(punctura COMPONENTS runtime) gives punctura::loop and punctura::runtime as well.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(punctura_config_dir ${CMAKE_INSTALL_DATADIR}/cmake/punctura)
+set(punctura_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/punctura)
+set(architecture ARCH_INDEPENDENT)
+set(PUNCTURA_HAS_RUNTIME OFF)
 install(DIRECTORY core/punctura DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS punctura EXPORT punctura)
+if(TARGET punctura_runtime)
+  set(architecture "")
+  set(PUNCTURA_HAS_RUNTIME ON)
+  install(DIRECTORY runtime/punctura_runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+  install(TARGETS punctura_loop punctura_runtime EXPORT punctura)
+endif()
 install(EXPORT punctura NAMESPACE punctura:: FILE punctura-targets.cmake DESTINATION ${punctura_config_dir})
 
 configure_package_config_file(cmake/punctura-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake
   INSTALL_DESTINATION ${punctura_config_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
-  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+  COMPATIBILITY SameMinorVersion ${architecture})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
   DESTINATION ${punctura_config_dir})

@@ -6,8 +6,8 @@ Three runs at once, each with a recording: one in a terminal that is stopped (Ct
 full pipe, and a studio in a stopped terminal whose server logs a line for each request of a flood. The studio is asked
 for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
 
-Passes if no tick is lost, no memory grows by over a quarter in the last 70 % of two minutes or more, "pause" is always
-answered within 10 s, and each run ends within a minute with the signal's status and a whole recording. On a quiet
+Passes if no tick is lost, no memory grows by over a tenth in the last 70 % of two minutes or more, "pause" is always
+answered within 2 s, and each run ends within a minute with the signal's status and a whole recording. On a quiet
 computer "pause" takes some milliseconds; what is printed counts. Linux and macOS only.
 """
 
@@ -35,8 +35,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "pytho
 
 from terminals import go_on, stop, stopped_terminal, terminal, unread_pipe
 
-MOST_GROWTH, WARM = 0.25, 0.3  # of the memory, after this share of the time
-MOST_ANSWER_S = 10.0
+MOST_GROWTH, WARM = 0.1, 0.3  # of the memory, after this share of the time
+MOST_ANSWER_S = 2.0
 MOST_END_S = 60.0  # with a long recording to finish
 FLOODERS = 4
 ASK_EVERY_S = 0.5

@@ -109,15 +109,20 @@ step_tsan() {
   $run
 }
 
-# Installed, then found by a project that knows nothing of this tree.
+# A project that knows nothing of this tree: with the core installed, with core and runtime installed, with Punctura as its subfolder.
 step_consumer() {
-  local prefix=$root/build/consumer-prefix
-  rm -rf "$prefix" build/consumer build/install
-  cmake -S . -B build/install -G Ninja -DCMAKE_INSTALL_PREFIX="$prefix" &&
-    cmake --install build/install &&
-    cmake -S tests/consumer -B build/consumer -G Ninja -DCMAKE_PREFIX_PATH="$prefix" &&
-    cmake --build build/consumer && build/consumer/consumer
+  local way prefix=$root/build/consumer/prefix
+  rm -rf build/consumer
+  cmake -S . -B build/consumer/core -G Ninja && cmake --install build/consumer/core --prefix "$prefix/core" &&
+    compile dev && cmake --install build/dev --prefix "$prefix/runtime" &&
+    use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
+    use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON &&
+    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON || return
+  for way in from-core from-runtime subfolder; do "build/consumer/$way/consumer" || return; done
+  for way in from-runtime subfolder; do "build/consumer/$way/own_device" || return; done
+  build/consumer/from-runtime/devices
 }
+use_it() { cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1"; }
 
 step_python() {
   local but=()
