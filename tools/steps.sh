@@ -73,11 +73,13 @@ compile() {
 
 # side_by_side A B: runs both programs at once, since each needs one processor. What a program said that failed comes last.
 side_by_side() {
-  local said=build/log/side-by-side a_failed=0 b_failed=0 a
-  "$1" >"$said-a.log" 2>&1 &
-  a=$!
-  "$2" >"$said-b.log" 2>&1 || b_failed=1
+  local said=build/log/side-by-side a_failed=0 b_failed=0 a b
+  "$1" >"$said-a.log" 2>&1 & a=$!
+  "$2" >"$said-b.log" 2>&1 & b=$!
+  trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # a script's background jobs do not hear Ctrl-C
   wait $a || a_failed=1
+  wait $b || b_failed=1
+  trap - INT TERM HUP
   if [ $a_failed -eq 1 ]; then cat "$said-b.log" "$said-a.log"; else cat "$said-a.log" "$said-b.log"; fi
   return $((a_failed || b_failed))
 }
@@ -117,7 +119,7 @@ step_consumer() {
     compile dev && cmake --install build/dev --prefix "$prefix/runtime" &&
     use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
     use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON &&
-    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON || return
+    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON || return
   for way in from-core from-runtime subfolder; do "build/consumer/$way/consumer" || return; done
   for way in from-runtime subfolder; do "build/consumer/$way/own_device" || return; done
   build/consumer/from-runtime/devices

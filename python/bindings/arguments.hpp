@@ -64,17 +64,8 @@ void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...),
       nb::sig(signature.c_str()), doc);
 }
 
-/// A number in SI units with the range in which one finds it in practice. Outside, where the same number in another unit would lie
-/// inside, it is most likely that unit which was meant.
-struct Usual {
-  const char* path;
-  double value, low, high;
-  const char* unit;        ///< SI
-  const char* other_unit;  ///< `factor` SI units are one of these
-  double factor;
-};
-
-/// Warns (UserWarning) of each number that was most likely meant in the other unit.
-void warn_unusual(const std::vector<Usual>& numbers);
+/// Warns (UserWarning) where a number in SI units lies outside the range in which one finds that field in practice, and the same number in
+/// mm, N/mm or mN would lie inside: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
+void warn_unusual(const std::string& path, double value);
 
 }  // namespace punctura::bindings

@@ -44,7 +44,7 @@ Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);
 using Triple = std::array<double, 3>;
 
-/// Three numbers of one call: a NumPy vector is read as fast as a list.
+/// Three numbers of one call. A NumPy vector is read at once, not element by element.
 struct Point {
   Triple numbers;
   Vector3d vector() const noexcept { return Vector3d(numbers); }
@@ -103,10 +103,12 @@ Vector3d unit(const Triple& direction, const std::string& path);
 
 template <>
 struct nanobind::detail::type_caster<punctura::bindings::Point> {
-  NB_TYPE_CASTER(punctura::bindings::Point, const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating]"))
+  NB_TYPE_CASTER(punctura::bindings::Point,
+                 const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating | numpy.integer]"))
 
   bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
-    if (!PyList_Check(from.ptr()) && !PyTuple_Check(from.ptr()) && read_buffer(from.ptr())) return true;
+    // Of other types, as a masked array, only the elements say what they are.
+    if (std::strcmp(Py_TYPE(from.ptr())->tp_name, "numpy.ndarray") == 0 && read_buffer(from.ptr())) return true;
     make_caster<punctura::bindings::Triple> triple;
     if (!triple.from_python(from, flags, cleanup)) return false;
     value.numbers = triple.value;
@@ -116,7 +118,6 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
  private:
   /// Of three doubles in a row.
   bool read_buffer(PyObject* from) noexcept {
-    if (!PyObject_CheckBuffer(from)) return false;
     Py_buffer view;
     if (PyObject_GetBuffer(from, &view, PyBUF_FORMAT | PyBUF_STRIDES) != 0) {
       PyErr_Clear();

@@ -37,7 +37,8 @@ void Rows::check(const char* name) const {
   check_finite(data_, array_.size(), name, 3);
   const std::size_t rows = array_.size() / 3;
   for (std::size_t i = 0; i < rows; ++i)
-    check_direction(Vector3d(data_ + 3 * i), name + (rows > 1 ? "[" + std::to_string(i) + "]" : std::string()));
+    if (const Vector3d row(data_ + 3 * i); row == Vector3d())
+      check_direction(row, name + (rows > 1 ? "[" + std::to_string(i) + "]" : std::string()));
 }
 
 namespace {

@@ -11,7 +11,7 @@ namespace punctura::bindings {
 namespace {
 
 /// An insertion that knows its scene.
-struct SceneInsertion : Insertion {
+struct SceneInsertion : Insertion, OneThread {
   explicit SceneInsertion(Scene given) : Insertion(build_insertion(given)), scene(std::move(given)) {}
   Scene scene;
 
@@ -21,7 +21,7 @@ struct SceneInsertion : Insertion {
 };
 
 std::array<double, 3> step(Insertion& insertion, const Point& p, const Point& axis) {
-  check_finite(p.numbers.data(), 3, "p");
+  check_places(p.numbers.data(), 3, "p");
   return plain(insertion.step(p.vector(), insertion.uses_axis() ? direction(axis.numbers) : Vector3d()));
 }
 
@@ -29,10 +29,11 @@ InsertionTrace run(SceneInsertion& insertion, const nb::object& positions, const
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
-  check_finite(p.data(), 3 * n, "p", 3);
+  check_places(p.data(), 3 * n, "p", 3);
   if (insertion.uses_axis()) axes.check("axis");
   MembraneColumns columns(n, insertion.proxies().size());
   std::vector<double> force(3 * n);
+  const OneThread::Running running(insertion);
   make_ticks(n, [&](std::size_t i) {
     const Vector3d now = insertion.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
     std::copy(now.begin(), now.end(), &force[3 * i]);
@@ -54,7 +55,7 @@ void bind_insertion(nb::module_& m) {
   def_membrane_columns(trace);
 
   auto insertion = nb::class_<SceneInsertion>(
-      m, "Insertion",
+      m, "Insertion", nb::is_final(),
       "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
       "The model's own force: no safety limits.");
   def_state(insertion);
@@ -67,14 +68,25 @@ void bind_insertion(nb::module_& m) {
           },
           nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
       .def_ro("scene", &SceneInsertion::scene)
-      .def("reset", &SceneInsertion::reset, "Forgets all motion.")
       .def(
-          "step", [](SceneInsertion& self, const Point& p, const Point& axis) { return step(self, p, axis); },
+          "reset",
+          [](SceneInsertion& self) {
+            self.must_rest();
+            self.reset();
+          },
+          "Forgets all motion.")
+      .def(
+          "step",
+          [](SceneInsertion& self, const Point& p, const Point& axis) {
+            self.must_rest();
+            return step(self, p, axis);
+          },
           nb::arg("p"), nb::arg("axis"),
           "One tick: measured position (m) and direction of the needle give the force on the device (N).")
       .def(
           "peek",
           [](const SceneInsertion& self, const Point& p, const Point& axis) {
+            self.must_rest();
             Insertion copy = self;
             return step(copy, p, axis);
           },

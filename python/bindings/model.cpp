@@ -29,7 +29,7 @@ Needle make_needle(double diameter, double tip_angle) {
   std::vector<Problem> problems;
   check(made, "needle", problems);
   raise_if(problems);
-  warn_unusual({{"needle.diameter", diameter, 1e-5, 0.05, "m", "mm", 1e-3}});
+  warn_unusual("needle.diameter", diameter);
   return made;
 }
 
@@ -38,9 +38,9 @@ Membrane make_membrane(double stiffness, double precompression, double friction,
   std::vector<Problem> problems;
   check(made, "membrane", problems);
   raise_if(problems);
-  warn_unusual({{"membrane.stiffness", stiffness, 1, 1e6, "N/m", "N/mm", 1e3},
-                {"membrane.precompression", precompression, 1e-4, 100, "N", "mN", 1e-3},
-                {"membrane.thickness", thickness, 1e-9, 0.1, "m", "mm", 1e-3}});
+  warn_unusual("membrane.stiffness", stiffness);
+  warn_unusual("membrane.precompression", precompression);
+  warn_unusual("membrane.thickness", thickness);
   return made;
 }
 

@@ -25,7 +25,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
 using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw>;
 
 /// One Python class for proxies on either law, which knows what it was made of.
-class LineProxy {
+class LineProxy : public OneThread {
  public:
   LineProxy(GivenLaw law, const Coupling& coupling, double period, Solver solver)
       : law_(std::move(law)), coupling_(coupling), period_(period), solver_(solver), proxy_(made()) {}
@@ -39,14 +39,21 @@ class LineProxy {
     return std::visit(function, proxy_);
   }
 
+  double step(double depth) {
+    must_rest();
+    check_places(&depth, 1, "p");
+    return visit([&](auto& proxy) { return proxy.step(depth); });
+  }
   double peek(double depth) const {
-    check_finite(&depth, 1, "p");
+    must_rest();
+    check_places(&depth, 1, "p");
     return visit([&](auto proxy) { return proxy.step(depth); });
   }
   nb::object run(const nb::object& depths) {
     const Input p = input_1d(depths, "p");
-    check_finite(p.data(), p.size(), "p", 1);
+    check_places(p.data(), p.size(), "p", 1);
     std::vector<double> f(p.size());
+    const Running running(*this);
     visit([&](auto& proxy) { make_ticks(f.size(), [&](std::size_t i) { f[i] = proxy.step(p.data()[i]); }); });
     return to_numpy(std::move(f), {p.size()});
   }
@@ -75,7 +82,7 @@ class LineProxy {
 };
 
 /// A proxy in space, which knows what it was made of.
-struct SpaceProxy : Proxy3d<ThickLaw> {
+struct SpaceProxy : Proxy3d<ThickLaw>, OneThread {
   Needle needle;
   Membrane membrane;
   Triple point, inward_normal;
@@ -94,7 +101,7 @@ Coupling make_coupling(double stiffness, double damping) {
   std::vector<Problem> problems;
   check(made, problems);
   raise_if(problems);
-  warn_unusual({{"coupling.stiffness", stiffness, 5, 1e6, "N/m", "N/mm", 1e3}});
+  warn_unusual("coupling.stiffness", stiffness);
   return made;
 }
 
@@ -114,6 +121,7 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
   raise_if(problems);
   return {{ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling, period,
            solver_from(solver)},
+          {},
           needle,
           membrane,
           point,
@@ -126,9 +134,10 @@ nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::obje
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
-  check_finite(p.data(), 3 * n, "p", 3);
+  check_places(p.data(), 3 * n, "p", 3);
   axes.check("axis");
   std::vector<double> f(3 * n);
+  const OneThread::Running running(proxy);
   make_ticks(n, [&](std::size_t i) {
     const Vector3d now = proxy.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
     std::copy(now.begin(), now.end(), &f[3 * i]);
@@ -157,7 +166,8 @@ void bind_proxy(nb::module_& m) {
   def_init(coupling, {{"stiffness", "float"}, {"damping", "float"}}, &make_coupling, "Raises ConfigurationError.");
   def_value(coupling, {"stiffness", "damping"});
 
-  auto line = nb::class_<LineProxy>(m, "Proxy1d", "The proxy on the axis of the needle. K06 section 3.1, (33)");
+  auto line =
+      nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line,
            {{"law", "ThinLaw | ThickLaw"},
             {"coupling", "Coupling"},
@@ -166,14 +176,14 @@ void bind_proxy(nb::module_& m) {
            &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
   def_state(line);
   line.def(
-          "reset", [](LineProxy& p) { p.visit([](auto& x) { x.reset(); }); }, "Forgets all motion.")
-      .def(
-          "step",
-          [](LineProxy& p, double depth) {
-            check_finite(&depth, 1, "p");
-            return p.visit([&](auto& x) { return x.step(depth); });
+          "reset",
+          [](LineProxy& p) {
+            p.must_rest();
+            p.visit([](auto& x) { x.reset(); });
           },
-          nb::arg("p"), "One tick: p, the device's depth (m), gives the force on the device (N).")
+          "Forgets all motion.")
+      .def("step", &LineProxy::step, nb::arg("p"),
+           "One tick: p, the device's depth (m), gives the force on the device (N).")
       .def("peek", &LineProxy::peek, nb::arg("p"), "What step(p) would give, without that tick.")
       .def("run", &LineProxy::run, nb::arg("p"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
@@ -189,7 +199,8 @@ void bind_proxy(nb::module_& m) {
           "Where the band was taken, m: q(k), or q*(k) with the paper's solver")
       .def_prop_ro("phase", [](LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); });
 
-  auto space = nb::class_<SpaceProxy>(m, "Proxy3d", "The proxy of one membrane in space. K06 section 3.2, (41)");
+  auto space =
+      nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
   def_init(
       space,
       {{"needle", "Needle"},
@@ -203,12 +214,18 @@ void bind_proxy(nb::module_& m) {
       "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.");
   def_state(space);
   space
-      .def("reset", &SpaceProxy::reset,
-           "Forgets all motion. A start inside gives no force until the tip has been outside.")
+      .def(
+          "reset",
+          [](SpaceProxy& p) {
+            p.must_rest();
+            p.reset();
+          },
+          "Forgets all motion. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
           [](SpaceProxy& proxy, const Point& p, const Point& axis) {
-            check_finite(p.numbers.data(), 3, "p");
+            proxy.must_rest();
+            check_places(p.numbers.data(), 3, "p");
             return plain(proxy.step(p.vector(), direction(axis.numbers)));
           },
           nb::arg("p"), nb::arg("axis"),
@@ -216,7 +233,8 @@ void bind_proxy(nb::module_& m) {
       .def(
           "peek",
           [](const SpaceProxy& proxy, const Point& p, const Point& axis) {
-            check_finite(p.numbers.data(), 3, "p");
+            proxy.must_rest();
+            check_places(p.numbers.data(), 3, "p");
             return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
           },
           nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")

@@ -1,6 +1,8 @@
 // core/punctura/scene: what a run needs, and everything that can be wrong with it.
 #include "punctura/scene/scene.hpp"
 
+#include <map>
+
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/values.hpp"
@@ -45,35 +47,52 @@ nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
 struct SceneField {
   std::string path;
   double value;
-  Field field;
+  std::string symbol, unit;
+  double min, max;
+  bool min_open, max_open;
+  std::string reason;
 };
 
-nb::list fields_of(const Scene& scene) {
-  nb::list all;
+SceneField make_scene_field(std::string path, double value, std::string symbol, std::string unit, double min,
+                            double max, bool min_open, bool max_open, std::string reason) {
+  return {std::move(path), value, std::move(symbol), std::move(unit), min, max, min_open, max_open, std::move(reason)};
+}
+
+std::vector<SceneField> fields_of(const Scene& scene) {
+  std::vector<SceneField> all;
   for_each_value(scene, [&](const std::string& path, const Field& field, double value) {
-    all.append(SceneField{path, value, field});
+    const Range& range = field.range;
+    all.push_back({path, value, std::string(field.symbol), std::string(field.unit), range.min, range.max,
+                   range.min_open, range.max_open, range.reason});
   });
   return all;
 }
 
+/// Throws TypeError that names the path, and what __float__ itself has thrown.
+double number_at(const std::string& path, nb::handle given) {
+  if (PyBool_Check(given.ptr()) || nb::isinstance<nb::str>(given) || !PyNumber_Check(given.ptr()))
+    throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
+  const double number = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred()) throw nb::python_error();
+  return number;
+}
+
 Scene with_values(Scene scene, const nb::dict& values) {
+  std::map<std::string, double*> places;
+  for_each_value(scene, [&](const std::string& path, const Field&, double& number) { places[path] = &number; });
   std::vector<Problem> problems;
-  for (const auto& [key, given] : values) {
-    if (!nb::isinstance<nb::str>(key))
+  for (nb::handle item : values.items()) {  // a list of its own, whatever __float__ does to the dict
+    if (!nb::isinstance<nb::str>(item[0]))
       throw nb::type_error("with_values(): paths must be str: {\"membrane[0].friction\": 0.3}");
-    const auto path = nb::cast<std::string>(key);
-    double number = 0;
-    try {
-      number = nb::cast<double>(given);
-    } catch (const nb::cast_error&) {
-      throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
-    }
-    if (double* place = value_at(scene, path)) {
-      *place = number;
+    const auto path = nb::cast<std::string>(item[0]);
+    const double number = number_at(path, item[1]);
+    if (const auto place = places.find(path); place != places.end()) {
+      *place->second = number;
+      warn_unusual(path, number);
       continue;
     }
     nb::list paths;
-    for (nb::handle field : fields_of(scene)) paths.append(field.attr("path"));
+    for (const auto& known : places) paths.append(known.first);
     problems.push_back(
         {path, number, "is not a number of this scene (scene.fields() lists them)" + nearest(path, paths)});
   }
@@ -83,23 +102,29 @@ Scene with_values(Scene scene, const nb::dict& values) {
 }
 
 void bind_scene_field(nb::module_& m) {
-  nb::class_<SceneField>(m, "SceneField", "A number of a scene: its path, its value and its bounds, in SI units.")
-      .def_ro("path", &SceneField::path, "As in problems: membrane[0].friction")
-      .def_ro("value", &SceneField::value)
-      .def_prop_ro(
-          "symbol", [](const SceneField& f) { return text(f.field.symbol); }, "K06's")
-      .def_prop_ro("unit", [](const SceneField& f) { return text(f.field.unit); })
-      .def_prop_ro("min", [](const SceneField& f) { return f.field.range.min; })
-      .def_prop_ro("max", [](const SceneField& f) { return f.field.range.max; })
-      .def_prop_ro(
-          "min_open", [](const SceneField& f) { return f.field.range.min_open; }, "The bound itself is not allowed")
-      .def_prop_ro(
-          "max_open", [](const SceneField& f) { return f.field.range.max_open; }, "The bound itself is not allowed")
-      .def("__repr__", [](nb::handle self) -> nb::str {
-        const nb::str form("SceneField(path={!r}, value={!r}, unit={!r}, min={!r}, max={!r})");
-        return nb::str(form.attr("format")(self.attr("path"), self.attr("value"), self.attr("unit"), self.attr("min"),
-                                           self.attr("max")));
-      });
+  auto field =
+      nb::class_<SceneField>(m, "SceneField", "A number of a scene: its path, its value and its bounds, in SI units.")
+          .def_ro("path", &SceneField::path, "As in problems: membrane[0].friction")
+          .def_ro("value", &SceneField::value)
+          .def_ro("symbol", &SceneField::symbol, "K06's")
+          .def_ro("unit", &SceneField::unit)
+          .def_ro("min", &SceneField::min)
+          .def_ro("max", &SceneField::max)
+          .def_ro("min_open", &SceneField::min_open, "The bound itself is not allowed")
+          .def_ro("max_open", &SceneField::max_open, "The bound itself is not allowed")
+          .def_ro("reason", &SceneField::reason, "Of the bounds");
+  def_init(field,
+           {{"path", "str"},
+            {"value", "float"},
+            {"symbol", "str"},
+            {"unit", "str"},
+            {"min", "float"},
+            {"max", "float"},
+            {"min_open", "bool"},
+            {"max_open", "bool"},
+            {"reason", "str"}},
+           &make_scene_field, "Made by Scene.fields().");
+  def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
 }
 
 template <typename Owner, std::size_t n>

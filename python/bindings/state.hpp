@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "bindings.hpp"
@@ -10,35 +11,79 @@
 
 namespace punctura::bindings {
 
+/// What runs in one thread at a time. `run` lets Python's lock go; meanwhile nothing else may touch the object.
+class OneThread {
+ public:
+  OneThread() = default;
+  OneThread(const OneThread&) noexcept {}  // a copy is another object
+  OneThread& operator=(const OneThread&) noexcept { return *this; }
+
+  /// Throws RuntimeError while run() is at work.
+  void must_rest() const {
+    if (running_)
+      throw std::runtime_error("run() is at work on this object: give each thread a copy of its own (copy.copy)");
+  }
+  class Running {
+   public:
+    explicit Running(OneThread& object) : object_(object) {
+      object.must_rest();
+      object.running_ = true;
+    }
+    Running(const Running&) = delete;
+    ~Running() { object_.running_ = false; }
+
+   private:
+    OneThread& object_;
+  };
+
+ private:
+  bool running_ = false;  // changed and read under Python's lock
+};
+
 inline nb::bytes as_bytes(const std::vector<std::byte>& state) { return nb::bytes(state.data(), state.size()); }
 inline std::span<const std::byte> as_span(const nb::bytes& state) {
   return {static_cast<const std::byte*>(state.data()), state.size()};
 }
 
-/// T has `save()`, `load(bytes)` and `arguments()`, a tuple of what its constructor was given.
+/// T is OneThread, and has `save()`, `load(bytes)` and `arguments()`, a tuple of what its constructor was given.
 template <typename T>
 void def_state(nb::class_<T>& cls) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
   static const std::string deepcopy = "def __deepcopy__(self, memo: dict[int, typing.Any]) -> " + name;
   cls.def(
-         "__copy__", [](const T& self) { return T(self); }, "One that goes on to the same bits.")
+         "__copy__",
+         [](const T& self) {
+           self.must_rest();
+           return T(self);
+         },
+         "One that goes on to the same bits.")
       .def(
-          "__deepcopy__", [](const T& self, const nb::dict&) { return T(self); }, nb::arg("memo"),
-          nb::sig(deepcopy.c_str()))
+          "__deepcopy__",
+          [](const T& self, const nb::dict&) {
+            self.must_rest();
+            return T(self);
+          },
+          nb::arg("memo"), nb::sig(deepcopy.c_str()))
       .def(
           "__reduce__",
           [](nb::handle self) {
             const auto& object = nb::cast<const T&>(self);
+            object.must_rest();
             return nb::make_tuple(nb::module_::import_("punctura.restore").attr("restored"),
                                   nb::make_tuple(self.type(), object.arguments(), as_bytes(object.save())));
           },
           nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
       .def_prop_rw(
-          "state", [](const T& self) { return as_bytes(self.save()); },
+          "state",
+          [](const T& self) {
+            self.must_rest();
+            return as_bytes(self.save());
+          },
           [name](T& self, const nb::bytes& state) {
+            self.must_rest();
             if (!self.load(as_span(state)))
-              throw nb::value_error(("state: these bytes are no state of this " + name +
-                                     ": give it those of one with the same parameters, from this version of punctura")
+              throw nb::value_error(("these bytes are no state of this " + name +
+                                     ": they are damaged, or of other parameters, or of another version of punctura")
                                         .c_str());
           },
           nb::for_getter(nb::sig("def state(self) -> bytes")),

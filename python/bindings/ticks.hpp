@@ -33,6 +33,18 @@ inline void check_finite(const double* values, std::size_t n, const char* name, 
                             .c_str());
 }
 
+/// The same for positions, which cannot be farther away than 1000 km either.
+inline void check_places(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
+  check_finite(values, n, name, row_length);
+  const double* far = std::find_if(values, values + n, [](double x) { return !is_place(x); });
+  if (far == values + n) return;
+  const std::size_t at = static_cast<std::size_t>(far - values);
+  const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
+  throw nb::value_error((std::string(name) + place + " holds " + std::to_string(*far) +
+                         " m: positions must be within 1000 km. No tick was made")
+                            .c_str());
+}
+
 /// Throws ValueError where a direction has no length.
 inline void check_direction(const Vector3d& axis, const std::string& name) {
   if (axis == Vector3d())

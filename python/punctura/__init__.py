@@ -24,13 +24,15 @@ from punctura._core import (
     Target,
     ThickLaw,
     ThinLaw,
-    version,
+)
+from punctura._core import (
+    version as _version,
 )
 from punctura.errors import ConfigurationError, Problem
 from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
 from punctura.simulation import MotionError, SimulationSummary, simulate
 
-__version__ = version()
+__version__ = _version()
 
 __all__ = [
     "ConfigurationError",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from punctura._core import PuncturaError
 
@@ -46,3 +46,6 @@ class ConfigurationError(PuncturaError, ValueError):
         super().__init__(
             f"{head}{count} problem{'s' if count != 1 else ''}\n" + "\n".join(f"  {p}" for p in self.problems)
         )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.problems, self.source)

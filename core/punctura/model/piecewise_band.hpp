@@ -38,6 +38,12 @@ struct PiecewiseBand {
   std::array<Scalar, N - 1> breaks{};
   std::array<Piece, N> pieces{};
 
+  void describe(auto& parameters) const {
+    for (const Scalar at : breaks) parameters.numbers(at);
+    for (const Piece& p : pieces)
+      parameters.numbers(p.origin, p.lower.c0, p.lower.c1, p.lower.c2, p.upper.c0, p.upper.c1, p.upper.c2);
+  }
+
   /// Index of the piece that holds depth q. Counts comparisons, so that no branch depends on the depth.
   constexpr std::size_t index(Scalar q) const noexcept {
     std::size_t i = q >= breaks[0] ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <type_traits>
@@ -111,6 +112,20 @@ class Vector3 {
 };
 
 using Vector3d = Vector3<double>;
+
+/// Whether a position can be one: NaN cannot, nor what is more than 1000 km away, where filters and couplings might overflow later.
+template <std::floating_point Scalar>
+bool is_place(Scalar p) noexcept {
+  return std::abs(p) <= Scalar(1e6);
+}
+template <typename Scalar>
+bool is_place(const Vector3<Scalar>& p) noexcept {
+  return is_place(p.x()) && is_place(p.y()) && is_place(p.z());
+}
+template <typename Scalar>
+bool is_unit(const Vector3<Scalar>& v) noexcept {
+  return std::abs(v.squaredNorm() - 1) < Scalar(1e-2);
+}
 static_assert(std::is_trivially_copyable_v<Vector3d>);
 
 /// Plain storage for records.

@@ -55,6 +55,8 @@ struct SampledCoupling {
         inv_g(T / (K * T + B)),
         B_over_D(B / (K * T + B)) {}
 
+  void describe(auto& parameters) const { parameters.numbers(K, B, T); }
+
   /// f*: the force that would hold the proxy still. K06 (27), (38).
   template <typename Vector>
   Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,

@@ -1,6 +1,7 @@
 // For devices that report no orientation: the needle's direction from its motion (K06, after (41)).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,28 +27,33 @@ class EntryDirection {
   explicit EntryDirection(Scalar period)
       : recent_(static_cast<std::size_t>(std::lround(window / period)) + 1), path_(marks + 2) {}
 
-  void reset() noexcept { ticks_ = 0; }
+  void reset() noexcept {
+    std::fill(recent_.begin(), recent_.end(), Vector());
+    std::fill(path_.begin(), path_.end(), Mark());
+    head_ = tail_ = 0;
+    ticks_ = 0;
+    length_ = 0;
+    last_ = {};
+  }
 
   /// Goes on with the history of another one of the same period, which loses it. Takes no memory.
   void resume(EntryDirection& previous) noexcept {
     if (previous.recent_.size() == recent_.size()) std::swap(*this, previous);
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
+  static void archive(auto& self, auto& state) {
     constexpr auto any = std::numeric_limits<std::uint64_t>::max();
-    state.index(ticks_, any);
-    state.index(head_, path_.size());
-    state.index(tail_, path_.size());
-    state.number(length_);
-    state.number(last_);
-    for (Vector& point : recent_) state.number(point);
-    for (Mark& mark : path_) {
-      state.number(mark.point);
-      state.number(mark.length);
+    state.index(self.ticks_, any);
+    state.index(self.head_, self.path_.size());
+    state.index(self.tail_, self.path_.size());
+    state.numbers(self.length_, self.last_);
+    for (auto& point : self.recent_) state.numbers(point);
+    for (auto& mark : self.path_) {
+      state.numbers(mark.point, mark.length);
       state.index(mark.tick, any);
     }
   }
+  void describe(auto& parameters) const { parameters.index(recent_.size(), 0); }
 
   /// One tick: p (m), the filtered tip, gives the direction in which it has come.
   Vector step(const Vector& p) noexcept {
@@ -83,8 +89,8 @@ class EntryDirection {
  private:
   struct Mark {
     Vector point;
-    Scalar length;       ///< of the path up to here, m
-    std::uint64_t tick;  ///< when
+    Scalar length{};       ///< of the path up to here, m
+    std::uint64_t tick{};  ///< when
   };
   static constexpr std::size_t marks = 64;
 

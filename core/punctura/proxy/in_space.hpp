@@ -26,6 +26,12 @@ struct SpaceParams {
   Vector a;  ///< any point of the surface, m
   Vector n;  ///< inward normal, of length 1
   C coupling;
+
+  void describe(auto& parameters) const {
+    law.pieces(typename L::Scalar(1)).describe(parameters);
+    parameters.numbers(a, n);
+    coupling.describe(parameters);
+  }
 };
 
 /// What a tick leaves to the next. SpaceState<L>{} is a proxy that has not seen a sample: one that starts inside stays barred until
@@ -47,14 +53,16 @@ struct SpaceState {
   typename C::template Memory<Vector> coupling{};
 
   /// Without the pieces: lay_out() makes them of the rest.
-  template <typename Archive>
-  void archive(Archive& state) {
-    state.flag(started);
-    state.choice(phase, Phase::barred);
-    for (Vector* vector : {&p, &e, &f, &b}) state.number(*vector);
-    state.number(cos_beta);
-    state.memory(law);
-    state.memory(coupling);
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started);
+    state.choice(self.phase, Phase::barred);
+    state.numbers(self.p, self.e, self.f, self.b, self.cos_beta);
+    state.memory(self.law);
+    state.memory(self.coupling);
+    state.require(is_place(self.p));
+    if (inside(self.phase))
+      state.require(self.started && is_unit(self.b) && self.cos_beta >= grazing_cosine<Scalar> &&
+                    self.cos_beta < Scalar(1.01));
   }
 };
 
@@ -70,11 +78,10 @@ struct SpaceTick {
   Band<Scalar> band;  ///< bounds the axial force, N: taken at depth, 0 outside
   Phase phase;
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    for (Vector3<Scalar>* vector : {&force, &proxy, &direction}) state.number(*vector);
-    for (Scalar* number : {&axial_force, &depth, &band.lower, &band.upper}) state.number(*number);
-    state.choice(phase, Phase::barred);
+  static void archive(auto& self, auto& state) {
+    state.numbers(self.force, self.proxy, self.direction, self.axial_force, self.depth, self.band.lower,
+                  self.band.upper);
+    state.choice(self.phase, Phase::barred);
   }
 };
 

@@ -74,27 +74,29 @@ class InsertionOf {
     }
   }
 
-  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N). A position that is not finite,
-  /// or an axis where it is used, gives NaN, and the insertion is as if that tick had not been.
+  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N). A position that is no
+  /// place (NaN, or beyond 1000 km), or an axis that is used and not finite, gives NaN, and the insertion is as if that tick had not been.
   Vector step(const Vector& position, const Vector& axis) noexcept {
     const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
-    if (!position.allFinite() || (uses_axis() && !axis.allFinite())) return no_number;
+    if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
     tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
-    // Positions near the largest number may overflow on the way; checked here, once for all membranes.
-    if (!tip_.allFinite() || !direction.allFinite()) return force_ = no_number;
     force_.setZero();
     for (Proxy& proxy : proxies_) force_ += proxy.step_finite(tip_, direction);
     return force_;
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    conditioner_.archive(state);
-    if (from_motion_) from_motion_->archive(state);
-    for (Proxy& proxy : proxies_) proxy.archive(state);
-    state.number(tip_);
-    state.number(force_);
+  static void archive(auto& self, auto& state) {
+    PositionConditioner<Scalar>::archive(self.conditioner_, state);
+    if (self.from_motion_) EntryDirection<Scalar>::archive(*self.from_motion_, state);
+    for (auto& proxy : self.proxies_) Proxy::archive(proxy, state);
+    state.numbers(self.tip_, self.force_);
+  }
+  void describe(auto& parameters) const {
+    conditioner_.describe(parameters);
+    parameters.flag(uses_axis());
+    if (from_motion_) from_motion_->describe(parameters);
+    for (const Proxy& proxy : proxies_) proxy.describe(parameters);
   }
 
   const Vector& tip() const noexcept { return tip_; }      ///< the conditioned position, m

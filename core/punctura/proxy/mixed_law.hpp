@@ -18,7 +18,27 @@ class MixedLaw {
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
   static constexpr std::size_t room = std::max({PiecesOf<Laws>::size...});
   using Pieces = PiecewiseBand<Scalar, room>;
-  using Memory = std::variant<typename MemoryOf<Laws>::type...>;  ///< of the law in use, from its first advance() on
+  /// Of the law in use, from its first advance() on.
+  struct Memory : std::variant<typename MemoryOf<Laws>::type...> {
+    using Each = std::variant<typename MemoryOf<Laws>::type...>;
+    using Each::Each;
+
+    static void archive(auto& self, auto& state) {
+      std::size_t which = self.index();
+      state.index(which, sizeof...(Laws));
+      [&]<std::size_t... i>(std::index_sequence<i...>) {
+        ((which == i ? archive_as<i>(self, state) : void()), ...);
+      }(std::index_sequence_for<Laws...>());
+    }
+
+   private:
+    template <std::size_t i>
+    static void archive_as(auto& self, auto& state) {
+      if constexpr (std::remove_reference_t<decltype(state)>::reading)
+        if (self.index() != i) self.template emplace<i>();
+      state.memory(*std::get_if<i>(&self));
+    }
+  };
 
   template <ObliqueLaw L>
     requires(std::same_as<L, Laws> || ...)
@@ -48,7 +68,7 @@ class MixedLaw {
     Pieces all;
     ask([&]<std::size_t i>(const auto& law) {
       if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
-        using Own = std::variant_alternative_t<i, Memory>;
+        using Own = std::variant_alternative_t<i, typename Memory::Each>;
         const auto* own = std::get_if<i>(&memory);
         all = law.pieces(cos_beta..., own ? *own : Own{}).template with_room<room>();
       } else {

@@ -16,6 +16,11 @@ struct LineParams {
   static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
   L law;
   C coupling;
+
+  void describe(auto& parameters) const {
+    law.pieces().describe(parameters);
+    coupling.describe(parameters);
+  }
 };
 
 /// What a tick leaves to the next. LineState<L>{} is a proxy that has not seen a sample: e = f = 0.
@@ -31,13 +36,13 @@ struct LineState {
   typename MemoryOf<L>::type law{};
   typename C::template Memory<Scalar> coupling{};
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    state.flag(started);
-    state.choice(phase, Phase::barred);
-    for (Scalar* number : {&p, &e, &f}) state.number(*number);
-    state.memory(law);
-    state.memory(coupling);
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started);
+    state.choice(self.phase, Phase::sliding_out);
+    state.numbers(self.p, self.e, self.f);
+    state.memory(self.law);
+    state.memory(self.coupling);
+    state.require(inside(self.phase) && is_place(self.p));
   }
 };
 
@@ -50,10 +55,9 @@ struct LineTick {
   Band<Scalar> band;  ///< N, at depth
   Phase phase;
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    for (Scalar* number : {&force, &proxy, &depth, &band.lower, &band.upper}) state.number(*number);
-    state.choice(phase, Phase::barred);
+  static void archive(auto& self, auto& state) {
+    state.numbers(self.force, self.proxy, self.depth, self.band.lower, self.band.upper);
+    state.choice(self.phase, Phase::sliding_out);
   }
 };
 

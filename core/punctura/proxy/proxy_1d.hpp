@@ -19,17 +19,19 @@ class Proxy1d {
   static_assert(std::is_trivially_copyable_v<State>);
 
   Proxy1d(const L& law, const C& coupling, Solver solver = Solver::exact) noexcept
-      : params_{law, coupling}, solver_(solver) {}
+      : params_{law, coupling}, solver_(solver) {
+    reset();
+  }
   Proxy1d(const L& law, const BasicCoupling<Scalar>& coupling, Scalar period, Solver solver = Solver::exact) noexcept
       : Proxy1d(law, C(coupling, period), solver) {}
 
   /// Forgets all motion: the next sample is where the device starts, at e = f = 0.
   void reset() noexcept { set_state({}); }
 
-  /// One tick: p (m), the depth of the device, gives f (N), the force on it. K06 (33). A p that is not finite gives NaN, and the
-  /// proxy is as if that tick had not been.
+  /// One tick: p (m), the depth of the device, gives f (N), the force on it. K06 (33). A p that is no place (NaN, or beyond
+  /// 1000 km) gives NaN, and the proxy is as if that tick had not been.
   Scalar step(Scalar p) noexcept {
-    if (!std::isfinite(p)) return std::numeric_limits<Scalar>::quiet_NaN();
+    if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p) : Exact::step(params_, state_, p);
     return tick_.force;
   }
@@ -42,10 +44,13 @@ class Proxy1d {
     tick_.phase = state.phase;
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    state_.archive(state);
-    tick_.archive(state);
+  static void archive(auto& self, auto& state) {
+    State::archive(self.state_, state);
+    LineTick<Scalar>::archive(self.tick_, state);
+  }
+  void describe(auto& parameters) const {
+    params_.describe(parameters);
+    parameters.choice(solver_, solver_);
   }
 
   const Params& params() const noexcept { return params_; }

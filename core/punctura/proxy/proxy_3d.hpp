@@ -8,6 +8,9 @@
 
 namespace punctura {
 
+template <ObliqueLaw L, typename C>
+class InsertionOf;
+
 /// The proxy of K06 Fig. 7: it moves along b, the needle's direction at entry, and friction acts along b alone.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
 class Proxy3d {
@@ -21,7 +24,9 @@ class Proxy3d {
   /// point: any point of the surface (a), m. inward_normal: n, of length 1.
   Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const C& coupling,
           Solver solver = Solver::exact) noexcept
-      : params_{law, point, inward_normal, coupling}, solver_(solver) {}
+      : params_{law, point, inward_normal, coupling}, solver_(solver) {
+    reset();
+  }
   Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const BasicCoupling<Scalar>& coupling,
           Scalar period, Solver solver = Solver::exact) noexcept
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
@@ -32,15 +37,9 @@ class Proxy3d {
   /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41). A p or an
   /// axis that is not finite gives NaN, and the proxy is as if that tick had not been.
   Vector step(const Vector& p, const Vector& axis) noexcept {
-    if (!p.allFinite() || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    if (!is_place(p) || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     return step_finite(p, axis);
   }
-  /// The same for a p and an axis that are known to be finite.
-  const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
-    tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
-    return tick_.force;
-  }
-
   /// Whether another proxy is at the same membrane.
   bool same_place(const Proxy3d& other) const noexcept {
     return params_.a == other.params_.a && params_.n == other.params_.n;
@@ -59,11 +58,15 @@ class Proxy3d {
     tick_ = {};  // until the next step
     tick_.phase = state.phase;
   }
-  template <typename Archive>
-  void archive(Archive& state) {
-    state_.archive(state);
-    tick_.archive(state);
-    if (Archive::reading && inside(state_.phase)) lay_out(params_, state_);
+  static void archive(auto& self, auto& state) {
+    State::archive(self.state_, state);
+    SpaceTick<Scalar>::archive(self.tick_, state);
+    if constexpr (std::remove_reference_t<decltype(state)>::reading)
+      if (inside(self.state_.phase)) lay_out(self.params_, self.state_);
+  }
+  void describe(auto& parameters) const {
+    params_.describe(parameters);
+    parameters.choice(solver_, solver_);
   }
 
   const Params& params() const noexcept { return params_; }
@@ -80,6 +83,15 @@ class Proxy3d {
   Scalar depth() const noexcept { return tick_.depth; }             ///< m, see SpaceTick
 
  private:
+  template <ObliqueLaw, typename>
+  friend class InsertionOf;  // which checks p and axis once for all membranes
+
+  /// A tick at a place and along an axis that were checked.
+  const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
+    tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
+    return tick_.force;
+  }
+
   Params params_;
   Solver solver_;
   State state_{};

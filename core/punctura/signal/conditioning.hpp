@@ -57,11 +57,15 @@ class PositionConditioner {
     low_pass_.resume(previous.low_pass_);
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    if (fits_)
-      for (auto& line : lines_) line.archive(state);
-    low_pass_.archive(state);
+  static void archive(auto& self, auto& state) {
+    if (self.fits_)
+      for (auto& line : self.lines_) LineFit<Scalar>::archive(line, state);
+    LowPass<Scalar, Vector>::archive(self.low_pass_, state);
+  }
+  void describe(auto& parameters) const {
+    parameters.flag(fits_);
+    lines_[0].describe(parameters);
+    low_pass_.describe(parameters);
   }
 
   Vector step(const Vector& measured) noexcept {

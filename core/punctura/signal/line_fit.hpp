@@ -29,7 +29,11 @@ class LineFit {
   LineFit(Scalar encoder_step, Scalar window, Scalar period, Scalar lead = 0)
       : tolerance_(steps_of_tolerance * encoder_step), lead_(lead), size_(samples(window, period)), ring_(2 * size_) {}
 
-  void reset() noexcept { started_ = false; }
+  void reset() noexcept {
+    started_ = false;
+    newest_ = 0;
+    std::fill(ring_.begin(), ring_.end(), Scalar{});
+  }
 
   /// Goes on from the samples of another fit, which loses them, with its own tolerance and lead.
   void resume(LineFit& previous) noexcept {
@@ -39,11 +43,14 @@ class LineFit {
     started_ = std::exchange(previous.started_, false);
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    state.flag(started_);
-    state.index(newest_, size_);
-    for (Scalar& sample : ring_) state.number(sample);
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started_);
+    state.index(self.newest_, self.size_);
+    for (auto& sample : self.ring_) state.numbers(sample);
+  }
+  void describe(auto& parameters) const {
+    parameters.numbers(tolerance_, lead_);
+    parameters.index(size_, most_samples + 1);
   }
 
   Scalar step(Scalar x) noexcept {

@@ -16,7 +16,10 @@ class LowPass {
   LowPass(Scalar cutoff_hz, Scalar period) noexcept
       : off_(cutoff_hz == 0), gain_(1 - std::exp(-2 * std::numbers::pi_v<Scalar> * cutoff_hz * period)) {}
 
-  void reset() noexcept { started_ = false; }
+  void reset() noexcept {
+    started_ = false;
+    y_ = {};
+  }
 
   /// Goes on from where another filter is, with its own cutoff.
   void resume(const LowPass& previous) noexcept {
@@ -24,10 +27,13 @@ class LowPass {
     started_ = previous.started_;
   }
 
-  template <typename Archive>
-  void archive(Archive& state) {
-    state.flag(started_);
-    state.number(y_);
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started_);
+    state.numbers(self.y_);
+  }
+  void describe(auto& parameters) const {
+    parameters.flag(off_);
+    parameters.numbers(gain_);
   }
 
   Value step(const Value& x) noexcept {

@@ -1,4 +1,4 @@
-// States as bytes: to keep one, to send it to another process, to go on from it to the same bits.
+// States as bytes: to keep one, to send it to another process, to go on from it to the same bits. Not for a tick: it takes memory.
 #pragma once
 
 #include <cmath>
@@ -17,50 +17,53 @@ namespace punctura {
 
 /// Writes a state field by field, in this machine's byte order.
 ///
-/// A class with state has `template <typename Archive> void archive(Archive&)`, which names its fields once, for both directions.
+/// A class with state names its fields once, for both directions: `static void archive(auto& self, auto& state)`. It names what it was
+/// made of in `void describe(auto& parameters) const`. What a law or a coupling of one's own remembers has an `archive` as well.
 class StateWriter {
  public:
   static constexpr bool reading = false;
   explicit StateWriter(std::vector<std::byte>& to) : to_(to) {}
 
-  template <std::floating_point Scalar>
-  void number(const Scalar& value) {
-    put(&value, sizeof value);
+  template <typename... Numbers>
+  void numbers(const Numbers&... values) {
+    (put(values), ...);
   }
-  template <typename Scalar>
-  void number(const Vector3<Scalar>& value) {
-    put(value.data(), 3 * sizeof(Scalar));
-  }
-  void flag(const bool& value) { index(value ? 1u : 0u, 2); }
+  void flag(bool value) { index(value ? 1u : 0u, 2); }
   /// A whole number below `limit`.
   template <std::unsigned_integral Index>
-  void index(const Index& value, std::uint64_t) {
+  void index(Index value, std::uint64_t) {
     const std::uint64_t wide = value;
-    put(&wide, sizeof wide);
+    bytes(&wide, sizeof wide);
   }
   /// An enumerator up to `last`.
   template <typename Enum>
-    requires std::is_enum_v<Enum>
-  void choice(const Enum& value, Enum) {
+  void choice(Enum value, Enum) {
     index(static_cast<std::uint64_t>(value), 0);
   }
-  /// Whatever a law or a coupling of one's own remembers.
   template <typename Memory>
-    requires std::is_trivially_copyable_v<Memory>
   void memory(const Memory& value) {
-    if constexpr (!std::is_empty_v<Memory>) put(&value, sizeof value);
+    if constexpr (!std::is_empty_v<Memory>) Memory::archive(value, *this);
   }
+  void require(bool) const noexcept {}
 
  private:
-  void put(const void* from, std::size_t size) {
-    const auto* bytes = static_cast<const std::byte*>(from);
-    to_.insert(to_.end(), bytes, bytes + size);
+  template <std::floating_point Scalar>
+  void put(Scalar value) {
+    bytes(&value, sizeof value);
+  }
+  template <typename Scalar>
+  void put(const Vector3<Scalar>& value) {
+    bytes(value.data(), 3 * sizeof(Scalar));
+  }
+  void bytes(const void* from, std::size_t size) {
+    const auto* data = static_cast<const std::byte*>(from);
+    to_.insert(to_.end(), data, data + size);
   }
 
   std::vector<std::byte>& to_;
 };
 
-/// Reads what StateWriter has written. Bytes that no state can have make it not good().
+/// Reads what StateWriter has written. What no state can have makes it not good().
 class StateReader {
  public:
   static constexpr bool reading = true;
@@ -69,14 +72,9 @@ class StateReader {
   /// Whether all bytes were read, none was missing, and each was what a state can have.
   bool good() const noexcept { return good_ && from_.empty(); }
 
-  template <std::floating_point Scalar>
-  void number(Scalar& value) noexcept {
-    take(&value, sizeof value);
-    good_ = good_ && std::isfinite(value);
-  }
-  template <typename Scalar>
-  void number(Vector3<Scalar>& value) noexcept {
-    for (Scalar& component : value) number(component);
+  template <typename... Numbers>
+  void numbers(Numbers&... values) noexcept {
+    (take(values), ...);
   }
   void flag(bool& value) noexcept {
     std::uint64_t wide = 0;
@@ -86,26 +84,35 @@ class StateReader {
   template <std::unsigned_integral Index>
   void index(Index& value, std::uint64_t limit) noexcept {
     std::uint64_t wide = 0;
-    take(&wide, sizeof wide);
-    good_ = good_ && wide < limit;
+    bytes(&wide, sizeof wide);
+    require(wide < limit);
     value = good_ ? static_cast<Index>(wide) : Index{0};
   }
   template <typename Enum>
-    requires std::is_enum_v<Enum>
   void choice(Enum& value, Enum last) noexcept {
     std::uint64_t wide = 0;
     index(wide, static_cast<std::uint64_t>(last) + 1);
     value = static_cast<Enum>(wide);
   }
   template <typename Memory>
-    requires std::is_trivially_copyable_v<Memory>
   void memory(Memory& value) noexcept {
-    if constexpr (!std::is_empty_v<Memory>) take(&value, sizeof value);
+    if constexpr (!std::is_empty_v<Memory>) Memory::archive(value, *this);
   }
+  /// What holds in every state.
+  void require(bool holds) noexcept { good_ = good_ && holds; }
 
  private:
-  void take(void* to, std::size_t size) noexcept {
-    good_ = good_ && from_.size() >= size;
+  template <std::floating_point Scalar>
+  void take(Scalar& value) noexcept {
+    bytes(&value, sizeof value);
+    require(std::isfinite(value));
+  }
+  template <typename Scalar>
+  void take(Vector3<Scalar>& value) noexcept {
+    for (Scalar& component : value) take(component);
+  }
+  void bytes(void* to, std::size_t size) noexcept {
+    require(from_.size() >= size);
     if (!good_) return;
     std::memcpy(to, from_.data(), size);
     from_ = from_.subspan(size);
@@ -115,29 +122,56 @@ class StateReader {
   bool good_ = true;
 };
 
-/// Stands in front of every state. Raised when a class with state writes other fields.
-inline constexpr std::uint64_t state_format = 1;
+/// What stands in front of every state.
+struct StateHeader {
+  std::uint64_t format = 1;      ///< raised when a class writes other fields, or in another order
+  std::uint64_t parameters = 0;  ///< digest of what the object was made of
+  std::uint64_t state = 0;       ///< digest of the bytes that follow
+};
+
+namespace detail {
+/// FNV-1a, 64 bits: finds damage, not forgery.
+inline std::uint64_t digest(std::span<const std::byte> bytes) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+  return hash;
+}
+template <typename T>
+std::uint64_t parameters_of(const T& object) {
+  std::vector<std::byte> bytes;
+  StateWriter writer(bytes);
+  object.describe(writer);
+  return digest(bytes);
+}
+}  // namespace detail
 
 /// All that the next tick depends on, as bytes.
 template <typename T>
 std::vector<std::byte> save_state(const T& object) {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes(sizeof(StateHeader));
   StateWriter writer(bytes);
-  writer.index(state_format, 0);
-  const_cast<T&>(object).archive(writer);  // a writer changes nothing
+  T::archive(object, writer);
+  const std::span<const std::byte> state = std::span(bytes).subspan(sizeof(StateHeader));
+  const StateHeader header{.parameters = detail::parameters_of(object), .state = detail::digest(state)};
+  std::memcpy(bytes.data(), &header, sizeof header);
   return bytes;
 }
 
-/// Goes on from bytes that save_state() gave for an object of the same parameters. Returns false, and leaves the object as it was, where
-/// they are not that.
+/// Goes on from bytes that save_state() gave for an object of the same parameters. Returns false, and leaves the object as it was, for bytes
+/// of other parameters or another version, and for damaged ones. A forged state is not found: it may hold any finite numbers.
 template <typename T>
 bool load_state(T& object, std::span<const std::byte> bytes) {
+  StateHeader header;
+  if (bytes.size() < sizeof header) return false;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const auto state = bytes.subspan(sizeof header);
+  if (header.format != StateHeader{}.format || header.state != detail::digest(state) ||
+      header.parameters != detail::parameters_of(object))
+    return false;
   T loaded = object;
-  StateReader reader(bytes);
-  std::uint64_t format = 0;
-  reader.index(format, state_format + 1);
-  loaded.archive(reader);
-  if (!reader.good() || format != state_format) return false;
+  StateReader reader(state);
+  T::archive(loaded, reader);
+  if (!reader.good()) return false;
   object = std::move(loaded);
   return true;
 }

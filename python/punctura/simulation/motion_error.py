@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from punctura._core import PuncturaError
 
@@ -15,3 +16,6 @@ class MotionError(PuncturaError, ValueError):
         self.line = line
         self.what = what
         super().__init__(f"{file}, line {line}: {what}" if line else f"{file}: {what}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.file, self.line, self.what)

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -243,7 +244,7 @@ TEST_CASE("a run goes on with what the motors have given before") {
   CHECK(next.spent() == step.spent());
 }
 
-TEST_CASE("ticks by the hundred thousand take no memory and end where they began to the last bit") {
+TEST_CASE("many ticks take no memory and end where they began to the last bit") {
   auto scene = paper_scene();
   scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -3e-3, 0}, {0, -1, 0}});
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -253,7 +254,7 @@ TEST_CASE("ticks by the hundred thousand take no memory and end where they began
       auto step = build(scene), again = build(scene);
       step.arm();
       again.arm();
-      const auto ticks = std::uint64_t{1000} * static_cast<std::uint64_t>(cases(250));
+      const auto ticks = std::uint64_t{1000} * static_cast<std::uint64_t>(std::min(cases(250), 250));
       const std::size_t before = allocations();
       for (std::uint64_t k = 0; k < ticks; ++k) {
         const double y = -3e-3 + 6e-3 * std::cos(2e-3 * static_cast<double>(k));

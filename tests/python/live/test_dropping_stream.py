@@ -81,7 +81,9 @@ def test_a_terminal_that_comes_back_is_told_what_it_has_missed():
         assert said[:at] + said[at + 1 :] == shown and at == 1 and dropped > 100
         print("and on", file=stream)
         assert read_until(master, b"and on\n") == "and on\n"
+        end = time.monotonic() + 20
         while not stream.offer("status"):  # what was read may not be counted as written yet
+            assert time.monotonic() < end
             time.sleep(1e-3)
         assert read_until(master, b"status") == "status"
         stream.end()

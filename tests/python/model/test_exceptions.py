@@ -1,7 +1,9 @@
 """One base of all exceptions, and what they also are."""
 
+import pickle
+
 import pytest
-from punctura import ConfigurationError, DeviceError, MotionError, Needle, PuncturaError, load_scene
+from punctura import ConfigurationError, DeviceError, MotionError, Needle, Problem, PuncturaError, load_scene
 from punctura._core import open_device
 from punctura.exercise import ResultsError
 from punctura.record import RecordingError, open_recording
@@ -17,6 +19,20 @@ from punctura.studio.serve import StudioError
 )  # fmt: skip
 def test_each_exception_has_the_base_and_a_usual_one(own, usual):
     assert issubclass(own, PuncturaError) and issubclass(own, usual)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        ConfigurationError([Problem("needle.diameter", -1.0, "must be greater than 0")], "scene.toml"),
+        MotionError("in.csv", 7, "is no number"), RecordingError("no file"), ResultsError("no result"),
+        DeviceError("no device"), StudioError(98, "in use"),
+    ],
+    ids=lambda error: type(error).__name__,
+)  # fmt: skip
+def test_each_comes_whole_through_pickle(error):
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,9 @@ import punctura
 import pytest
 from oracles import cases, core, exact_residual, proxy_1d, random_laws, random_runs
 
+pytestmark = pytest.mark.xdist_group("exact_1d")  # in one worker: what they share takes seconds to make
+
+
 TICKS = 200
 
 

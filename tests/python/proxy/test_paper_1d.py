@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from oracles import cases, core, proxy_1d, random_runs
 
+pytestmark = pytest.mark.xdist_group("paper_1d")  # in one worker: what they share takes seconds to make
+
+
 TICKS = 200
 
 

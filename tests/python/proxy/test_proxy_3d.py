@@ -8,6 +8,9 @@ import pytest
 from oracles import cases, core, exact_residual, proxy_1d, proxy_3d, random_runs, random_scenes
 from oracles.proxy_3d import dot
 
+pytestmark = pytest.mark.xdist_group("proxy_3d")  # in one worker: what they share takes seconds to make
+
+
 TICKS = 120
 ENTERED = [punctura.Phase.sticking.value, punctura.Phase.sliding_in.value, punctura.Phase.sliding_out.value]
 

@@ -1,6 +1,10 @@
 """State of proxies and insertions: kept as bytes, pickled, tried without a tick."""
 
+import copy
 import pickle
+import threading
+import warnings
+from array import array
 
 import numpy as np
 import pytest
@@ -85,14 +89,73 @@ def test_peek_gives_what_a_step_would_and_changes_nothing(model):
 def test_bytes_that_are_no_state_of_this_object_are_refused(model):
     run(model, slice(0, 1300))
     kept = model.state
-    foreign = Proxy1d(ThickLaw(NEEDLE, MEMBRANE), COUPLING, T)
-    others = [b"", kept[:-1], kept + b"\0", bytes(len(kept)), MAKERS["space"]().state + b"x"]
-    for other in others + ([] if isinstance(model, Proxy1d) else [foreign.state]):
+    foreign = Proxy1d(ThickLaw(NEEDLE, MEMBRANE), Coupling(401, 1), T)
+    damaged = bytes(kept[:-9]) + bytes([kept[-9] ^ 1]) + kept[-8:]
+    for other in (b"", kept[:-1], kept + b"\0", bytes(len(kept)), foreign.state, damaged):
         with pytest.raises(ValueError, match="no state of this"):
             model.state = other
         assert model.state == kept
     with pytest.raises(TypeError):
         model.state = "text"
+
+
+@pytest.mark.parametrize("change", [{"stiffness": 571.0}, {"thickness": 0.9e-3}, {"friction": 0.21}])
+def test_a_state_of_another_membrane_is_refused(change):
+    model = MAKERS["space"]()
+    other = Proxy3d(NEEDLE, MEMBRANE.replace(**change), [0, 0, 0], [0.1, -1, 0], COUPLING, T)
+    with pytest.raises(ValueError, match="other parameters"):
+        model.state = other.state
+
+
+def test_while_run_is_at_work_nothing_else_touches_the_object(model):
+    run(model, slice(0, 1300))
+    kept, copied = model.state, copy.copy(model)
+    long = np.repeat(depths(), 500)
+    moves = (long,) if isinstance(model, Proxy1d) else (np.outer(long, [0, -1, 0]), DOWN)
+    runner = threading.Thread(target=lambda: model.run(*moves))
+    runner.start()
+    refused = 0
+    while runner.is_alive():
+        try:
+            model.state = kept
+            pickle.dumps(model)
+            copy.deepcopy(model)
+            model.reset()
+        except RuntimeError as error:
+            assert "copy of its own" in str(error)
+            refused += 1
+    runner.join()
+    assert refused > 0
+    model.state = kept
+    assert np.array_equal(run(model, slice(1300, None)), run(copied, slice(1300, None)))
+
+
+def test_after_a_reset_nothing_is_left_of_what_was(model):
+    fresh = model.state
+    run(model, slice(0, 1300))
+    model.reset()
+    assert model.state == fresh
+
+
+def test_the_classes_are_final():
+    for base in (Proxy1d, Proxy3d, Insertion):
+        with pytest.raises(TypeError):
+            type("Own", (base,), {})
+
+
+def test_a_position_beyond_1000_km_is_refused(model):
+    far = [1e300] if isinstance(model, Proxy1d) else [[0.0, -1.1e6, 0.0]]
+    before = model.state
+    with pytest.raises(ValueError, match="within 1000 km"):
+        model.run(far, *([] if isinstance(model, Proxy1d) else [DOWN]))
+    assert model.state == before
+
+
+def test_a_masked_element_is_no_number():
+    hidden = np.ma.array([0, -2e-3, 0], mask=[0, 1, 0])
+    with pytest.raises((TypeError, ValueError)), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        Insertion(scene()).step(hidden, DOWN)
 
 
 def test_laws_are_values():
@@ -111,6 +174,8 @@ def test_laws_are_values():
         np.array([0, -2e-3, 0]),
         np.array([0, -2e-3, 0], dtype=np.float32),
         np.arange(9.0)[::3] * [0, -2e-3 / 3, 0],
+        np.array([0, -2e-3, 0], dtype=">f8"),
+        array("d", [0, -2e-3, 0]),
         np.array([[0, 9.0], [-2e-3, 9], [0, 9]])[:, 0],  # not in a row
         (0, -2e-3, 0),
     ],

@@ -12,6 +12,8 @@ import punctura.reproduce.run
 import pytest
 from punctura.reproduce import Reproduction, reproduce
 
+pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they share takes seconds to make
+
 
 def command(*arguments: str, cwd: Path, **environment: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(

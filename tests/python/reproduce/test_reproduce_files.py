@@ -8,6 +8,9 @@ import pytest
 from PIL import Image
 from punctura.reproduce import Reproduction, palette
 
+pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they share takes seconds to make
+
+
 FIGURES = ("fig03", "fig05", "fig10", "fig11", "fig12", "chatter", "pop")
 
 

@@ -12,6 +12,9 @@ from punctura.reproduce.measure import alternations, of_law
 from punctura.reproduce.operator import operate
 from punctura.reproduce.scenes import COUPLING, INWARD, NEEDLE, k06_membrane, k06_scene
 
+pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they share takes seconds to make
+
+
 F = 0.41024  # N, model.md section 5
 COUNT_MM = 0.055  # of the encoder
 Column = Callable[..., np.ndarray]

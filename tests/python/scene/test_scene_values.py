@@ -1,6 +1,7 @@
 """Every number of a scene by its path: listed with unit and bounds, changed with a check."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -17,6 +18,8 @@ def test_every_number_of_a_scene_is_listed_with_its_unit_and_bounds():
     assert fields["membrane[2].point[1]"].value == scene.membranes[2].point[1]
     assert fields["servo.rate"].unit == "Hz" and (fields["servo.rate"].min, fields["servo.rate"].max) == (100, 1e5)
     assert repr(friction).startswith("SceneField(path='membrane[1].friction', value=")
+    assert "greater than 0" in friction.reason
+    assert pickle.loads(pickle.dumps(scene.fields())) == scene.fields()
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -42,9 +45,35 @@ def test_a_path_that_is_none_and_a_value_that_cannot_be_are_told_together():
     text = str(raised.value)
     assert "did you mean membrane[0].friction?" in text
     assert "membrane[9].friction" in text and "membrane[0].thickness" in text
-    with pytest.raises(TypeError, match=r"membrane\[0\].friction must be a number"):
-        scene.with_values({"membrane[0].friction": "0.3"})
+    for no_number in ("0.3", True, None, [0.3]):
+        with pytest.raises(TypeError, match=r"membrane\[0\].friction must be a number"):
+            scene.with_values({"membrane[0].friction": no_number})
     with pytest.raises(TypeError, match="paths must be str"):
         scene.with_values({0: 0.3})
     with pytest.raises(ConfigurationError, match="finite"):
         scene.with_values({"membrane[0].friction": math.nan})
+
+
+def test_a_value_in_another_unit_gives_a_warning_that_names_the_path():
+    with pytest.warns(UserWarning, match=r"membrane\[0\].stiffness = 0.57 N/m is unusual.*N/mm"):
+        load_scene("k06-fig10").with_values({"membrane[0].stiffness": 0.57})
+
+
+def test_a_number_that_changes_the_dict_or_fails_is_told_as_it_is():
+    scene = load_scene("k06-fig10")
+
+    class Clears:
+        def __float__(self):
+            values.clear()
+            return 0.3
+
+    values = {"membrane[0].friction": Clears(), "membrane[0].thickness": 2e-3}
+    changed = scene.with_values(values)
+    assert (changed.membranes[0].membrane.friction, changed.membranes[0].membrane.thickness) == (0.3, 2e-3)
+
+    class Interrupted:
+        def __float__(self):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        scene.with_values({"membrane[0].friction": Interrupted()})

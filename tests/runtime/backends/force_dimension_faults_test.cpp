@@ -63,7 +63,7 @@ TEST_CASE("after each fault of the device its force is zero within 10 ms, stays 
       CHECK_MESSAGE(said.find(c.words) < said.size() + (*c.words ? 0 : 1), said);
 
       // Not even after the loop's fault was left, outside and armed.
-      if (c.fault != Fault::device || rate > 1600) continue;
+      if (c.fault != Fault::device || (rate > 1600 && c.what != fake_drd::press_button)) continue;
       rig.loop.reset();
       rig.loop.arm();
       fake().target(0, 0, 5e-3);
