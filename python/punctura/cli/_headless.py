@@ -59,7 +59,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened))
-        for note in [*limits.rating_notes(loop), *filter(None, [room_note(loop)])]:
+        for note in [*limits.notes(loop), *filter(None, [room_note(loop)])]:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
 
@@ -68,8 +68,9 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     )
     told = summary.to_dict() | ({"recording": tape.status.to_dict()} if tape.status else {})
     tell_result(json.dumps(told, indent=2) if as_json else in_words(summary))
-    if summary.state == "waiting" and wishes.limits.gate.get("dead_man"):
-        say("punctura: note: no force at the end: the dead-man button was not held, or the tip was not in front")
+    if not summary.force_was_on:
+        button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
+        say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")
     tape.tell_fault(summary.fault)
     if summary.fault or not tape.whole:
         raise typer.Exit(FAILED)

@@ -58,4 +58,5 @@ def command(
         position, inward if note else axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
     )
     out.write_text(placement_text(placement), encoding="utf-8")
-    typer.echo(f"{out}: written. Try it: punctura run {scene} --headless --placement {out}")
+    on = f" --device {device}" if device else ""
+    typer.echo(f"{out}: written. Try it: punctura run {scene} --headless{on} --placement {out}")

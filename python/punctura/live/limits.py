@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from punctura._core import Device, ForceLimits, GateLimits, ServoLoop
+from punctura._core import Device, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
 from punctura.errors import ConfigurationError, Problem
 from punctura.live.choose import gate_for
 from punctura.live.tables import Buttons, Number, read_table
@@ -64,13 +64,15 @@ class Limits(NamedTuple):
         chosen = {**self.chosen, "max_force": max_force}
         return self._replace(force=self.force.replace(max_force=max_force), chosen=MappingProxyType(chosen))
 
-    def rating_notes(self, loop: ServoLoop) -> list[str]:
-        """For each force that was chosen above the rating of the loop's device, a note with both numbers."""
+    def notes(self, loop: ServoLoop) -> list[str]:
+        """What will not be as chosen: a force above the device's rating, a button that nobody can press."""
         model, notes = loop.device.info.model or loop.device.info.backend, []
         for name, field in _RATED.items():
             chosen, given = self.chosen.get(field, 0), getattr(loop.limits, field)
             if chosen > given:
                 notes.append(f"{name} = {chosen:g} is above the rating of {model}: {given:g} N is the limit")
+        if self.gate.get("dead_man") and isinstance(loop.device, SimulatedDevice):
+            notes.append("the simulated hand presses no button: with dead_man_buttons it is given no force")
         return notes
 
 

@@ -54,6 +54,7 @@ class RunSummary:
     depth_m: list[float] = field(default_factory=list)
     phases: list[str] = field(default_factory=list)
     state: str = "disarmed"
+    force_was_on: bool = False
     time_s: float = 0.0
     _next_tick: int = 0
 
@@ -83,6 +84,7 @@ class RunSummary:
         self.depth_m = [float(d) for d in columns["depth"][-1]]
         self.phases = [Phase(int(p)).name for p in columns["phase"][-1]]
         self.state = ServoState(int(columns["state"][-1])).name
+        self.force_was_on = self.force_was_on or bool((columns["state"] == ServoState.active).any())
         self.time_s = float(columns["time"][-1])
         if fault := int(columns["fault"][-1]):
             self.fault = describe(Fault(fault))

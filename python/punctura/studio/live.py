@@ -160,7 +160,7 @@ def _not_understood(text: str, error: ValidationError) -> Reply:
     if type(number) is not int or not 0 <= number < 2**53:
         raise Closed("This is no request.")
     problems = [
-        ProblemPart(path=".".join(str(p) for p in e["loc"])[:200], value="", reason=e["msg"][:200])
+        ProblemPart(path=".".join(str(p) for p in e["loc"])[:200], value="", reason=e["msg"][:1000])
         for e in error.errors(include_url=False, include_input=False, include_context=False)[:20]
     ]
     return Reply(id=number, ok=False, text="this is no request that the studio knows", problems=problems)

@@ -89,7 +89,7 @@ class Run:
         limits = bench.settings.limits
         self.loop = ServoLoop(device, scene, limits.gate_on(device), limits.force, bench.settings.placement)
         self._listener = self.loop.listen()
-        self.notes += [*limits.rating_notes(self.loop), *filter(None, [room_note(self.loop)])]
+        self.notes += [*limits.notes(self.loop), *filter(None, [room_note(self.loop)])]
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 
     def start(self) -> None:

@@ -134,18 +134,29 @@ def test_a_force_above_the_devices_rating_is_told_with_both_numbers(tmp_path):
     weak = SimulatedDevice(pn.Target([0, 5e-3, 0]))
     loop = ServoLoop(weak, SCENE, limits.gate_on(weak), limits.force)
     assert loop.limits.max_force == 3.3
-    assert limits.rating_notes(loop) == [
+    assert limits.notes(loop) == [
         "max_force_N = 5 is above the rating of PHANTOM Omni, simulated: 3.3 N is the limit",
         "continuous_force_N = 2.5 is above the rating of PHANTOM Omni, simulated: 0.88 N is the limit",
     ]
-    assert [note.split()[2] for note in Limits().at_most(3.5).rating_notes(loop)] == ["3.5"]
+    assert [note.split()[2] for note in Limits().at_most(3.5).notes(loop)] == ["3.5"]
 
 
 def test_a_force_that_was_not_chosen_or_is_within_the_rating_is_not_told():
     weak = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
     loop = ServoLoop(weak, SCENE)
     assert loop.limits.max_force == 1.0
-    assert Limits().rating_notes(loop) == Limits().at_most(1.0).rating_notes(loop) == []
+    assert Limits().notes(loop) == Limits().at_most(1.0).notes(loop) == []
+
+
+def test_a_run_without_any_force_says_why(tmp_path):
+    path = tmp_path / "limits.toml"
+    path.write_text("dead_man_buttons = [1]\n")
+    done = punctura("run", "--headless", "--device", "simulated", "--duration", "1.5", "--limits", str(path))
+    assert done.returncode == 0
+    assert "note: the simulated hand presses no button: with dead_man_buttons it is given no force" in done.stderr
+    assert "note: there was no force at any time: the dead-man button was never held, or the tip" in done.stderr
+    done = punctura("run", "--headless", "--device", "simulated", "--duration", "1.5", "--json")
+    assert json.loads(done.stdout)["force_was_on"] and "no force at any time" not in done.stderr
 
 
 def test_the_command_line_tells_a_force_above_the_devices_rating(tmp_path):
