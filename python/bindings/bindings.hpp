@@ -109,6 +109,7 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
   bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
     // Of other types, as a masked array, only the elements say what they are.
     if (std::strcmp(Py_TYPE(from.ptr())->tp_name, "numpy.ndarray") == 0 && read_buffer(from.ptr())) return true;
+    if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;
     make_caster<punctura::bindings::Triple> triple;
     if (!triple.from_python(from, flags, cleanup)) return false;
     value.numbers = triple.value;

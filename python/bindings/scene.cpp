@@ -84,7 +84,8 @@ Scene with_values(Scene scene, const nb::dict& values) {
   for (nb::handle item : values.items()) {  // a list of its own, whatever __float__ does to the dict
     if (!nb::isinstance<nb::str>(item[0]))
       throw nb::type_error("with_values(): paths must be str: {\"membrane[0].friction\": 0.3}");
-    const auto path = nb::cast<std::string>(item[0]);
+    const auto path =
+        nb::cast<std::string>(item[0].attr("encode")("utf-8", "backslashreplace").attr("decode")("utf-8"));
     const double number = number_at(path, item[1]);
     if (const auto place = places.find(path); place != places.end()) {
       *place->second = number;

@@ -49,7 +49,11 @@ inline constexpr Range a_force = {0, no_bound, true, true, "must be greater than
 inline constexpr FieldOf<ForceLimits> limit_fields[] = {
     {{"max_force", "-", "N", a_force}, &ForceLimits::max_force},
     {{"continuous_force", "-", "N", a_force}, &ForceLimits::continuous_force},
-    {{"continuous_time", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &ForceLimits::continuous_time},
+    {{"continuous_time",
+      "-",
+      "s",
+      {0, 60, true, false, "must be greater than 0 and at most 60 s: over a longer time motors would overheat"}},
+     &ForceLimits::continuous_time},
     {{"ramp_time", "-", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"}},
      &ForceLimits::ramp_time},
     {{"warm_motor", "-", "-", {0, 1, false, true, "must be from 0 to below 1"}}, &ForceLimits::warm_motor},

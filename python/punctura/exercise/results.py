@@ -50,7 +50,7 @@ class ResultStore:
 
     def save(self, result: Result) -> Result:
         """Keeps a result under a new name, and gives it with that name. Raises OSError."""
-        self.folder.mkdir(parents=True, exist_ok=True)
+        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # names of persons are nobody else's
         stem = "-".join(filter(None, (_slug(result.date[:19]), _slug(result.exercise)[:40], _slug(result.person)[:40])))
         while True:
             kept = result.model_copy(update={"name": f"{stem}-{secrets.token_hex(3)}"})

@@ -71,6 +71,12 @@ class Limits(NamedTuple):
             chosen, given = self.chosen.get(field, 0), getattr(loop.limits, field)
             if chosen > given:
                 notes.append(f"{name} = {chosen:g} is above the rating of {model}: {given:g} N is the limit")
+        usual, chosen = ForceLimits().continuous_time, self.force.continuous_time
+        if chosen > usual:
+            notes.append(
+                f"continuous_time_s = {chosen:g} lets strong forces last longer than {usual:g} s does: "
+                "motors may get hotter than their maker allows"
+            )
         if self.gate.get("dead_man") and isinstance(loop.device, SimulatedDevice):
             notes.append("the simulated hand presses no button: with dead_man_buttons it is given no force")
         return notes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -84,6 +85,8 @@ def open_recording(path: str | os.PathLike[str]) -> Recording:
     if not file.exists() and part_path(file).exists():
         file = part_path(file)
     try:
+        if not stat.S_ISREG(kind := file.stat().st_mode) and not stat.S_ISDIR(kind):  # a pipe would block
+            raise RecordingError(f"{file} is a pipe or a device, not a recording")
         with file.open("rb") as head:
             finished = head.read(len(_PARQUET)) == _PARQUET
         return Recording(file, ParquetRecording(file) if finished else PartFile(file))

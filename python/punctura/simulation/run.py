@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
 SLOWEST_STEP = 0.1  # s between rows; what lies between rows further apart would be made up by the resampling
+FASTEST_STEP = 1e-7  # s
+FARTHEST = 1e6  # m: farther away no position is taken
 _SURVEY_SHARE = 0.2  # of the progress is the first reading
 
 
@@ -99,6 +101,10 @@ def _survey(motion: MotionFile, tell: Progress) -> Evenness:
     even = Evenness(motion.path)
     for block in motion.blocks():
         even.add(block.first_line, block.time)
+        far = np.flatnonzero((np.abs(block.position) > FARTHEST).any(axis=1))
+        if len(far):
+            line = block.first_line + int(far[0])
+            raise MotionError(motion.path, line, "x_m, y_m, z_m must be within 1000 km; write them in metres")
         if block.axis is not None:
             nowhere = np.flatnonzero(~block.axis.any(axis=1))
             if len(nowhere):
@@ -123,6 +129,13 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
             f"time_s grows by {even.step:.6g} s from row to row, and a motion must have {1 / SLOWEST_STEP:g} rows a "
             "second or more; where time_s is in another unit, write seconds, else sample the motion more often "
             "(numpy.interp does it)",
+        )
+    if even.step < FASTEST_STEP:
+        raise MotionError(
+            even.file,
+            0,
+            f"time_s grows by {even.step:.6g} s from row to row, and a motion must have {1 / FASTEST_STEP:g} rows a "
+            "second at most; where time_s is in another unit, write seconds",
         )
     summary.motion_rate_hz = 1 / even.step
     if abs(even.step - period) * (even.count - 1) <= TOLERANCE * period:

@@ -90,7 +90,7 @@ class Shelf:
     def file(self, name: str) -> Path:
         """Of a new recording. Makes the folder. Raises BadName, OSError."""
         path = self._file(safe_name(name))
-        self.folder.mkdir(parents=True, exist_ok=True)
+        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # others who use this computer do not look in
         return path
 
     def find(self, name: str) -> Path:

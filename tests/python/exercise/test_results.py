@@ -3,12 +3,15 @@
 import csv
 import io
 import json
+import os
+import stat
 import threading
 
 import pytest
 from attempts import hand_run, judged
 from punctura.exercise import ResultsError, ResultStore, load_exercise
 from punctura.exercise.results import COLUMNS, default_folder, to_csv, to_json
+from punctura.studio.shelf import Shelf
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +31,13 @@ def test_what_was_saved_is_loaded_again(tmp_path, result):
     assert store.load(kept.name) == kept
     assert kept.model_copy(update={"name": ""}) == of(result, "Ada Lovelace")
     assert [path.name for path in (tmp_path / "results").iterdir()] == [f"{kept.name}.json"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes of files")
+def test_the_folder_is_made_for_its_owner_alone(tmp_path, result):
+    ResultStore(tmp_path / "results").save(result)
+    Shelf(tmp_path / "recordings").file("a run")
+    assert {stat.S_IMODE((tmp_path / name).stat().st_mode) for name in ("results", "recordings")} == {0o700}
 
 
 def test_nothing_is_overwritten(tmp_path, result):

@@ -148,6 +148,17 @@ def test_a_force_that_was_not_chosen_or_is_within_the_rating_is_not_told():
     assert Limits().notes(loop) == Limits().at_most(1.0).notes(loop) == []
 
 
+def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path):
+    with pytest.raises(pn.ConfigurationError, match="at most 60 s"):
+        limits_of(tmp_path, "continuous_time_s = 1e6")
+    weak = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    longer = limits_of(tmp_path, "continuous_time_s = 30")
+    loop = ServoLoop(weak, SCENE, longer.gate_on(weak), longer.force)
+    assert any("continuous_time_s = 30 lets strong forces last longer" in note for note in longer.notes(loop))
+    shorter = limits_of(tmp_path, "continuous_time_s = 5")
+    assert shorter.notes(ServoLoop(weak, SCENE, shorter.gate_on(weak), shorter.force)) == []
+
+
 def test_a_run_without_any_force_says_why(tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("dead_man_buttons = [1]\n")

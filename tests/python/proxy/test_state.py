@@ -184,7 +184,9 @@ def test_a_step_takes_any_three_numbers(vector):
     assert Insertion(scene()).step(vector, DOWN) == Insertion(scene()).step([float(x) for x in vector], DOWN)
 
 
-@pytest.mark.parametrize("bad", [np.zeros(2), np.zeros((1, 3)), [0, 1], "abc", None, np.array(["a", "b", "c"])])
+@pytest.mark.parametrize(
+    "bad", [np.zeros(2), np.zeros((1, 3)), [0, 1], "abc", b"abc", bytearray(3), None, np.array(["a", "b", "c"])]
+)
 def test_a_step_refuses_what_is_not_three_numbers(bad):
     with pytest.raises(TypeError):
         Insertion(scene()).step(bad, DOWN)

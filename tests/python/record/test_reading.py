@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from punctura import load_scene
-from punctura.record import RecordingError, open_recording
+from punctura.record import RecordingError, open_recording, replay_device
 
 TOOLS = Path(__file__).parents[3] / "tools"
 
@@ -67,6 +68,15 @@ def test_other_files_are_told_from_recordings(tmp_path):
     ]:
         with pytest.raises(RecordingError, match=reason):
             open_recording(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+def test_a_pipe_is_refused_before_it_is_opened(tmp_path):
+    pipe = tmp_path / "pipe.parquet"
+    os.mkfifo(pipe)
+    for opens in (open_recording, replay_device):
+        with pytest.raises(RecordingError, match="is a pipe or a device, not a recording"):
+            opens(pipe)
 
 
 def test_a_column_that_is_not_there_is_told_with_those_that_are(start):

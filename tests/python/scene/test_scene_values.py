@@ -48,6 +48,8 @@ def test_a_path_that_is_none_and_a_value_that_cannot_be_are_told_together():
     for no_number in ("0.3", True, None, [0.3]):
         with pytest.raises(TypeError, match=r"membrane\[0\].friction must be a number"):
             scene.with_values({"membrane[0].friction": no_number})
+    with pytest.raises(ConfigurationError, match="is not a number of this scene"):
+        scene.with_values({"membran\ud800": 1.0})
     with pytest.raises(TypeError, match="paths must be str"):
         scene.with_values({0: 0.3})
     with pytest.raises(ConfigurationError, match="finite"):

@@ -236,3 +236,10 @@ def test_the_motion_is_never_written_over(write):
     before = path.read_bytes()
     assert problems_of("k06-fig10", path, path) == [f"out {path}: is the motion itself"]
     assert path.read_bytes() == before
+
+
+def test_times_and_places_that_cannot_be_are_told_with_their_line(tmp_path):
+    tiny = [f"{k * 5e-324!r},0,0,0" for k in range(500)]
+    assert "where time_s is in another unit, write seconds" in error_of(tmp_path, [HEADER, *tiny])
+    (tmp_path / "motion.csv").unlink()
+    assert error_of(tmp_path, with_field(7, 2, "1e308")).startswith("line 7: x_m, y_m, z_m must be within 1000 km")
