@@ -1,7 +1,6 @@
 // All of Punctura's core in one include. A project that needs one room may include that room's headers alone.
 #pragma once
 
-#include "punctura/experiment/experiment.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
@@ -13,3 +12,6 @@
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/servo_step.hpp"
 #include "punctura/state/archive.hpp"
+#if defined(__cpp_exceptions)
+#include "punctura/experiment/experiment.hpp"
+#endif

@@ -1,8 +1,10 @@
-// From a scene to what runs: the one place in core that throws.
+// From a scene to what runs. try_build() returns the problems; build() throws them, and is the one place in core that throws.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "punctura/proxy/insertion.hpp"
@@ -11,28 +13,10 @@
 
 namespace punctura {
 
-/// A scene that cannot be built, with all of its problems.
-class SceneError : public std::invalid_argument {
- public:
-  explicit SceneError(std::vector<Problem> problems)
-      : std::invalid_argument(text(problems)), problems_(std::move(problems)) {}
-  const std::vector<Problem>& problems() const noexcept { return problems_; }
-
- private:
-  static std::string text(const std::vector<Problem>& problems) {
-    std::string all = "the scene cannot be built";
-    for (const Problem& p : problems) all += "\n  " + p.path + " = " + std::to_string(p.value) + ": " + p.reason;
-    return all;
-  }
-  std::vector<Problem> problems_;
-};
-
-/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane, i)`: both in
-/// Scalar, and the membrane's number in the scene. Throws SceneError.
+namespace detail {
+/// Of a scene that has passed check().
 template <typename Scalar, typename LawOf>
-auto build_insertion(const Scene& scene, LawOf&& law_of) {
-  if (auto problems = check(scene); !problems.empty()) throw SceneError(std::move(problems));
-
+auto insertion_of(const Scene& scene, LawOf&& law_of) {
   using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}, std::size_t{}))>;
   const auto to = [](double x) { return static_cast<Scalar>(x); };
   const BasicNeedle<Scalar> needle{to(scene.needle.diameter), to(scene.needle.tip_angle)};
@@ -50,19 +34,81 @@ auto build_insertion(const Scene& scene, LawOf&& law_of) {
                         scene.servo.conditioning, to(scene.servo.encoder_step));
 }
 
+/// K06's law, whichever membrane it is.
+template <typename Scalar>
+BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, std::size_t) {
+  return {needle, membrane};
+}
+}  // namespace detail
+
+/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane, i)`: both in
+/// Scalar, and the membrane's number in the scene. Empty where the scene has problems, which are added to `problems`.
+template <typename Scalar, typename LawOf>
+auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
+  using Made = decltype(detail::insertion_of<Scalar>(scene, law_of));
+  const auto found = check(scene);
+  problems.insert(problems.end(), found.begin(), found.end());
+  return found.empty() ? std::make_optional<Made>(detail::insertion_of<Scalar>(scene, law_of)) : std::nullopt;
+}
 /// The same with K06's law. Scalar: double, or float.
 template <typename Scalar = double>
-BasicInsertion<Scalar> build_insertion(const Scene& scene) {
-  return build_insertion<Scalar>(scene, [](const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
-                                           std::size_t) { return BasicThickLaw<Scalar>(needle, membrane); });
+std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, std::vector<Problem>& problems) {
+  return try_build_insertion<Scalar>(scene, problems, detail::k06_law<Scalar>);
 }
 
-/// The whole tick of a scene: input gate, model, force limits. Throws SceneError, for scene and limits together.
-inline ServoStep build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  auto problems = check(scene);
-  for (Problem& problem : check(gate, limits)) problems.push_back(std::move(problem));
-  if (!problems.empty()) throw SceneError(std::move(problems));
-  return ServoStep(build_insertion<double>(scene), 1 / scene.servo.rate, gate, limits);
+/// The whole tick of a scene: input gate, model, force limits. Empty where scene or limits have problems, which are added to `problems`.
+inline std::optional<ServoStep> try_build(const Scene& scene, std::vector<Problem>& problems,
+                                          const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+  auto insertion = try_build_insertion(scene, problems);
+  const auto found = check(gate, limits);
+  problems.insert(problems.end(), found.begin(), found.end());
+  if (!insertion || !found.empty()) return std::nullopt;
+  return ServoStep(std::move(*insertion), 1 / scene.servo.rate, gate, limits);
 }
+
+#if defined(__cpp_exceptions)
+/// A scene that cannot be built, with all of its problems.
+class SceneError : public std::invalid_argument {
+ public:
+  explicit SceneError(std::vector<Problem> problems)
+      : std::invalid_argument(text(problems)), problems_(std::move(problems)) {}
+  const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+ private:
+  static std::string text(const std::vector<Problem>& problems) {
+    std::string all = "the scene cannot be built";
+    for (const Problem& p : problems) all += "\n  " + p.path + " = " + std::to_string(p.value) + ": " + p.reason;
+    return all;
+  }
+  std::vector<Problem> problems_;
+};
+
+namespace detail {
+template <typename T>
+T or_throw(std::optional<T> made, std::vector<Problem> problems) {
+  if (!made) throw SceneError(std::move(problems));
+  return std::move(*made);
+}
+}  // namespace detail
+
+/// As try_build_insertion(). Throws SceneError.
+template <typename Scalar, typename LawOf>
+auto build_insertion(const Scene& scene, LawOf&& law_of) {
+  std::vector<Problem> problems;
+  auto made = try_build_insertion<Scalar>(scene, problems, law_of);
+  return detail::or_throw(std::move(made), std::move(problems));
+}
+template <typename Scalar = double>
+BasicInsertion<Scalar> build_insertion(const Scene& scene) {
+  return build_insertion<Scalar>(scene, detail::k06_law<Scalar>);
+}
+
+/// As try_build(). Throws SceneError, for scene and limits together.
+inline ServoStep build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+  std::vector<Problem> problems;
+  auto made = try_build(scene, problems, gate, limits);
+  return detail::or_throw(std::move(made), std::move(problems));
+}
+#endif
 
 }  // namespace punctura
