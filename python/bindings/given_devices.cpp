@@ -7,6 +7,7 @@
 #include "punctura_runtime/backends/replay.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 #include "value.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -75,7 +76,7 @@ nb::tuple feed(FedDevice& device, const Triple& position, const Triple& axis, st
                double motor_temperature) {
   Triple force;
   {
-    nb::gil_scoped_release release;  // no tick holds it: others may run Python meanwhile
+    const WithoutLock release;  // no tick holds it: others may run Python meanwhile
     force = device.feed({position, axis, buttons, healthy, motor_temperature});
   }
   return as_tuple(force);
@@ -120,7 +121,8 @@ void bind_given_devices(nb::module_& m) {
 
   const FedDevice::Reading reading{};
   nb::class_<FedDevice, Device>(
-      m, "FedDevice", "A device that a loop in Python drives: each reading that is fed is a tick, its force the reply.")
+      m, "FedDevice", nb::is_weak_referenceable(),
+      "A device that a loop in Python drives: each reading that is fed is a tick, its force the reply.")
       .def(
           "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
           nb::arg("real_time") = true,
@@ -161,7 +163,7 @@ void bind_given_devices(nb::module_& m) {
       .def("__init__", &make_pacer, nb::arg("rate"),
            "rate: Hz. The first period begins now. Raises ConfigurationError.")
       .def(
-          "wait", &Pacer<>::wait, nb::call_guard<nb::gil_scoped_release>(),
+          "wait", &Pacer<>::wait, nb::call_guard<WithoutLock>(),
           "Sleeps until the next period begins. Returns how many were left out since they had passed: a late one does not move\n"
           "the later ones, and none is made up for in a burst.");
 }

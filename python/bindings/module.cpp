@@ -5,6 +5,7 @@
 
 NB_MODULE(_core, m) {
   using namespace punctura::bindings;
+  nb::set_leak_warnings(false);  // a daemon thread may hold a device until the very end: nobody's fault
   m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
   m.def("version", [] { return PUNCTURA_VERSION; }, "Of Punctura.");
   const std::string base = nb::cast<std::string>(m.attr("__name__")) + ".PuncturaError";

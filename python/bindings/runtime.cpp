@@ -9,6 +9,7 @@
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "snapshot_columns.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -219,8 +220,13 @@ void bind_runtime(nb::module_& m) {
           "The last snapshots up to the latched fault, as columns; none without one.");
 
   // A loop that a daemon thread or an interactive session still holds would leave its device with the last force.
-  nb::module_::import_("atexit").attr("register")(
-      nb::cpp_function(&ServoLoop::stop_all, nb::call_guard<nb::gil_scoped_release>()));
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function([] {
+    {
+      nb::gil_scoped_release release;
+      ServoLoop::stop_all();
+    }
+    WithoutLock::end_program();
+  }));
 }
 
 }  // namespace punctura::bindings

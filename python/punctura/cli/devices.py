@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from punctura._core import enumerate_devices
+from punctura.live import enumerate_devices
 
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:

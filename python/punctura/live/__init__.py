@@ -12,7 +12,6 @@ from punctura._core import (
     ReplayDevice,
     ServoLoop,
     SimulatedDevice,
-    enumerate_devices,
     make_realtime,
     open_device,
 )
@@ -21,6 +20,7 @@ from punctura.live.dropping_stream import DroppingStream
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
+from punctura.live.plug_ins import enumerate_devices
 from punctura.live.pose import present_pose
 from punctura.live.room import room_note
 from punctura.live.session import run_live

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from punctura import Scene
-from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
+from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, open_device
 from punctura.live.motion import strokes_through
+from punctura.live.plug_ins import enumerate_devices, open_plug_in, plug_in
 
 ANY_PROCESSOR = -1
 
@@ -31,6 +32,8 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
         return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
     if backend not in states:
         raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
+    if found := plug_in(backend):
+        return open_plug_in(found, scene.servo.rate, device)
     return open_device(backend, scene.servo.rate, device, processor=processor)
 
 

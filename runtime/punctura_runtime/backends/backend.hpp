@@ -23,7 +23,7 @@ struct Backend {
   std::shared_ptr<Device> (*open)(const OpenOptions& how);  ///< throws DeviceError
 };
 
-/// Each is defined in its own file, and named once more in the table of registry.cpp.
+/// Ours: each is defined in its own file, and named once more in the table of registry.cpp. Others come by register_backend().
 namespace backends {
 extern const Backend openhaptics;
 extern const Backend force_dimension;

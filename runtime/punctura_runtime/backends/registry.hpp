@@ -9,6 +9,10 @@
 
 namespace punctura {
 
+/// Adds a back-end of your own to those of enumerate_devices() and open_device(), before them. It must live as long as the program. Throws
+/// DeviceError where one of that name is there.
+void register_backend(const Backend& backend);
+
 /// One entry a back-end, in the order in which somebody who does not care which would try them: hardware first. No force is given, and
 /// nothing stays open.
 std::vector<BackendStatus> enumerate_devices();

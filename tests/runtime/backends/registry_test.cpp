@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "punctura_runtime/backends/fed.hpp"
+
 using namespace punctura;
 
 TEST_CASE("every back-end is listed once, with its state in words; the simulated one is always there") {
@@ -27,4 +29,28 @@ TEST_CASE("a name that no back-end has, and a rate that cannot be, are told") {
   CHECK_THROWS_WITH_AS(open_device("abacus"), doctest::Contains("simulated"), DeviceError);
   CHECK_THROWS_AS(open_device("simulated", {0, "", ""}), DeviceError);
   CHECK_THROWS_AS(open_device("simulated", {unknown, "", ""}), DeviceError);
+}
+
+namespace {
+BackendStatus mine_status() { return {"mine", BackendStatus::State::available, "It is here.", {"mine 1"}}; }
+std::shared_ptr<Device> open_mine(const OpenOptions& how) {
+  DeviceInfo info;
+  info.rate = how.rate;
+  info.model = "mine: " + how.device;
+  return std::make_shared<FedDevice>(info);
+}
+const Backend mine{"mine", mine_status, open_mine};
+const Backend another_simulated{"simulated", mine_status, open_mine};
+}  // namespace
+
+TEST_CASE("a back-end that was registered is listed before the others, and opens by its name; a name is there once") {
+  const std::size_t before = enumerate_devices().size();
+  register_backend(mine);
+  const auto all = enumerate_devices();
+  CHECK(all.size() == before + 1);
+  CHECK(all.front().backend == "mine");
+  CHECK(open_device("mine", {1000, "two", ""})->info().model == "mine: two");
+  CHECK_THROWS_AS(register_backend(mine), DeviceError);
+  CHECK_THROWS_AS(register_backend(another_simulated), DeviceError);
+  CHECK(enumerate_devices().size() == before + 1);
 }

@@ -1,0 +1,101 @@
+"""A package of its own brings a device: it is listed, runs by its name, and hides nothing where it fails."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+DOCS = (Path(__file__).parents[3] / "docs" / "devices.md").read_text(encoding="utf-8")
+HARDWARE = """
+import math, time
+
+def read():
+    return (0.0, 5e-3 * math.cos(6 * time.monotonic()), 0.0)
+
+def write(force):
+    pass
+
+"""
+
+
+def package(folder, module, text, name="mine"):
+    """As pip installs one."""
+    (folder / f"{module}.py").write_text(text)
+    about = folder / f"{module}-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {module}\nVersion: 1.0\n")
+    (about / "entry_points.txt").write_text(f"[punctura.devices]\n{name} = {module}\n")
+
+
+def punctura(folder, *arguments):
+    environment = {**os.environ, "PYTHONPATH": str(folder)}
+    command = [sys.executable, "-m", "punctura.cli", *arguments]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+
+
+@pytest.fixture
+def of_the_docs(tmp_path):
+    """The package that docs/devices.md shows, with hardware that swings."""
+    text = re.search(r"the whole of `punctura_mine.py`:\n\n```python\n(.*?)```", DOCS, re.S)[1]
+    package(tmp_path, "punctura_mine", HARDWARE + text)
+    return tmp_path
+
+
+def test_the_package_of_the_docs_is_listed_and_runs(of_the_docs):
+    listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
+    assert listed[0] == {"backend": "mine", "state": "available", "detail": "", "devices": ["mine 1"]}
+    assert {"simulated", "replay", "haply"} < {entry["backend"] for entry in listed}
+    patient = of_the_docs / "limits.toml"
+    patient.write_text("deadline_ms = 20000\nstale_ms = 20000\n")  # however busy the computer is
+    run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", "2", "--json", "--limits", str(patient))
+    done = punctura(of_the_docs, *run)
+    assert done.returncode == 0, done.stderr
+    said = json.loads(done.stdout)
+    assert "mine" in said["device"] and said["ticks"] > 50 and said["strongest_N"] > 0.1
+
+
+AT_THE_END = """
+import threading
+from punctura.live import FedDevice, Pacer
+device = FedDevice(1600.0)
+def drive(rate):
+    pacer = Pacer(rate)
+    while True:
+        device.feed((0.0, 0.0, 0.0))
+        pacer.wait()
+for rate in (1600, 5000, 20000, 50000):
+    threading.Thread(target=drive, args=(rate,), daemon=True).start()
+"""
+
+
+def test_a_program_ends_whole_while_daemon_threads_feed(tmp_path):
+    for _ in range(8):
+        done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("raise ImportError('no driver here')", "ImportError: no driver here"),
+        ("def status(): return {}\ndef open(rate, device): return 3", "returned int, not a Device"),
+        ("def open(rate, device): raise OSError('the cable is out')", "OSError: the cable is out"),
+    ],
+)
+def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, words):
+    package(tmp_path, "broken", text, name="broken")
+    listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
+    assert listed[0]["backend"] == "broken" and listed[0]["state"] == "fault" and "simulated" in listed[-1]["backend"]
+    done = punctura(tmp_path, "run", "--headless", "--device", "broken", "--duration", "1")
+    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_name_of_punctura_s_own_is_not_taken_over(tmp_path):
+    package(tmp_path, "other", "def status(): return {'state': 'available'}", name="simulated")
+    listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
+    assert "has a device of this name" in listed[0]["detail"]
+    assert punctura(tmp_path, "run", "--headless", "--device", "simulated", "--duration", "0.2").returncode == 0
