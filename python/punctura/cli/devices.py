@@ -11,7 +11,7 @@ from punctura.live import enumerate_devices
 
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
-    """Every kind of device: whether it can be opened now, and if not, why and what to do."""
+    """Lists every kind of device: available, or why not and what to do."""
     entries = enumerate_devices()
     if as_json:
         typer.echo(json.dumps(entries, indent=2))

@@ -8,12 +8,12 @@ from typing import Annotated
 
 import typer
 
-command = typer.Typer(no_args_is_help=True, help="Exercises: list them, score a recording.")
+command = typer.Typer(no_args_is_help=True, help="Lists exercises; scores a recording.")
 
 
 @command.command("list")
 def list_exercises(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
-    """The ready exercises, by the names that score takes."""
+    """Lists the ready exercises by name."""
     from punctura.exercise import exercises
 
     all_of_them = exercises()
@@ -29,13 +29,13 @@ def list_exercises(as_json: Annotated[bool, typer.Option("--json", help="Print t
 @command.command()
 def score(
     recording: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="RECORDING")],
-    exercise: Annotated[str, typer.Option(help="A ready exercise's name, or an exercise file.", metavar="NAME|FILE")],
-    person: Annotated[str, typer.Option(help="Whose attempt it is.")] = "",
+    exercise: Annotated[str, typer.Option(help="Name of a ready exercise, or an exercise file.", metavar="NAME|FILE")],
+    person: Annotated[str, typer.Option(help="Name of the person, for --json.")] = "",
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Judges a recorded attempt as it would have been judged live.
+    """Scores a recorded attempt as the studio would have.
 
-    Status 0 whether it is passed or not: the first line says so, and whether something was not measured.
+    The status is 0 whether it was passed or not: the first line says so.
     """
     from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge

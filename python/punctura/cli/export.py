@@ -15,10 +15,10 @@ from punctura.cli._status import FAILED
 
 def command(
     file: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="FILE")],
-    out: Annotated[Path, typer.Option("--out", help="Where it goes.", metavar="OUT.csv|.parquet|.mcap")],
+    out: Annotated[Path, typer.Option("--out", help="File to write.", metavar="OUT.csv|.parquet|.mcap")],
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """A recording as CSV, Parquet or MCAP, also one whose process was killed."""
+    """Converts a recording to CSV, Parquet or MCAP, also one whose process was killed."""
     from punctura.record import export
 
     try:

@@ -18,15 +18,16 @@ IN_FRONT = 20e-3  # m before the first membrane: where the hand is asked to hold
 
 def command(
     scene: Annotated[str, typer.Argument(help="The scene to place the device in.")] = "k06-fig10",
-    device: Annotated[str, typer.Option("--device", help="As punctura devices names it.")] = "",
+    device: Annotated[str, typer.Option("--device", help="Device name (punctura devices).")] = "",
     tip_offset_mm: Annotated[
-        float, typer.Option("--tip-offset-mm", help="From the device's point to the needle's tip, along the stylus.")
+        float,
+        typer.Option("--tip-offset-mm", help="Distance from the device's point to the needle's tip along the stylus."),
     ] = 0.0,
-    out: Annotated[Path, typer.Option("--out", help="Where the placement goes.", metavar="FILE.toml")] = Path(
+    out: Annotated[Path, typer.Option("--out", help="Placement file to write.", metavar="FILE.toml")] = Path(
         "placement.toml"
     ),
 ) -> None:
-    """Asks for one pose, and writes the placement that `punctura run --placement` takes. No force is given."""
+    """Asks for one pose and writes a placement file for `punctura run --placement`. Gives no force."""
     if device.startswith("replay:"):
         raise typer.BadParameter("a recorded motion is held by nobody", param_hint="--device")
     if not out.parent.is_dir() or out.is_dir():

@@ -15,11 +15,11 @@ from punctura.cli._status import FAILED
 def command(
     file: Annotated[Path, typer.Argument(help="A recording, finished or not.", metavar="FILE")],
     out: Annotated[
-        Path | None, typer.Option("--out", help="Where the computed ticks go, as a recording.", metavar="FILE2.parquet")
+        Path | None, typer.Option("--out", help="Recording to write the computed ticks to.", metavar="FILE2.parquet")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Computes every tick of a recording again and compares it bit for bit.
+    """Computes every tick of a recording again and compares the forces bit for bit.
 
     Status 0: all ticks are identical. 1: some are not, some could not be computed, or there are none.
     """

@@ -15,12 +15,10 @@ if TYPE_CHECKING:
 
 
 def command(
-    out: Annotated[Path, typer.Option("--out", help="The folder that everything goes to.", metavar="DIR")] = Path(
-        "out/reproduce"
-    ),
+    out: Annotated[Path, typer.Option("--out", help="Folder to write to.", metavar="DIR")] = Path("out/reproduce"),
     as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
 ) -> None:
-    """Figures 3, 5, 10, 11 and 12 of K06 as PNG, SVG and CSV, and one page that shows them."""
+    """Makes Figures 3, 5, 10, 11 and 12 of K06 as PNG, SVG and CSV, and a page that shows them."""
     from punctura.reproduce import reproduce  # it needs the drawing library, which the other verbs need not wait for
 
     with progress_bar("reproduce") as tell:

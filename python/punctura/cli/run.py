@@ -24,26 +24,30 @@ def command(
         str,
         typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", show_default=USUAL_SCENE),
     ] = "",
-    headless: Annotated[bool, typer.Option("--headless", help="In this terminal, without a page.")] = False,
+    headless: Annotated[bool, typer.Option("--headless", help="Run in the terminal, without the studio.")] = False,
     port: Annotated[
         int,
-        typer.Option("--port", help="Of the page on this computer; 0 is any that is free.", min=0, max=65535),
+        typer.Option("--port", help="Local TCP port of the page; 0 picks a free one.", min=0, max=65535),
     ] = 0,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Only print the page's address.")] = False,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the page's address; do not open a browser.")
+    ] = False,
     device: Annotated[
         str,
         typer.Option(
-            "--device", help="As punctura devices names it, or replay:FILE.parquet; without it the best there is."
+            "--device",
+            help="Device name (punctura devices), or replay:FILE.parquet. Default: the first available device, "
+            "else the simulated one.",
         ),
     ] = "",
     duration: Annotated[
-        float | None, typer.Option("--duration", help="How long, s; without it until Ctrl-C.", min=0.0)
+        float | None, typer.Option("--duration", help="Seconds to run. Default: until Ctrl-C.", min=0.0)
     ] = None,
     placement: Annotated[
         Path | None,
         typer.Option(
             "--placement",
-            help="Where the device stands: punctura place.",
+            help="TOML file with the device's pose, written by punctura place.",
             metavar="FILE.toml",
             exists=True,
             dir_okay=False,
@@ -53,44 +57,44 @@ def command(
         Path | None,
         typer.Option(
             "--limits",
-            help="Of force and readings, by their names: docs/safety.md.",
+            help="TOML file with force and input limits (docs/safety.md).",
             metavar="FILE.toml",
             exists=True,
             dir_okay=False,
         ),
     ] = None,
     max_force: Annotated[
-        float | None, typer.Option("--max-force-N", help="The strongest force, N; instead of what --limits says.")
+        float | None, typer.Option("--max-force-N", help="Largest force, N. Overrides --limits.")
     ] = None,
     scene_filter: Annotated[
-        bool, typer.Option("--scene-filter", help="Filter positions as the scene says, not as the device needs.")
+        bool, typer.Option("--scene-filter", help="Use the scene's position filter, not the one for this device.")
     ] = False,
     processor: Annotated[
         int | None,
-        typer.Option("--processor", help="The one to tick on, as the system counts them; without it any.", min=0),
+        typer.Option("--processor", help="CPU number for the servo thread. Default: any.", min=0),
     ] = None,
     recordings: Annotated[
         Path | None,
-        typer.Option("--recordings", help="Where the page's recordings are kept.", metavar="FOLDER"),
+        typer.Option("--recordings", help="Folder of the studio's recordings.", metavar="FOLDER"),
     ] = None,
     exercise: Annotated[
         list[str] | None,
         typer.Option(
             "--exercise",
-            help="An exercise file of one's own, which the page lists; without SCENE, its scene runs. Can be repeated.",
+            help="Exercise file to list in the studio. Without SCENE, its scene runs. Can be repeated.",
             metavar="FILE.toml",
         ),
     ] = None,
     record: Annotated[
         Path | None,
-        typer.Option("--record", help="With --headless: every tick goes into this file.", metavar="FILE.parquet"),
+        typer.Option("--record", help="With --headless: record every tick to this file.", metavar="FILE.parquet"),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="With --headless: print the summary as JSON.")] = False,
     page: Annotated[Path | None, typer.Option("--page", hidden=True)] = None,
 ) -> None:
-    """A scene on a device at its full rate, with every safety limit on, and the studio's page to see and edit it.
+    """Runs a scene on a device at full rate, with all safety limits on, and serves the studio's page.
 
-    The simulated device's hand follows the mouse in the page; with --headless it makes strokes through the scene.
+    The hand of the simulated device follows the mouse in the page; with --headless it makes strokes through the scene.
     """
     never_wait_for_stderr()
     for wrong, name in ((record, "--record"), (as_json, "--json")):

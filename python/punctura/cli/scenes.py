@@ -11,7 +11,7 @@ from punctura.scene import load_scene, scene_names, scene_path
 
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
-    """The ready scenes, by the names that the other verbs take."""
+    """Lists the ready scenes by name."""
     scenes = {name: load_scene(name) for name in scene_names()}
     if as_json:
         entries = [

@@ -10,5 +10,5 @@ from punctura.scene import scene_json_schema
 
 
 def command() -> None:
-    """JSON Schema of the scene file: keys, units, bounds, defaults, help."""
+    """Prints the JSON Schema of scene files: keys, units, bounds, defaults, help."""
     typer.echo(json.dumps(scene_json_schema(), indent=2))

@@ -15,12 +15,12 @@ from punctura.simulation import SimulationSummary, simulate
 def command(
     scene: Annotated[str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")],
     motion: Annotated[
-        Path, typer.Option("--motion", help="CSV: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
+        Path, typer.Option("--motion", help="CSV file: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
     ],
-    out: Annotated[Path, typer.Option("--out", help="Where the result goes.", metavar="OUT.csv|.parquet")],
+    out: Annotated[Path, typer.Option("--out", help="Result file to write.", metavar="OUT.csv|.parquet")],
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """The model's own force for a motion from a file, without safety limits."""
+    """Computes the model's force for a motion from a file, without safety limits."""
     with progress_bar("simulate") as tell:
         summary = simulate(scene, motion, out, tell)
     for note in summary.notes:

@@ -113,7 +113,7 @@ def _first(mask: NDArray[np.bool_]) -> int | None:
 
 
 def resistance_of(columns: dict[str, Any], membrane: int) -> tuple[Numbers, Numbers]:
-    """What stands against the needle, -b.f, and what would stand against it if it slid in, -Phi_I, N."""
+    """(axial resistance -b.f, insertion friction -Phi_I), N."""
     force = -np.asarray(columns["axial_force"], dtype=np.float64)[:, membrane]
     lower = columns.get("lower")
     friction = force if lower is None else -np.asarray(lower, dtype=np.float64)[:, membrane]

@@ -52,7 +52,7 @@ def snapshot_columns(batch: pa.RecordBatch) -> Columns:
 
 
 def recorded_ticks(recording: Recording) -> Iterator[tuple[Columns, Scene | None]]:
-    """All ticks in turn; with a scene where the ticks begin that were run in another one."""
+    """All ticks in turn. scene is set after a scene change, else None."""
     for batch in recording.batches():
         start = 0
         for row, texts in _new_scenes(batch):

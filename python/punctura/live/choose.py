@@ -57,7 +57,7 @@ def gate_for(device: Device) -> GateLimits:
 
 
 def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:
-    """The scene as a device without orientation can run it, and a note about that; as it is for one that has."""
+    """(scene, note): direction from motion if the device reports no orientation; else unchanged, without a note."""
     if scene.direction == "motion" or device.info.has_orientation:
         return scene, ""
     return scene.replace(direction="motion"), "the device reports no orientation: the needle points where the tip moves"

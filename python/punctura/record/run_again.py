@@ -92,7 +92,7 @@ class _Again:
         self._step = Replay(info.scene, info.gate, info.limits, info.spent)
 
     def run(self, batch: pa.RecordBatch) -> pa.RecordBatch | None:
-        """Computes as many of the ticks as can be known; None where that is none."""
+        """Replays up to the first gap; None if there is nothing to replay."""
         n, why = self._knowable(batch)
         if n < len(batch):
             self._result.complete = False

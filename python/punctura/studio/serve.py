@@ -42,7 +42,7 @@ class StudioError(PuncturaError, OSError):
 
 @dataclass(frozen=True)
 class Address:
-    """Where the studio is. port: 0 is any that is free."""
+    """Where the studio is. port: 0 picks a free one."""
 
     port: int
     token: str
@@ -187,5 +187,5 @@ def _listening(port: int) -> socket.socket:
     except (OSError, OverflowError) as error:
         listening.close()
         why = getattr(error, "strerror", None) or str(error)
-        raise StudioError(f"port {port} cannot be had ({why}); without --port a free one is taken") from None
+        raise StudioError(f"cannot bind port {port} ({why}); leave out --port to get a free one") from None
     return listening

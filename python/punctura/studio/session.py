@@ -170,7 +170,7 @@ class Session:
         self.practice = Practice(exercise, self.run.loop.scene, person, name)
 
     def end_run(self, then: Then | None = None) -> None:
-        """No tick any more. What was recorded is finished beside; `then` is told how, in a thread of its own."""
+        """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
         self.run.stop()
         self._turn()
         practice, self.practice = self.practice, None

@@ -84,7 +84,7 @@ def test_a_port_that_is_taken_is_told(tmp_path):
         taken.listen()
         process = start(tmp_path, "--port", str(taken.getsockname()[1]))
         _, said = process.communicate(timeout=60)
-    assert process.returncode == 1 and "without --port" in said and "Traceback" not in said
+    assert process.returncode == 1 and "leave out --port" in said and "Traceback" not in said
 
 
 def test_each_run_has_a_token_of_its_own_and_answers_on_loopback_alone(served, tmp_path):

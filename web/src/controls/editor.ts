@@ -29,7 +29,7 @@ export const editorPanel: Panel = (host, app) => {
       build(host, app, form);
     } catch (error) {
       asked = false;
-      wait.textContent = `The scene’s form cannot be had: ${error instanceof Error ? error.message : String(error)}`;
+      wait.textContent = `Cannot load the form of the scene: ${error instanceof Error ? error.message : String(error)}`;
     }
   });
 };

@@ -53,7 +53,7 @@ export const exercisesPanel: Panel = (host, app) => {
         element(
           "p",
           { class: "quiet" },
-          `The exercises cannot be had: ${error instanceof Error ? error.message : String(error)}`,
+          `Cannot load the exercises: ${error instanceof Error ? error.message : String(error)}`,
         ),
       );
     }

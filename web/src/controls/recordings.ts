@@ -47,7 +47,7 @@ export const recordingsPanel: Panel = (host, app) => {
   library.trouble.watch((trouble) => {
     if (!trouble) return;
     note.hidden = false;
-    note.textContent = `The list of recordings cannot be had: ${trouble}`;
+    note.textContent = `Cannot load the list of recordings: ${trouble}`;
   });
   app.source.watch(mark);
   app.overlay.watch(mark);

@@ -96,7 +96,7 @@ export class SocketEngine implements Engine {
     try {
       socket = this.around.open(this.url, [PROTOCOL, `token.${this.token}`]);
     } catch {
-      this.listener?.connection({ state: "refused", reason: "the token in this page's address is none" });
+      this.listener?.connection({ state: "refused", reason: "the URL's token is invalid" });
       return;
     }
     this.socket = socket;

@@ -37,7 +37,7 @@ export function pastResults(
           ? `Of ${person || "attempts without a name"}, kept on this computer.`
           : "There is none yet.";
       } catch (error) {
-        note.textContent = `The results cannot be had: ${error instanceof Error ? error.message : String(error)}`;
+        note.textContent = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
       }
       if (mine !== asked) return;
       table.hidden = results.length === 0;
