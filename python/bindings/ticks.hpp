@@ -22,27 +22,31 @@ void make_ticks(std::size_t n, Tick&& tick) {
   }
 }
 
-/// Throws ValueError that names the argument, its place in an array and what to do, where a number is not finite.
-inline void check_finite(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
-  const double* bad = std::find_if(values, values + n, [](double x) { return !std::isfinite(x); });
+/// Throws ValueError that names the argument, its place in an array, the number and what to do, for the first number that is not good.
+template <typename Good>
+void check_numbers(const double* values, std::size_t n, const char* name, std::size_t row_length, Good&& good,
+                   const char* says, const char* remedy) {
+  const double* bad = std::find_if_not(values, values + n, good);
   if (bad == values + n) return;
   const std::size_t at = static_cast<std::size_t>(bad - values);
   const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
-  throw nb::value_error((std::string(name) + place + " must be finite and holds " + std::to_string(*bad) +
-                         ": leave such ticks out, or fill them in. No tick was made")
-                            .c_str());
+  throw nb::value_error(
+      (std::string(name) + place + says + std::to_string(*bad) + remedy + ". No tick was made").c_str());
+}
+
+/// Every number must be finite. row_length: of an array of rows; 0 is a single value.
+inline void check_finite(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
+  check_numbers(
+      values, n, name, row_length, [](double x) { return std::isfinite(x); }, " must be finite and holds ",
+      ": leave such ticks out, or fill them in");
 }
 
 /// The same for positions, which cannot be farther away than 1000 km either.
 inline void check_places(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
   check_finite(values, n, name, row_length);
-  const double* far = std::find_if(values, values + n, [](double x) { return !is_place(x); });
-  if (far == values + n) return;
-  const std::size_t at = static_cast<std::size_t>(far - values);
-  const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
-  throw nb::value_error((std::string(name) + place + " holds " + std::to_string(*far) +
-                         " m: positions must be within 1000 km. No tick was made")
-                            .c_str());
+  check_numbers(
+      values, n, name, row_length, [](double x) { return is_place(x); }, " holds ",
+      " m: positions must be within 1000 km");
 }
 
 /// Throws ValueError where a direction has no length.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "punctura/scene/check.hpp"
 
@@ -31,15 +30,6 @@ void for_each_value(SceneT& scene, Visit&& visit) {
     for (std::size_t k = 0; k < 3; ++k)
       visit(path + "." + std::string(normal_fields[k].name), normal_fields[k], placed.inward_normal[k]);
   }
-}
-
-/// The number at that path, in SI; nullptr where there is none. The scene is not checked: call check() after the last change.
-inline double* value_at(Scene& scene, std::string_view path) {
-  double* found = nullptr;
-  for_each_value(scene, [&](const std::string& at, const Field&, double& number) {
-    if (at == path) found = &number;
-  });
-  return found;
 }
 
 }  // namespace punctura

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from punctura import Scene
-from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, open_device
+from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
-from punctura.live.plug_ins import enumerate_devices, open_plug_in, plug_in
+from punctura.live.plug_ins import open_plug_in, plug_in_states
 
 ANY_PROCESSOR = -1
 
@@ -21,7 +21,8 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
     backend, _, device = name.partition(":")
     if backend == "replay":
         return _replay(device, processor)
-    states = {entry["backend"]: entry for entry in enumerate_devices()}
+    own = {entry["backend"]: entry for entry in enumerate_devices()}
+    states = {entry["backend"]: entry for entry in plug_in_states(set(own))} | own
     if not name:
         there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
         backend = there[0] if there else "simulated"
@@ -32,8 +33,8 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
         return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
     if backend not in states:
         raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
-    if found := plug_in(backend):
-        return open_plug_in(found, scene.servo.rate, device)
+    if backend not in own:
+        return open_plug_in(backend, scene.servo.rate, device)
     return open_device(backend, scene.servo.rate, device, processor=processor)
 
 

@@ -19,18 +19,17 @@ GROUP = "punctura.devices"
 def enumerate_devices() -> list[dict[str, Any]]:
     """Of each kind of device a dict: backend, state, detail, devices; those of other packages first. Gives no force."""
     own = _core.enumerate_devices()
-    return [_status(found, {entry["backend"] for entry in own}) for found in _found().values()] + own
+    return plug_in_states({entry["backend"] for entry in own}) + own
 
 
-def plug_in(backend: str) -> EntryPoint | None:
-    """The entry point of that name, if a package has one and no device of Punctura's own is called so."""
-    if backend in {entry["backend"] for entry in _core.enumerate_devices()}:
-        return None
-    return _found().get(backend)
+def plug_in_states(taken: set[str]) -> list[dict[str, Any]]:
+    """The entries of other packages. taken: the names of Punctura's own devices, which none can take over."""
+    return [_status(found, taken) for found in _found().values()]
 
 
-def open_plug_in(found: EntryPoint, rate: float, device: str) -> Device:
-    """Raises DeviceError, whatever the package has raised."""
+def open_plug_in(backend: str, rate: float, device: str) -> Device:
+    """backend: a name that plug_in_states() lists. Raises DeviceError, whatever the package has raised."""
+    found = _found()[backend]
     try:
         opened = found.load().open(rate, device)
     except DeviceError:
