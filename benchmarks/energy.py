@@ -24,9 +24,9 @@ DEVICES = {
 }
 
 
-def work(trace: pn.ExperimentTrace) -> tuple[float, float, float]:
+def work(trace: pn.Ticks) -> tuple[float, float, float]:
     """(model, held, length of the path): J, J, m; over the whole trace, which ends where it began."""
-    x, f = trace.tip, trace.force
+    x, f = trace.true_position, trace.force
     moved = np.diff(x, axis=0)
     model = float(np.einsum("ij,ij->", f[1:], moved))
     held = float(np.einsum("ij,ij->", f[:-1], moved))

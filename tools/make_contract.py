@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from punctura.studio.wire.frames import BYTES, COLUMNS, HEAD, encode_ticks
+from punctura.studio.wire.frames import HEAD, NUMBERS, WORDS, encode_ticks
+from punctura.ticks import Ticks
 
 FOLDER = Path(__file__).resolve().parents[1] / "tests" / "contract"
 PLAIN = ("take_control", "arm", "pause", "reset", "stop_recording", "end_exercise", "trip_fault")
@@ -43,12 +44,13 @@ VIEW = {
 def columns(n: int, m: int, first: int, nan: bool) -> dict[str, Any]:
     """Numbers that f32 holds exactly, each other than its neighbours."""
     made: dict[str, Any] = {"tick": np.arange(first, first + n, dtype=np.uint64)}
-    for at, (name, (width, each)) in enumerate(COLUMNS.items()):
-        shape = (n, *((m,) if each else ()), *((width,) if width > 1 else ()))
-        made[name] = (np.arange(int(np.prod(shape)), dtype=float).reshape(shape) + 1) / 64 - at
+    for at, field in enumerate(NUMBERS):
+        shape = (n, *((m,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
+        made[field.name] = (np.arange(int(np.prod(shape)), dtype=float).reshape(shape) + 1) / 64 - at
     made["time"] = 2.5 + np.arange(n) / 1024
-    for at, (name, each) in enumerate(BYTES.items()):
-        made[name] = (np.arange(n * (m if each else 1)).reshape((n, m) if each else (n,)) + at) % 5
+    for at, field in enumerate(WORDS):
+        each = field.per_membrane
+        made[field.name] = (np.arange(n * (m if each else 1)).reshape((n, m) if each else (n,)) + at) % 5
     if nan:
         made["depth"][0, 0] = made["position"][1, 2] = made["ceiling"][2] = np.nan
     return made
@@ -62,9 +64,9 @@ def sound_frame(what: str, m: int, other: bool, nan: bool, first: int = 7) -> di
     n = 3
     made = columns(n, m, first, nan)
     force = np.full((n, 3), np.nan) if other and nan else np.arange(n * 3).reshape(n, 3) / 8 if other else None
-    data = encode_ticks(made, 2, 5, force)
+    data = encode_ticks(Ticks(made), 2, 5, force)
     made["time"] = made["time"] - 2.5
-    names = [*COLUMNS, *BYTES]
+    names = [field.name for field in (*NUMBERS, *WORDS)]
     holds = {name: plain(made[name]) for name in names} | ({"other_force": plain(force)} if other else {})
     head = {"first_tick": first, "first_time": 2.5, "run": 2, "lost": 5, "membranes": m, "count": n}
     return {"what": what, "bytes": base64.b64encode(data).decode(), "head": head, "holds": holds}
@@ -88,7 +90,7 @@ def frames() -> list[dict[str, Any]]:
     bad = {
         "nothing": b"",
         "half a head": whole[:20],
-        "another magic": with_head(0, 0x31544E51),
+        "another magic": with_head(0, 0x31544E50),
         "cut off": whole[:-1],
         "cut off within a column": whole[: HEAD.size + 10],
         "too long": whole + b"\0",

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
-GENERATED = ("web/src/wire/messages.ts",)  # npm run types
+GENERATED = ("web/src/wire/messages.ts", "web/src/wire/tick_table.ts")  # npm run types; tools/make_tick_table.py
 SOURCE_SUFFIXES = (*CPP_SUFFIXES, ".py", ".pyi", ".ts", ".sh", ".cmake")
 
 

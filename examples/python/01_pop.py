@@ -8,6 +8,6 @@ wall = pn.Membrane(stiffness=570, precompression=0.41, friction=0.2, thickness=0
 proxy = pn.Proxy1d(pn.ThickLaw(needle, wall), pn.Coupling(stiffness=400, damping=1), period=1 / 1600)
 
 depth = np.linspace(-1e-3, 9e-3, 3201)
-force = proxy.run(depth)
-for q, f in zip(depth[::160], force[::160], strict=True):
+ticks = proxy.run(depth)
+for q, f in zip(depth[::160], ticks.force[::160], strict=True):
     print(f"depth {q * 1e3:6.2f} mm   force {f:7.4f} N")

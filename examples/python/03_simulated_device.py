@@ -11,7 +11,7 @@ scene = pn.Scene(
 experiment = pn.Experiment(scene, pn.Strokes(start=[0, 5e-3, 0], end=[0, -10e-3, 0]), seed=1)
 trace = experiment.run(experiment.duration)
 
-if trace.fault:
-    raise SystemExit(trace.fault)
+if trace.fault_text:
+    raise SystemExit(trace.fault_text)
 for t, p, f in zip(trace.time[::800], trace.position[::800], trace.force[::800], strict=True):
     print(f"t {t:5.2f} s   y {p[1] * 1e3:6.2f} mm   force {f[1]:6.3f} N")

@@ -13,5 +13,5 @@ loop.arm()  # force comes once the tip is outside of tissue, over half a second
 while loop.report()["ticks"] < 4000:
     time.sleep(0.25)
     now = loop.latest()
-    print(f"y {now['tip'][0, 1] * 1e3:6.2f} mm   force {now['force'][0, 1]:6.3f} N")
+    print(f"y {now.tip[0, 1] * 1e3:6.2f} mm   force {now.force[0, 1]:6.3f} N")
 loop.stop()  # zero force, then no tick any more

@@ -30,6 +30,7 @@ void bind_insertion(nb::module_&);
 void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
 void bind_limits(nb::module_&);
+void bind_tick_table(nb::module_&);
 void bind_runtime(nb::module_&);
 void bind_given_devices(nb::module_&);
 void bind_devices(nb::module_&);

@@ -4,17 +4,11 @@
 #include <nanobind/stl/variant.h>
 
 #include "bindings.hpp"
-#include "insertion_trace.hpp"
+#include "tick_columns.hpp"
 #include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
-
-struct ExperimentTrace : InsertionTrace {
-  nb::object time, position, tip, desired, model_force;
-  LimitCounters limits;
-  Fault fault;
-};
 
 using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
@@ -45,45 +39,24 @@ class AnyExperiment {
     with_target->motion().move_to(vector(position));
   }
 
-  ExperimentTrace run(double duration) {
+  nb::object run(double duration) {
     if (!(duration >= 0 && std::isfinite(duration))) throw nb::value_error("duration must be 0 s or more");
     const auto n = static_cast<std::size_t>(std::llround(duration * rate_));
     return std::visit([&](auto& experiment) { return run(experiment, n); }, experiment_);
   }
 
  private:
-  ExperimentTrace run(std::monostate&, std::size_t) { throw std::logic_error("no motion"); }
+  nb::object run(std::monostate&, std::size_t) { throw std::logic_error("no motion"); }
 
   template <typename E>
-  ExperimentTrace run(E& experiment, std::size_t n) {
-    const std::size_t m = experiment.servo().snapshot().membrane_count;
-    MembraneColumns columns(n, m);
-    std::vector<double> time(n), position(3 * n), tip(3 * n), desired(3 * n), force(3 * n), model_force(3 * n);
-    const auto put = [](std::vector<double>& column, std::size_t i, const Triple& v) {
-      std::copy(v.begin(), v.end(), &column[3 * i]);
-    };
-    make_ticks(n, [&](std::size_t i) {
-      const Snapshot& s = experiment.step();
-      time[i] = s.sample.time;
-      put(position, i, s.sample.position);
-      put(tip, i, plain(experiment.tip()));
-      put(desired, i, plain(experiment.desired().position));
-      put(force, i, s.force);
-      put(model_force, i, s.model_force);
-      for (std::size_t j = 0; j < m; ++j) {
-        const MembraneRecord& r = s.membranes[j];
-        columns.set(i, j, r.depth, r.axial_force, r.lower, r.upper, r.phase);
-      }
+  nb::object run(E& experiment, std::size_t n) {
+    TickColumns<decltype(experiment_table), ExperimentExtra> columns(experiment_table);
+    columns.reserve(n, experiment.servo().snapshot().membrane_count);
+    make_ticks(n, [&](std::size_t) {
+      const Snapshot& snapshot = experiment.step();
+      columns.add(snapshot, experiment.extra());
     });
-    const Snapshot& last = experiment.servo().snapshot();
-    return {{to_numpy(std::move(force), {n, 3}), std::move(columns)},
-            to_numpy(std::move(time), {n}),
-            to_numpy(std::move(position), {n, 3}),
-            to_numpy(std::move(tip), {n, 3}),
-            to_numpy(std::move(desired), {n, 3}),
-            to_numpy(std::move(model_force), {n, 3}),
-            last.limits,
-            last.fault};
+    return columns.to_ticks();
   }
 
   double rate_, duration_ = 0;
@@ -93,30 +66,6 @@ class AnyExperiment {
 }  // namespace
 
 void bind_experiment(nb::module_& m) {
-  auto trace =
-      nb::class_<ExperimentTrace>(m, "ExperimentTrace", "What an experiment gave, tick by tick; n ticks, m membranes.");
-  const auto column = [&trace](const char* name, const char* signature, auto member, const char* doc) {
-    trace.def_prop_ro(name, [member](const ExperimentTrace& t) { return t.*member; }, nb::sig(signature), doc);
-  };
-  column("time", "def time(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::time, "(n,), s");
-  column("position", "def position(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::position,
-         "What the encoders said, (n, 3), m");
-  column("tip", "def tip(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::tip,
-         "Where the tip was, (n, 3), m");
-  column("desired", "def desired(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::desired,
-         "What the hand wanted, (n, 3), m");
-  column("force", "def force(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::force,
-         "Sent to the device, after the limits, (n, 3), N");
-  column("model_force", "def model_force(self) -> numpy.typing.NDArray[numpy.float64]", &ExperimentTrace::model_force,
-         "Before the limits, (n, 3), N");
-  def_membrane_columns(trace);
-  trace.def_prop_ro(
-      "limited_ticks", [](const ExperimentTrace& t) { return t.limits.peak + t.limits.continuous; },
-      "Ticks in which a force limit acted, ramp-in apart, since the start");
-  trace.def_prop_ro(
-      "fault", [](const ExperimentTrace& t) -> std::string { return t.fault == Fault::none ? "" : describe(t.fault); },
-      "What fault is latched, and what to do; empty for none");
-
   nb::class_<AnyExperiment>(
       m, "Experiment",
       "A simulated operator at a simulated device, through the step that drives a real one. K06 section 4")
@@ -136,7 +85,8 @@ void bind_experiment(nb::module_& m) {
           "axis: where the stylus points; the first membrane's inward normal if not given. Raises ConfigurationError.")
       .def(
           "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),
-          "Goes on for a time (s). The arrays hold what came in that time.")
+          nb::sig("def run(self, duration: float) -> Ticks"),
+          "Goes on for a time (s), and gives its ticks, with desired and true_position.")
       .def_prop_ro("duration", &AnyExperiment::duration, "How long the motion takes, s; 0 for a Target")
       .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m.");
 }

@@ -2,9 +2,10 @@
 #include "punctura/proxy/insertion.hpp"
 
 #include "bindings.hpp"
-#include "insertion_trace.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura/servo/record.hpp"
 #include "state.hpp"
+#include "tick_columns.hpp"
 #include "ticks.hpp"
 
 namespace punctura::bindings {
@@ -25,35 +26,34 @@ std::array<double, 3> step(Insertion& insertion, const Point& p, const Point& ax
   return plain(insertion.step(p.vector(), insertion.uses_axis() ? direction(axis.numbers) : Vector3d()));
 }
 
-InsertionTrace run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
+nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (insertion.uses_axis()) axes.check("axis");
-  MembraneColumns columns(n, insertion.proxies().size());
-  std::vector<double> force(3 * n);
+  const auto count = static_cast<std::uint32_t>(insertion.proxies().size());
+  SnapshotColumns columns(
+      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
+  columns.reserve(n, count);
+  Snapshot record{};
+  record.membrane_count = count;
   const OneThread::Running running(insertion);
   make_ticks(n, [&](std::size_t i) {
-    const Vector3d now = insertion.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
-    std::copy(now.begin(), now.end(), &force[3 * i]);
-    for (std::size_t j = 0; j < insertion.proxies().size(); ++j) {
-      const auto& tick = insertion.proxies()[j].tick();
-      columns.set(i, j, tick.depth, tick.axial_force, tick.band.lower, tick.band.upper, tick.phase);
-    }
+    const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
+    record.sample.position = plain(position);
+    record.sample.axis = plain(direction);
+    record.force = plain(insertion.step(position, direction));
+    record.tip = plain(insertion.tip());
+    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.proxies()[j].tick());
+    columns.add(record);
   });
-  return {to_numpy(std::move(force), {n, 3}), std::move(columns)};
+  return columns.to_ticks();
 }
 
 }  // namespace
 
 void bind_insertion(nb::module_& m) {
-  auto trace = nb::class_<InsertionTrace>(m, "InsertionTrace", "What a run gave, tick by tick; n ticks, m membranes.");
-  trace.def_prop_ro(
-      "force", [](const InsertionTrace& t) { return t.force; },
-      nb::sig("def force(self) -> numpy.typing.NDArray[numpy.float64]"), "On the device, (n, 3), N");
-  def_membrane_columns(trace);
-
   auto insertion = nb::class_<SceneInsertion>(
       m, "Insertion", nb::is_final(),
       "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
@@ -92,7 +92,7 @@ void bind_insertion(nb::module_& m) {
           },
           nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> InsertionTrace"),
+           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
            "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.")
       .def_prop_ro(
           "tip", [](const SceneInsertion& i) { return plain(i.tip()); }, "The conditioned position, m")

@@ -19,6 +19,7 @@ NB_MODULE(_core, m) {
   bind_plant(m);
   bind_experiment(m);
   bind_limits(m);
+  bind_tick_table(m);
   bind_runtime(m);
   bind_given_devices(m);
   bind_devices(m);

@@ -5,7 +5,9 @@
 #include "bindings.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura/servo/record.hpp"
 #include "state.hpp"
+#include "tick_columns.hpp"
 #include "ticks.hpp"
 #include "value.hpp"
 
@@ -52,10 +54,20 @@ class LineProxy : public OneThread {
   nb::object run(const nb::object& depths) {
     const Input p = input_1d(depths, "p");
     check_places(p.data(), p.size(), "p", 1);
-    std::vector<double> f(p.size());
+    SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
+    columns.reserve(p.size(), 1);
+    Snapshot record{};
+    record.membrane_count = 1;
     const Running running(*this);
-    visit([&](auto& proxy) { make_ticks(f.size(), [&](std::size_t i) { f[i] = proxy.step(p.data()[i]); }); });
-    return to_numpy(std::move(f), {p.size()});
+    visit([&](auto& proxy) {
+      make_ticks(p.size(), [&](std::size_t i) {
+        record.sample.position = {p.data()[i], 0, 0};
+        record.force = {proxy.step(p.data()[i]), 0, 0};
+        record.membranes[0] = record_of(proxy.tick());
+        columns.add(record);
+      });
+    });
+    return columns.to_ticks(1, true);
   }
 
   std::vector<std::byte> save() const {
@@ -136,13 +148,21 @@ nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::obje
   const Rows axes(input(axis), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   axes.check("axis");
-  std::vector<double> f(3 * n);
+  SnapshotColumns columns(
+      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
+  columns.reserve(n, 1);
+  Snapshot record{};
+  record.membrane_count = 1;
   const OneThread::Running running(proxy);
   make_ticks(n, [&](std::size_t i) {
-    const Vector3d now = proxy.step(Vector3d(p.data() + 3 * i), axes[i].stableNormalized());
-    std::copy(now.begin(), now.end(), &f[3 * i]);
+    const Vector3d position(p.data() + 3 * i), axis_now = axes[i].stableNormalized();
+    record.sample.position = plain(position);
+    record.sample.axis = plain(axis_now);
+    record.force = plain(proxy.step(position, axis_now));
+    record.membranes[0] = record_of(proxy.tick());
+    columns.add(record);
   });
-  return to_numpy(std::move(f), {n, 3});
+  return columns.to_ticks(3, true);
 }
 
 }  // namespace
@@ -185,9 +205,10 @@ void bind_proxy(nb::module_& m) {
       .def("step", &LineProxy::step, nb::arg("p"),
            "One tick: p, the device's depth (m), gives the force on the device (N).")
       .def("peek", &LineProxy::peek, nb::arg("p"), "What step(p) would give, without that tick.")
-      .def("run", &LineProxy::run, nb::arg("p"),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
-           "Many ticks, from the present state on: p (n,), m, gives f (n,), N.")
+      .def(
+          "run", &LineProxy::run, nb::arg("p"), nb::sig("def run(self, p: numpy.typing.ArrayLike) -> Ticks"),
+          "Many ticks, from the present state on: p (n,), m. Gives position, force, depth, axial_force, lower, upper,\n"
+          "proxy and phase, each (n,).")
       .def_prop_ro(
           "force", [](LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
       .def_prop_ro(
@@ -238,11 +259,10 @@ void bind_proxy(nb::module_& m) {
             return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
           },
           nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
-      .def(
-          "run", &run_3d, nb::arg("p"), nb::arg("axis"),
-          nb::sig(
-              "def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
-          "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,). Gives f (n, 3), N.")
+      .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),
+           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
+           "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.\n"
+           "Gives position, axis, force, proxy, direction (n, 3), depth, axial_force, lower, upper, phase (n,).")
       .def_prop_ro(
           "force", [](const SpaceProxy& p) { return plain(p.force()); }, "f(k), N")
       .def_prop_ro(

@@ -5,17 +5,11 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "input_columns.hpp"
 #include "punctura/scene/build.hpp"
-#include "snapshot_columns.hpp"
 
 namespace punctura::bindings {
 namespace {
-
-template <typename T, typename... Shape>
-using Column = nb::ndarray<const T, nb::c_contig, nb::device::cpu, Shape...>;
-template <typename T>
-using Scalars = Column<T, nb::ndim<1>>;
-using Triples = Column<double, nb::shape<-1, 3>>;
 
 std::string compiler() {
 #if defined(__clang__)
@@ -41,44 +35,32 @@ class Replay {
     step_->set_spent(spent);
   }
 
-  nb::dict run(const Scalars<std::uint64_t>& sequence, const Scalars<double>& time, const Triples& position,
-               const Triples& axis, const Scalars<std::uint32_t>& buttons, const Scalars<std::uint8_t>& healthy,
-               const Scalars<double>& motor_temperature, const Scalars<std::uint32_t>& commands,
-               const std::vector<std::vector<Scene>>& scenes) {
-    const std::size_t n = time.size();
-    if (sequence.size() != n || position.shape(0) != n || axis.shape(0) != n || buttons.size() != n ||
-        healthy.size() != n || motor_temperature.size() != n || commands.size() != n)
-      throw std::invalid_argument("the columns must be of one length");
-    const auto asked = std::count_if(commands.data(), commands.data() + n,
-                                     [](std::uint32_t bits) { return (bits & command_scene) != 0; });
-    if (static_cast<std::size_t>(asked) != scenes.size())
-      throw std::invalid_argument("there must be scenes for every tick that took one");
+  nb::object run(const nb::object& ticks, const std::vector<std::vector<Scene>>& scenes) {
+    const InputColumns given(ticks);
+    Snapshot now{};
+    std::size_t asked = 0;
+    for (std::size_t k = 0; k < given.rows(); ++k) {
+      given.read(k, now);
+      asked += (now.commands & command_scene) != 0;
+    }
+    if (asked != scenes.size()) throw std::invalid_argument("there must be scenes for every tick that took one");
 
     SnapshotColumns columns;
     {
       nb::gil_scoped_release release;
-      columns.reserve(n);
+      columns.reserve(given.rows(), step_->snapshot().membrane_count);
       auto taken = scenes.begin();
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::uint32_t bits = commands.data()[k];
-        if (bits & command_scene)
+      for (std::size_t k = 0; k < given.rows(); ++k) {
+        given.read(k, now);
+        if (now.commands & command_scene)
           for (const Scene& scene : *taken++) take(scene);
-        if (bits & command_reset) step_->reset();
-        if (bits & command_arm) step_->arm();
-        if (bits & command_disarm) step_->disarm();
-        const double *p = position.data() + 3 * k, *a = axis.data() + 3 * k;
-        DeviceSample sample{};
-        sample.sequence = sequence.data()[k];
-        sample.time = time.data()[k];
-        sample.position = {p[0], p[1], p[2]};
-        sample.axis = {a[0], a[1], a[2]};
-        sample.buttons = buttons.data()[k];
-        sample.healthy = healthy.data()[k] != 0;
-        sample.motor_temperature = motor_temperature.data()[k];
-        columns.add(step_->step(sample));
+        if (now.commands & command_reset) step_->reset();
+        if (now.commands & command_arm) step_->arm();
+        if (now.commands & command_disarm) step_->disarm();
+        columns.add(step_->step(now.sample));
       }
     }
-    return columns.to_dict();
+    return columns.to_ticks();
   }
 
  private:
@@ -114,13 +96,10 @@ void bind_replay(nb::module_& m) {
           "scene: at the device's rate. spent: what the motors had given before, N^2 s. Starts as a loop does before its\n"
           "first tick.")
       .def(
-          "run", &Replay::run, nb::arg("sequence"), nb::arg("time"), nb::arg("position"), nb::arg("axis"),
-          nb::arg("buttons"), nb::arg("healthy"), nb::arg("motor_temperature"), nb::arg("commands"), nb::arg("scenes"),
-          nb::sig("def run(self, sequence: typing.Any, time: typing.Any, position: typing.Any, axis: typing.Any, "
-                  "buttons: typing.Any, healthy: typing.Any, motor_temperature: typing.Any, commands: typing.Any, "
-                  "scenes: Sequence[Sequence[Scene]]) -> dict[str, typing.Any]"),
-          "The next ticks, as columns like a Listener's. scenes: for every tick whose commands say that it took one, those\n"
-          "taken, in their order.");
+          "run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
+          nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),
+          "The ticks that follow from these inputs. ticks: Ticks or a mapping with all fields that are inputs. scenes: for\n"
+          "every tick whose commands say that it took one, those taken, in their order.");
 }
 
 }  // namespace punctura::bindings

@@ -8,7 +8,7 @@
 #include "bindings.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
-#include "snapshot_columns.hpp"
+#include "tick_columns.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -26,7 +26,7 @@ SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
 struct Listener {
   SnapshotRing* ring;
 
-  nb::dict read(std::optional<std::size_t> limit) {
+  nb::object read(std::optional<std::size_t> limit) {
     SnapshotColumns columns;
     {
       nb::gil_scoped_release release;
@@ -34,7 +34,7 @@ struct Listener {
       columns.reserve(std::min<std::size_t>(most, 4096));
       ring->pop(most, [&](const Snapshot& s) { columns.add(s); });
     }
-    return columns.to_dict();
+    return columns.to_ticks();
   }
 };
 
@@ -60,18 +60,11 @@ nb::dict report(const ServoLoop& loop) {
   return d;
 }
 
-nb::dict as_columns(const std::vector<Snapshot>& snapshots) {
+nb::object as_ticks(const std::vector<Snapshot>& snapshots) {
   SnapshotColumns columns;
   for (const Snapshot& s : snapshots) columns.add(s);
-  return columns.to_dict();
+  return columns.to_ticks();
 }
-
-constexpr const char* read_doc =
-    "Takes the oldest snapshots, `limit` at most; without it all that are there when it is called.\n\n"
-    "A dict of arrays, one row a tick: tick, sequence, time (s), position and axis (n, 3), buttons, healthy, motor_temperature,\n"
-    "tip, model_force, force (n, 3), ceiling (N), peak_limited, continuous_limited, temperature_limited, ramp_limited (counts so\n"
-    "far), state, fault, limit (what cut this tick's force), commands; of each membrane depth, axial_force, lower, upper,\n"
-    "phase (n, m), proxy, direction (n, m, 3).";
 
 }  // namespace
 
@@ -141,7 +134,8 @@ void bind_runtime(nb::module_& m) {
 
   nb::class_<Listener>(m, "Listener", "Every tick's snapshot, for one reader.")
       .def("read", &Listener::read, nb::arg("limit") = nb::none(),
-           nb::sig("def read(self, limit: int | None = None) -> dict[str, typing.Any]"), read_doc)
+           nb::sig("def read(self, limit: int | None = None) -> Ticks"),
+           "Takes the oldest snapshots, `limit` at most; without it all that are there when it is called.")
       .def_prop_ro(
           "lost", [](const Listener& l) { return l.ring->lost(); }, "Snapshots that found no room.")
       .def_prop_ro(
@@ -211,13 +205,11 @@ void bind_runtime(nb::module_& m) {
           "report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),
           "ticks, late, and of period and compute the quantiles p50, p99, p99_9, the largest (s) and the counts by bin.")
       .def(
-          "latest", [](ServoLoop& loop) { return as_columns({loop.latest()}); },
-          nb::sig("def latest(self) -> dict[str, typing.Any]"),
-          "The last tick's snapshot, as columns with one row; all zeros before the first tick.")
+          "latest", [](ServoLoop& loop) { return as_ticks({loop.latest()}); }, nb::sig("def latest(self) -> Ticks"),
+          "The last tick, one row; all zeros before the first tick.")
       .def(
-          "fault_history", [](ServoLoop& loop) { return as_columns(loop.fault_history()); },
-          nb::sig("def fault_history(self) -> dict[str, typing.Any]"),
-          "The last snapshots up to the latched fault, as columns; none without one.");
+          "fault_history", [](ServoLoop& loop) { return as_ticks(loop.fault_history()); },
+          nb::sig("def fault_history(self) -> Ticks"), "The last ticks up to the latched fault; none without one.");
 
   // A loop that a daemon thread or an interactive session still holds would leave its device with the last force.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] {

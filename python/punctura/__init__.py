@@ -4,10 +4,8 @@ from punctura._core import (
     Coupling,
     DeviceError,
     Experiment,
-    ExperimentTrace,
     Hand,
     Insertion,
-    InsertionTrace,
     Membrane,
     Needle,
     Phase,
@@ -31,6 +29,7 @@ from punctura._core import (
 from punctura.errors import ConfigurationError, Problem
 from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
 from punctura.simulation import MotionError, SimulationSummary, simulate
+from punctura.ticks import Ticks
 
 __version__ = _version()
 
@@ -39,10 +38,8 @@ __all__ = [
     "Coupling",
     "DeviceError",
     "Experiment",
-    "ExperimentTrace",
     "Hand",
     "Insertion",
-    "InsertionTrace",
     "Membrane",
     "MotionError",
     "Needle",
@@ -62,6 +59,7 @@ __all__ = [
     "Target",
     "ThickLaw",
     "ThinLaw",
+    "Ticks",
     "__version__",
     "load_scene",
     "save_scene",

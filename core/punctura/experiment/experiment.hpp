@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "punctura/experiment/experiment_table.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
@@ -38,6 +39,8 @@ class Experiment {
     return snapshot;
   }
 
+  /// Of the last step.
+  ExperimentExtra extra() const noexcept { return {plain(tip_), plain(desired_.position)}; }
   const Desired& desired() const noexcept { return desired_; }  ///< of the last step
   const Vector3d& tip() const noexcept { return tip_; }         ///< true position at the last step, m
   Motion& motion() noexcept { return motion_; }

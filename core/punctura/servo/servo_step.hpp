@@ -15,6 +15,7 @@
 #include "punctura/proxy/insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
+#include "punctura/servo/record.hpp"
 #include "punctura/servo/snapshot.hpp"
 
 namespace punctura {
@@ -144,11 +145,8 @@ class ServoStep {
     snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;
-    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
-      const auto& t = insertion_.proxies()[i].tick();
-      snapshot_.membranes[i] = {t.depth,        t.axial_force,      t.band.lower, t.band.upper,
-                                plain(t.proxy), plain(t.direction), t.phase};
-    }
+    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i)
+      snapshot_.membranes[i] = record_of(insertion_.proxies()[i].tick());
   }
 
   Insertion insertion_;

@@ -3,6 +3,6 @@
 from punctura.events.crossing import Crossing, crossing
 from punctura.events.event import Event
 from punctura.events.finder import EventFinder
-from punctura.events.recorded import find_events, snapshot_columns
+from punctura.events.recorded import find_events
 
-__all__ = ["Crossing", "Event", "EventFinder", "crossing", "find_events", "snapshot_columns"]
+__all__ = ["Crossing", "Event", "EventFinder", "crossing", "find_events"]

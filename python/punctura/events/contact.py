@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import Phase
 from punctura.events.crossing import Crossing
+from punctura.ticks import Columns
 
 Numbers = NDArray[np.float64]
 
@@ -112,7 +113,7 @@ def _first(mask: NDArray[np.bool_]) -> int | None:
     return at if mask[at] else None
 
 
-def resistance_of(columns: dict[str, Any], membrane: int) -> tuple[Numbers, Numbers]:
+def resistance_of(columns: Columns, membrane: int) -> tuple[Numbers, Numbers]:
     """(axial resistance -b.f, insertion friction -Phi_I), N."""
     force = -np.asarray(columns["axial_force"], dtype=np.float64)[:, membrane]
     lower = columns.get("lower")

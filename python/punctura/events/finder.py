@@ -14,8 +14,7 @@ from punctura import Scene
 from punctura.events.contact import Contact, Happening, resistance_of
 from punctura.events.crossing import Crossing, crossing
 from punctura.events.event import Event
-
-Columns = dict[str, NDArray[Any]]
+from punctura.ticks import Columns, Ticks
 
 _COMMAND_SCENE = 8
 
@@ -39,7 +38,7 @@ class EventFinder:
         """The run goes on in another scene, from the next tick on that says that it has taken one."""
         self._next = scene
 
-    def add(self, columns: Columns) -> list[Event]:
+    def add(self, columns: Ticks | dict[str, NDArray[Any]]) -> list[Event]:
         """The events of the next ticks."""
         n = len(columns["depth"])
         if n == 0:

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Scene, __version__
+from punctura import Scene, __version__, ticks
 from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
@@ -65,7 +65,7 @@ class Attempt:
         """Decided, and nothing is measured any more."""
         return self.over and self._measures.settled
 
-    def add(self, columns: dict[str, NDArray[Any]]) -> None:
+    def add(self, columns: ticks.Ticks | dict[str, NDArray[Any]]) -> None:
         """The next ticks, as Listener.read() gives them."""
         if self.settled or len(columns["depth"]) == 0:
             return

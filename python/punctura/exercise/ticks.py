@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from punctura import Scene, ThickLaw
 from punctura._core import Phase
 from punctura.events.crossing import STEEPEST
+from punctura.ticks import Columns
 
-Columns = dict[str, NDArray[Any]]
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 

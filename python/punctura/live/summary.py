@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
 from punctura.live.room import room_note
-
-Columns = dict[str, Any]
+from punctura.ticks import ABSENT, Ticks
 
 # The limits that cut a force; the ramp after arming is no news.
 LIMIT_WORDS = {"peak": "peak limit", "continuous": "long-run limit", "temperature": "warm motors"}
@@ -63,30 +62,30 @@ class RunSummary:
         names = [placed.name for placed in scene.membranes]
         return cls(scene.name, device, rate, names, deepest_m=[0.0] * len(names))
 
-    def add(self, columns: Columns) -> None:
+    def add(self, ticks: Ticks) -> None:
         """Takes a batch from a Listener."""
-        tick = columns["tick"]
+        tick = ticks.tick
         n = len(tick)
         if n == 0:
             return
         self.gaps += int(tick[-1]) + 1 - self._next_tick - n
         self._next_tick = int(tick[-1]) + 1
         self.ticks += n
-        self.strongest_N = max(self.strongest_N, strongest(columns["force"], columns["ceiling"]))
-        deepest = columns["depth"].max(axis=0)
+        self.strongest_N = max(self.strongest_N, strongest(ticks.force, ticks.ceiling))
+        deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
-        self.limited_by = {name: int(columns[f"{name}_limited"][-1]) for name in LIMIT_WORDS}
+        self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in LIMIT_WORDS}
         self.limited_ticks = sum(self.limited_by.values())
-        x, y, z = columns["force"][-1]
+        x, y, z = ticks.force[-1]
         self.force_N = (float(x), float(y), float(z))
-        self.model_force_N = float(np.linalg.norm(columns["model_force"][-1]))
-        self.limit = LIMIT_WORDS.get(Limit(int(columns["limit"][-1])).name, "")
-        self.depth_m = [float(d) for d in columns["depth"][-1]]
-        self.phases = [Phase(int(p)).name for p in columns["phase"][-1]]
-        self.state = ServoState(int(columns["state"][-1])).name
-        self.force_was_on = self.force_was_on or bool((columns["state"] == ServoState.active).any())
-        self.time_s = float(columns["time"][-1])
-        if fault := int(columns["fault"][-1]):
+        self.model_force_N = float(np.linalg.norm(ticks.model_force[-1]))
+        self.limit = LIMIT_WORDS.get(Limit(int(ticks.limit[-1])).name, "")
+        self.depth_m = [float(d) for d in ticks.depth[-1]]
+        self.phases = [Phase(int(p)).name for p in ticks.phase[-1] if p != ABSENT]
+        self.state = ServoState(int(ticks.state[-1])).name
+        self.force_was_on = self.force_was_on or bool((ticks.state == ServoState.active).any())
+        self.time_s = float(ticks.time[-1])
+        if fault := int(ticks.fault[-1]):
             self.fault = describe(Fault(fault))
 
     def finish(self, loop: ServoLoop) -> None:

@@ -9,9 +9,10 @@ from typing import Any
 
 import pyarrow as pa
 
-from punctura.record.columns import NEW_SCENES, words_of
+from punctura.record.columns import NEW_SCENES
 from punctura.record.recording import Recording
 from punctura.record.schema import in_pieces
+from punctura.ticks.arrow import words_of
 
 TICKS, SCENES = "punctura/tick", "punctura/scene"
 

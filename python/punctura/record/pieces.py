@@ -14,7 +14,7 @@ from punctura.record.mcap_file import mcap_steps
 from punctura.record.parquet_file import parquet_steps
 from punctura.record.recording import Recording
 from punctura.record.schema import in_pieces
-from punctura.simulation.output import CsvOutput
+from punctura.ticks.files import CsvOutput
 
 PIECE_BYTES = 1 << 18
 Progress = Callable[[float], None]

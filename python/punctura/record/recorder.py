@@ -16,7 +16,6 @@ from punctura._core import Scene, ServoLoop
 from punctura.live.room import room_note
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog, Piece
-from punctura.record.columns import Columns, flatten, membrane_count
 from punctura.record.errors import RecordingError
 from punctura.record.finish import finish_recording, part_path
 from punctura.record.header import describe_device, describe_run
@@ -25,6 +24,7 @@ from punctura.record.schema import raw_batch
 from punctura.record.status import RecorderStatus
 from punctura.record.stream import Encoder
 from punctura.record.writer import Writer
+from punctura.ticks import Ticks
 
 INTERVAL_S = 0.1  # from one batch to the next
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
@@ -188,7 +188,7 @@ class Recorder:
 
     def _take(self, limit: int) -> int:
         """One batch from the ring to the backlog. How many ticks it had."""
-        snapshots: Columns = self._listener.read(limit)
+        snapshots = self._listener.read(limit)
         n = len(snapshots["tick"])
         if n:
             scenes = self._taken(snapshots)
@@ -208,21 +208,21 @@ class Recorder:
         cause = self._writer.why_unwritten or "the disk was too slow"
         self._unwritten[cause] = self._unwritten.get(cause, 0) + rows
 
-    def _keep(self, snapshots: Columns, scenes: list[list[str] | None]) -> bool:
+    def _keep(self, snapshots: Ticks, scenes: list[list[str] | None]) -> bool:
         """One batch to the backlog. False: there is no room."""
         batch = self._batch(snapshots, scenes)
         return self._backlog.put(Piece(self._encoder.batch(batch), len(batch), int(snapshots["tick"][-1])))
 
-    def _batch(self, snapshots: Columns, scenes: list[list[str] | None] | None = None) -> pa.RecordBatch:
+    def _batch(self, snapshots: Ticks, scenes: list[list[str] | None] | None = None) -> pa.RecordBatch:
         """As the file has it. Where it has more columns than the stream, a new stream begins."""
-        self._width = max(self._width, membrane_count(snapshots))
+        self._width = max(self._width, snapshots.membrane_count)
         gap = np.diff(snapshots["tick"].astype(np.int64), prepend=self._next_tick - 1) - 1
-        batch = raw_batch(flatten(snapshots, self._width), gap.astype(np.uint32), scenes or [])
+        batch = raw_batch(snapshots, self._width, gap.astype(np.uint32), scenes or [])
         if self._encoder.schema is not None and batch.schema.names != self._encoder.schema.names:
             self._backlog.put(Piece(self._encoder.begin(batch.schema), 0, -1))
         return batch
 
-    def _taken(self, snapshots: Columns) -> list[list[str] | None]:
+    def _taken(self, snapshots: Ticks) -> list[list[str] | None]:
         """The scenes of each tick that took one."""
         scenes: list[list[str] | None] = [None] * len(snapshots["tick"])
         for k in np.flatnonzero(snapshots["commands"] & _COMMAND_SCENE):

@@ -17,7 +17,8 @@ from punctura.record.finish import part_path
 from punctura.record.header import RecordingInfo
 from punctura.record.parquet_file import ParquetRecording
 from punctura.record.part_file import PartFile
-from punctura.record.schema import numbers
+from punctura.record.schema import numbers, ticks_of
+from punctura.ticks import Ticks
 
 _PARQUET = b"PAR1"
 
@@ -60,8 +61,13 @@ class Recording:
         """All ticks in turn, in constant memory. progress is told the share done."""
         return self._source.batches(progress)
 
+    def ticks(self) -> Ticks:
+        """All ticks at once, as arrays."""
+        names = [placed.name for placed in self.info.scene.membranes]
+        return Ticks(dict(ticks_of(self.table().combine_chunks()).items()), names)
+
     def table(self) -> pa.Table:
-        """All ticks at once."""
+        """All ticks at once, as Arrow has them, with the scenes that were taken."""
         return pa.Table.from_batches(list(self.batches()), self.schema)
 
     def column(self, name: str) -> NDArray[Any]:

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from punctura._core import DeviceInfo, ReplayDevice
-from punctura.record.columns import NEW_SCENES, Inputs, inputs_of
+from punctura.record.columns import INPUTS
 from punctura.record.errors import RecordingError
 from punctura.record.recording import Recording, open_recording
-from punctura.record.schema import numbers
+from punctura.record.schema import input_ticks
+from punctura.ticks import Ticks
 
 # What a replay says of the device that was recorded. JSON has words where a number is not known.
 _WORDS = ("backend", "model", "serial", "has_orientation", "button_count")
@@ -54,12 +55,9 @@ def replay_device(
         raise RecordingError(f"{recording.path}: its motion cannot be played as a device: {bad}") from None
 
 
-def _samples(recording: Recording) -> Inputs:
+def _samples(recording: Recording) -> Ticks:
     """All inputs; batch by batch, so that the other columns are not in memory at once."""
-    parts = []
-    for batch in recording.batches():
-        wanted: dict[str, Any] = {f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}
-        parts.append(inputs_of(wanted))
-    if sum(len(part.time) for part in parts) == 0:
+    parts = [input_ticks(batch) for batch in recording.batches()]
+    if sum(map(len, parts)) == 0:
         raise RecordingError(f"{recording.path} holds no tick to replay")
-    return Inputs(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    return Ticks({name: np.concatenate([part[name] for part in parts]) for name in INPUTS})

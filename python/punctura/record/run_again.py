@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from punctura._core import Replay, Scene
 from punctura.record.build_id import build_id
-from punctura.record.columns import LOST, NEW_SCENES, Columns, flatten, inputs_of
+from punctura.record.columns import LOST, NEW_SCENES, Columns
 from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
 from punctura.record.scene_text import from_text
-from punctura.record.schema import membranes_in, numbers, raw_batch, worded
+from punctura.record.schema import input_ticks, membranes_in, numbers, raw_batch, worded
 from punctura.record.target import check_target
+from punctura.ticks.flat import flatten
 
 _COMMAND_SCENE = 8
 
@@ -103,12 +104,10 @@ class _Again:
         recorded = {f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}
         scenes = batch.column(NEW_SCENES).to_pylist()
         taken = recorded["commands"] & _COMMAND_SCENE != 0
-        computed = flatten(
-            self._step.run(*inputs_of(recorded), [self._scenes(scenes[k]) for k in np.flatnonzero(taken)]), self._width
-        )
-        self._compare(recorded, computed)
+        computed = self._step.run(input_ticks(batch), [self._scenes(scenes[k]) for k in np.flatnonzero(taken)])
+        self._compare(recorded, flatten(computed, self._width))
         self._result.ticks += n
-        return raw_batch(computed, recorded[LOST].astype(np.uint32), scenes)
+        return raw_batch(computed, self._width, recorded[LOST].astype(np.uint32), scenes)
 
     def _scenes(self, texts: list[str]) -> list[Scene]:
         return [from_text(text, self._path) for text in texts]

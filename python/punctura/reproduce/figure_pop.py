@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from punctura import Experiment, ExperimentTrace, Hand, Phase, Plant, Strokes, ThickLaw
+from punctura import Experiment, Hand, Phase, Plant, Strokes, ThickLaw, Ticks
 from punctura.reproduce import palette, stages
 from punctura.reproduce.drawing import Drawing
 from punctura.reproduce.force_position import draw_by_stage
@@ -46,7 +46,7 @@ def figure_pop() -> Drawing:
     )
 
 
-def _label(axes: Axes, law: ThickLaw, trace: ExperimentTrace) -> None:
+def _label(axes: Axes, law: ThickLaw, trace: Ticks) -> None:
     def push(depth_mm: float) -> tuple[float, float]:
         return depth_mm, -float(law.bounds(depth_mm * 1e-3)[0])
 

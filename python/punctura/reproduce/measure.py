@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from punctura import ExperimentTrace, InsertionTrace, Membrane, Needle, Phase, ThickLaw
+from punctura import Membrane, Needle, Phase, ThickLaw, Ticks
 from punctura.reproduce.operator import Floats
 
 
@@ -35,7 +35,7 @@ def of_law(needle: Needle, membrane: Membrane) -> Landmarks:
     return Landmarks(float(-lower[at]), float(depth[at]), float(-through_lower), float(through_upper))
 
 
-def of_trace(trace: ExperimentTrace | InsertionTrace, membrane: int, needle: Needle, properties: Membrane) -> Landmarks:
+def of_trace(trace: Ticks, membrane: int, needle: Needle, properties: Membrane) -> Landmarks:
     """The landmarks of a run, in one membrane. The plateau is the median of the ticks that slide in on the shaft."""
     law = ThickLaw(needle, properties)
     resistance: Floats = -trace.axial_force[:, membrane]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Experiment, ExperimentTrace, Hand, Insertion, InsertionTrace, Plant, Scene, Strokes
+from punctura import Experiment, Hand, Insertion, Plant, Scene, Strokes, Ticks
 from punctura.reproduce.scenes import INWARD
 
 SEED = 209  # three strokes through the membrane, and one that turns before the pop
@@ -25,7 +25,7 @@ class Operation:
 
     scene: Scene
     strokes: Strokes
-    trace: ExperimentTrace
+    trace: Ticks
     duration: float  # s
 
     @property
@@ -51,12 +51,12 @@ def operate(scene: Scene, depth_mm: float) -> Operation:
     )
     experiment = Experiment(scene, strokes, plant=Plant(), hand=Hand(), seed=SEED)
     trace = experiment.run(experiment.duration)
-    if trace.fault:
-        raise RuntimeError(f"the simulated run of {scene.name} stopped: {trace.fault}")
+    if trace.fault_text:
+        raise RuntimeError(f"the simulated run of {scene.name} stopped: {trace.fault_text}")
     return Operation(scene, strokes, trace, experiment.duration)
 
 
-def steady(scene: Scene, deepest: float, speed: float = GUIDE_SPEED) -> tuple[Floats, InsertionTrace]:
+def steady(scene: Scene, deepest: float, speed: float = GUIDE_SPEED) -> tuple[Floats, Ticks]:
     """In to `deepest` and out again (m) at a constant speed, with an ideal sensor: y (m) and what the model says."""
     step = speed / scene.servo.rate
     way_in = np.arange(1e-3, -deepest, -step)

@@ -1,4 +1,4 @@
-"""Names of the columns that go in and come out."""
+"""Names of the columns of a motion file."""
 
 from __future__ import annotations
 
@@ -10,16 +10,8 @@ from punctura.simulation.motion_error import MotionError
 
 TIME_AND_POSITION = ["time_s", "x_m", "y_m", "z_m"]
 AXIS = ["axis_x", "axis_y", "axis_z"]
-FORCE = ["fx_N", "fy_N", "fz_N"]
-PER_MEMBRANE = ["depth_{}_m", "force_{}_N", "lower_{}_N", "upper_{}_N", "phase_{}"]
 
 _WANTED = f"the columns must be {','.join(TIME_AND_POSITION)} or {','.join(TIME_AND_POSITION + AXIS)}"
-
-
-def output_columns(has_axis: bool, membranes: int) -> list[str]:
-    """The columns of the output file, in order."""
-    each = [name.format(i) for i in range(membranes) for name in PER_MEMBRANE]
-    return TIME_AND_POSITION + (AXIS if has_axis else []) + FORCE + each
 
 
 def read_header(line: bytes, file: Path) -> list[str]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-ROWS_AT_ONCE = 1 << 16  # what is computed together, however much the rate goes up
+ROWS_AT_ONCE = 1 << 14  # what is computed together, however much the rate goes up
 
 
 class Resampler:

@@ -3,52 +3,89 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from time import perf_counter
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import NDArray
 
-from punctura._core import Insertion, InsertionTrace, Scene
+from punctura._core import Insertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.scene import load_scene, scene_text
-from punctura.simulation.even import DRIFT, TOLERANCE, Evenness
+from punctura.simulation.arrays import simulate_arrays
+from punctura.simulation.even import Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.motion_file import MotionFile
-from punctura.simulation.output import SUFFIXES, open_output
+from punctura.simulation.rate import resampler_for
 from punctura.simulation.resample import ROWS_AT_ONCE, Resampler, unit, with_axis
 from punctura.simulation.summary import MembraneSummary, SimulationSummary
 from punctura.simulation.table import output_schema, output_table
+from punctura.ticks import Ticks
+from punctura.ticks.files import SUFFIXES, open_output
 
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
-SLOWEST_STEP = 0.1  # s between rows; what lies between rows further apart would be made up by the resampling
-FASTEST_STEP = 1e-7  # s
 FARTHEST = 1e6  # m: farther away no position is taken
 _SURVEY_SHARE = 0.2  # of the progress is the first reading
 
 
+@overload
 def simulate(
     scene: Scene | str | os.PathLike[str],
-    motion_path: str | os.PathLike[str],
+    motion: str | os.PathLike[str],
     out_path: str | os.PathLike[str],
     progress: Progress | None = None,
-) -> SimulationSummary:
-    """The model's own force, without safety limits, for a motion from a file.
+) -> SimulationSummary: ...
+@overload
+def simulate(
+    scene: Scene | str | os.PathLike[str],
+    motion: npt.NDArray[Any] | Sequence[Any],
+    *,
+    time: npt.ArrayLike | None = None,
+    axis: npt.ArrayLike | None = None,
+) -> Ticks: ...
+def simulate(
+    scene: Scene | str | os.PathLike[str],
+    motion: Any,
+    out_path: str | os.PathLike[str] | None = None,
+    progress: Progress | None = None,
+    *,
+    time: npt.ArrayLike | None = None,
+    axis: npt.ArrayLike | None = None,
+) -> SimulationSummary | Ticks:
+    """The model's own force, without safety limits, for a motion. scene: a Scene, a scene file or a ready scene's name.
 
-    scene: a Scene, a scene file or a ready scene's name. motion_path: CSV with
-    time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z]. out_path: .csv or .parquet. progress is told the share that is done.
-    Files of any length take the same memory. Raises ConfigurationError, MotionError or OSError; there is then no
-    output file.
+    From a file to a file: motion is a CSV file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path a .csv or
+    .parquet. progress is told the share that is done. Files of any length take the same memory. Raises
+    ConfigurationError, MotionError or OSError; there is then no output file.
+
+    In memory: motion is an array of positions (n, 3), m, or of depths (n,) below the first membrane's surface, m,
+    along its inward normal. time (n,), s, evenly sampled: where its rate is not the servo's, the motion is resampled
+    linearly; without it each row is one tick. axis (n, 3) or (3,): the needle's direction; the first membrane's inward
+    normal if not given. Raises ConfigurationError or ValueError.
     """
-    began = time.perf_counter()
+    if not isinstance(motion, (str, os.PathLike)):
+        if out_path is not None or progress is not None:
+            raise TypeError("a motion in memory has no out_path and no progress; save() of the result writes a file")
+        return simulate_arrays(scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis)
+    if time is not None or axis is not None:
+        raise TypeError("time and axis belong to a motion in memory; a motion file has columns for them")
+    if out_path is None:
+        raise TypeError("a motion file needs out_path, a .csv or .parquet file for the result")
+    return _simulate_file(scene, Path(motion), Path(out_path), progress)
+
+
+def _simulate_file(
+    scene: Scene | str | os.PathLike[str], source: Path, target: Path, progress: Progress | None
+) -> SimulationSummary:
+    began = perf_counter()
     tell = progress or (lambda share: None)
     name = scene.name if isinstance(scene, Scene) else str(os.fspath(scene))
     scene = scene if isinstance(scene, Scene) else load_scene(scene)
-    source, target = Path(motion_path), Path(out_path)
     _check_target(source, target)
 
     motion = MotionFile(source)
@@ -67,7 +104,7 @@ def simulate(
             trace = insertion.run(part.position, default_axis if part.axis is None else part.axis)
             output.write(output_table(schema, part.time, part.position, part.axis, trace))
             _add(summary, part, trace)
-    summary.elapsed_s = time.perf_counter() - began
+    summary.elapsed_s = perf_counter() - began
     return summary
 
 
@@ -118,34 +155,18 @@ def _survey(motion: MotionFile, tell: Progress) -> Evenness:
 
 
 def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resampler | None:
-    """None where the motion is sampled at the servo rate: then every row is one tick."""
-    period = 1 / scene.servo.rate
+    """Says in the summary what it does."""
+    resampler = resampler_for(even, scene.servo.rate)
     if even.step is None:
         return None
-    if even.step > SLOWEST_STEP * (1 + DRIFT):
-        raise MotionError(
-            even.file,
-            0,
-            f"time_s grows by {even.step:.6g} s from row to row, and a motion must have {1 / SLOWEST_STEP:g} rows a "
-            "second or more; where time_s is in another unit, write seconds, else sample the motion more often "
-            "(numpy.interp does it)",
-        )
-    if even.step < FASTEST_STEP:
-        raise MotionError(
-            even.file,
-            0,
-            f"time_s grows by {even.step:.6g} s from row to row, and a motion must have {1 / FASTEST_STEP:g} rows a "
-            "second at most; where time_s is in another unit, write seconds",
-        )
     summary.motion_rate_hz = 1 / even.step
-    if abs(even.step - period) * (even.count - 1) <= TOLERANCE * period:
-        return None
-    summary.resampled = True
-    summary.notes.append(
-        f"the motion is sampled at {1 / even.step:.6g} Hz, the servo runs at {scene.servo.rate:.6g} Hz: "
-        "the motion was resampled linearly"
-    )
-    return Resampler(even.first, even.step, period, even.count)
+    if resampler is not None:
+        summary.resampled = True
+        summary.notes.append(
+            f"the motion is sampled at {1 / even.step:.6g} Hz, the servo runs at {scene.servo.rate:.6g} Hz: "
+            "the motion was resampled linearly"
+        )
+    return resampler
 
 
 def _parts(motion: MotionFile, resampler: Resampler | None, tell: Progress) -> Iterator[_Part]:
@@ -161,7 +182,7 @@ def _parts(motion: MotionFile, resampler: Resampler | None, tell: Progress) -> I
             tell(_SURVEY_SHARE + (1 - _SURVEY_SHARE) * block.bytes_read / motion.size)
 
 
-def _add(summary: SimulationSummary, part: _Part, trace: InsertionTrace) -> None:
+def _add(summary: SimulationSummary, part: _Part, trace: Ticks) -> None:
     if not summary.rows_out:
         summary.start_s = float(part.time[0])
     summary.rows_out += len(part.time)

@@ -1,4 +1,4 @@
-"""The columns of the result."""
+"""The ticks of a simulation as its result file has them."""
 
 from __future__ import annotations
 
@@ -6,36 +6,30 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from punctura._core import InsertionTrace, Phase
-from punctura.simulation.columns import output_columns
+from punctura.ticks import FIELDS, Ticks
 
 Floats = NDArray[np.float64]
 
-PHASES = ["outside", "sticking", "sliding_in", "sliding_out", "barred"]  # by the value of Phase
-assert all(getattr(Phase, name).value == i for i, name in enumerate(PHASES))
-
-_PHASE = pa.dictionary(pa.int8(), pa.string())
+WRITTEN = ("time", "position", "axis", "force", "depth", "axial_force", "lower", "upper", "phase")
 
 
 def output_schema(has_axis: bool, membranes: int, metadata: dict[str, str]) -> pa.Schema:
     """Names and types of the output's columns."""
-    names = output_columns(has_axis, membranes)
-    fields = [pa.field(n, _PHASE if n.startswith("phase_") else pa.float64(), nullable=False) for n in names]
-    return pa.schema(fields, metadata)
+    names = [name for name in WRITTEN if has_axis or name != "axis"]
+    none = Ticks({name: _none(name, membranes) for name in names})
+    schema = none.to_arrow().schema
+    return pa.schema([field.with_nullable(False) for field in schema], metadata)
 
 
-def output_table(
-    schema: pa.Schema, time: Floats, position: Floats, axis: Floats | None, trace: InsertionTrace
-) -> pa.Table:
-    """One block of the result."""
-    columns: list[Floats] = [time, *position.T]
-    if axis is not None:
-        columns += [*axis.T]
-    columns += [*trace.force.T]
-    arrays: list[pa.Array] = [pa.array(column) for column in columns]
-    words = pa.array(PHASES)
-    for i in range(trace.depth.shape[1]):
-        each = (trace.depth, trace.axial_force, trace.lower, trace.upper)
-        arrays += [pa.array(column[:, i]) for column in each]
-        arrays.append(pa.DictionaryArray.from_arrays(pa.array(trace.phase[:, i].astype(np.int8)), words))
-    return pa.Table.from_arrays(arrays, schema=schema)
+def _none(name: str, membranes: int) -> NDArray[np.generic]:
+    field = FIELDS[name]
+    shape = (0, *((membranes,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
+    return np.empty(shape, field.dtype)
+
+
+def output_table(schema: pa.Schema, time: Floats, position: Floats, axis: Floats | None, ticks: Ticks) -> pa.Table:
+    """One block of the result. position and axis are written as they were given."""
+    given = {"time": time, "position": position} | ({} if axis is None else {"axis": axis})
+    written = {name: given[name] if name in given else ticks[name] for name in WRITTEN if name != "axis"}
+    table = Ticks(written | given).to_arrow()
+    return pa.Table.from_arrays([column.combine_chunks() for column in table.select(schema.names)], schema=schema)

@@ -17,7 +17,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
-from punctura.studio.wire.frames import Ticks, decode_ticks
+from punctura.studio.wire.frames import Frame, decode_ticks
 
 T = TypeVar("T")
 Json = dict[str, Any]
@@ -42,8 +42,8 @@ class StudioClient:
         self.host = f"{parts.hostname}:{parts.port}"
         self.token = parse_qs(parts.query)["token"][0]
         self.messages: list[Json] = []
-        self.frames: list[Ticks] = []
-        self.last: Ticks | None = None
+        self.frames: list[Frame] = []
+        self.last: Frame | None = None
         self.ticks = self.gaps = 0  # gaps: frames that do not follow the one before them, within a run
         self.run = 0  # that was told last
         self.closed: tuple[int, str] | None = None  # code and reason
@@ -141,7 +141,7 @@ class StudioClient:
             pass
         self.closed = (self._socket.close_code or 1006, self._socket.close_reason or "")
 
-    def _take(self, frame: Ticks) -> None:
+    def _take(self, frame: Frame) -> None:
         before = self.last
         if before is not None and before.run == frame.run and before.first_tick + len(before) != frame.first_tick:
             self.gaps += 1

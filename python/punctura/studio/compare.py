@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from punctura import Insertion, Scene
-from punctura.studio.wire.frames import Columns
+from punctura import Insertion, Phase, Scene
+from punctura.ticks import ABSENT, Ticks
 
 
 class OtherSolver:
@@ -23,13 +23,13 @@ class OtherSolver:
         self._insertion = Insertion(scene.replace(servo=scene.servo.replace(solver=other)))
         self._begun = False
 
-    def run(self, columns: Columns) -> npt.NDArray[Any]:
+    def run(self, ticks: Ticks) -> npt.NDArray[Any]:
         """Its force (n, 3), N, for ticks that follow those of the call before."""
-        n = len(columns["tick"])
+        n = len(ticks)
         force = np.full((n, 3), np.nan)
-        good = np.isfinite(columns["position"]).all(axis=1) & np.isfinite(columns["axis"]).all(axis=1)
-        good &= columns["fault"] == 0
-        outside = (columns["phase"] == 0).all(axis=1)
+        good = np.isfinite(ticks.position).all(axis=1) & np.isfinite(ticks.axis).all(axis=1)
+        good &= ticks.fault == 0
+        outside = ((ticks.phase == Phase.outside.value) | (ticks.phase == ABSENT)).all(axis=1)
         at = 0
         while at < n:
             if not self._begun:
@@ -42,7 +42,7 @@ class OtherSolver:
             bad = np.flatnonzero(~good[at:])
             end = at + int(bad[0]) if len(bad) else n
             if end > at:
-                force[at:end] = self._insertion.run(columns["position"][at:end], columns["axis"][at:end]).force
+                force[at:end] = self._insertion.run(ticks.position[at:end], ticks.axis[at:end]).force
             self._begun = end == n
             at = end
         return force

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from punctura import Scene
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
+from punctura.ticks import Ticks
 
 LINGER_S = 1.0  # that is still recorded after the decision, once all overshoots are measured
 
@@ -25,9 +24,9 @@ class Practice:
         self._told: ExerciseStatus | None = None
         self.end_at: float | None = None  # s, on the clock of `add`: when the run may end
 
-    def add(self, columns: dict[str, Any], now: float) -> ExerciseStatus | None:
+    def add(self, ticks: Ticks, now: float) -> ExerciseStatus | None:
         """The next ticks. What to tell the pages, if anything is new."""
-        self._attempt.add(columns)
+        self._attempt.add(ticks)
         if self._attempt.settled and self.end_at is None:
             self.end_at = now + LINGER_S
         status = self._status(running=True)

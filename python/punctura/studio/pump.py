@@ -15,13 +15,13 @@ from punctura.studio.compare import OtherSolver
 from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve
-from punctura.studio.wire.frames import Columns, encode_ticks
+from punctura.studio.wire.frames import encode_ticks
 from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent
+from punctura.ticks import FIELDS, Ticks
 
 COMMAND_SCENE = 8
 MOST_TICKS = 4096  # in a frame
 LAWS_EVERY_S = 0.1
-PER_MEMBRANE = ("depth", "axial_force", "lower", "upper", "phase", "proxy", "direction")
 
 
 class Publisher(Protocol):
@@ -52,28 +52,28 @@ class Pump:
     def lost(self) -> int:
         return self._gaps
 
-    def turn(self) -> Columns | None:
+    def turn(self) -> Ticks | None:
         """Everything that the ring holds goes out; it is also returned, if there is any."""
-        columns = self._run.read()
-        if len(columns["tick"]) == 0:
+        ticks = self._run.read()
+        if len(ticks) == 0:
             return None
-        for part in _parts(columns):
-            if int(part["commands"][0]) & COMMAND_SCENE:
+        for part in _parts(ticks):
+            if int(part.commands[0]) & COMMAND_SCENE:
                 self._scene_is_taken()
             self._send(part)
-        self._watch_fault(columns)
-        self._watch_axis(columns)
-        for event in self._finder.add(columns):
+        self._watch_fault(ticks)
+        self._watch_axis(ticks)
+        for event in self._finder.add(ticks):
             self._out.say(MembraneEvent(**event.model_dump()))
-        return columns
+        return ticks
 
-    def change(self, scene: Scene, tell: Callable[[], None]) -> Columns | None:
+    def change(self, scene: Scene, tell: Callable[[], None]) -> Ticks | None:
         """Right after an exchange: `tell` is called between the ticks of the scene before and those of this one."""
         self._finder.change(scene)
         self._tell_scene = tell
-        columns = self.turn()
+        ticks = self.turn()
         self._scene_is_taken()  # also where no tick comes any more
-        return columns
+        return ticks
 
     def compare(self, on: bool) -> None:
         """Whether the other solver runs beside."""
@@ -92,15 +92,15 @@ class Pump:
             if self._other:
                 self._other.take(self._run.loop.scene)
 
-    def _send(self, part: Columns) -> None:
-        first = int(part["tick"][0])
+    def _send(self, part: Ticks) -> None:
+        first = int(part.tick[0])
         self._gaps += first - self._next_tick
-        self._next_tick = int(part["tick"][-1]) + 1
+        self._next_tick = int(part.tick[-1]) + 1
         other = self._other.run(part) if self._other else None
         self._out.frame(encode_ticks(part, self._run.number, self._gaps, other))
 
-    def _watch_fault(self, columns: Columns) -> None:
-        fault = int(columns["fault"][-1])
+    def _watch_fault(self, ticks: Ticks) -> None:
+        fault = int(ticks.fault[-1])
         if fault == self._fault:
             return
         self._fault = fault
@@ -108,22 +108,22 @@ class Pump:
             self._out.say(no_fault())
             return
         kind = Fault(fault)
-        began = int(np.flatnonzero(columns["fault"] == fault)[0])
+        began = int(np.flatnonzero(ticks.fault == fault)[0])
         self._out.say(
             FaultMessage(
                 fault=kind.name,
                 reason=describe(kind),
                 trouble=self._run.loop.device.trouble(),
-                tick=int(columns["tick"][began]),
-                kept=len(self._run.loop.fault_history()["tick"]),
+                tick=int(ticks.tick[began]),
+                kept=len(self._run.loop.fault_history()),
             )
         )
 
-    def _watch_axis(self, columns: Columns) -> None:
-        now, axis = float(columns["time"][-1]), columns["axis"][-1]
+    def _watch_axis(self, ticks: Ticks) -> None:
+        now, axis = float(ticks.time[-1]), ticks.axis[-1]
         if np.isfinite(axis).all():
-            inside = columns["phase"][-1] != 0
-            self._axis, self._entered = axis, np.where(inside[:, None], columns["direction"][-1], np.nan)
+            inside = ticks.phase[-1] != 0
+            self._axis, self._entered = axis, np.where(inside[:, None], ticks.direction[-1], np.nan)
         scene = self._run.loop.scene
         if now < self._laws_at or len(self._angles) != len(scene.membranes):
             return
@@ -137,22 +137,21 @@ def no_fault() -> FaultMessage:
     return FaultMessage(fault="none", reason="", trouble="", tick=None, kept=0)
 
 
-def _parts(columns: Columns) -> Iterator[Columns]:
+def _parts(ticks: Ticks) -> Iterator[Ticks]:
     """The batch in pieces without a gap, of one scene each, and none too long."""
-    tick = columns["tick"].astype(np.int64)
+    tick = ticks.tick.astype(np.int64)
     n = len(tick)
     breaks = {int(b) + 1 for b in np.flatnonzero(np.diff(tick) != 1)}
-    breaks |= {int(b) for b in np.flatnonzero(columns["commands"] & COMMAND_SCENE)}
+    breaks |= {int(b) for b in np.flatnonzero(ticks.commands & COMMAND_SCENE)}
     starts = sorted({0} | breaks)
     for start, end in zip(starts, [*starts[1:], n], strict=True):
         for at in range(start, end, MOST_TICKS):
-            piece = {name: column[at : min(end, at + MOST_TICKS)] for name, column in columns.items()}
-            yield _without_absent(piece)
+            yield _without_absent(ticks[at : min(end, at + MOST_TICKS)])
 
 
-def _without_absent(piece: Columns) -> Columns:
+def _without_absent(piece: Ticks) -> Ticks:
     """Without the columns of membranes that the scene of this piece does not have: they stand last."""
-    count = int((~np.isnan(piece["depth"][0])).sum())
-    if count == piece["depth"].shape[1]:
+    count = int((~np.isnan(piece.depth[0])).sum())
+    if count == piece.membrane_count:
         return piece
-    return {name: column[:, :count] if name in PER_MEMBRANE else column for name, column in piece.items()}
+    return piece.replace(**{name: piece[name][:, :count] for name in piece if FIELDS[name].per_membrane})

@@ -12,16 +12,17 @@ import numpy.typing as npt
 
 from punctura import Phase, Scene
 from punctura.errors import ConfigurationError
-from punctura.events import find_events, snapshot_columns
+from punctura.events import find_events
 from punctura.record import Recording
+from punctura.record.schema import ticks_of
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
 from punctura.studio.view import scene_view
 from punctura.studio.wire.common import LawCurve
-from punctura.studio.wire.frames import Columns, encode_ticks
+from punctura.studio.wire.frames import encode_ticks
+from punctura.ticks import ABSENT, Ticks
 
-NO_PHASE = 255
 _INSIDE = [int(phase) for phase in (Phase.sticking, Phase.sliding_in, Phase.sliding_out)]
 MOTION_HZ = 250.0  # of a recorded motion that the hand follows; Target smooths what is between
 Array = npt.NDArray[np.float64]
@@ -69,14 +70,14 @@ def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:
     axis: Array | None = None
     entered = np.full((len(scene.membranes), 3), np.nan)
     for batch in recording.batches():
-        columns = snapshot_columns(batch)
-        if len(columns["tick"]) == 0:
+        ticks = ticks_of(batch)
+        if len(ticks) == 0:
             continue
-        axis = np.asarray(columns["axis"][0], np.float64) if axis is None else axis
-        for i in range(min(len(entered), columns["phase"].shape[1])):
-            inside = np.isin(columns["phase"][:, i], _INSIDE)
+        axis = np.asarray(ticks.axis[0], np.float64) if axis is None else axis
+        for i in range(min(len(entered), ticks.phase.shape[1])):
+            inside = np.isin(ticks.phase[:, i], _INSIDE)
             if np.isnan(entered[i]).any() and inside.any():
-                entered[i] = columns["direction"][inside.argmax(), i]
+                entered[i] = ticks.direction[inside.argmax(), i]
         if np.isfinite(entered).all():
             break
     return None if axis is None else law_curves(scene, obliquities(scene, axis, entered))
@@ -87,22 +88,21 @@ def tick_frames(recording: Recording) -> Iterator[bytes]:
     lost, expected = 0, 0
     for batch in recording.batches():
         for start in range(0, len(batch), MOST_TICKS):
-            columns = snapshot_columns(batch.slice(start, MOST_TICKS))
-            columns["phase"] = np.where(columns["phase"] == NO_PHASE, np.uint8(0), columns["phase"])
-            for piece in _whole(columns):
-                first = int(piece["tick"][0])
+            ticks = ticks_of(batch.slice(start, MOST_TICKS))
+            ticks = ticks.replace(phase=np.where(ticks.phase == ABSENT, np.uint8(0), ticks.phase))
+            for piece in _whole(ticks):
+                first = int(piece.tick[0])
                 lost += max(0, first - expected)
-                expected = int(piece["tick"][-1]) + 1
+                expected = int(piece.tick[-1]) + 1
                 frame = encode_ticks(piece, 0, lost)
                 yield struct.pack("<I", len(frame)) + frame + bytes(-len(frame) % 4)
 
 
-def _whole(columns: Columns) -> Iterator[Columns]:
+def _whole(ticks: Ticks) -> Iterator[Ticks]:
     """In pieces whose ticks follow one another."""
-    breaks = np.flatnonzero(np.diff(columns["tick"].astype(np.int64)) != 1) + 1
-    edges = [0, *(int(b) for b in breaks), len(columns["tick"])]
-    for start, end in itertools.pairwise(edges):
-        yield {name: column[start:end] for name, column in columns.items()}
+    breaks = np.flatnonzero(np.diff(ticks.tick.astype(np.int64)) != 1) + 1
+    for start, end in itertools.pairwise([0, *(int(b) for b in breaks), len(ticks)]):
+        yield ticks[start:end]
 
 
 def motion_of(recording: Recording) -> tuple[Array, Array, Array]:
@@ -111,10 +111,10 @@ def motion_of(recording: Recording) -> tuple[Array, Array, Array]:
     parts: list[list[Array]] = [[], [], []]
     at = 0
     for batch in recording.batches():
-        columns = snapshot_columns(batch)
+        ticks = ticks_of(batch)
         first = -at % step
         for part, name in zip(parts, ("time", "tip", "axis"), strict=True):
-            part.append(columns[name][first::step].astype(np.float64))
+            part.append(ticks[name][first::step].astype(np.float64))
         at += len(batch)
     time, tip, axis = (np.concatenate(part) if part else np.empty(0) for part in parts)
     good = np.isfinite(time) & np.isfinite(tip).all(axis=-1) if len(time) else np.zeros(0, bool)

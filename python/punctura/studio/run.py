@@ -13,6 +13,7 @@ from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
+from punctura.ticks import Ticks
 
 
 @dataclass(frozen=True)
@@ -108,8 +109,8 @@ class Run:
         self.loaded = loaded
         self.scenes += 1
 
-    def read(self) -> dict[str, Any]:
-        """All ticks since the last read, as columns."""
+    def read(self) -> Ticks:
+        """All ticks since the last read."""
         return self._listener.read()
 
     @property

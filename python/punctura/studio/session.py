@@ -29,6 +29,7 @@ from punctura.studio.view import scene_view
 from punctura.studio.watchdog import Watchdog
 from punctura.studio.wire.messages import FaultMessage, Notice, SceneMessage
 from punctura.studio.wire.requests import Target
+from punctura.ticks import Ticks
 
 T = TypeVar("T")
 Then = Callable[[str, RecorderStatus], None]  # name of a recording, and how it ended
@@ -247,9 +248,9 @@ class Session:
     def _turn(self) -> None:
         self._follow(self.pump.turn())
 
-    def _follow(self, columns: dict[str, Any] | None) -> None:
-        if self.practice and columns:
-            status = self.practice.add(columns, time.monotonic())
+    def _follow(self, ticks: Ticks | None) -> None:
+        if self.practice and ticks:
+            status = self.practice.add(ticks, time.monotonic())
             if status:
                 self.out.say(status)
 

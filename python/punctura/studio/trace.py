@@ -15,7 +15,7 @@ from punctura.events import EventFinder
 from punctura.events.recorded import recorded_ticks
 from punctura.record import Recording
 from punctura.studio.view import membrane_views
-from punctura.studio.wire.frames import Columns
+from punctura.ticks import Columns
 
 FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer: MOST stay below 100 kB
 EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and of force

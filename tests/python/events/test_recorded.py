@@ -6,8 +6,9 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ServoLoop, SimulatedDevice
-from punctura.events import EventFinder, find_events, snapshot_columns
+from punctura.events import EventFinder, find_events
 from punctura.record import Recorder, open_recording
+from punctura.record.schema import ticks_of
 
 STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
 
@@ -44,7 +45,7 @@ def test_a_recordings_events_are_those_of_the_live_run(tmp_path):
 def test_a_recordings_columns_are_those_that_a_listener_gave(tmp_path):
     scene = pn.load_scene("k06-fig12")
     batches = record(tmp_path / "run.parquet", scene, 2000)
-    read = [snapshot_columns(batch) for batch in open_recording(tmp_path / "run.parquet").batches()]
+    read = [ticks_of(batch) for batch in open_recording(tmp_path / "run.parquet").batches()]
     for name in read[0]:
         if name == "lost":
             continue

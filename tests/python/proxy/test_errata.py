@@ -42,7 +42,7 @@ def mended(n, depths, H=1e-3):
     proxy = punctura.Proxy3d(
         NEEDLE, punctura.Membrane(570.0, 0.41, 0.2, H), [0, 0, 0], n, punctura.Coupling(400.0, 1.0), 1 / 1600, "paper"
     )
-    return proxy.run(depths[:, None] * DOWN, DOWN) @ DOWN
+    return proxy.run(depths[:, None] * DOWN, DOWN).force @ DOWN
 
 
 def test_e1_as_printed_with_the_inward_normal_a_needle_meets_no_force_at_all():

@@ -70,10 +70,10 @@ def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
     for lane in range(60):
         proxy = core.proxy_1d(r, lane, "exact")
         p = np.ascontiguousarray(r.p[:, lane])
-        assert np.array_equal(np.concatenate([proxy.run(p[:50]), proxy.run(p[50:])]), f[:, lane])
+        assert np.array_equal(np.concatenate([proxy.run(p[:50]).force, proxy.run(p[50:]).force]), f[:, lane])
         assert proxy.offset == e[-1, lane]
         proxy.reset()
-        assert np.array_equal(proxy.run(p), f[:, lane])
+        assert np.array_equal(proxy.run(p).force, f[:, lane])
 
 
 def test_exact_is_the_default():

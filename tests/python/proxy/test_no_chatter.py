@@ -17,7 +17,7 @@ def turns(thickness, speed, solver, rate=1 / PERIOD):
     law = punctura.ThickLaw(NEEDLE, membrane) if thickness > 0 else punctura.ThinLaw(NEEDLE, membrane)
     way = law.X + thickness + 2e-3
     p = -2e-4 + np.arange(0, way, speed / rate)
-    step = np.diff(punctura.Proxy1d(law, COUPLING, 1 / rate, solver=solver).run(p))
+    step = np.diff(punctura.Proxy1d(law, COUPLING, 1 / rate, solver=solver).run(p).force)
     way = np.sign(step[abs(step) > 1e-12])
     return int((way[1:] != way[:-1]).sum())
 
@@ -61,8 +61,8 @@ def test_the_force_at_the_pop_falls_from_the_peak_to_the_shaft_friction():
     """Section 5 of model.md: H = 0.1 mm, 5 mm/s, -0.7296 N to -0.4102 N, withdrawal +0.4102 N."""
     law = punctura.ThickLaw(NEEDLE, punctura.Membrane(570.0, 0.41, 0.2, 1e-4))
     proxy = punctura.Proxy1d(law, COUPLING, PERIOD)
-    inwards = proxy.run(np.arange(-1e-3, 8e-3, 5e-3 * PERIOD))
+    inwards = proxy.run(np.arange(-1e-3, 8e-3, 5e-3 * PERIOD)).force
     assert inwards.min() == pytest.approx(-0.7296, abs=2e-3)
     assert inwards[-1] == pytest.approx(-0.41024, abs=1e-9)
-    outwards = proxy.run(np.arange(8e-3, 5e-3, -5e-3 * PERIOD))
+    outwards = proxy.run(np.arange(8e-3, 5e-3, -5e-3 * PERIOD)).force
     assert outwards[-1] == pytest.approx(0.41024, abs=1e-9)

@@ -65,11 +65,11 @@ def test_a_run_in_one_call_equals_the_same_run_tick_by_tick_and_goes_on_from_the
     for lane in range(60):
         proxy = core.proxy_1d(r, lane, "paper")
         p = np.ascontiguousarray(r.p[:, lane])
-        in_two = np.concatenate([proxy.run(p[:50]), proxy.run(p[50:])])
+        in_two = np.concatenate([proxy.run(p[:50]).force, proxy.run(p[50:]).force])
         assert np.array_equal(in_two, f[:, lane])
         assert proxy.offset == e[-1, lane] and proxy.force == f[-1, lane]
         proxy.reset()
-        assert np.array_equal(proxy.run(p), f[:, lane])
+        assert np.array_equal(proxy.run(p).force, f[:, lane])
 
 
 def test_the_random_runs_meet_every_part_of_the_model():

@@ -28,7 +28,7 @@ def test_outside_there_is_no_force(solver):
     r = random_runs.runs(32, cases.count(200), 100)
     for lane in range(r.p.shape[1]):
         proxy = core.proxy_1d(r, lane, solver)
-        assert not proxy.run(-abs(r.p[:, lane]) - 1e-9).any()
+        assert not proxy.run(-abs(r.p[:, lane]) - 1e-9).force.any()
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -38,7 +38,7 @@ def test_a_needle_pulled_out_leaves_no_force_behind(solver):
     for lane in range(r.p.shape[1]):
         proxy = core.proxy_1d(r, lane, solver)
         proxy.run(np.ascontiguousarray(r.p[:, lane]))
-        assert proxy.run(out)[-1] == 0
+        assert proxy.run(out).force[-1] == 0
 
 
 def test_a_device_at_rest_comes_to_hold_a_constant_force_and_an_unmoving_proxy():
@@ -52,7 +52,7 @@ def test_a_device_at_rest_comes_to_hold_a_constant_force_and_an_unmoving_proxy()
         # Below the gain of the slope a creeping needle settles more slowly still.
         proxy.run(np.full(100 * settle, rest))
         q = proxy.position
-        f = proxy.run(np.full(500, rest))
+        f = proxy.run(np.full(500, rest)).force
         assert np.ptp(f) <= 1e-11
         assert abs(proxy.position - q) <= 1e-14
 
@@ -67,7 +67,7 @@ def test_a_held_needle_keeps_force_and_proxy_to_the_last_bit_once_it_sticks():
             proxy.run(np.full(400, 5.6e-3))
             assert proxy.phase == punctura.Phase.sticking, lane
             f, q = proxy.force, proxy.position
-            held = proxy.run(np.full(1600, 5.6e-3))
+            held = proxy.run(np.full(1600, 5.6e-3)).force
             assert abs(held - f).max() <= 1e-15 and abs(proxy.position - q) <= 1e-17
 
 

@@ -122,8 +122,8 @@ def test_along_the_normal_it_is_the_one_dimensional_proxy(solver):
         flat = punctura.Proxy1d(punctura.ThickLaw(the_needle, the_membrane), coupling, T, solver=solver)
         space = punctura.Proxy3d(the_needle, the_membrane, [0, 0, 0], n, coupling, T, solver=solver)
         p = np.concatenate([[-1e-4], r.p[:, lane]])
-        f = space.run(p[:, None] * n, n)
-        assert abs(f - flat.run(p)[:, None] * n).max() <= 1e-10
+        f = space.run(p[:, None] * n, n).force
+        assert abs(f - flat.run(p).force[:, None] * n).max() <= 1e-10
 
 
 def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
@@ -134,8 +134,8 @@ def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
             proxy = core.proxy_3d(s, lane, solver)
             p, axis = np.ascontiguousarray(s.p[:, scene]), np.ascontiguousarray(s.axis[:, scene])
             assert np.array_equal(
-                np.concatenate([proxy.run(p[:30], axis[:30]), proxy.run(p[30:], axis[30:])]), f[:, lane]
+                np.concatenate([proxy.run(p[:30], axis[:30]).force, proxy.run(p[30:], axis[30:]).force]), f[:, lane]
             )
             assert np.array_equal(proxy.offset, e[-1, lane])
             proxy.reset()
-            assert np.array_equal(proxy.run(p, axis), f[:, lane])
+            assert np.array_equal(proxy.run(p, axis).force, f[:, lane])

@@ -44,9 +44,8 @@ MAKERS = {
 
 def run(model, part):
     if isinstance(model, Proxy1d):
-        return model.run(depths()[part])
-    gave = model.run(positions()[part], DOWN)
-    return gave.force if isinstance(model, Insertion) else gave
+        return model.run(depths()[part]).force
+    return model.run(positions()[part], DOWN).force
 
 
 @pytest.fixture(params=MAKERS)

@@ -11,6 +11,7 @@ import pytest
 from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.schema import wire_schema
+from punctura.ticks import Ticks
 from pydantic import TypeAdapter, ValidationError
 
 ROOT = Path(__file__).parents[3]
@@ -34,9 +35,9 @@ def test_a_frame_of_the_contract_reads_as_it_says(frame):
     assert [ticks.first_tick, ticks.first_time, ticks.run, ticks.lost, ticks.membranes, len(ticks)] == list(
         head.values()
     )
-    assert set(ticks.columns) == set(frame["holds"])
+    assert set(ticks.ticks) == set(frame["holds"])
     for name, values in frame["holds"].items():
-        assert np.array_equal(ticks.columns[name].ravel().astype(np.float32), numbers(values), equal_nan=True), name
+        assert np.array_equal(ticks.ticks[name].ravel().astype(np.float32), numbers(values), equal_nan=True), name
 
 
 @pytest.mark.parametrize("message", MESSAGES["messages"], ids=[m["kind"] for m in MESSAGES["messages"]])
@@ -89,17 +90,17 @@ def test_any_ticks_come_back_as_f32(seed):
         columns[name] = rng.integers(0, 255, n)
     columns["phase"] = rng.integers(0, 5, (n, m))
     other = rng.normal(size=(n, 3)) if seed % 2 else None
-    ticks = decode_ticks(encode_ticks(columns, 3, 9, other))
+    ticks = decode_ticks(encode_ticks(Ticks(columns), 3, 9, other))
     assert (ticks.first_tick, ticks.run, ticks.lost, ticks.membranes) == (first, 3, 9, m)
-    assert np.allclose(ticks.first_time + ticks.columns["time"].astype(float), time, atol=1e-8)
+    assert np.allclose(ticks.first_time + ticks.ticks.time, time, atol=1e-8)
     for name, column in columns.items():
         if name not in ("tick", "time"):
-            assert np.array_equal(ticks.columns[name], column.astype(ticks.columns[name].dtype)), name
+            assert np.array_equal(ticks.ticks[name].astype(np.float32), column.astype(np.float32)), name
 
 
 def test_a_frame_holds_no_gap_and_no_nothing():
     columns = {"tick": np.array([1, 3]), "depth": np.empty((2, 1)), "time": np.zeros(2)}
     with pytest.raises(FrameError):
-        encode_ticks(columns, 0)
+        encode_ticks(Ticks(columns), 0)
     with pytest.raises(FrameError):
-        encode_ticks({name: column[:0] for name, column in columns.items()}, 0)
+        encode_ticks(Ticks(columns)[:0], 0)

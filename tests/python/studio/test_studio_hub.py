@@ -8,7 +8,7 @@ from punctura.studio.hub import Hub
 from punctura.studio.wire.messages import Hello, LimitsPart, MembraneEvent, Notice, RecordingStatus, SceneMessage
 from punctura.studio.wire.messages import Status as Health
 
-FRAME = b"PNT1"
+FRAME = b"PNT2"
 
 
 def hello(viewer):

@@ -27,7 +27,7 @@ class Out:
 
     @property
     def frames(self):
-        return [f for f in self.all if hasattr(f, "columns")]
+        return [f for f in self.all if hasattr(f, "ticks")]
 
 
 class Run:
@@ -47,10 +47,10 @@ class Run:
         self.batches = []
 
     def give(self, *rows):
-        self.batches.append({name: column[np.r_[rows]] for name, column in self.columns.items()})
+        self.batches.append(self.columns[np.r_[rows]])
 
     def read(self):
-        return self.batches.pop(0) if self.batches else {name: c[:0] for name, c in self.columns.items()}
+        return self.batches.pop(0) if self.batches else self.columns[:0]
 
 
 @pytest.fixture
@@ -69,8 +69,8 @@ def test_every_tick_goes_out_once_however_the_ring_is_read(run):
     tick = np.concatenate([f.first_tick + np.arange(len(f)) for f in out.frames])
     assert np.array_equal(tick, np.arange(5000)) and pump.lost == 0
     assert max(len(f) for f in out.frames) <= MOST_TICKS
-    force = np.concatenate([f.columns["force"] for f in out.frames])
-    assert np.array_equal(force, run.columns["force"].astype(np.float32))
+    force = np.concatenate([f.ticks.force for f in out.frames])
+    assert np.array_equal(force.astype(np.float32), run.columns["force"].astype(np.float32))
     kinds = [m.what for m in out.all if getattr(m, "kind", "") == "event"]
     assert kinds.count("pop") == 2 and kinds[0] == "touch"
 
@@ -107,7 +107,7 @@ def test_a_change_that_no_tick_takes_is_told_all_the_same(run):
 def test_the_other_solver_waits_until_the_tip_is_outside_and_is_then_the_model_alone(run):
     exact = OtherSolver(SCENE.replace(servo=SCENE.servo.replace(solver="paper")))  # whose other one is exact
     inside = int(np.flatnonzero((run.columns["phase"] != 0).any(axis=1))[0]) + 5
-    part = lambda a, b: {name: c[a:b] for name, c in run.columns.items()}  # noqa: E731
+    part = lambda a, b: run.columns[a:b]  # noqa: E731
     assert np.isnan(exact.run(part(inside, inside + 50))).all()
     outside = int(np.flatnonzero((run.columns["phase"][inside:] == 0).all(axis=1))[0]) + inside
     force = exact.run(part(inside + 50, 5000))

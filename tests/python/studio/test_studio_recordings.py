@@ -60,7 +60,7 @@ def test_a_recording_is_made_listed_read_downloaded_and_deleted(served, page):
     frames = frames_of(page.get("/api/recordings/Größe 1/ticks")[1])
     assert sum(len(f) for f in frames) == rows
     column = open_recording(served.session.shelf.find("Größe 1")).column("fy_N")
-    assert np.array_equal(np.concatenate([f.columns["force"][:, 1] for f in frames]), column.astype(np.float32))
+    assert np.array_equal(np.concatenate([f.ticks.force[:, 1] for f in frames]), column.astype(np.float32))
     assert replay(served.session.shelf.find("Größe 1")).identical
 
     for kind, begin in (("parquet", b"PAR1"), ("csv", b"tick,"), ("mcap", b"\x89MCAP")):

@@ -208,7 +208,7 @@ def closed_after(server, *messages):
 
 MALFORMED = {
     "bytes": b"\x00\x01",
-    "a frame": b"PNT1" + bytes(36),
+    "a frame": b"PNT2" + bytes(36),
     "no JSON": "{",
     "a number": "7",
     "a list": "[]",

@@ -1,31 +1,8 @@
 import type { History } from "../state/history.ts";
-import { LIMITS } from "../state/limits.ts";
+import { FIELDS } from "../wire/tick_table.ts";
 import { isCompared } from "./gather.ts";
 
 const ROWS_A_PART = 4096;
-const STATES = ["disarmed", "waiting", "active", "faulted"];
-
-/** A name that fits into a column's: letters, digits and underscores. */
-export function columnName(name: string): string {
-  return (
-    name
-      .trim()
-      .toLowerCase()
-      .replace(/[^\p{L}\p{N}]+/gu, "_")
-      .replace(/^_+|_+$/g, "") || "membrane"
-  );
-}
-
-/** Names of the membranes for columns, each another. */
-export function columnNames(names: readonly string[], count: number): string[] {
-  const taken = new Map<string, number>();
-  return Array.from({ length: count }, (_, i) => {
-    const name = columnName(names[i] ?? `membrane ${i + 1}`);
-    const times = (taken.get(name) ?? 0) + 1;
-    taken.set(name, times);
-    return times === 1 ? name : `${name}_${times}`;
-  });
-}
 
 /** The fewest digits that give the same f32 again; empty for what does not exist. */
 export function exactF32(value: number): string {
@@ -37,61 +14,60 @@ export function exactF32(value: number): string {
   return String(Number(value.toPrecision(9)));
 }
 
+/** A column of the file: its head, and the text of a tick's cell. */
+interface Column {
+  readonly head: string;
+  cell(tick: number, slot: number): string;
+}
+
 /**
- * Every tick from `first` to before `end`, SI, a line each: of one membrane or (null) of all. Parts of a file.
- * Forces of membranes are along the needle's direction b, negative where they push the needle out.
+ * Every tick from `first` to before `end`, a line each, with the column names and units of `punctura export`: of one
+ * membrane or (null) of all. Numbers have the digits of f32. Parts of a file.
  */
-export function csv(
-  history: History,
-  first: number,
-  end: number,
-  names: readonly string[],
-  membrane: number | null,
-): string[] {
-  const m = history.membranes;
-  const wanted = columnNames(names, m)
-    .map((name, i) => ({ name, i }))
-    .filter(({ i }) => membrane === null || i === membrane);
-  const vector = (name: string, unit: string): string[] => ["x", "y", "z"].map((axis) => `${name}_${axis}_${unit}`);
-  const compared = isCompared(history, first, end);
-  const head = [
-    "tick", "time_s", "state", "limit", ...vector("position", "m"), ...vector("force", "N"), ...vector("model_force", "N"),
-    ...(compared ? vector("other_solver_force", "N") : []),
-    ...wanted.flatMap(({ name }) => [
-      `depth_${name}_m`, `axial_force_${name}_N`, `lower_${name}_N`, `upper_${name}_N`, `phase_${name}`,
-    ]),
-  ]; // biome-ignore format: a table
-  const parts = [`${head.join(",")}\n`];
-  const triples = [history.column("position"), history.column("force"), history.column("model_force")];
-  if (compared) triples.push(history.column("other_force"));
-  const cells = [
-    history.column("depth"),
-    history.column("axial_force"),
-    history.column("lower"),
-    history.column("upper"),
-  ];
-  const state = history.byteColumn("state");
-  const limit = history.byteColumn("limit");
-  const phase = history.byteColumn("phase");
-  let rows: string[] = [];
-  for (let tick = first; tick < end; tick++) {
-    const slot = history.slot(tick);
-    const row = [
-      String(tick),
-      history.timeOf(tick).toFixed(9),
-      STATES[state[slot]!] ?? String(state[slot]),
-      LIMITS[limit[slot]!] ?? "",
-    ];
-    for (const triple of triples) for (let k = 0; k < 3; k++) row.push(exactF32(triple[3 * slot + k]!));
-    for (const { i } of wanted) {
-      for (const cell of cells) row.push(exactF32(cell[slot * m + i]!));
-      row.push(String(phase[slot * m + i]!));
+export function csv(history: History, first: number, end: number, membrane: number | null): string[] {
+  const columns = columnsOf(history, first, end, membrane);
+  const parts = [`${columns.map(({ head }) => head).join(",")}\n`];
+  for (let from = first; from < end; from += ROWS_A_PART) {
+    const rows: string[] = [];
+    for (let tick = from; tick < Math.min(end, from + ROWS_A_PART); tick++) {
+      const slot = history.slot(tick);
+      rows.push(columns.map((column) => column.cell(tick, slot)).join(","));
     }
-    rows.push(row.join(","));
-    if (rows.length === ROWS_A_PART || tick === end - 1) {
-      parts.push(`${rows.join("\n")}\n`);
-      rows = [];
-    }
+    parts.push(`${rows.join("\n")}\n`);
   }
   return parts;
+}
+
+function columnsOf(history: History, first: number, end: number, membrane: number | null): Column[] {
+  const membranes = Array.from({ length: history.membranes }, (_, i) => i).filter(
+    (i) => membrane === null || i === membrane,
+  );
+  const columns: Column[] = [{ head: "tick", cell: (tick) => String(tick) }];
+  const each = FIELDS.filter((field) => field.perMembrane);
+  for (const field of FIELDS) {
+    if (!field.perMembrane) columns.push(...fieldColumns(history, field, 0));
+    else if (field === each[0])
+      for (const i of membranes) for (const one of each) columns.push(...fieldColumns(history, one, i));
+  }
+  if (isCompared(history, first, end)) columns.push(...numbers(history.column("other_force"), "other_f{a}_N", 3, 3, 0));
+  return columns;
+}
+
+function fieldColumns(history: History, field: (typeof FIELDS)[number], membrane: number): Column[] {
+  const head = field.column.replace("{i}", String(membrane));
+  if (field.name === "time") return [{ head, cell: (tick) => history.timeOf(tick).toFixed(9) }];
+  const stride = field.width * (field.perMembrane ? history.membranes : 1);
+  if (field.words === null)
+    return numbers(history.column(field.name), head, field.width, stride, field.width * membrane);
+  const codes = history.byteColumn(field.name);
+  const words: readonly string[] = field.words;
+  return [{ head, cell: (_, slot) => words[codes[stride * slot + membrane]!] ?? "" }];
+}
+
+/** A number, or three of a vector, at `offset` in each row of `stride` numbers. */
+function numbers(values: Float32Array, head: string, width: number, stride: number, offset: number): Column[] {
+  return Array.from({ length: width }, (_, k) => ({
+    head: head.replace("{a}", "xyz"[k]!),
+    cell: (_tick: number, slot: number) => exactF32(values[stride * slot + offset + k]!),
+  }));
 }

@@ -37,8 +37,7 @@ export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promi
   const title = `${scene?.name ?? "Punctura"}, ${span}`;
   const file = `${saving.name}-${window.from.toFixed(2)}s.${format}`;
   if (format === "csv") {
-    const names = scene?.membranes.map((m) => m.name) ?? [];
-    download(file, csv(source.history, window.first, window.end, names, saving.membranes()), "text/csv");
+    download(file, csv(source.history, window.first, window.end, saving.membranes()), "text/csv");
     return;
   }
   const theme = saving.theme();

@@ -1,8 +1,9 @@
 import type { History } from "../state/history.ts";
 import { LIMITS, type Limit } from "../state/limits.ts";
+import { wordsOf } from "../wire/ticks.ts";
 
 /** ServoState of core/punctura/servo/snapshot.hpp. */
-export const STATES = ["disarmed", "waiting", "active", "faulted"] as const;
+export const STATES = wordsOf("state");
 export type State = (typeof STATES)[number];
 
 /** What a state means for the hand, in a word or two. */

@@ -1,7 +1,7 @@
+import { wordsOf } from "../wire/ticks.ts";
 import type { History } from "./history.ts";
 
-/** Limit of core/punctura/safety/force_limits.hpp. */
-export const LIMITS = ["none", "ramp", "peak", "continuous", "temperature"] as const;
+export const LIMITS = wordsOf("limit");
 export type Limit = (typeof LIMITS)[number] | "unknown";
 
 /** The limit that cut the force, in a word or two. */

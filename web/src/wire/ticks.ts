@@ -1,36 +1,26 @@
+import { FIELDS } from "./tick_table.ts";
+
 /** The binary frame of ticks; python/punctura/studio/wire/frames.py has the table of its bytes. */
 
-const MAGIC = 0x31544e50; // "PNT1"
+const MAGIC = 0x32544e50; // "PNT2"
 const HEAD_BYTES = 40;
 const OTHER_SOLVER = 1;
 
-/** Width of a row, and whether each membrane has one. */
-const FLOATS = [
-  ["time", 1, false],
-  ["position", 3, false],
-  ["axis", 3, false],
-  ["tip", 3, false],
-  ["model_force", 3, false],
-  ["force", 3, false],
-  ["ceiling", 1, false],
-  ["depth", 1, true],
-  ["axial_force", 1, true],
-  ["lower", 1, true],
-  ["upper", 1, true],
-  ["proxy", 3, true],
-  ["direction", 3, true],
-] as const;
-const BYTES = [
-  ["state", false],
-  ["fault", false],
-  ["limit", false],
-  ["phase", true],
-] as const;
+type Field = (typeof FIELDS)[number];
+type NumberField = Extract<Field, { words: null }>;
+type WordField = Exclude<Field, { words: null }>;
+export type FloatColumn = NumberField["name"] | "other_force";
+export type ByteColumn = WordField["name"];
 
-export type FloatColumn = (typeof FLOATS)[number][0] | "other_force";
-export type ByteColumn = (typeof BYTES)[number][0];
+const FLOATS = FIELDS.filter((field): field is NumberField => field.words === null);
+const BYTES = FIELDS.filter((field): field is WordField => field.words !== null);
+export const BYTE_COLUMNS: readonly ByteColumn[] = BYTES.map((field) => field.name);
 
-export const BYTE_COLUMNS: readonly ByteColumn[] = BYTES.map(([name]) => name);
+/** The words of a field, by its numbers. */
+export function wordsOf<Name extends ByteColumn>(name: Name): Words<Name> {
+  return BYTES.find((field) => field.name === name)!.words as unknown as Words<Name>;
+}
+type Words<Name> = { [F in WordField as F["name"]]: F["words"] }[Name & ByteColumn];
 
 export class FrameError extends Error {}
 
@@ -51,8 +41,8 @@ export interface TickBatch {
 /** Width in numbers of one tick's row. */
 export function rowWidth(column: FloatColumn | ByteColumn, membranes: number): number {
   if (column === "other_force") return 3;
-  for (const [name, width, each] of FLOATS) if (name === column) return each ? width * membranes : width;
-  return column === "phase" ? membranes : 1;
+  const field = FIELDS.find(({ name }) => name === column)!;
+  return field.perMembrane ? field.width * membranes : field.width;
 }
 
 /** Reads a frame without copying. Throws FrameError. */
@@ -74,9 +64,9 @@ export function decodeTicks(frame: ArrayBuffer, at = 0, end = frame.byteLength):
     floats[name] = new Float32Array(frame, offset, length);
     offset += 4 * length;
   };
-  for (const [name] of FLOATS) takeFloats(name);
+  for (const { name } of FLOATS) takeFloats(name);
   if (flags & OTHER_SOLVER) takeFloats("other_force");
-  for (const [name] of BYTES) {
+  for (const { name } of BYTES) {
     const length = count * rowWidth(name, membranes);
     if (offset + length > end) throw new FrameError(`ends within ${name}`);
     bytes[name] = new Uint8Array(frame, offset, length);

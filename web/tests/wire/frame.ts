@@ -1,11 +1,9 @@
+import { FIELDS } from "../../src/wire/tick_table.ts";
 import type { ByteColumn, FloatColumn } from "../../src/wire/ticks.ts";
 import { rowWidth } from "../../src/wire/ticks.ts";
 
-const FLOATS: readonly FloatColumn[] = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling",
-  "depth", "axial_force", "lower", "upper", "proxy", "direction",
-]; // biome-ignore format: a table
-const BYTES: readonly ByteColumn[] = ["state", "fault", "limit", "phase"];
+const FLOATS: readonly FloatColumn[] = FIELDS.flatMap((field) => (field.words === null ? [field.name] : []));
+const BYTES: readonly ByteColumn[] = FIELDS.flatMap((field) => (field.words === null ? [] : [field.name]));
 
 /** The number that `makeFrame` writes: another one for each column, tick and place in the row. */
 export const expected = (column: FloatColumn, row: number, place: number): number =>
@@ -34,7 +32,7 @@ export function makeFrame(shape: FrameShape): ArrayBuffer {
     floats.reduce((sum, name) => sum + 4 * count * rowWidth(name, membranes), 0) +
     BYTES.reduce((sum, name) => sum + count * rowWidth(name, membranes), 0);
   const view = new DataView(new ArrayBuffer(size));
-  view.setUint32(0, 0x31544e50, true);
+  view.setUint32(0, 0x32544e50, true);
   view.setUint32(4, count, true);
   view.setUint32(8, membranes, true);
   view.setUint32(12, other ? 1 : 0, true);

@@ -2,7 +2,7 @@
 
 | bytes | type | what |
 |---|---|---|
-| 0 | u32 | magic, "PNT1" |
+| 0 | u32 | magic, "PNT2" |
 | 4 | u32 | n, ticks |
 | 8 | u32 | m, membranes |
 | 12 | u32 | flags: 1 the other solver's force is there |
@@ -10,9 +10,11 @@
 | 24 | f64 | time of the first tick, s |
 | 32 | u32 | the run, from 0 |
 | 36 | u32 | snapshots lost before this frame in this run |
-| 40 | f32 | columns of COLUMNS, each n by its width (m for those of each membrane), row by row |
-| then | u8 | columns of BYTES, likewise |
+| 40 | f32 | the numbers of each field, n rows of its width (times m where each membrane has one), field by field |
+| then | f32 | the other solver's force, n rows of 3, where the flag is set |
+| then | u8 | the fields that are words, likewise |
 
+The fields are those of core's table (docs/tick.md) that are marked for the page, in its order.
 Times are seconds after the first tick's, so that f32 keeps them to a nanosecond. What does not exist is NaN.
 """
 
@@ -25,22 +27,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-MAGIC = 0x31544E50
+from punctura._core import TickField
+from punctura.ticks import FIELDS, Ticks
+
+MAGIC = 0x32544E50
 HEAD = struct.Struct("<IIIIQdII")
 OTHER_SOLVER = 1
 
-# name -> width of a row; "m" counts once for each membrane.
-COLUMNS: dict[str, tuple[int, bool]] = {
-    "time": (1, False), "position": (3, False), "axis": (3, False), "tip": (3, False), "model_force": (3, False),
-    "force": (3, False), "ceiling": (1, False),
-    "depth": (1, True), "axial_force": (1, True), "lower": (1, True), "upper": (1, True), "proxy": (3, True),
-    "direction": (3, True),
-}  # fmt: skip
+_ON_PAGE = [field for field in FIELDS.values() if field.on_page]
+NUMBERS = [field for field in _ON_PAGE if field.words is None]
+WORDS = [field for field in _ON_PAGE if field.words is not None]
 OTHER = "other_force"  # (n, 3), only with the flag
-# name -> one for each membrane
-BYTES: dict[str, bool] = {"state": False, "fault": False, "limit": False, "phase": True}
-
-Columns = dict[str, npt.NDArray[Any]]
 
 
 class FrameError(ValueError):
@@ -48,64 +45,64 @@ class FrameError(ValueError):
 
 
 @dataclass(frozen=True)
-class Ticks:
-    """A frame as it was read: `columns` (n,), (n, 3), (n, m) or (n, m, 3), float32 and uint8."""
+class Frame:
+    """A frame as it was read."""
 
     first_tick: int
-    first_time: float
+    first_time: float  # s
     run: int
     lost: int
     membranes: int
-    columns: Columns
+    ticks: Ticks  # with other_force (n, 3), N, where both solvers run; times are s after the first
 
     def __len__(self) -> int:
-        return len(self.columns["time"])
+        return len(self.ticks)
 
 
-def encode_ticks(columns: Columns, run: int, lost: int = 0, other_force: npt.NDArray[Any] | None = None) -> bytes:
-    """The frame of a Listener's columns; their ticks must follow one another. Raises FrameError where they do not."""
-    tick = columns["tick"]
+def _shape(field: TickField, n: int, m: int) -> tuple[int, ...]:
+    return (n, *((m,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
+
+
+def encode_ticks(ticks: Ticks, run: int, lost: int = 0, other_force: npt.NDArray[Any] | None = None) -> bytes:
+    """The frame of a loop's ticks, which must follow one another. Raises FrameError where they do not."""
+    tick = ticks.tick
     n = len(tick)
     if n == 0 or int(tick[-1]) - int(tick[0]) != n - 1:
         raise FrameError("a frame holds at least one tick, and no gap")
-    m = columns["depth"].shape[1]
     flags = 0 if other_force is None else OTHER_SOLVER
-    first = float(columns["time"][0])
-    parts = [HEAD.pack(MAGIC, n, m, flags, int(tick[0]), first, run, lost)]
-    for name in COLUMNS:
-        values = columns[name] - first if name == "time" else columns[name]
+    first = float(ticks.time[0])
+    parts = [HEAD.pack(MAGIC, n, ticks.membrane_count, flags, int(tick[0]), first, run, lost)]
+    for field in NUMBERS:
+        values = ticks.time - first if field.name == "time" else ticks[field.name]
         parts.append(np.ascontiguousarray(values, "<f4").tobytes())
     if other_force is not None:
         parts.append(np.ascontiguousarray(other_force, "<f4").tobytes())
-    parts += [np.ascontiguousarray(columns[name], "u1").tobytes() for name in BYTES]
+    parts += [np.ascontiguousarray(ticks[field.name], "u1").tobytes() for field in WORDS]
     return b"".join(parts)
 
 
-def decode_ticks(frame: bytes) -> Ticks:
+def decode_ticks(frame: bytes) -> Frame:
     """Raises FrameError."""
     if len(frame) < HEAD.size:
         raise FrameError(f"{len(frame)} bytes are too few for a frame")
     magic, n, m, flags, tick, time, run, lost = HEAD.unpack_from(frame)
     if magic != MAGIC:
         raise FrameError(f"begins with {magic:#x}, not with {MAGIC:#x}")
-    columns: Columns = {}
     at = HEAD.size
 
-    def take(name: str, kind: str, shape: tuple[int, ...]) -> None:
+    def take(name: str, kind: str, shape: tuple[int, ...]) -> npt.NDArray[Any]:
         nonlocal at
         count = int(np.prod(shape))
         size = count * np.dtype(kind).itemsize
         if at + size > len(frame):
             raise FrameError(f"ends within {name}")
-        columns[name] = np.frombuffer(frame, kind, count, at).reshape(shape)
         at += size
+        return np.frombuffer(frame, kind, count, at - size).reshape(shape)
 
-    for name, (width, each) in COLUMNS.items():
-        take(name, "<f4", (n, *((m,) if each else ()), *((width,) if width > 1 else ())))
+    columns = {field.name: take(field.name, "<f4", _shape(field, n, m)) for field in NUMBERS}
     if flags & OTHER_SOLVER:
-        take(OTHER, "<f4", (n, 3))
-    for name, each in BYTES.items():
-        take(name, "u1", (n, m) if each else (n,))
+        columns[OTHER] = take(OTHER, "<f4", (n, 3))
+    columns |= {field.name: take(field.name, "u1", _shape(field, n, m)) for field in WORDS}
     if at != len(frame):
         raise FrameError(f"{len(frame) - at} bytes follow its end")
-    return Ticks(tick, time, run, lost, m, columns)
+    return Frame(tick, time, run, lost, m, Ticks(columns))

@@ -13,7 +13,9 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-_ROWS_A_GROUP = 1 << 17
+from punctura.ticks.ticks import Ticks
+
+_ROWS_A_GROUP = 1 << 16
 
 
 class Output(Protocol):
@@ -58,6 +60,16 @@ class _Parquet:
 
 
 SUFFIXES = (".csv", ".parquet")
+
+
+def save(ticks: Ticks, path: str | os.PathLike[str]) -> None:
+    """See Ticks.save."""
+    target = Path(path)
+    if target.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"{target} must end in {' or '.join(SUFFIXES)}")
+    table = ticks.to_arrow()
+    with open_output(target, table.schema) as output:
+        output.write(table)
 
 
 @contextmanager

@@ -1,0 +1,19 @@
+// What a membrane's proxy gave, as a tick's record has it.
+#pragma once
+
+#include "punctura/proxy/in_space.hpp"
+#include "punctura/proxy/on_a_line.hpp"
+#include "punctura/servo/snapshot.hpp"
+
+namespace punctura {
+
+inline MembraneRecord record_of(const SpaceTick<double>& t) noexcept {
+  return {t.depth, t.axial_force, t.band.lower, t.band.upper, plain(t.proxy), plain(t.direction), t.phase};
+}
+
+/// On a line, the needle's direction is the first axis.
+inline MembraneRecord record_of(const LineTick<double>& t) noexcept {
+  return {t.depth, t.force, t.band.lower, t.band.upper, {t.proxy, 0, 0}, {1, 0, 0}, t.phase};
+}
+
+}  // namespace punctura

@@ -1,0 +1,146 @@
+// The one table of a tick's fields. A new field is one line here: recordings, exports, the page, Python and docs/tick.md follow it.
+#pragma once
+
+#include <tuple>
+#include <type_traits>
+
+#include "punctura/servo/snapshot.hpp"
+
+namespace punctura {
+
+/// Who reads a field besides recordings and exports. Bits.
+enum TickUse : unsigned {
+  use_file = 0,
+  use_input = 1,  ///< what the tick was given: a replay needs it
+  use_page = 2,   ///< sent to the studio's page
+};
+
+/// What holds a field.
+enum class TickPart {
+  snapshot,
+  membrane,  ///< a membrane's record in the snapshot
+  extra,     ///< what stands beside the snapshot: ExperimentExtra
+};
+
+/// One field. `get` reads it from its part. It gives a reference where the field is stored, so that a replay can set it, and a
+/// value where it is derived.
+template <TickPart part_, typename Get>
+struct TickField {
+  static constexpr TickPart part = part_;
+  static constexpr bool per_membrane = part == TickPart::membrane;
+  const char* name;
+  /// In a file: {a} is x, y or z, {i} the membrane's number.
+  const char* column;
+  const char* unit;  ///< empty for numbers without one
+  const char* says;
+  unsigned use;
+  Get get;
+
+  template <typename Record>
+  using Value = std::remove_cvref_t<std::invoke_result_t<const Get&, const Record&>>;
+};
+
+namespace detail {
+template <TickPart part, typename Get>
+constexpr auto tick_field(const char* name, const char* column, const char* unit, unsigned use, Get get,
+                          const char* says) {
+  return TickField<part, Get>{name, column, unit, says, use, get};
+}
+}  // namespace detail
+
+// clang-format off
+/// In the order of the columns in a file: what a person looks for first stands first.
+inline constexpr std::tuple tick_table{
+    detail::tick_field<TickPart::snapshot>("tick", "tick", "", use_file,
+        [](auto& s) -> auto& { return s.tick; },
+        "Number of the tick, from 0"),
+    detail::tick_field<TickPart::snapshot>("time", "time_s", "s", use_input | use_page,
+        [](auto& s) -> auto& { return s.sample.time; },
+        "When the tick began, on a clock that never goes back"),
+    detail::tick_field<TickPart::snapshot>("position", "{a}_m", "m", use_input | use_page,
+        [](auto& s) -> auto& { return s.sample.position; },
+        "The needle's tip as the device reported it"),
+    detail::tick_field<TickPart::snapshot>("axis", "axis_{a}", "", use_input | use_page,
+        [](auto& s) -> auto& { return s.sample.axis; },
+        "Unit direction in which the needle points"),
+    detail::tick_field<TickPart::snapshot>("force", "f{a}_N", "N", use_page,
+        [](auto& s) -> auto& { return s.force; },
+        "The force that goes to the device, after all limits"),
+    detail::tick_field<TickPart::membrane>("depth", "depth_{i}_m", "m", use_page,
+        [](auto& m) -> auto& { return m.depth; },
+        "Inside: along the needle, where the band was taken. Else along the normal, from the surface"),
+    detail::tick_field<TickPart::membrane>("axial_force", "force_{i}_N", "N", use_page,
+        [](auto& m) -> auto& { return m.axial_force; },
+        "The membrane's force along the needle's direction b"),
+    detail::tick_field<TickPart::membrane>("lower", "lower_{i}_N", "N", use_page,
+        [](auto& m) -> auto& { return m.lower; },
+        "Lower edge of the band of friction, Phi_I"),
+    detail::tick_field<TickPart::membrane>("upper", "upper_{i}_N", "N", use_page,
+        [](auto& m) -> auto& { return m.upper; },
+        "Upper edge of the band of friction, Phi_O"),
+    detail::tick_field<TickPart::membrane>("phase", "phase_{i}", "", use_page,
+        [](auto& m) -> auto& { return m.phase; },
+        "What the needle does in the membrane"),
+    detail::tick_field<TickPart::membrane>("proxy", "proxy_{i}_{a}_m", "m", use_page,
+        [](auto& m) -> auto& { return m.proxy; },
+        "The proxy q"),
+    detail::tick_field<TickPart::membrane>("direction", "direction_{i}_{a}", "", use_page,
+        [](auto& m) -> auto& { return m.direction; },
+        "The needle's direction b, held from entry on while inside"),
+    detail::tick_field<TickPart::snapshot>("model_force", "model_f{a}_N", "N", use_page,
+        [](auto& s) -> auto& { return s.model_force; },
+        "The model's force, all membranes together, before any limit"),
+    detail::tick_field<TickPart::snapshot>("tip", "tip_{a}_m", "m", use_page,
+        [](auto& s) -> auto& { return s.tip; },
+        "The conditioned position, which the model gets"),
+    detail::tick_field<TickPart::snapshot>("state", "state", "", use_page,
+        [](auto& s) -> auto& { return s.state; },
+        "What the servo step does with forces"),
+    detail::tick_field<TickPart::snapshot>("fault", "fault", "", use_page,
+        [](auto& s) -> auto& { return s.fault; },
+        "The latched fault"),
+    detail::tick_field<TickPart::snapshot>("limit", "limit", "", use_page,
+        [](auto& s) -> auto& { return s.limit; },
+        "The limit that makes force smaller than model_force"),
+    detail::tick_field<TickPart::snapshot>("commands", "commands", "", use_input,
+        [](auto& s) -> auto& { return s.commands; },
+        "What was asked since the tick before, as bits: 1 arm, 2 disarm, 4 reset, 8 a new scene"),
+    detail::tick_field<TickPart::snapshot>("sequence", "sequence", "", use_input,
+        [](auto& s) -> auto& { return s.sample.sequence; },
+        "The device's own count of readings"),
+    detail::tick_field<TickPart::snapshot>("buttons", "buttons", "", use_input,
+        [](auto& s) -> auto& { return s.sample.buttons; },
+        "Buttons that are held, one bit each"),
+    detail::tick_field<TickPart::snapshot>("healthy", "healthy", "", use_input,
+        [](auto& s) -> auto& { return s.sample.healthy; },
+        "False where the device's back-end reports a fault of its own"),
+    detail::tick_field<TickPart::snapshot>("motor_temperature", "motor_temperature", "", use_input,
+        [](auto& s) -> auto& { return s.sample.motor_temperature; },
+        "Of the hottest motor: 0 to 1, where its maker sees danger; 0 where it is not reported"),
+    detail::tick_field<TickPart::snapshot>("ceiling", "ceiling_N", "N", use_page,
+        [](auto& s) -> auto& { return s.ceiling; },
+        "The largest force that all limits permit in this tick"),
+    detail::tick_field<TickPart::snapshot>("peak_limited", "peak_limited", "", use_file,
+        [](auto& s) -> auto& { return s.limits.peak; },
+        "Ticks so far in which the peak limit acted"),
+    detail::tick_field<TickPart::snapshot>("continuous_limited", "continuous_limited", "", use_file,
+        [](auto& s) -> auto& { return s.limits.continuous; },
+        "Ticks so far in which the limit on continuous force acted"),
+    detail::tick_field<TickPart::snapshot>("temperature_limited", "temperature_limited", "", use_file,
+        [](auto& s) -> auto& { return s.limits.temperature; },
+        "Ticks so far in which warm motors lowered the ceiling"),
+    detail::tick_field<TickPart::snapshot>("ramp_limited", "ramp_limited", "", use_file,
+        [](auto& s) -> auto& { return s.limits.ramp; },
+        "Ticks so far in which the force still grew after arming"),
+};
+// clang-format on
+
+/// Calls visit(field, index) for each field of a table, in its order.
+template <typename Table, typename Visit>
+constexpr void for_each_field(const Table& table, Visit&& visit) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (visit(std::get<i>(table), std::integral_constant<std::size_t, i>{}), ...);
+  }(std::make_index_sequence<std::tuple_size_v<Table>>{});
+}
+
+}  // namespace punctura

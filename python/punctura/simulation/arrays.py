@@ -1,0 +1,60 @@
+"""The simulation of a motion in memory."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura._core import Insertion, Scene
+from punctura.simulation.even import Evenness
+from punctura.simulation.motion_error import MotionError
+from punctura.simulation.rate import resampler_for
+from punctura.simulation.resample import unit, with_axis
+from punctura.ticks import Ticks
+
+Array = npt.NDArray[np.float64]
+
+
+def simulate_arrays(
+    scene: Scene, position: npt.ArrayLike, time: npt.ArrayLike | None, axis: npt.ArrayLike | None
+) -> Ticks:
+    """See simulate."""
+    normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
+    normal = normal / np.linalg.norm(normal)
+    p = np.asarray(position, dtype=np.float64)
+    if p.ndim == 1:  # depths below the first membrane's surface
+        p = np.asarray(scene.membranes[0].point) + p[:, None] * normal
+    if p.ndim != 2 or p.shape[1] != 3:
+        raise ValueError(f"position must be (n, 3), m, or (n,), depths in m, not {p.shape}")
+    b = normal if axis is None else np.asarray(axis, dtype=np.float64)
+    stamps = np.arange(len(p)) / scene.servo.rate
+    if time is not None:
+        stamps, p, b = _resampled(scene, np.asarray(time, dtype=np.float64), p, b)
+    names = [placed.name for placed in scene.membranes]
+    ticks = Insertion(scene).run(p, b)
+    return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
+
+
+def _resampled(scene: Scene, time: Array, position: Array, axis: Array) -> tuple[Array, Array, Array]:
+    """Time, position and axis at the servo rate. Raises ValueError where the time cannot be used."""
+    if time.shape != (len(position),):
+        raise ValueError(f"time must be ({len(position)},), one stamp a position, not {time.shape}")
+    if not np.isfinite(time).all():
+        raise ValueError(f"time[{int(np.flatnonzero(~np.isfinite(time))[0])}] is not a finite number")
+    if not len(time):
+        return time, position, axis
+    even = Evenness(Path("time"))
+    try:
+        even.add(0, time)
+        even.finish()
+        resampler = resampler_for(even, scene.servo.rate)
+    except MotionError as bad:
+        raise ValueError(f"time[{bad.line}]: {bad.what}" if bad.line else f"time: {bad.what}") from None
+    if resampler is None:
+        return time, position, axis
+    rows = position if axis.ndim == 1 else with_axis(position, axis)
+    stamps, values = zip(*resampler.add(rows), strict=True)
+    new_time, rows = np.concatenate(stamps), np.concatenate(values)
+    return new_time, rows[:, :3], axis if axis.ndim == 1 else unit(rows[:, 3:])

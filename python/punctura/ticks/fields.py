@@ -1,0 +1,69 @@
+"""The table of a tick's fields (core/punctura/servo/tick_table.hpp), and the names of its columns in a file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import NamedTuple
+
+from punctura._core import TickField, tick_fields
+
+AXES = ("x", "y", "z")
+ABSENT = 255  # the phase of a membrane that a tick's scene does not have; its numbers are NaN
+
+FIELDS: Mapping[str, TickField] = {field.name: field for field in tick_fields()}
+
+
+class FileColumn(NamedTuple):
+    """A column of a file: one component of a field, of one membrane where each has one."""
+
+    name: str
+    field: TickField
+    membrane: int | None
+    component: int | None  # None where the field is one number
+
+
+def file_columns(fields: Iterator[TickField] | list[TickField], membranes: int) -> Iterator[FileColumn]:
+    """In a file's order: the fields of the first membrane, then those of the next, where the table has membranes."""
+    done = False
+    fields = list(fields)
+    each = [field for field in fields if field.per_membrane]
+    for field in fields:
+        if not field.per_membrane:
+            yield from _columns(field, None)
+        elif not done:
+            done = True
+            for i in range(membranes):
+                for one in each:
+                    yield from _columns(one, i)
+
+
+def _columns(field: TickField, membrane: int | None) -> Iterator[FileColumn]:
+    if field.width == 1:
+        yield FileColumn(field.column.format(i=membrane), field, membrane, None)
+        return
+    for k, axis in enumerate(AXES):
+        yield FileColumn(field.column.format(i=membrane, a=axis), field, membrane, k)
+
+
+@cache
+def _patterns() -> tuple[tuple[re.Pattern[str], TickField], ...]:
+    """What the columns of each field look like."""
+
+    def pattern(field: TickField) -> re.Pattern[str]:
+        text = re.escape(field.column).replace(r"\{a\}", "(?P<a>[xyz])").replace(r"\{i\}", r"(?P<i>\d+)")
+        return re.compile(text)
+
+    return tuple((pattern(field), field) for field in FIELDS.values())
+
+
+@cache
+def file_column(name: str) -> FileColumn | None:
+    """What a column of a file is; None for a name that the table does not give."""
+    for pattern, field in _patterns():
+        if match := pattern.fullmatch(name):
+            parts = match.groupdict()
+            membrane = int(parts["i"]) if "i" in parts else None
+            return FileColumn(name, field, membrane, AXES.index(parts["a"]) if "a" in parts else None)
+    return None
