@@ -1,15 +1,14 @@
 // core/punctura/events: what happens at the membranes, and the depths and curves of their laws.
 #include "punctura/events/event_finder.hpp"
 
+#include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/events/law_curve.hpp"
 #include "state.hpp"
-#include "value.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -41,47 +40,6 @@ class Column {
   std::size_t width_;
 };
 
-/// The columns of a batch that a finder reads.
-class Batch {
- public:
-  explicit Batch(const nb::object& columns)
-      : depth_(input(columns["depth"])),
-        n_(depth_.ndim() == 2 ? depth_.shape(0) : throw nb::value_error("columns[\"depth\"] must be (n, m)")),
-        m_(depth_.shape(1)),
-        force_(columns, "axial_force", n_, m_),
-        lower_(columns, "lower", n_, m_),
-        phase_(columns, "phase", n_, m_),
-        direction_(columns, "direction", n_, 3 * m_),
-        axis_(columns, "axis", n_, 3),
-        tick_(columns, "tick", n_, 1),
-        time_(columns, "time", n_, 1),
-        commands_(columns, "commands", n_, 1),
-        records_(m_) {
-    if (!force_ || !phase_) throw nb::key_error("columns must have \"depth\", \"axial_force\" and \"phase\"");
-  }
-
-  std::size_t size() const noexcept { return n_; }
-
-  /// Row i, the number-th tick of the run. new_scene: where no column tells in which tick a new scene came.
-  EventTick tick(std::size_t i, std::uint64_t number, double rate, bool new_scene) noexcept {
-    for (std::size_t j = 0; j < m_; ++j) {
-      const auto phase = static_cast<std::uint8_t>(phase_(i, j));
-      records_[j] = {depth_.data()[i * m_ + j], force_(i, j), lower_(i, j), nan, {}, direction_.triple(i, j),
-                     static_cast<Phase>(phase)};
-    }
-    if (tick_) number = static_cast<std::uint64_t>(tick_(i));
-    const std::uint32_t otherwise = new_scene ? std::uint32_t{command_scene} : 0;
-    return {number, time_ ? time_(i) : static_cast<double>(number) / rate, axis_.triple(i),
-            commands_ ? static_cast<std::uint32_t>(commands_(i)) : otherwise, records_};
-  }
-
- private:
-  Input depth_;
-  std::size_t n_, m_;
-  Column force_, lower_, phase_, direction_, axis_, tick_, time_, commands_;
-  std::vector<MembraneRecord> records_;
-};
-
 /// A finder that takes a run batch by batch.
 struct BatchFinder : EventFinder, OneThread {
   BatchFinder(const Scene& scene, double given) : EventFinder(scene), rate(given) {}
@@ -108,15 +66,42 @@ nb::dict as_dict(const Found& event) {
   return d;
 }
 
+/// 255, which is no phase, for a number that is none.
+Phase phase_of(double number) noexcept {
+  return static_cast<Phase>(number >= 0 && number < 255 ? static_cast<std::uint8_t>(number) : std::uint8_t{255});
+}
+
+/// Finds the events of a batch without Python's lock.
 nb::list add(BatchFinder& finder, const nb::object& columns) {
-  Batch batch(columns);
+  const Input depth = input(columns["depth"]);
+  if (depth.ndim() != 2) throw nb::value_error("columns[\"depth\"] must be (n, m)");
+  const std::size_t n = depth.shape(0), m = depth.shape(1);
+  const Column force(columns, "axial_force", n, m), phase(columns, "phase", n, m), lower(columns, "lower", n, m),
+      direction(columns, "direction", n, 3 * m), axis(columns, "axis", n, 3), tick(columns, "tick", n, 1),
+      time(columns, "time", n, 1), commands(columns, "commands", n, 1);
+  if (!force || !phase) throw nb::key_error("columns must have \"depth\", \"axial_force\" and \"phase\"");
+
+  std::vector<MembraneRecord> records(m);
   std::vector<Found> found;
   {
     const OneThread::Running running(finder);
-    nb::gil_scoped_release release;
-    for (std::size_t i = 0; i < batch.size(); ++i)
-      for (const Event& event : finder.step(batch.tick(i, finder.ticks++, finder.rate, i == 0)))
+    const WithoutLock without;
+    for (std::size_t i = 0; i < n; ++i, ++finder.ticks) {
+      for (std::size_t j = 0; j < m; ++j)
+        records[j] = {.depth = depth.data()[i * m + j],
+                      .axial_force = force(i, j),
+                      .lower = lower(i, j),
+                      .upper = nan,
+                      .proxy = {},
+                      .direction = direction.triple(i, j),
+                      .phase = phase_of(phase(i, j))};
+      const auto number = tick ? static_cast<std::uint64_t>(tick(i)) : finder.ticks;
+      // A batch that does not tell its commands takes a new scene with its first tick.
+      const auto asked = commands ? static_cast<std::uint32_t>(commands(i)) : i == 0 ? command_scene : 0u;
+      const double at = time ? time(i) : static_cast<double>(number) / finder.rate;
+      for (const Event& event : finder.step(EventTick{number, at, axis.triple(i), asked, records}))
         found.push_back({event, finder.scene().membranes[event.membrane].name});
+    }
   }
   nb::list events;
   for (const Found& event : found) events.append(as_dict(event));
@@ -128,13 +113,10 @@ const PlacedMembrane& membrane_of(const Scene& scene, std::size_t i) {
   return scene.membranes[i];
 }
 
-Crossing crossing_of(const Scene& scene, std::size_t i, double cos_beta) {
+std::array<double, 6> crossing_of(const Scene& scene, std::size_t i, double cos_beta) {
   const Membrane& membrane = membrane_of(scene, i).membrane;
-  return crossing(ThickLaw(scene.needle, membrane), scene.needle, membrane.thickness, cos_beta);
-}
-
-Crossing make_crossing(double cos_beta, double far_face, double peak, double through, double again, double shaft) {
-  return {cos_beta, far_face, peak, through, again, shaft};
+  const Crossing c = crossing(ThickLaw(scene.needle, membrane), scene.needle, membrane.thickness, cos_beta);
+  return {c.cos_beta, c.far_face, c.peak, c.through, c.again, c.shaft};
 }
 
 nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
@@ -155,7 +137,7 @@ nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
   return d;
 }
 
-nb::object drawn_obliquities(const Scene& scene, const nb::object& axis, const nb::object& entered) {
+nb::object obliquities(const Scene& scene, const nb::object& axis, const nb::object& entered) {
   const Rows axes(input(axis), 1, "axis");
   const std::size_t n = scene.membranes.size();
   std::vector<double> angles(n);
@@ -171,25 +153,8 @@ nb::object drawn_obliquities(const Scene& scene, const nb::object& axis, const n
 }  // namespace
 
 void bind_events(nb::module_& m) {
-  auto turns =
-      nb::class_<Crossing>(m, "Crossing", "The depths along the needle at which its way through a membrane turns, m.")
-          .def_ro("cos_beta", &Crossing::cos_beta, "n.b, of the needle's direction at entry")
-          .def_ro("far_face", &Crossing::far_face, "The tip's point comes out behind: U")
-          .def_ro("peak", &Crossing::peak, "The resistance -Phi_I is largest")
-          .def_ro("through", &Crossing::through, "The slanted face is out behind, too; only the shaft rubs: X + U")
-          .def_ro("again", &Crossing::again, "A tip that has come back to here can pop again")
-          .def_ro("shaft", &Crossing::shaft, "Resistance of the shaft alone, N: F U / H");
-  def_init(turns,
-           {{"cos_beta", "float"},
-            {"far_face", "float"},
-            {"peak", "float"},
-            {"through", "float"},
-            {"again", "float"},
-            {"shaft", "float"}},
-           &make_crossing, "Made by crossing().");
-  def_value(turns, {"cos_beta", "far_face", "peak", "through", "again", "shaft"});
   m.def("crossing", &crossing_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("cos_beta"),
-        "Of one membrane of a scene, by its number, for a needle with n.b = cos_beta. Raises IndexError.");
+        "The numbers of punctura.events.Crossing. Raises IndexError.");
 
   nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.")
       .def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
@@ -209,10 +174,9 @@ void bind_events(nb::module_& m) {
       nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> dict[str, typing.Any]"),
       "Phi_I and Phi_O of one membrane along the depth, m and N, with both sides of each break; and where the needle comes out.");
   m.def(
-      "drawn_obliquities", &drawn_obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
-      nb::sig(
-          "def drawn_obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
-          "= None) -> numpy.typing.NDArray[numpy.float64]"),
+      "obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
+      nb::sig("def obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
+              "= None) -> numpy.typing.NDArray[numpy.float64]"),
       "Angle of the needle to each membrane's inward normal, rad, at most 85 degrees, (m,). axis (3,): of the stylus. entered "
       "(m, 3): the direction of each membrane that the needle is in, NaN in the others.");
   m.def("tip_length", &tip_length<double>, nb::arg("needle"), "Length of the slanted face along the needle, m: X.");
