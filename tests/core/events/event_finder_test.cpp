@@ -111,7 +111,7 @@ TEST_CASE("a pop has the shaft's friction where no number tells it, and a NaN do
   MembraneRecord blind = at(9e-3);
   blind.axial_force = blind.lower = no_number;
   std::vector<Event> found;
-  for (const MembraneRecord& record : {at(1e-3, 0.7), blind})
+  for (const MembraneRecord& record : {at(1e-3, 0.7), at(no_number, 0, Phase::outside), blind})
     for (const Event& event : finder.step(EventTick{0, 0, {}, 0, {&record, 1}})) found.push_back(event);
   REQUIRE(found.size() == 2);
   CHECK(found[1].force_before == 0.7);
@@ -129,11 +129,13 @@ TEST_CASE("after a change of scene a membrane in the same place goes on under it
   CHECK(finder.scene().membranes.size() == 1);
 
   const double through = tip_length(paper_needle) + 3e-3;
-  const MembraneRecord records[2] = {at(5e-3), at(1e-3)}, deep[2] = {at(5e-3), at(through)};
+  const MembraneRecord records[2] = {at(5e-3), at(1e-3)}, deep[2] = {at(5e-3), at(through)},
+                       before[2] = {at(5e-3), at(std::nextafter(through, 0.0))};
   const auto changed = finder.step(EventTick{2, 0, {}, command_scene, records});
   REQUIRE(changed.size() == 2);  // the new membrane alone
   CHECK(changed[0].membrane + changed[1].membrane == 0);
   CHECK(finder.scene().membranes[1].name == "wall");
+  CHECK(finder.step(EventTick{3, 0, {}, 0, before}).empty());  // the old law would have let it through
   const auto popped = finder.step(EventTick{3, 0, {}, 0, deep});
   REQUIRE(popped.size() == 1);
   CHECK((popped[0].membrane == 1 && popped[0].what == EventKind::pop));
