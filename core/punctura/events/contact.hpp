@@ -18,7 +18,7 @@ enum class EventKind : std::uint8_t {
 /// Follows the tip at one membrane. Gives each event once: after a pop the tip must come back to Crossing::again before it can pop
 /// another time, after a touch it must have been out.
 ///
-/// Ticks without a depth are passed over. So are those of a barred membrane, but the needle has then left its way through.
+/// A tick without a depth changes nothing. A barred membrane has no pop, and the needle must enter it again.
 class Contact {
  public:
   static constexpr double clear = 0.25e-3;  ///< m in front of the surface where the tip is out: a hand trembles less

@@ -27,7 +27,7 @@ struct Crossing {
 inline constexpr double pop_again = 0.1;
 
 namespace detail {
-/// The last break: behind it the law is constant. A law with room for more pieces has breaks at infinity, which do not count.
+/// The last break, behind which the law is constant. Breaks at infinity (a law with room for more pieces has them) do not count.
 template <typename Scalar, std::size_t N>
 std::size_t last_break(const PiecewiseBand<Scalar, N>& law) noexcept {
   std::size_t last = N - 2;
@@ -57,10 +57,10 @@ Peak<Scalar> peak_of(const PiecewiseBand<Scalar, N>& law) noexcept {
 }
 }  // namespace detail
 
-/// Of any law: `through` is its last break, behind which it is constant, or infinite if its resistance does not fall before that: no
-/// pop then. A law with memory is taken as it is in an untouched membrane.
+/// The crossing of any law. `through` is the law's last break; if its resistance does not fall before that, it has no pop, and
+/// `through` is infinite. A law with memory gives the pieces of an untouched membrane.
 ///
-/// thickness: H, m. cos_beta: a needle that grazes, or none, counts as one at 80 degrees, or upright.
+/// thickness: H, m. A cos_beta outside [cos(80 degrees), 1] counts as the nearer end, NaN counts as 1.
 template <ObliqueLaw L>
 Crossing crossing(const L& law, const Needle& needle, double thickness, double cos_beta) noexcept {
   cos_beta = std::isfinite(cos_beta) ? std::clamp(cos_beta, grazing_cosine<double>, 1.0) : 1.0;
@@ -77,7 +77,8 @@ Crossing crossing(const L& law, const Needle& needle, double thickness, double c
           static_cast<double>(shaft)};
 }
 
-/// n.b of a needle that is inside: by b, the direction held since entry; without it by the stylus, `axis`; without both 1.
+/// n.b of a needle that is inside. b: the direction held since entry. Where b is no direction, the stylus's axis counts; where that is
+/// none either, the result is 1.
 inline double entry_cosine(const Vector3d& normal, const Vector3d& b, const Vector3d& axis) noexcept {
   for (const Vector3d& direction : {b, axis})
     if (const double length = direction.norm(); std::isfinite(length) && length > 0)

@@ -88,7 +88,7 @@ class EventFinderOf {
     bool same_place(const Site& other) const noexcept { return point == other.point && normal == other.normal; }
   };
 
-  /// A scene with what is known of the needle at each of its membranes.
+  /// A scene, with a contact at each membrane.
   struct Laid {
     template <typename LawOf>
     Laid(const Scene& given, LawOf&& law_of) : scene(given) {
@@ -101,7 +101,7 @@ class EventFinderOf {
       return punctura::crossing(site.law, scene.needle, site.thickness, cos_beta);
     }
 
-    /// Site i as one of several in the same place: how many of them come before it.
+    /// How many sites before the i-th are in its place.
     std::size_t same_before(std::size_t i) const noexcept {
       const auto first = sites.begin();
       return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),

@@ -29,7 +29,13 @@ def random_scene(random):
 
 def random_run(random, scene, way):
     """Strokes with a tremor, at an angle that may graze; some numbers missing, some ticks barred."""
-    depths = [-2e-3, *random.uniform(-2e-3, 20e-3, random.integers(3, 9)), -3e-3]
+    tip = scene.needle.diameter / math.tan(scene.needle.tip_angle)
+    depths = [-2e-3]
+    for _ in range(random.integers(2, 5)):
+        placed = scene.membranes[random.integers(0, len(scene.membranes))]
+        near = way @ placed.point + tip * random.uniform(0.8, 1.0) + placed.membrane.thickness * random.uniform(0, 1)
+        depths += [random.uniform(5e-3, 20e-3), near, random.choice([20e-3, random.uniform(-2e-3, 20e-3)])]
+    depths.append(-3e-3)
     path = np.concatenate([np.linspace(a, b, random.integers(5, 400)) for a, b in itertools.pairwise(depths)])
     axis = unit(way + random.choice([0, 0.3, 1.5]) * random.normal(size=3))
     axis = axis if axis @ way > 0 else -axis
