@@ -21,6 +21,7 @@ ROOMS = (
     "core/punctura/plant",
     "core/punctura/servo",
     "core/punctura/scene",
+    "core/punctura/events",
     "core/punctura/experiment",
     "core/punctura/punctura.hpp",  # all of them in one include
     "runtime/punctura_runtime",

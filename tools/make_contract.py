@@ -26,7 +26,7 @@ PLAIN = ("take_control", "arm", "pause", "reset", "stop_recording", "end_exercis
 TRIPLE = [0.25, -1.5, 3.0]
 SPREAD = {"p50": 1e-6, "p99": 2e-6, "p99_9": 3e-6, "largest": 4e-6, "edges": [0.0, 1e-6, 2e-6], "counts": [5, 6]}
 LAW = {
-    "name": "skin", "obliquity": 0.5, "tip_length": 0.004, "through": 0.005, "depth": [-0.001, 0.0, 0.001],
+    "name": "skin", "obliquity": 0.5, "far_face": 0.001, "through": 0.005, "depth": [-0.001, 0.0, 0.001],
     "lower": [0.0, -0.5, -0.25], "upper": [0.0, 0.25, 0.125],
 }  # fmt: skip
 TABLES = {
@@ -35,7 +35,7 @@ TABLES = {
     "membrane": [{"name": "skin", "point_mm": [0, 0, 0]}],
 }
 VIEW = {
-    "number": 1, "name": "one", "diameter": 0.0008, "tip_angle": 0.19, "direction": "stylus", "solver": "exact",
+    "number": 1, "name": "one", "diameter": 0.0008, "tip_length": 0.004, "direction": "stylus", "solver": "exact",
     "rate": 1600.0, "laws": [LAW], "tables": TABLES, "lumen": [0, 1],
     "membranes": [{"name": "skin", "point": TRIPLE, "inward_normal": [0.0, -1.0, 0.0], "thickness": 0.001}],
 }  # fmt: skip

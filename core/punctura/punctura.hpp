@@ -1,6 +1,8 @@
 // All of Punctura's core in one include. A project that needs one room may include that room's headers alone.
 #pragma once
 
+#include "punctura/events/event_finder.hpp"
+#include "punctura/events/law_curve.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"

@@ -1,6 +1,9 @@
 // core/punctura/scene: what a run needs, and everything that can be wrong with it.
 #include "punctura/scene/scene.hpp"
 
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+
 #include <map>
 
 #include "arguments.hpp"
@@ -25,8 +28,15 @@ Conditioning conditioning_from(const std::string& name) {
 
 const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
 
-PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal) {
-  return {std::move(name), membrane, point, inward_normal};
+Behind behind_from(const std::string& name) {
+  if (name == "tissue") return Behind::tissue;
+  if (name == "blood") return Behind::blood;
+  raise_word("membrane.behind", name, "must be \"tissue\" or \"blood\"");
+}
+
+PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal,
+                           std::string behind) {
+  return {std::move(name), membrane, point, inward_normal, behind_from(behind)};
 }
 
 ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
@@ -156,12 +166,22 @@ void bind_scene(nb::module_& m) {
               nb::sig("def point(self) -> tuple[float, float, float]"), "Any point of the surface, m")
           .def_prop_ro(
               "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
-              nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0");
+              nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0")
+          .def_prop_ro(
+              "behind", [](const PlacedMembrane& p) { return p.behind == Behind::blood ? "blood" : "tissue"; },
+              nb::sig("def behind(self) -> typing.Literal['tissue', 'blood']"),
+              "\"tissue\" or \"blood\": between this membrane and the next. No force depends on it");
   def_init(
       placed,
-      {{"name", "str"}, {"membrane", "Membrane"}, {"point", "Sequence[float]"}, {"inward_normal", "Sequence[float]"}},
-      &make_placed, "point: any point of the surface, m. inward_normal: a direction of any length but 0.");
-  def_value(placed, {"name", "membrane", "point", "inward_normal"});
+      {{"name", "str"},
+       {"membrane", "Membrane"},
+       {"point", "Sequence[float]"},
+       {"inward_normal", "Sequence[float]"},
+       {"behind", "typing.Literal['tissue', 'blood']", nb::str("tissue")}},
+      &make_placed,
+      "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: what is between this "
+      "membrane and the next.");
+  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind"});
 
   const ServoSettings defaults;
   auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
@@ -202,6 +222,9 @@ void bind_scene(nb::module_& m) {
           .def_prop_ro(
               "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
               nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
+          .def_prop_ro(
+              "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
+              "The two membranes between which blood is; None without")
           .def("fields", &fields_of, nb::sig("def fields(self) -> list[SceneField]"),
                "Every number of the scene with its path, unit and bounds.")
           .def(

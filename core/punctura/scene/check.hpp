@@ -9,6 +9,7 @@
 #include "punctura/model/validity.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
+#include "punctura/scene/lumen.hpp"
 #include "punctura/scene/scene.hpp"
 #include "punctura/servo/snapshot.hpp"
 
@@ -100,6 +101,7 @@ inline std::vector<Problem> check(const Scene& scene) {
     else if (!(std::hypot(n[0], n[1], n[2]) > 0))
       problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
   }
+  check_lumen(scene, problems);
   return problems;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,15 @@
 
 namespace punctura {
 
+/// What is between a membrane and the next one in the way. No force depends on it.
+enum class Behind : std::uint8_t { tissue, blood };
+
 struct PlacedMembrane {
   std::string name;
   Membrane membrane{};                    ///< has no default: check() names what is missing
   std::array<double, 3> point{};          ///< any point of the surface, m
   std::array<double, 3> inward_normal{};  ///< a direction of any length but 0
+  Behind behind = Behind::tissue;
 };
 
 struct ServoSettings {

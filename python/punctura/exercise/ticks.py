@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Scene, ThickLaw
-from punctura._core import Phase
-from punctura.events.crossing import STEEPEST
+from punctura import Scene
+from punctura._core import Phase, grazing_cosine, tip_length
 from punctura.ticks import Columns
 
 Numbers = NDArray[np.float64]
@@ -70,7 +69,7 @@ class Geometry:
         normals = np.array([placed.inward_normal for placed in scene.membranes], dtype=np.float64)
         self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         self.thickness = np.array([placed.membrane.thickness for placed in scene.membranes], dtype=np.float64)
-        self.tip_length = np.array([ThickLaw(scene.needle, placed.membrane).X for placed in scene.membranes])
+        self.tip_length = tip_length(scene.needle)
         self._rate = scene.servo.rate
 
     def ticks(self, columns: Columns, first: int = 0) -> Ticks:
@@ -123,7 +122,7 @@ class Geometry:
             m = len(self.thickness)
             held = np.einsum("nmk,mk->nm", _wide(columns["direction"], m, np.nan), self.normals)
             cosine = np.where(inside & np.isfinite(held), held, cosine)
-        return np.clip(np.where(np.isfinite(cosine), cosine, 1.0), STEEPEST, 1.0)
+        return np.clip(np.where(np.isfinite(cosine), cosine, 1.0), grazing_cosine, 1.0)
 
 
 def _rows(column: NDArray[Any] | None, n: int) -> Numbers:

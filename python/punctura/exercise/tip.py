@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from punctura import Scene
+from punctura._core import tip_length
 from punctura.errors import MISSING, Problem
 from punctura.exercise.depths import space_end_mm
 from punctura.exercise.exercise import start_axis
@@ -42,5 +42,4 @@ def _tip_mm(file: ExerciseFile, scene: Scene) -> float:
     behind = next(placed for placed in scene.membranes if placed.name == file.space.behind)
     normal = np.asarray(behind.inward_normal) / np.linalg.norm(behind.inward_normal)
     axis = np.asarray(start_axis(scene, file.start.angle_deg, file.start.heading))
-    needle = scene.needle
-    return float(needle.diameter / math.tan(needle.tip_angle) * 1e3 * abs(axis @ normal))
+    return float(tip_length(scene.needle) * 1e3 * abs(axis @ normal))

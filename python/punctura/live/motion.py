@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from punctura import Hand, PlacedMembrane, Scene, Strokes, ThickLaw
+from punctura import Hand, Scene, Strokes
+from punctura._core import law_curve
 
 CLEARANCE = 5e-3  # m in front of the first surface, where force may be switched on
 BEYOND = 3e-3  # m of shaft behind the last wall, and for the friction of the device itself
 STEEPEST = math.radians(80)  # a wall that lies almost along the strokes cannot be gone through that way
-SAMPLES = 64
 
 Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 Triple = tuple[float, float, float]
@@ -25,24 +25,23 @@ def stroke_ends(scene: Scene) -> tuple[Triple, Triple]:
     """
     first = np.array(scene.membranes[0].point)
     inward = _unit(scene.membranes[0].inward_normal)
-    walls = [_wall(scene, placed, first, inward) for placed in scene.membranes]
+    walls = [_wall(scene, i, first, inward) for i in range(len(scene.membranes))]
     held_back = sum(peak for _, _, peak in walls) / Hand().stiffness
     start = min(begin for begin, _, _ in walls) - CLEARANCE
     end = max(begin + through + peak / scene.coupling.stiffness for begin, through, peak in walls) + held_back + BEYOND
     return _triple(first + start * inward), _triple(first + end * inward)
 
 
-def _wall(scene: Scene, placed: PlacedMembrane, origin: Array, way: Array) -> tuple[float, float, float]:
+def _wall(scene: Scene, i: int, origin: Array, way: Array) -> tuple[float, float, float]:
     """Along a way: where its surface is, how far it is through, m; and its greatest force, N."""
+    placed = scene.membranes[i]
     normal = _unit(placed.inward_normal)
     if normal @ way < 0:  # a back wall may be written with its normal the other way: it is met from its far side
         normal = -normal
     cosine = max(float(normal @ way), math.cos(STEEPEST))
-    law = ThickLaw(scene.needle, placed.membrane, math.acos(min(1.0, cosine)))
-    through = law.X + law.U
-    lower, upper = law.bounds(np.linspace(0, through, SAMPLES))
-    peak = float(np.maximum(-lower, upper).max())
-    return float((np.array(placed.point) - origin) @ normal) / cosine, through, peak
+    law = law_curve(scene, i, math.acos(min(1.0, cosine)))
+    peak = max(-min(law["lower"]), max(law["upper"]))
+    return float((np.array(placed.point) - origin) @ normal) / cosine, law["through"], peak
 
 
 def strokes_through(scene: Scene, count: int = 1000, duration: float = 2.0) -> Strokes:

@@ -78,7 +78,7 @@ def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts
     for i, raw in enumerate(tables if isinstance(tables, list) else []):
         m = reader.table(raw, f"membrane[{i}]", MembraneTable)
         membrane = Membrane.unchecked(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
-        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"]))
+        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"], m["behind"]))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")

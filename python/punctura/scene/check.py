@@ -21,7 +21,6 @@ from punctura import _core
 from punctura.errors import MISSING, Problem
 from punctura.scene.build import Parts, scene_parts
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.lumen import lumen_problems
 from punctura.scene.schema import ALTERNATIVES, CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
 from punctura.scene.units import split_key, to_si
 
@@ -131,9 +130,7 @@ def _domain_problems(data: Mapping[str, Any], unsound: set[str]) -> list[Problem
         given = _lookup(data, key_path)
         shown = _shown(given) if given is not None else value
         problems.append(Problem(key_path, shown, reason + _bound_in_unit(path, key_path, value)))
-    tables = data.get("membrane")
-    behind = [t.get("behind") if isinstance(t, dict) else None for t in tables] if isinstance(tables, list) else []
-    return problems + lumen_problems(parts.arguments[3], behind)
+    return problems
 
 
 def _bound_in_unit(path: str, key_path: str, value: float) -> str:

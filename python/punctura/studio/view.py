@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from punctura import Scene
-from punctura.scene.lumen import lumen
+from punctura import Scene, _core
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
 from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
@@ -20,14 +19,14 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
         number=number,
         name=scene.name,
         diameter=scene.needle.diameter,
-        tip_angle=scene.needle.tip_angle,
+        tip_length=_core.tip_length(scene.needle),
         direction=scene.direction,
         solver=scene.servo.solver,
         rate=rate,
         membranes=membrane_views(scene),
         laws=laws,
         tables=loaded.tables(),
-        lumen=lumen_of(loaded),
+        lumen=list(scene.lumen or ()),
     )
 
 
@@ -42,9 +41,3 @@ def membrane_views(scene: Scene) -> list[MembraneView]:
         )
         for placed in scene.membranes
     ]
-
-
-def lumen_of(loaded: Loaded) -> list[int]:
-    """The two membranes between which blood is; none without."""
-    found = lumen(loaded.scene.membranes, [table.behind for table in loaded.file.membrane])
-    return list(found) if found else []

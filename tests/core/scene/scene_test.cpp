@@ -43,6 +43,28 @@ TEST_CASE("each membrane is paired with the needle for K06 (7), and named by its
   CHECK(problems[0].path == "membrane[1].friction");
 }
 
+TEST_CASE("blood is between the membrane that says so and the next in the way") {
+  auto scene = paper_scene();
+  const auto at_depth = [&](double depth) {
+    auto placed = scene.membranes[0];
+    placed.point = {0, -depth, 0};
+    return placed;
+  };
+  scene.membranes = {at_depth(6e-3), at_depth(2e-3), at_depth(4e-3)};
+  CHECK(!lumen(scene));
+  scene.membranes[1].behind = Behind::blood;
+  CHECK(check(scene).empty());
+  CHECK((lumen(scene) == std::pair<std::size_t, std::size_t>(1, 2)));
+
+  scene.membranes[2].behind = Behind::blood;
+  REQUIRE(check(scene).size() == 1);
+  CHECK(check(scene)[0].path == "membrane[2].behind");
+  scene.membranes[1].behind = scene.membranes[2].behind = Behind::tissue;
+  scene.membranes[0].behind = Behind::blood;
+  REQUIRE(check(scene).size() == 1);
+  CHECK(check(scene)[0].path == "membrane[0].behind");
+}
+
 TEST_CASE("a scene needs a membrane, and has room for 64") {
   auto scene = paper_scene();
   const auto one = scene.membranes[0];

@@ -5,7 +5,7 @@ import pytest
 from punctura.scene import scene_json_schema
 from punctura.scene.write import file_text
 from punctura.studio.loaded import from_name, from_tables, from_text
-from punctura.studio.view import lumen_of, scene_view
+from punctura.studio.view import scene_view
 
 
 def tables(*behind):
@@ -20,9 +20,9 @@ def tables(*behind):
 
 
 def test_the_lumen_is_between_the_membrane_that_says_so_and_the_next_in_the_way():
-    assert lumen_of(from_name("venipuncture")) == [1, 2]
-    assert lumen_of(from_name("k06-fig12")) == []
-    assert lumen_of(from_tables(tables("tissue", "blood", "tissue"))) == [1, 0]
+    assert from_name("venipuncture").scene.lumen == (1, 2)
+    assert from_name("k06-fig12").scene.lumen is None
+    assert from_tables(tables("tissue", "blood", "tissue")).scene.lumen == (1, 0)
 
 
 @pytest.mark.parametrize(

@@ -126,7 +126,7 @@ def test_control_goes_to_the_first_and_when_its_holder_leaves_to_the_next_who_co
 
 
 VIEW = {
-    "number": 3, "name": "s", "diameter": 1e-3, "tip_angle": 0.3, "direction": "stylus", "solver": "exact",
+    "number": 3, "name": "s", "diameter": 1e-3, "tip_length": 3e-3, "direction": "stylus", "solver": "exact",
     "rate": 1600.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
 }  # fmt: skip
 

@@ -1,7 +1,6 @@
 import { Vector3 } from "three";
 import type { SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
-import { tipLength } from "./needle_shape.ts";
 
 /** How large the things of a scene are drawn, mm, where the scene does not say. */
 export interface Extent {
@@ -26,7 +25,7 @@ export function extentOf(scene: SceneView): Extent {
     const front = new Vector3(...point).multiplyScalar(MM).sub(origin).dot(normal);
     deep = Math.max(deep, front + thickness * MM);
   }
-  const tip = tipLength(scene.diameter * MM, scene.tip_angle);
+  const tip = scene.tip_length * MM;
   const size = Math.min(24, Math.max(6 + 0.9 * deep, 1.9 * tip));
   const length = deep + 2 * tip + 12;
   const above = Math.min(14, 7 + 0.4 * deep);

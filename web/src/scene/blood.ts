@@ -1,7 +1,8 @@
 import { FrontSide, MeshBasicMaterial, type Vector3 } from "three";
+import type { LawCurve } from "../wire/messages.ts";
 import type { Membranes, Placed } from "./membranes.ts";
 import type { Moment } from "./moment.ts";
-import { OUTSIDE } from "./moment.ts";
+import { BARRED, MM, OUTSIDE } from "./moment.ts";
 import { type FaceState, Slab } from "./slab.ts";
 import type { Theme } from "./theme.ts";
 
@@ -39,15 +40,12 @@ export class Blood {
   }
 
   /** Whether the tip has come through the front wall and not into the back one. */
-  holdsTip(membranes: Membranes, moment: Moment): boolean {
-    const [front, back] = this.placed(membranes);
-    const walls = this.walls;
-    if (!front || !back || !walls) return false;
-    const state = moment.membranes[walls[0]];
-    const behind = moment.membranes[walls[1]];
-    if (!state || state.phase === OUTSIDE || (behind && behind.phase !== OUTSIDE)) return false;
-    const slope = Math.max(0.1, state.direction.dot(front.normal));
-    return state.depth > front.thickness / slope;
+  holdsTip(moment: Moment, laws: readonly LawCurve[]): boolean {
+    const [front, back] = this.walls ?? [-1, -1];
+    const state = moment.membranes[front];
+    const law = laws[front];
+    if (!state || !law || moment.membranes[back]?.phase !== OUTSIDE) return false;
+    return state.phase !== OUTSIDE && state.phase !== BARRED && state.depth > law.far_face * MM;
   }
 
   private placed({ placed }: Membranes): [Placed | undefined, Placed | undefined] {

@@ -21,10 +21,10 @@ export class Ghost {
     });
   }
 
-  build(diameter: number, tipAngle: number, length: number): void {
+  build(diameter: number, tipLength: number, length: number): void {
     for (const child of this.needle.children) if (child instanceof Mesh) child.geometry.dispose();
     this.needle.clear();
-    const mesh = new Mesh(shaftShape(diameter, tipAngle, length), this.material);
+    const mesh = new Mesh(shaftShape(diameter, tipLength, length), this.material);
     mesh.renderOrder = 2;
     this.needle.add(mesh);
   }

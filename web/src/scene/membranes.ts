@@ -27,7 +27,7 @@ export class Membranes {
   placed: Placed[] = [];
   size = 10;
   private diameter = 1;
-  private tipAngle = 0.3;
+  private tipLength = 3;
 
   constructor(private readonly theme: Theme) {
     theme.watch(() => this.paint());
@@ -40,7 +40,7 @@ export class Membranes {
     this.group.clear();
     this.size = size;
     this.diameter = scene.diameter * MM;
-    this.tipAngle = scene.tip_angle;
+    this.tipLength = scene.tip_length * MM;
     this.placed = scene.membranes.map((membrane) => {
       const material = new MeshBasicMaterial({
         vertexColors: true,
@@ -126,7 +126,7 @@ export class Membranes {
     const depth = state.proxy.clone().sub(membrane.point).dot(membrane.normal) / Math.max(0.1, slope);
     const lead = new Vector3().subVectors(moment.tip, state.proxy);
     const turn = new Vector3().subVectors(moment.axis, direction);
-    const half = (at: number): number => Math.min(this.diameter, Math.max(0, at) * Math.tan(this.tipAngle)) / 2;
+    const half = (at: number): number => (this.diameter / 2) * Math.min(1, Math.max(0, at) / this.tipLength);
     front.hole = half(depth);
     front.centre.copy(state.proxy).addScaledVector(direction, -depth).addScaledVector(side, front.hole);
     // The hole goes where the drawn needle is, also when it has been turned since it came in.

@@ -22,11 +22,11 @@ export class Needle {
     this.group.add(this.shaft, this.face, this.bore, this.hub.group);
   }
 
-  build(diameter: number, tipAngle: number, length: number): void {
+  build(diameter: number, tipLength: number, length: number): void {
     for (const { geometry } of [this.shaft, this.face, this.bore]) geometry.dispose();
-    this.shaft.geometry = shaftShape(diameter, tipAngle, length);
-    this.face.geometry = faceShape(diameter, tipAngle, false);
-    this.bore.geometry = faceShape(diameter, tipAngle, true);
+    this.shaft.geometry = shaftShape(diameter, tipLength, length);
+    this.face.geometry = faceShape(diameter, tipLength, false);
+    this.bore.geometry = faceShape(diameter, tipLength, true);
     this.hub.build(diameter);
     this.hub.group.position.set(diameter / 2, 0, length);
   }

@@ -3,9 +3,6 @@ import { BufferAttribute, BufferGeometry } from "three";
 const AROUND = 48;
 const BORE = 0.62;
 
-/** Length of the slanted face along the needle: X of K06 (5). */
-export const tipLength = (diameter: number, tipAngle: number): number => diameter / Math.tan(tipAngle);
-
 /** Two triangles from each pair of points to the next, once around. */
 const INDEX = Array.from({ length: AROUND }, (_, i) => [0, 2, 1, 1, 2, 3].map((k) => 2 * i + k)).flat();
 
@@ -20,11 +17,11 @@ function ribbon(positions: number[], normals: number[]): BufferGeometry {
 
 /**
  * The shaft: a cylinder along +z that one slanted plane cuts so that its lowest point, the tip, is at 0 (K06 Fig. 1).
- * All lengths in mm.
+ * All lengths in mm; tipLength: of the slanted face along the needle.
  */
-export function shaftShape(diameter: number, tipAngle: number, length: number): BufferGeometry {
+export function shaftShape(diameter: number, tipLength: number, length: number): BufferGeometry {
   const r = diameter / 2;
-  const slope = tipLength(diameter, tipAngle) / diameter;
+  const slope = tipLength / diameter;
   const positions: number[] = [];
   const normals: number[] = [];
   for (let i = 0; i <= AROUND; i++) {
@@ -38,9 +35,9 @@ export function shaftShape(diameter: number, tipAngle: number, length: number): 
 }
 
 /** The slanted face, a ring round the bore; with `bore` true the bore's mouth within it. */
-export function faceShape(diameter: number, tipAngle: number, bore: boolean): BufferGeometry {
+export function faceShape(diameter: number, tipLength: number, bore: boolean): BufferGeometry {
   const r = diameter / 2;
-  const slope = tipLength(diameter, tipAngle) / diameter;
+  const slope = tipLength / diameter;
   const size = Math.hypot(slope, 1);
   const normal = [slope / size, 0, -1 / size] as const;
   const [inner, outer] = bore ? [0, BORE] : [BORE, 1];

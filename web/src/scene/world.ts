@@ -62,8 +62,8 @@ export class World {
     if (before === shapeOf(scene)) return false;
     this.extent = extentOf(scene);
     const { length, size } = this.extent;
-    this.needle.build(scene.diameter * MM, scene.tip_angle, length);
-    this.ghost.build(scene.diameter * MM, scene.tip_angle, length);
+    this.needle.build(scene.diameter * MM, scene.tip_length * MM, length);
+    this.ghost.build(scene.diameter * MM, scene.tip_length * MM, length);
     this.membranes.build(scene, size);
     this.blood.build(scene.lumen);
     this.labels.clear();
@@ -78,7 +78,7 @@ export class World {
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.lay(moment, this.holes);
     changed = this.blood.lay(this.membranes, moment.axis) || changed;
-    changed = this.needle.step(this.blood.holdsTip(this.membranes, moment), elapsedMs) || changed;
+    changed = this.needle.step(this.blood.holdsTip(moment, source.laws.value), elapsedMs) || changed;
     if (!this.differs(this.key(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
     this.trail.lay(source, moment.tick, scene.rate);
@@ -175,10 +175,10 @@ export class World {
 
 /** All of a scene that the view builds anew for; sliders of friction change nothing here. */
 function shapeOf(scene: SceneView): string {
-  const { diameter, tip_angle, membranes, lumen } = scene;
+  const { diameter, tip_length, membranes, lumen } = scene;
   return JSON.stringify([
     diameter,
-    tip_angle,
+    tip_length,
     lumen,
     membranes.map((m) => [m.name, m.point, m.inward_normal, m.thickness]),
   ]);

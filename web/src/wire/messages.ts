@@ -94,7 +94,7 @@ export interface SceneView {
   number: number;
   name: string;
   diameter: number;
-  tip_angle: number;
+  tip_length: number;
   direction: string;
   solver: string;
   rate: number;
@@ -128,7 +128,7 @@ export interface MembraneView {
 export interface LawCurve {
   name: string;
   obliquity: number;
-  tip_length: number;
+  far_face: number;
   through: number;
   depth: number[];
   lower: number[];

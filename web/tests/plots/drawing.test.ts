@@ -15,7 +15,7 @@ const SPIKE = 12_345;
 function source(more: Cell = {}): Source {
   const made = new Source("test", true, 20_000);
   made.laws.value = [
-    { name: "skin", obliquity: 0, tip_length: 4e-3, through: 5e-3, depth: [0, 4e-3, 5e-3], lower: [-0.2, -0.5, -0.25], upper: [0.1, 0.1, 0.25] }, // biome-ignore format: one line
+    { name: "skin", obliquity: 0, far_face: 1e-3, through: 5e-3, depth: [0, 4e-3, 5e-3], lower: [-0.2, -0.5, -0.25], upper: [0.1, 0.1, 0.25] }, // biome-ignore format: one line
   ];
   const cells: Cell = {
     depth: (tick) => [(8e-3 * tick) / 20_000],

@@ -66,7 +66,7 @@ export class FakeMembrane {
     return {
       name: this.name,
       obliquity: 0,
-      tip_length: this.tipLength,
+      far_face: this.thickness,
       through: this.tipLength + this.thickness,
       depth,
       lower: depth.map((q) => this.lower(q)),
@@ -86,7 +86,7 @@ export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {
     number: 1,
     name: "Venipuncture",
     diameter: 0.82e-3,
-    tip_angle: (11 * Math.PI) / 180,
+    tip_length: 0.82e-3 / Math.tan((11 * Math.PI) / 180),
     direction: "stylus",
     solver: "exact",
     rate: 1600,

@@ -32,8 +32,8 @@ class LawCurve(Part):
 
     name: str
     obliquity: Finite  # rad, between the needle and the inward normal
-    tip_length: Finite  # m, of the slanted face along the needle: X
-    through: Finite  # m of depth from which the whole tip is behind the membrane: X + H / cos(obliquity)
+    far_face: Finite  # m of depth from which the tip's point is behind the membrane: U = H / cos(obliquity)
+    through: Finite  # m of depth from which the whole tip is: X + U
     depth: list[Finite]  # m
     lower: list[Finite]  # N, Phi_I
     upper: list[Finite]  # N, Phi_O
@@ -54,7 +54,7 @@ class SceneView(Part):
     number: int  # of the scenes of this run, from 0
     name: str
     diameter: Finite  # m
-    tip_angle: Finite  # rad
+    tip_length: Finite  # m, of the slanted face along the needle: X
     direction: str
     solver: str
     rate: Finite  # Hz, the device's

@@ -1,0 +1,61 @@
+// A law as curves to draw, for the direction that the needle has.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "punctura/events/crossing.hpp"
+#include "punctura/scene/scene.hpp"
+
+namespace punctura {
+
+/// Phi_I and Phi_O at rising depths. Both sides of each break are there, so that a drop is drawn as one.
+struct LawCurve {
+  std::vector<double> depth;         ///< m
+  std::vector<double> lower, upper;  ///< N
+};
+
+/// Of any law's pieces.
+template <std::size_t N>
+LawCurve law_curve(const PiecewiseBand<double, N>& law) {
+  constexpr int points = 16;                      // on a piece: a quadratic then looks smooth
+  constexpr double in_front = 0.1, behind = 0.3;  // of the way through, which is drawn outside it
+  const std::size_t last = detail::last_break(law);
+  const double through = law.breaks[last];
+  LawCurve curve;
+  curve.depth = {-in_front * through, (1 + behind) * through};
+  for (std::size_t k = 0; k <= last; ++k) {
+    const double at = law.breaks[k];
+    curve.depth.insert(curve.depth.end(), {std::nextafter(at, -1.0), at, std::nextafter(at, 1.0)});
+    for (int i = 1; k > 0 && i < points - 1; ++i)
+      curve.depth.push_back(law.breaks[k - 1] + i * ((at - law.breaks[k - 1]) / (points - 1)));
+  }
+  std::sort(curve.depth.begin(), curve.depth.end());
+  curve.depth.erase(std::unique(curve.depth.begin(), curve.depth.end()), curve.depth.end());
+  for (const double depth : curve.depth) {
+    const auto band = law.band(depth);
+    curve.lower.push_back(band.lower);
+    curve.upper.push_back(band.upper);
+  }
+  return curve;
+}
+
+/// A flatter needle is drawn as this one, rad: 1 / cos(beta) grows without bound.
+inline constexpr double steepest_drawn = 85 * std::numbers::pi / 180;
+
+/// Angle of the needle to a membrane's inward normal, rad, from 0 to steepest_drawn; 0 where no direction is known.
+///
+/// axis: of the stylus. entered: the direction held since entry, if the needle is inside; else NaN.
+inline double drawn_obliquity(const Scene& scene, const PlacedMembrane& placed, const Vector3d& axis,
+                              const Vector3d& entered) noexcept {
+  const Vector3d normal = vector(placed.inward_normal);
+  const Vector3d direction = entered.allFinite() ? entered : scene.direction == Direction::motion ? normal : axis;
+  const double cosine = direction.dot(normal) / (normal.norm() * direction.norm());
+  if (!std::isfinite(cosine)) return 0;
+  return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)), steepest_drawn);
+}
+
+}  // namespace punctura

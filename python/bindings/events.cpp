@@ -1,0 +1,188 @@
+// core/punctura/events: what happens at the membranes, and the depths and curves of their laws.
+#include "punctura/events/event_finder.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "bindings.hpp"
+#include "punctura/events/law_curve.hpp"
+#include "state.hpp"
+#include "without_lock.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A column of a batch, with a number of doubles in each row. A batch without that column has NaN in it.
+class Column {
+ public:
+  /// width: doubles in a row. Throws ValueError for another shape.
+  Column(const nb::object& columns, const char* name, std::size_t rows, std::size_t width) : width_(width) {
+    if (!nb::cast<bool>(columns.attr("__contains__")(name))) return;
+    array_ = input(columns[name]);
+    if (array_->ndim() == 0 || array_->shape(0) != rows || array_->size() != rows * width)
+      throw nb::value_error(("columns[\"" + std::string(name) + "\"] must have " + std::to_string(rows) + " rows of " +
+                             std::to_string(width) + " numbers, as columns[\"depth\"] has")
+                                .c_str());
+  }
+  explicit operator bool() const noexcept { return array_.has_value(); }
+  double operator()(std::size_t row, std::size_t i = 0) const noexcept {
+    return array_ ? array_->data()[row * width_ + i] : nan;
+  }
+  Triple triple(std::size_t row, std::size_t i = 0) const noexcept {
+    return {(*this)(row, 3 * i), (*this)(row, 3 * i + 1), (*this)(row, 3 * i + 2)};
+  }
+
+ private:
+  std::optional<Input> array_;
+  std::size_t width_;
+};
+
+/// A finder that takes a run batch by batch.
+struct BatchFinder : EventFinder, OneThread {
+  BatchFinder(const Scene& scene, double given) : EventFinder(scene), rate(given) {}
+  double rate;  // ticks a second, for runs that do not tell the time
+  std::uint64_t ticks = 0;
+};
+
+struct Found : Event {
+  std::string name;
+};
+
+nb::dict as_dict(const Found& event) {
+  static constexpr const char* words[] = {"touch", "pop", "out"};
+  nb::dict d;
+  d["what"] = words[static_cast<std::size_t>(event.what)];
+  d["membrane"] = event.membrane;
+  d["name"] = event.name;
+  d["tick"] = event.tick;
+  d["time"] = event.time;
+  d["depth"] = event.depth;
+  d["force_before"] = event.force_before;
+  d["force_after"] = event.force_after;
+  d["drop"] = event.drop();
+  return d;
+}
+
+/// 255, which is no phase, for a number that is none.
+Phase phase_of(double number) noexcept {
+  return static_cast<Phase>(number >= 0 && number < 255 ? static_cast<std::uint8_t>(number) : std::uint8_t{255});
+}
+
+/// Finds the events of a batch without Python's lock.
+nb::list add(BatchFinder& finder, const nb::object& columns) {
+  const Input depth = input(columns["depth"]);
+  if (depth.ndim() != 2) throw nb::value_error("columns[\"depth\"] must be (n, m)");
+  const std::size_t n = depth.shape(0), m = depth.shape(1);
+  const Column force(columns, "axial_force", n, m), phase(columns, "phase", n, m), lower(columns, "lower", n, m),
+      direction(columns, "direction", n, 3 * m), axis(columns, "axis", n, 3), tick(columns, "tick", n, 1),
+      time(columns, "time", n, 1), commands(columns, "commands", n, 1);
+  if (!force || !phase) throw nb::key_error("columns must have \"depth\", \"axial_force\" and \"phase\"");
+
+  std::vector<MembraneRecord> records(m);
+  std::vector<Found> found;
+  {
+    const OneThread::Running running(finder);
+    const WithoutLock without;
+    for (std::size_t i = 0; i < n; ++i, ++finder.ticks) {
+      for (std::size_t j = 0; j < m; ++j)
+        records[j] = {.depth = depth.data()[i * m + j],
+                      .axial_force = force(i, j),
+                      .lower = lower(i, j),
+                      .upper = nan,
+                      .proxy = {},
+                      .direction = direction.triple(i, j),
+                      .phase = phase_of(phase(i, j))};
+      const auto number = tick ? static_cast<std::uint64_t>(tick(i)) : finder.ticks;
+      // A batch that does not tell its commands takes a new scene with its first tick.
+      const auto asked = commands ? static_cast<std::uint32_t>(commands(i)) : i == 0 ? command_scene : 0u;
+      const double at = time ? time(i) : static_cast<double>(number) / finder.rate;
+      for (const Event& event : finder.step(EventTick{number, at, axis.triple(i), asked, records}))
+        found.push_back({event, finder.scene().membranes[event.membrane].name});
+    }
+  }
+  nb::list events;
+  for (const Found& event : found) events.append(as_dict(event));
+  return events;
+}
+
+const PlacedMembrane& membrane_of(const Scene& scene, std::size_t i) {
+  if (i >= scene.membranes.size()) throw nb::index_error(("the scene has no membrane " + std::to_string(i)).c_str());
+  return scene.membranes[i];
+}
+
+std::array<double, 6> crossing_of(const Scene& scene, std::size_t i, double cos_beta) {
+  const Membrane& membrane = membrane_of(scene, i).membrane;
+  const Crossing c = crossing(ThickLaw(scene.needle, membrane), scene.needle, membrane.thickness, cos_beta);
+  return {c.cos_beta, c.far_face, c.peak, c.through, c.again, c.shaft};
+}
+
+nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
+  const PlacedMembrane& placed = membrane_of(scene, i);
+  std::vector<Problem> problems;
+  check_field(obliquity_field, obliquity, "", problems);
+  raise_if(problems);
+  const ThickLaw law(scene.needle, placed.membrane, obliquity);
+  const LawCurve curve = law_curve(law.pieces());
+  nb::dict d;
+  d["name"] = placed.name;
+  d["obliquity"] = obliquity;
+  d["far_face"] = law.path_length();
+  d["through"] = law.pieces().breaks.back();
+  d["depth"] = curve.depth;
+  d["lower"] = curve.lower;
+  d["upper"] = curve.upper;
+  return d;
+}
+
+nb::object obliquities(const Scene& scene, const nb::object& axis, const nb::object& entered) {
+  const Rows axes(input(axis), 1, "axis");
+  const std::size_t n = scene.membranes.size();
+  std::vector<double> angles(n);
+  std::optional<Input> rows;
+  if (!entered.is_none()) rows = points(entered, "entered");
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3d held = rows && i < rows->shape(0) ? Vector3d(rows->data() + 3 * i) : Vector3d::Constant(nan);
+    angles[i] = drawn_obliquity(scene, scene.membranes[i], axes[0], held);
+  }
+  return to_numpy(std::move(angles), {n});
+}
+
+}  // namespace
+
+void bind_events(nb::module_& m) {
+  m.def("crossing", &crossing_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("cos_beta"),
+        "The numbers of punctura.events.Crossing. Raises IndexError.");
+
+  nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.")
+      .def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
+      .def(
+          "change",
+          [](BatchFinder& finder, const Scene& scene) {
+            finder.must_rest();
+            finder.change(scene);
+          },
+          nb::arg("scene"))
+      .def(
+          "add", &add, nb::arg("columns"),
+          nb::sig(
+              "def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[dict[str, typing.Any]]"),
+          "Each event as the arguments of punctura.events.Event.");
+
+  m.def(
+      "law_curve", &law_curve_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("obliquity"),
+      nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> dict[str, typing.Any]"),
+      "Phi_I and Phi_O of one membrane along the depth, m and N, with both sides of each break; and where the needle comes out.");
+  m.def(
+      "obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
+      nb::sig("def obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
+              "= None) -> numpy.typing.NDArray[numpy.float64]"),
+      "Angle of the needle to each membrane's inward normal, rad, at most 85 degrees, (m,). axis (3,): of the stylus. entered "
+      "(m, 3): the direction of each membrane that the needle is in, NaN in the others.");
+  m.def("tip_length", &tip_length<double>, nb::arg("needle"), "Length of the slanted face along the needle, m: X.");
+  m.attr("grazing_cosine") = grazing_cosine<double>;
+}
+
+}  // namespace punctura::bindings

@@ -1,0 +1,104 @@
+// The depths at which a crossing turns, against K06's formulas; and the curves to draw.
+#include "punctura/events/crossing.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/random_law.hpp"
+#include "punctura/events/law_curve.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+/// One that came with its pieces.
+template <std::size_t n>
+struct TableLaw {
+  using Scalar = double;
+  PiecewiseBand<double, n> table;
+  const PiecewiseBand<double, n>& pieces() const noexcept { return table; }
+  PiecewiseBand<double, n> pieces(double) const noexcept { return table; }
+};
+
+Crossing crossing_of(const LawCase& c, double cos_beta) {
+  return crossing(ThickLaw(c.needle, c.membrane), c.needle, c.membrane.thickness, cos_beta);
+}
+
+}  // namespace
+
+TEST_CASE("for K06's law the crossing turns where its formulas say") {
+  Noise noise(21);
+  for (int i = 0; i < 2000; ++i) {
+    LawCase c = random_law(noise);
+    if (i % 10 == 0) c.membrane.thickness = 0;
+    const double cos_beta = std::cos(c.obliquity), U = c.membrane.thickness / cos_beta;
+    const auto [X, A_I, A_O, Q, F] = ThickLaw(c.needle, c.membrane).constants();
+    const Crossing turns = crossing_of(c, cos_beta);
+    // Behind max(U, X) the slope of -Phi_I is A_I (m - X - Q) + F at first, and falls with A_I.
+    const double peak = std::max(U, X) + std::max(0.0, std::min(U, X) - X - Q + F / A_I);
+    REQUIRE(turns.cos_beta == cos_beta);
+    REQUIRE(turns.far_face == U);
+    REQUIRE(turns.through == X + U);
+    REQUIRE(turns.peak == doctest::Approx(peak).epsilon(1e-12));
+    REQUIRE(turns.again == turns.peak - 0.1 * X);
+    REQUIRE(turns.shaft == doctest::Approx(F / cos_beta).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the peak is where no other depth resists more") {
+  Noise noise(22);
+  for (int i = 0; i < 200; ++i) {
+    const LawCase c = random_law(noise);
+    const auto law = ThickLaw(c.needle, c.membrane).pieces(std::cos(c.obliquity));
+    const Crossing turns = crossing_of(c, std::cos(c.obliquity));
+    const double largest = -law.band(turns.peak).lower;
+    for (int k = 0; k <= 1000; ++k) REQUIRE(-law.band(1.2 * turns.through * k / 1000).lower <= largest * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("a needle that grazes counts as one at 80 degrees, and one without a direction as upright") {
+  Noise noise(23);
+  const LawCase c = random_law(noise);
+  CHECK(crossing_of(c, 0.01).cos_beta == grazing_cosine<double>);
+  CHECK(crossing_of(c, 1.0 + 1e-12).cos_beta == 1);
+  CHECK(crossing_of(c, std::numeric_limits<double>::quiet_NaN()).cos_beta == 1);
+}
+
+TEST_CASE("another law turns at its own breaks, and room for more pieces changes nothing") {
+  const Needle needle = paper_needle;
+  // Grows by 100 N/m up to 2 mm, falls by 50 N/m up to 4 mm, and rubs with 0.05 N behind.
+  const PiecewiseBand<double, 4> table{
+      {0, 2e-3, 4e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 50, 0}, {}}, {4e-3, {-0.05, 0, 0}, {}}}}};
+  for (const Crossing& turns :
+       {crossing(TableLaw<4>{table}, needle, 1e-3, 1), crossing(TableLaw<9>{table.with_room<9>()}, needle, 1e-3, 1)}) {
+    CHECK(turns.peak == 2e-3);
+    CHECK(turns.through == 4e-3);
+    CHECK(turns.shaft == 0.05);
+    CHECK(turns.far_face == 1e-3);
+    CHECK(turns.again == 2e-3 - 0.1 * tip_length(needle));
+  }
+  const BasicThickLaw<float> small({1.08e-3f, 0.28f}, {570, 0.41f, 0.2f, 1e-3f});
+  CHECK(crossing(small, needle, 1e-3, 1).through == doctest::Approx(tip_length(needle) + 1e-3));
+}
+
+TEST_CASE("a law whose resistance never falls has no pop") {
+  const PiecewiseBand<double, 3> table{{0, 2e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 0, 0}, {}}}}};
+  CHECK(std::isinf(crossing(TableLaw<3>{table}, paper_needle, 0, 1).through));
+}
+
+TEST_CASE("a law's curve has both sides of each break") {
+  for (const double thickness : {0.0, 1e-3, 9e-3}) {
+    const auto law = ThickLaw(paper_needle, paper_membrane(thickness), 0.5).pieces();
+    const LawCurve curve = law_curve(law);
+    CHECK(std::is_sorted(curve.depth.begin(), curve.depth.end(), std::less_equal<>()));
+    CHECK(curve.depth.front() < 0);
+    CHECK(curve.depth.back() > law.breaks[3]);
+    for (const double at : law.breaks)
+      for (const double depth : {std::nextafter(at, -1.0), at, std::nextafter(at, 1.0)})
+        CHECK(std::count(curve.depth.begin(), curve.depth.end(), depth) == 1);
+    for (std::size_t i = 0; i < curve.depth.size(); ++i) {
+      CHECK(curve.lower[i] == law.band(curve.depth[i]).lower);
+      CHECK(curve.upper[i] == law.band(curve.depth[i]).upper);
+    }
+  }
+}
