@@ -1,9 +1,9 @@
-import type { Ask, Engine, EngineListener, Reply, Triple } from "../engine/engine.ts";
-import { Api, ApiError, type Fetch } from "./api.ts";
+import { Api, ApiError, type Fetch } from "../wire/api.ts";
+import { parseMessage } from "../wire/parse.ts";
+import { decodeTicks } from "../wire/ticks.ts";
 import { waitBefore } from "./backoff.ts";
-import { parseMessage } from "./parse.ts";
+import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
 import { Pending } from "./pending.ts";
-import { decodeTicks } from "./ticks.ts";
 
 const PROTOCOL = "punctura.v1";
 /** A browser hides why a socket was refused; this address, asked with the same token, gives the same refusal. */

@@ -1,8 +1,8 @@
-import { element, everyFrame } from "../panel.ts";
-import type { App } from "../state/app.ts";
+import { firstGamepad, rumble, Sticks } from "../../hand/gamepad.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element, everyFrame } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
 import { Felt } from "./felt.ts";
-import { firstGamepad, rumble, Sticks } from "./gamepad.ts";
-import type { Hand } from "./hand_model.ts";
 import { Sound } from "./sound.ts";
 
 /** Gamepad and sound: both work for a recording too, where they can. */

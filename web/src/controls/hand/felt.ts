@@ -1,5 +1,5 @@
-import type { Source } from "../state/source.ts";
-import type { MembraneEvent } from "../wire/messages.ts";
+import type { Source } from "../../state/source.ts";
+import type { MembraneEvent } from "../../wire/messages.ts";
 
 const SLIDING_IN = 2;
 const SLIDING_OUT = 3;

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { Sticks, stick } from "../../../src/controls/gamepad.ts";
-import type { Hand } from "../../../src/controls/hand_model.ts";
-import { Signal } from "../../../src/state/signal.ts";
+import { Sticks, stick } from "../../src/hand/gamepad.ts";
+import type { Hand } from "../../src/hand/hand.ts";
+import { Signal } from "../../src/state/signal.ts";
 
 describe("a stick", () => {
   it("is at rest near its middle, fine beside it, and full at its end", () => {

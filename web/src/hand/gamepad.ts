@@ -1,4 +1,4 @@
-import type { Hand } from "./hand_model.ts";
+import type { Hand } from "./hand.ts";
 import { add, scaled } from "./vectors.ts";
 
 const IDLE = 0.12; // of a stick's way: they never rest at 0

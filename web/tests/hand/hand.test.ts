@@ -1,13 +1,13 @@
 import { beforeEach, describe, expect, it } from "vitest";
-import { Hand } from "../../../src/controls/hand_model.ts";
-import { lagText } from "../../../src/controls/hand_place.ts";
-import type { EngineListener, Triple } from "../../../src/engine/engine.ts";
-import { App } from "../../../src/state/app.ts";
-import { Source } from "../../../src/state/source.ts";
-import type { DevicePart, SceneView, Status } from "../../../src/wire/messages.ts";
-import { decodeTicks } from "../../../src/wire/ticks.ts";
-import { LIMITS } from "../../support/limits.ts";
-import { makeFrame } from "../../wire/frame.ts";
+import { lagText } from "../../src/controls/hand/place.ts";
+import type { EngineListener, Triple } from "../../src/engine/engine.ts";
+import { Hand } from "../../src/hand/hand.ts";
+import { App } from "../../src/state/app.ts";
+import { Source } from "../../src/state/source.ts";
+import type { DevicePart, SceneView, Status } from "../../src/wire/messages.ts";
+import { decodeTicks } from "../../src/wire/ticks.ts";
+import { LIMITS } from "../support/limits.ts";
+import { makeFrame } from "../wire/frame.ts";
 
 const DEVICE: DevicePart = {
   backend: "simulated", model: "PHANTOM Omni", simulated: true, has_orientation: true, max_force: 3.3, rate: 1600,

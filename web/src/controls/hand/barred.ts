@@ -1,7 +1,7 @@
-import { element } from "../panel.ts";
-import type { App } from "../state/app.ts";
-import { takeControl } from "./control_line.ts";
-import type { Hand } from "./hand_model.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import { takeControl } from "../control_line.ts";
 
 /** Says why the hand cannot be moved from here, or how it is moved. */
 export function whyBarred(app: App, hand: Hand): HTMLElement {

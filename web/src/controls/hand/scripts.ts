@@ -1,6 +1,6 @@
-import { element } from "../panel.ts";
-import type { App } from "../state/app.ts";
-import type { Hand } from "./hand_model.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
 
 /** Strokes to and fro by themselves. */
 export function scriptRows(app: App, hand: Hand): HTMLElement {

@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
-import { viewKeys } from "../../../src/controls/hand_keys.ts";
-import type { Hand } from "../../../src/controls/hand_model.ts";
-import type { OrbitCamera } from "../../../src/scene/camera.ts";
+import type { Hand } from "../../src/hand/hand.ts";
+import type { OrbitCamera } from "../../src/scene/camera.ts";
+import { viewKeys } from "../../src/scene/keys.ts";
 
 it("a key that was held when a new run began moves nothing until it is pressed anew", () => {
   const canvas = new EventTarget();

@@ -1,4 +1,4 @@
-import type { Reply } from "../engine/engine.ts";
+import type { Reply } from "./engine.ts";
 
 /** Requests that wait for their reply, by id. */
 export class Pending {

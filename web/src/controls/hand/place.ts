@@ -1,7 +1,7 @@
-import { element, everyFrame } from "../panel.ts";
-import type { App } from "../state/app.ts";
-import { KEYS } from "./hand_keys.ts";
-import type { Hand } from "./hand_model.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element, everyFrame } from "../../panel.ts";
+import { KEYS } from "../../scene/keys.ts";
+import type { App } from "../../state/app.ts";
 
 const number = (metres: number | undefined): string =>
   metres === undefined || Number.isNaN(metres)

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Triple } from "../../src/engine/engine.ts";
+import { makeFrame } from "../wire/frame.ts";
 import { bench } from "./fake_socket.ts";
-import { makeFrame } from "./frame.ts";
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());

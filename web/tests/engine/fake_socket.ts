@@ -1,7 +1,7 @@
 import type { Connection, EngineListener } from "../../src/engine/engine.ts";
+import { SocketEngine } from "../../src/engine/socket_engine.ts";
 import type { Fetch } from "../../src/wire/api.ts";
 import type { Message } from "../../src/wire/messages.ts";
-import { SocketEngine } from "../../src/wire/socket_engine.ts";
 import type { TickBatch } from "../../src/wire/ticks.ts";
 
 /** A WebSocket whose other end is the test. */

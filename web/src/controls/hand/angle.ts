@@ -1,5 +1,5 @@
-import { element, everyFrame } from "../panel.ts";
-import type { Hand } from "./hand_model.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element, everyFrame } from "../../panel.ts";
 
 const MOST_DEGREES = 75;
 

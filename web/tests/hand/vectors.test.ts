@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { alongSkin, dot, length, tilted, tiltOf } from "../../../src/controls/vectors.ts";
-import type { Triple } from "../../../src/engine/engine.ts";
+import type { Triple } from "../../src/engine/engine.ts";
+import { alongSkin, dot, length, tilted, tiltOf } from "../../src/hand/vectors.ts";
 
 const NORMALS: readonly Triple[] = [
   [0, -1, 0],

@@ -1,6 +1,6 @@
-import type { OrbitCamera } from "../scene/camera.ts";
-import type { Hand } from "./hand_model.ts";
-import { scaled } from "./vectors.ts";
+import type { Hand } from "../hand/hand.ts";
+import { scaled } from "../hand/vectors.ts";
+import type { OrbitCamera } from "./camera.ts";
 
 const STEP = 0.25e-3; // m
 const LONG = 4;
