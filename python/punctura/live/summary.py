@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
-from punctura.live.room import room_note
+from punctura.record.room import room_note
 
 Columns = dict[str, Any]
 

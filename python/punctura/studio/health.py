@@ -3,32 +3,31 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from punctura.studio.hand import Mode
+from punctura.studio.run import Run
 from punctura.studio.wire.messages import LimitsPart, RecordingStatus, Spread, Status
 
-if TYPE_CHECKING:
-    from punctura.studio.run import Run
-    from punctura.studio.session import Session
 
-
-def status_of(session: Session) -> Status:
-    """How the present run is doing; `viewers` and `dropped` are each page's own, and filled in for it."""
-    report = session.run.loop.report()
+def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> Status:
+    """The state of this run. lost: ticks that the page's reader missed. `viewers` and `dropped` are 0: the hub fills
+    them in for each page."""
+    report = run.loop.report()
     return Status(
         ticks=report["ticks"],
         late=report["late"],
-        lost=max(session.pump.lost, session.run.lost),  # the ring knows of those after the last that was read
+        lost=max(lost, run.lost),  # the ring also counts ticks lost after the last read
         period=spread(report["period"]),
         compute=spread(report["compute"]),
         viewers=0,
         dropped=0,
-        armed=session.armed,
-        hand=session.hand.mode,
-        compare=session.compare,
-        statements=session.run.loop.device.statements(),
+        armed=armed,
+        hand=hand,
+        compare=compare,
+        statements=run.loop.device.statements(),
     )
 
 

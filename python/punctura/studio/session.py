@@ -294,7 +294,7 @@ class Session:
             self.begin_again()
 
     def _tell_status(self) -> None:
-        self.out.say(status_of(self))
+        self.out.say(status_of(self.run, self.pump.lost, self.armed, self.hand.mode, self.compare))
         if self.run.recorder and self.recording:
             self.out.say(recording_status(self.recording, self.run))
 
