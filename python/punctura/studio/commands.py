@@ -8,10 +8,12 @@ from concurrent.futures import Future
 from typing import Any
 
 from punctura.errors import ConfigurationError
+from punctura.exercise import Exercise
 from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
-from punctura.studio.loaded import from_name, from_tables, from_text, problem_parts
+from punctura.studio.exercise_activity import ExerciseActivity
+from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
 from punctura.studio.wire import requests as ask
@@ -72,7 +74,7 @@ def _prepare_scene(request: Any) -> Job:
     return lambda session: _load(session, loaded)
 
 
-def _load(session: Session, loaded: Any) -> None:
+def _load(session: Session, loaded: Loaded) -> None:
     session.begin(loaded)
     _tell_room(session)
 
@@ -83,9 +85,7 @@ def _tell_room(session: Session) -> None:
         session.out.say(Notice(text=note))
 
 
-def _edit(session: Session, loaded: Any) -> Done:
-    if session.practice:
-        raise NotNow("end the exercise before you change its scene")
+def _edit(session: Session, loaded: Loaded) -> Done:
     session.edit(loaded)
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
         return "the new rate is that of the next run", {}
@@ -138,8 +138,8 @@ def _start_recording(session: Session, name: str) -> Done:
 def _stop_recording(session: Session) -> Future[Done]:
     if not session.recording:
         raise NotNow("nothing is being recorded")
-    if session.practice:
-        raise NotNow("the exercise is recorded until it ends")
+    if activity := session.activities.now:
+        raise NotNow(f"the {activity.what} is recorded until it ends")
     done: Future[Done] = Future()
 
     def tell(name: str, status: RecorderStatus) -> None:
@@ -150,12 +150,14 @@ def _stop_recording(session: Session) -> Future[Done]:
     return done
 
 
-def _start_exercise(session: Session, exercise: Any, loaded: Any, person: str, name: str) -> Done:
-    session.practise(exercise, loaded, person, name)
+def _start_exercise(session: Session, exercise: Exercise, loaded: Loaded, person: str, name: str) -> Done:
+    pose = exercise.start_position, exercise.start_axis
+    about = {"title": exercise.title, "exercise": exercise.name, "scene": loaded.tables()}
+    session.begin_activity(ExerciseActivity(exercise, person, name, session.results), loaded, pose, name, about)
     return "", {"recording": name}
 
 
 def _end_exercise(session: Session) -> None:
-    if not session.practice:
+    if not session.activities.now:
         raise NotNow("there is no exercise to end")
     session.begin_again()

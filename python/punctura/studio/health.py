@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from punctura._core import Fault, describe
 from punctura.studio.hand import Mode
 from punctura.studio.run import Run
-from punctura.studio.wire.messages import LimitsPart, RecordingStatus, Spread, Status
+from punctura.studio.wire.messages import FaultMessage, LimitsPart, RecordingStatus, Spread, Status
 
 
 def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> Status:
@@ -84,3 +85,8 @@ def recording_status(name: str, run: Run) -> RecordingStatus:
 
 def no_recording() -> RecordingStatus:
     return RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble="")
+
+
+def no_ticks(words: str) -> FaultMessage:
+    """The device's ticks have ceased; words: why."""
+    return FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0)

@@ -112,7 +112,7 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
         return refused
     if isinstance(request, Pause):
         session.pause()
-    return Order(request, session.pauses)
+    return Order(request, session.arming.pauses)
 
 
 def _refused(request: Any, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:

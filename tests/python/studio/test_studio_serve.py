@@ -104,7 +104,7 @@ def test_no_force_is_left_when_it_stops_nor_when_the_worker_fails(served, page):
     def fail():
         raise SystemExit("a defect")
 
-    served.session._jobs.post(fail)
+    served.session.jobs.post(fail)
     end = time.monotonic() + 20
     while served.session.running and time.monotonic() < end:
         time.sleep(0.01)
