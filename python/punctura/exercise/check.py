@@ -18,8 +18,9 @@ from punctura.errors import MISSING, Problem
 from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
 from punctura.exercise.depths import Table, unreachable
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.problems import GOALS, Location, located, problem
+from punctura.exercise.problems import GOALS, located, problem
 from punctura.exercise.schema import ExerciseFile, Space, Start
+from punctura.files.tables import Location
 
 
 class Sound(NamedTuple):

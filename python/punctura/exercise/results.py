@@ -16,6 +16,7 @@ from pydantic import ValidationError
 
 from punctura._core import PuncturaError
 from punctura.exercise.result import Result
+from punctura.files.whole_file import write_whole
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
 _LARGEST = 20_000_000  # bytes; a result has some kilobytes
@@ -57,12 +58,7 @@ class ResultStore:
             path = self._path(kept.name)
             if not path.exists():
                 break
-        temporary = path.with_suffix(".part")
-        try:
-            temporary.write_text(kept.model_dump_json(indent=1), encoding="utf-8")
-            temporary.replace(path)
-        finally:
-            temporary.unlink(missing_ok=True)
+        write_whole(path, kept.model_dump_json(indent=1).encode("utf-8"), replace=False)
         return kept
 
     def load(self, name: str) -> Result:

@@ -7,9 +7,9 @@ from decimal import Decimal
 from typing import Any
 
 from punctura import _core
+from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import ALTERNATIVES, SceneFile
-from punctura.scene.units import split_key, to_si
 
 _TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "MembraneTable": "membrane"}
 

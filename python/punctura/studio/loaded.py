@@ -9,10 +9,10 @@ from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.toml import parse_toml, read_text
 from punctura.scene import scene_path
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
-from punctura.scene.parse import parse_toml, read_text
 from punctura.scene.schema import SceneFile
 from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
@@ -60,7 +60,7 @@ def from_text(text: str, source: str = "the file") -> Loaded:
 def from_name(path_or_name: str) -> Loaded:
     """A ready scene or a file, as load_scene takes them. Raises ConfigurationError."""
     path = scene_path(path_or_name)
-    return from_text(read_text(path), str(path))
+    return from_text(read_text(path, "scene"), str(path))
 
 
 def problem_parts(problems: Sequence[Problem]) -> list[ProblemPart]:

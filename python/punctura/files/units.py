@@ -1,4 +1,4 @@
-"""The units that a scene file's keys carry in their names, and the exact way to and from SI."""
+"""The units in the names of a file's keys, and the exact conversion to and from SI."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 # pi/180 to more digits than a double holds, so that an angle in degrees is rounded once only.
 _RAD_PER_DEG = Decimal("0.017453292519943295769236907684886127134428718885417")
 
-# Of products of what a scene file can hold no digit is lost; one beyond a Decimal's range is infinite, as a double is.
+# Of products of what a file can hold no digit is lost; one beyond a Decimal's range is infinite, as a double is.
 _EXACT = Context(prec=2000, traps=[])
 
 
@@ -23,6 +23,9 @@ UNITS = {
     "mm": Unit("mm", Decimal("0.001")),
     "rad": Unit("rad", Decimal(1)),
     "deg": Unit("deg", _RAD_PER_DEG),
+    "s": Unit("s", Decimal(1)),
+    "ms": Unit("ms", Decimal("0.001")),
+    "m_per_s": Unit("m/s", Decimal(1)),
     "hz": Unit("Hz", Decimal(1)),
     "N": Unit("N", Decimal(1)),
     "N_per_mm": Unit("N/mm", Decimal(1000)),

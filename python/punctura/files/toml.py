@@ -1,4 +1,4 @@
-"""From a file to the tables that stand in it, with a plain sentence where that fails."""
+"""Reads TOML files: scenes, limits, placements, exercises. Errors are plain sentences."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.scene.limits import MOST_BYTES, excess
+from punctura.files.toml_bounds import MOST_BYTES, excess
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -27,8 +27,8 @@ def _file_of(what: str) -> str:
     return f"{'an' if what[0] in 'aeiou' else 'a'} {what} file"
 
 
-def read_text(path: Path, what: str = "scene") -> str:
-    """The text of a TOML file of ours; a byte-order mark is skipped. what: kind of file, for the messages.
+def read_text(path: Path, what: str) -> str:
+    """The text of a TOML file, without a byte-order mark. what: kind of file, for the messages.
 
     Raises ConfigurationError, also for a device, a pipe, and a file of more than MOST_BYTES.
     """
@@ -51,9 +51,9 @@ def read_text(path: Path, what: str = "scene") -> str:
         raise _error(path, f"cannot be read: {bad.strerror}") from None
 
 
-def read_tables(path: Path, what: str) -> dict[str, Any]:
-    """The tables of a TOML file, with fractions as float. Raises ConfigurationError."""
-    return parse_toml(read_text(path, what), path, float)
+def read_tables(path: Path, what: str, parse_float: Callable[[str], Any] | None = None) -> dict[str, Any]:
+    """The tables of a TOML file. what, parse_float: see read_text and parse_toml. Raises ConfigurationError."""
+    return parse_toml(read_text(path, what), path, parse_float)
 
 
 def _decimal(text: str) -> Decimal:
@@ -63,13 +63,16 @@ def _decimal(text: str) -> Decimal:
         return Decimal(float(text))
 
 
-def parse_toml(text: str, path: Path, parse_float: Callable[[str], Any] = _decimal) -> dict[str, Any]:
-    """The tables of a TOML text. Without parse_float, fractions stay the decimals that were written."""
+def parse_toml(text: str, path: Path, parse_float: Callable[[str], Any] | None = None) -> dict[str, Any]:
+    """The tables of a TOML text. parse_float: converts fractions; without it they stay the decimals that were written.
+
+    Raises ConfigurationError.
+    """
     beyond = excess(text)
     if beyond:
         raise _error(path, beyond.reason, f"line {beyond.line}")
     try:
-        return tomllib.loads(text, parse_float=parse_float)
+        return tomllib.loads(text, parse_float=parse_float or _decimal)
     except tomllib.TOMLDecodeError as bad:
         message = str(bad)
         found = re.search(r" \(at (line \d+, column \d+|end of document)\)$", message)

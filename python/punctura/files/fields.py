@@ -1,6 +1,6 @@
-"""The kinds of value a scene file holds, as types of the schema.
+"""The kinds of values in a file, as types of a pydantic schema.
 
-They check only what the value is; which values are admissible is the core's to say (punctura._core.fields).
+They check only the type of a value. The core checks its bounds.
 """
 
 from __future__ import annotations
@@ -25,12 +25,30 @@ def _number(value: object) -> Decimal:
     return number
 
 
-def _vector(value: object) -> tuple[Decimal, Decimal, Decimal]:
-    numbers = [_as_decimal(v) for v in value] if isinstance(value, (list, tuple)) else []
-    if len(numbers) != 3 or any(n is None for n in numbers):
-        raise PydanticCustomError("vector", "must be three numbers, [x, y, z]")
-    x, y, z = (n for n in numbers if n is not None)
-    return x, y, z
+def _numbers(value: object, names: str) -> tuple[Decimal, ...]:
+    """names: of the numbers, "x, y, z"."""
+    given = [_as_decimal(v) for v in value] if isinstance(value, (list, tuple)) else []
+    numbers = tuple(n for n in given if n is not None)
+    count = names.count(",") + 1
+    if len(given) != count or len(numbers) != count:
+        words = {3: "three", 4: "four"}[count]
+        raise PydanticCustomError("vector", f"must be {words} numbers, [{names}]")  # type: ignore[arg-type]
+    return numbers
+
+
+def _vector(value: object) -> tuple[Decimal, ...]:
+    return _numbers(value, "x, y, z")
+
+
+def _quaternion(value: object) -> tuple[Decimal, ...]:
+    return _numbers(value, "w, x, y, z")
+
+
+def _buttons(value: object) -> list[int]:
+    numbers = value if isinstance(value, list) else [None]
+    if not all(isinstance(n, int) and not isinstance(n, bool) and 1 <= n <= 32 for n in numbers):
+        raise PydanticCustomError("buttons", "must be a list of buttons, each 1 to 32")
+    return numbers
 
 
 def _whole_number(value: object) -> int:
@@ -51,9 +69,11 @@ def _plain(value: Any) -> Any:
 
 _VECTOR_SCHEMA = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
 
-# Numbers are decimals, as they were written, until they are converted to SI (scene/units.py).
+# Numbers are decimals, as they were written, until they are converted to SI (files/units.py).
 _AS_FLOAT = PlainSerializer(_plain, when_used="json")
 Number = Annotated[Decimal, PlainValidator(_number), _AS_FLOAT, WithJsonSchema({"type": "number"})]
 Vector = Annotated[tuple[Decimal, Decimal, Decimal], PlainValidator(_vector), _AS_FLOAT, WithJsonSchema(_VECTOR_SCHEMA)]
+Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator(_quaternion)]
+Buttons = Annotated[list[int], PlainValidator(_buttons)]
 WholeNumber = Annotated[int, PlainValidator(_whole_number), WithJsonSchema({"type": "integer"})]
 Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": "string"})]
