@@ -40,8 +40,9 @@ def cpp_imports(root: Path) -> Iterator[Import]:
 
 def page_imports(root: Path) -> Iterator[Import]:
     """All imports of the page's own files, also of types, and dynamic ones."""
-    files = [path for path in sources(root, (".ts",), generated=True) if path.startswith(PAGE)]
-    for path, text in _texts(root, files):
+    files = [path for path in sources(root, (".ts", ".json"), generated=True) if path.startswith(PAGE)]
+    code = [path for path in files if path.endswith(".ts")]
+    for path, text in _texts(root, code):
         for line, name in _matches(_PAGE_IMPORT, text):
             target = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
             yield Import(path, line, name, target if target in files else None)

@@ -15,7 +15,7 @@ from punctura.exercise.path import Path, PathSoFar
 from punctura.exercise.result import Metrics, Overshoot
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
-from punctura.live.summary import LIMIT_WORDS
+from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # after a pop, where no goal says otherwise: a hand's own reaction comes later
 
@@ -43,7 +43,7 @@ class Measures:
         self._entry_angle: float | None = None
         self._next_tick: int | None = None
         self._lost = 0
-        self._cut = dict.fromkeys(LIMIT_WORDS, 0)  # ticks
+        self._cut = dict.fromkeys(CUTS, 0)  # ticks
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
 
@@ -55,7 +55,7 @@ class Measures:
         self.attempts += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
-        for name in LIMIT_WORDS:
+        for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
         self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]

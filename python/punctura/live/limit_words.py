@@ -1,0 +1,21 @@
+"""The limits of the force in words, for the terminal, results and the page.
+
+`python -m punctura.live.limit_words` prints them for the page (web: npm run types).
+"""
+
+from __future__ import annotations
+
+import json
+
+# By the names of punctura._core.Limit, in the order of their codes.
+LIMIT_WORDS = {
+    "none": "",
+    "ramp": "growing after it was turned on",
+    "peak": "peak limit",
+    "continuous": "long-run limit",
+    "temperature": "warm motors",
+}
+CUTS = ("peak", "continuous", "temperature")  # they cut the force; a force that grows after arming is no news
+
+if __name__ == "__main__":
+    print(json.dumps({"words": LIMIT_WORDS, "cuts": CUTS}, indent=2))
