@@ -31,7 +31,7 @@ class Measures:
         self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
         self._space = space
-        self.attempts = 0
+        self.entries = 0
         self.peak_force = 0.0
         self.first_touch: float | None = None
         self.arrival: float | None = None
@@ -52,7 +52,7 @@ class Measures:
             return
         self._count(ticks)
         touches = [event for event in events if event.what == "touch" and event.membrane == 0]
-        self.attempts += len(touches)
+        self.entries += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
         for name in CUTS:
@@ -122,7 +122,7 @@ class Measures:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
         return Metrics(
-            attempts=self.attempts,
+            entries=self.entries,
             peak_force=self.peak_force,
             overshoot=self._overshoots,
             dwell=self.dwell,

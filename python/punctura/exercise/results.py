@@ -24,7 +24,7 @@ _LARGEST = 20_000_000  # bytes; a result has some kilobytes
 # A row of the table: its column's name, and where it stands in a result. Units for people, as in `punctura simulate`.
 COLUMNS = (
     "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
-    "reasons", "attempts",
+    "reasons", "entries",
     "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
     "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
     "force_cut_s",
@@ -127,7 +127,7 @@ def _row(result: Result) -> dict[str, Any]:
     return row | {
         "not_measured": "; ".join(result.unmeasured),
         "reasons": " ".join(result.reasons),
-        "attempts": m.attempts,
+        "entries": m.entries,
         "peak_force_N": m.peak_force,
         "largest_overshoot_mm": _times(largest, 1e3),
         "dwell_s": m.dwell,

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ATTEMPTS, MOST_N, MOST_S
+from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ENTRIES, MOST_N, MOST_S
 from punctura.files.tables import Table
 
 Text = Annotated[str, Field(min_length=1, max_length=2000)]
@@ -93,15 +93,15 @@ class PeakForce(_Goal):
     at_most_N: Newtons
 
 
-class Attempts(_Goal):
+class Entries(_Goal):
     """The first membrane is entered no more often."""
 
-    kind: Literal["attempts"]
-    at_most: Annotated[int, Field(ge=1, le=MOST_ATTEMPTS)]
+    kind: Literal["entries"]
+    at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
 
 
 AnyGoal = Annotated[
-    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Attempts, Field(discriminator="kind")
+    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Entries, Field(discriminator="kind")
 ]
 
 

@@ -46,7 +46,7 @@ class ExerciseActivity:
     def finish(self) -> Outcome:
         """Saves the result, unless the needle has never entered and nothing was decided."""
         result = self._attempt.finish(self._person, self._recording)
-        if not self._attempt.over and result.metrics.attempts == 0:
+        if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
         try:
             name = self._results.save(result).name

@@ -37,7 +37,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
       sound.click(pop.drop);
       if (found) rumble(found, pop.drop);
     }
-    if (sound.on) sound.rub(source.cursor.value === null || !source.live ? felt.power(source) : 0);
+    if (sound.on) sound.setFriction(source.cursor.value === null || !source.live ? felt.power(source) : 0);
     const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press one of its buttons";
     if (words === name) return;
     name = words;

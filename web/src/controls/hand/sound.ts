@@ -47,7 +47,7 @@ export class Sound {
   }
 
   /** power: W. */
-  rub(power: number): void {
+  setFriction(power: number): void {
     if (!this.context || !this.friction || !this.tone) return;
     const loud = Math.min(1, power / LOUD_WATT) ** 0.6;
     this.friction.gain.setTargetAtTime(0.5 * loud, this.context.currentTime, FOLLOW_S);
