@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
@@ -50,7 +49,7 @@ def _path_of(name_or_path: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _scene_of(given: Any, path: Path) -> tuple[Scene | None, str, list[Problem]]:
+def _scene_of(given: object, path: Path) -> tuple[Scene | None, str, list[Problem]]:
     if not isinstance(given, str) or not given:
         return None, "", []
     name = given if given in scene_names() else str(path.parent / given)

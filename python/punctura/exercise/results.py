@@ -10,7 +10,6 @@ import secrets
 import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from pydantic import ValidationError
 
@@ -120,7 +119,7 @@ def to_json(results: Iterable[Result]) -> str:
     return "[" + ",\n".join(result.model_dump_json(indent=1) for result in results) + "]\n"
 
 
-def _row(result: Result) -> dict[str, Any]:
+def _row(result: Result) -> dict[str, object]:
     m = result.metrics
     largest = max((one.distance for one in m.overshoot), default=None)
     row = {name: getattr(result, name) for name in COLUMNS[:9]}

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
+from pydantic.json_schema import JsonSchemaValue
 
 from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ENTRIES, MOST_N, MOST_S
 from punctura.files.tables import Table
@@ -117,6 +118,6 @@ class ExerciseFile(Table):
     goal: Annotated[list[AnyGoal], Field(min_length=1)]
 
 
-def exercise_json_schema() -> dict[str, Any]:
+def exercise_json_schema() -> JsonSchemaValue:
     """JSON Schema of exercise files."""
     return ExerciseFile.model_json_schema()

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Any
+from typing import TypeAlias, cast
 
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml_bounds import MOST_BYTES, excess
@@ -17,6 +17,8 @@ if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
+
+Tables: TypeAlias = dict[str, object]  # of a TOML file
 
 
 def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
@@ -51,7 +53,7 @@ def read_text(path: Path, what: str) -> str:
         raise _error(path, f"cannot be read: {bad.strerror}") from None
 
 
-def read_tables(path: Path, what: str, parse_float: Callable[[str], Any] | None = None) -> dict[str, Any]:
+def read_tables(path: Path, what: str, parse_float: Callable[[str], object] | None = None) -> Tables:
     """The tables of a TOML file. what, parse_float: see read_text and parse_toml. Raises ConfigurationError."""
     return parse_toml(read_text(path, what), path, parse_float)
 
@@ -63,7 +65,7 @@ def _decimal(text: str) -> Decimal:
         return Decimal(float(text))
 
 
-def parse_toml(text: str, path: Path, parse_float: Callable[[str], Any] | None = None) -> dict[str, Any]:
+def parse_toml(text: str, path: Path, parse_float: Callable[[str], object] | None = None) -> Tables:
     """The tables of a TOML text. parse_float: converts fractions; without it they stay the decimals that were written.
 
     Raises ConfigurationError.
@@ -72,7 +74,7 @@ def parse_toml(text: str, path: Path, parse_float: Callable[[str], Any] | None =
     if beyond:
         raise _error(path, beyond.reason, f"line {beyond.line}")
     try:
-        return tomllib.loads(text, parse_float=parse_float or _decimal)
+        return cast(Tables, tomllib.loads(text, parse_float=parse_float or _decimal))
     except tomllib.TOMLDecodeError as bad:
         message = str(bad)
         found = re.search(r" \(at (line \d+, column \d+|end of document)\)$", message)

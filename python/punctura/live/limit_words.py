@@ -1,11 +1,6 @@
-"""The limits of the force in words, for the terminal, results and the page.
-
-`python -m punctura.live.limit_words` prints them for the page (web: npm run types).
-"""
+"""The limits of the force in words, for the terminal, results and the page."""
 
 from __future__ import annotations
-
-import json
 
 # By the names of punctura._core.Limit, in the order of their codes.
 LIMIT_WORDS = {
@@ -16,6 +11,3 @@ LIMIT_WORDS = {
     "temperature": "warm motors",
 }
 CUTS = ("peak", "continuous", "temperature")  # they cut the force; a force that grows after arming is no news
-
-if __name__ == "__main__":
-    print(json.dumps({"words": LIMIT_WORDS, "cuts": CUTS}, indent=2))

@@ -110,5 +110,5 @@ class RunSummary:
         acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
         return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         return {key: value for key, value in asdict(self).items() if not key.startswith("_")}

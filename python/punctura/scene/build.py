@@ -37,7 +37,7 @@ class _Reader:
 
     def table(self, raw: object, path: str, model: type[Any]) -> dict[str, Any]:
         """The values of one table by the core's names; where the file has none that serve, a default or a stand-in."""
-        given: Mapping[str, Any] = raw if isinstance(raw, dict) else {}
+        given: Mapping[str, object] = raw if isinstance(raw, dict) else {}
         values: dict[str, Any] = {}
         for key, info in model.model_fields.items():
             name, unit = split_key(key)
@@ -67,7 +67,7 @@ def _si(value: Any, unit: Any) -> Any:
     return to_si(value, unit) if isinstance(value, Decimal) else value
 
 
-def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts:
+def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Parts:
     """Reads what can be read of the tables; `unsound` are the paths that the schema has refused."""
     reader = _Reader(unsound)
     needle = reader.table(data.get("needle"), "needle", NeedleTable)

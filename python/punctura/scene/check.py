@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from punctura import _core
 from punctura.errors import MISSING, Problem
 from punctura.files.tables import Location, Schema, location_of, shown
+from punctura.files.toml import Tables
 from punctura.files.units import split_key, to_si
 from punctura.scene.build import Parts, scene_parts
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
@@ -31,7 +32,7 @@ _SCHEMA = Schema(
 _ENOUGH = 100  # membranes to look at: more than the core takes, and so few that all their problems can be told
 
 
-def check_tables(data: dict[str, Any]) -> tuple[SceneFile | None, list[Problem]]:
+def check_tables(data: Tables) -> tuple[SceneFile | None, list[Problem]]:
     """The scene file of these tables, if it is sound, and every problem if it is not."""
     tables = data.get("membrane")
     if isinstance(tables, list) and len(tables) > _ENOUGH:
@@ -48,7 +49,7 @@ def check_tables(data: dict[str, Any]) -> tuple[SceneFile | None, list[Problem]]
     return (None if problems else scene_file), [problem for _, problem in problems]
 
 
-def _alternative_problems(data: Mapping[str, Any]) -> Iterator[Problem]:
+def _alternative_problems(data: Mapping[str, object]) -> Iterator[Problem]:
     needle = data.get("needle")
     if not isinstance(needle, dict):
         return
@@ -63,7 +64,7 @@ def _alternative_problems(data: Mapping[str, Any]) -> Iterator[Problem]:
         yield Problem("needle.gauge", gauge, f"must be a gauge of ISO 9626, {low} to {high}")
 
 
-def _domain_problems(data: Mapping[str, Any], unsound: set[str]) -> list[Problem]:
+def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Problem]:
     parts: Parts = scene_parts(data, unsound)
     problems = []
     for path, value, reason in _core.scene_problems(*parts.arguments[:5]):
@@ -96,7 +97,7 @@ def _bound_in_unit(path: str, key_path: str, value: float) -> str:
     return ""
 
 
-def _lookup(data: Any, path: str) -> Any:
+def _lookup(data: object, path: str) -> object:
     for part in location_of(path):
         if isinstance(data, list) and isinstance(part, int) and part < len(data):
             data = data[part]
@@ -110,7 +111,7 @@ def _lookup(data: Any, path: str) -> Any:
 class _Order:
     """Where a problem's field stands in the file, so that problems are told from top to bottom."""
 
-    def __init__(self, data: Mapping[str, Any]) -> None:
+    def __init__(self, data: Mapping[str, object]) -> None:
         self._data = data
         self._ranks: dict[int, dict[str, int]] = {}  # of a table's keys, by the table
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any
+from typing import TypeAlias
 
 from punctura.errors import ConfigurationError
 from punctura.exercise import Exercise
@@ -19,7 +19,7 @@ from punctura.studio.session import Session
 from punctura.studio.wire import requests as ask
 from punctura.studio.wire.messages import Notice, Reply
 
-Done = tuple[str, dict[str, Any]]  # a reply's text and data
+Done: TypeAlias = tuple[str, dict[str, str | int]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
@@ -27,7 +27,7 @@ class NotNow(ValueError):
     """Something that cannot be done as things are; the text says why."""
 
 
-def prepare(request: Any, session: Session) -> Job:
+def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     """What the worker shall do. Raises what `refusal` knows, with nothing done. A pause is no job: Session.pause."""
     match request:
         case ask.Arm():
@@ -61,7 +61,7 @@ def refusal(number: int, error: Exception) -> Reply | None:
     return None
 
 
-def _prepare_scene(request: Any) -> Job:
+def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:
     if isinstance(request, ask.Edit):
         loaded = from_tables(request.tables)
         return lambda session: _edit(session, loaded)
@@ -103,7 +103,9 @@ def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     do()
 
 
-def _prepare_take(request: Any, session: Session) -> Job:
+def _prepare_take(
+    request: ask.StartRecording | ask.StopRecording | ask.StartExercise | ask.EndExercise, session: Session
+) -> Job:
     match request:
         case ask.StartRecording():
             _refuse_second(session)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -49,8 +49,18 @@ def limits_of(run: Run) -> LimitsPart:
     )
 
 
-def spread(times: dict[str, Any]) -> Spread:
-    """Quantiles, and the bins between the first and the last that hold anything."""
+class Times(TypedDict):
+    """Quantiles and a histogram of `ServoLoop.report`, s."""
+
+    p50: float
+    p99: float
+    p99_9: float
+    largest: float
+    counts: list[int]
+
+
+def spread(times: Times) -> Spread:
+    """Quantiles, and the bins from the first to the last that is not empty."""
     counts = np.asarray(times["counts"])
     filled = np.flatnonzero(counts)
     first, end = (int(filled[0]), int(filled[-1]) + 1) if len(filled) else (0, 0)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.toml import parse_toml, read_text
+from punctura.files.toml import Tables, parse_toml, read_text
 from punctura.scene import scene_path
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
@@ -28,7 +27,7 @@ class Loaded:
     file: SceneFile
     scene: Scene
 
-    def tables(self) -> dict[str, Any]:
+    def tables(self) -> Tables:
         """As JSON has them, with the file's keys; defaults are filled in."""
         return self.file.model_dump(mode="json", exclude_none=True)
 
@@ -37,7 +36,7 @@ class Loaded:
         return file_text(self.file)
 
 
-def from_tables(tables: dict[str, Any], source: str = "") -> Loaded:
+def from_tables(tables: Tables, source: str = "") -> Loaded:
     """Raises ConfigurationError with every problem, in the file's own keys."""
     try:
         file, problems = check_tables(tables)

@@ -13,6 +13,7 @@ from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
+from punctura.studio.wire.frames import Columns
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ class Run:
         self.loaded = loaded
         self.scenes += 1
 
-    def read(self) -> dict[str, Any]:
+    def read(self) -> Columns:
         """All ticks since the last read, as columns."""
         return self._listener.read()
 
