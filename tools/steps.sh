@@ -141,19 +141,21 @@ step_python() {
 
 # The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
 step_web() {
-  local types=src/wire/messages.ts code=0
+  local types="src/wire/messages.ts src/wire/limit_words.json" file code=0
   export NO_COLOR=1
   python tools/build_backend/studio_page.py && python tools/build_backend/studio_page.py --modules || return
   python tools/check_bundle.py || code=1
   cd web || return
   npm run -s check || code=1
   npm run -s lint || code=1
-  cp "$types" "$root/build/messages.ts"
-  if ! npm run -s types >/dev/null || ! cmp -s "$types" "$root/build/messages.ts"; then
-    diff "$root/build/messages.ts" "$types" || true
-    cp "$root/build/messages.ts" "$types"
-    echo "web/$types is not what python/punctura/studio/wire says: cd web && npm run types" && code=1
-  fi
+  for file in $types; do cp "$file" "$root/build/${file##*/}"; done
+  npm run -s types >/dev/null || code=1
+  for file in $types; do
+    cmp -s "$file" "$root/build/${file##*/}" && continue
+    diff "$root/build/${file##*/}" "$file" || true
+    cp "$root/build/${file##*/}" "$file"
+    echo "web/$file is not what the Python package says: cd web && npm run types" && code=1
+  done
   npm test || code=1
   return $code
 }

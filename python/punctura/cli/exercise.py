@@ -55,7 +55,7 @@ def score(
     for goal in result.goals:
         typer.echo(f"  {state(goal):{width}}  {goal.text}")
     m = result.metrics
-    typer.echo(f"  {m.attempts} {'entry' if m.attempts == 1 else 'entries'}, model force {m.peak_force:.2f} N at most")
+    typer.echo(f"  {m.entries} {'entry' if m.entries == 1 else 'entries'}, model force {m.peak_force:.2f} N at most")
     typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:

@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from punctura._core import DeviceError, ServoLoop
+from punctura.files.whole_file import write_whole
 from punctura.live import fit_direction, open_for, placement_from_pose, placement_text, present_pose
 from punctura.scene import load_scene
 
@@ -58,6 +59,6 @@ def command(
     placement = placement_from_pose(
         position, inward if note else axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
     )
-    out.write_text(placement_text(placement), encoding="utf-8")
+    write_whole(out, placement_text(placement).encode("utf-8"))
     on = f" --device {device}" if device else ""
     typer.echo(f"{out}: written. Try it: punctura run {scene} --headless{on} --placement {out}")

@@ -1,44 +1,39 @@
-"""Placement files: where a device stands in the scene. TOML, in millimetres; a rotation is a quaternion."""
+"""Placement files: the place of a device in the scene. TOML, in millimetres; the rotation is a quaternion."""
 
 from __future__ import annotations
 
 import os
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Placement
-from punctura.errors import ConfigurationError, Problem
-from punctura.live.tables import Key, Number, Vector, read_table
+from punctura.files.fields import Number, Quaternion, Vector
+from punctura.files.tables import Table
+from punctura.live.tables import in_si, read_table
 
-KEYS: dict[str, Key] = {"rotation": Vector(4), "offset_mm": Vector(3), "scale": Number(), "tip_offset_mm": Number()}
+
+class PlacementFile(Table):
+    """The keys of a placement file."""
+
+    rotation: Quaternion | None = None
+    offset_mm: Vector | None = None
+    scale: Number | None = None
+    tip_offset_mm: Number | None = None
 
 
 def load_placement(path: str | os.PathLike[str]) -> Placement:
     """Reads a placement file. Raises ConfigurationError with all of its problems."""
-    return _placement(read_table(path, "placement", KEYS, _refused))
+    return _placement(read_table(path, "placement", PlacementFile, (_placement,)))
 
 
-def _placement(table: dict[str, Any]) -> Placement:
-    metres = [x * 1e-3 for x in table.get("offset_mm", (0.0, 0.0, 0.0))]
-    return Placement(
-        rotation=table.get("rotation", (1.0, 0.0, 0.0, 0.0)),
-        offset=(metres[0], metres[1], metres[2]),
-        scale=table.get("scale", 1.0),
-        tip_offset=table.get("tip_offset_mm", 0.0) * 1e-3,
-    )
-
-
-def _refused(table: dict[str, Any]) -> list[Problem]:
-    """What the core has against the values, told of the file's own keys."""
-    try:
-        _placement(table)
-    except ConfigurationError as error:
-        names = {name.removesuffix("_mm"): name for name in KEYS}
-        keys = [names[problem.path.rpartition(".")[2]] for problem in error.problems]
-        return [Problem(key, table[key], problem.reason) for key, problem in zip(keys, error.problems, strict=True)]
-    return []
+def _placement(file: PlacementFile) -> Placement:
+    given = Placement()
+    w, x, y, z = map(float, file.rotation) if file.rotation else given.rotation
+    a, b, c = (in_si("offset_mm", part) for part in file.offset_mm) if file.offset_mm else given.offset
+    scale = given.scale if file.scale is None else float(file.scale)
+    tip = given.tip_offset if file.tip_offset_mm is None else in_si("tip_offset_mm", file.tip_offset_mm)
+    return Placement((w, x, y, z), (a, b, c), scale, tip)
 
 
 def placement_text(placement: Placement) -> str:

@@ -10,7 +10,6 @@ import threading
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from starlette.requests import Request
@@ -121,7 +120,7 @@ class Api:
             return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
 
     def exercises(self, request: Request) -> Response:
-        return JSONResponse(self._session.exercises.overviews())
+        return JSONResponse([entry.model_dump(mode="json") for entry in self._session.exercises.overviews()])
 
     def results(self, request: Request) -> Response:
         person = request.query_params.get("person")
@@ -164,8 +163,8 @@ def _sentence(status: int, text: str) -> Response:
     return PlainTextResponse(text + "\n", status)
 
 
-def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Any]:
-    """What goes wrong becomes a status and a sentence."""
+def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
+    """Errors become an HTTP status and a sentence."""
 
     def told(request: Request) -> Response:
         try:

@@ -7,7 +7,7 @@ import contextlib
 import json
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -18,7 +18,7 @@ from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import LoadText, Pause, TakeControl, Target
+from punctura.studio.wire.requests import LoadText, NumberedRequest, Pause, TakeControl, Target
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
@@ -28,7 +28,7 @@ MOST_ORDERS = 64  # requests of a page that wait for those before them
 class Order(NamedTuple):
     """A request that takes its time."""
 
-    request: Any
+    request: NumberedRequest
     pauses: int  # that were asked for before it
 
 
@@ -96,7 +96,7 @@ async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, o
 
 def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Order | None:
     try:
-        request: Any = parse_request(text)
+        request = parse_request(text)
     except ValidationError as error:
         return _not_understood(text, error)
     if len(text) > MOST_TEXT and not isinstance(request, LoadText):
@@ -112,10 +112,10 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
         return refused
     if isinstance(request, Pause):
         session.pause()
-    return Order(request, session.pauses)
+    return Order(request, session.arming.pauses)
 
 
-def _refused(request: Any, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
+def _refused(request: NumberedRequest, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
     if hub.holder != viewer.number:
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:

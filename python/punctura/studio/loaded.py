@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.toml import Tables, parse_toml, read_text
 from punctura.scene import scene_path
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
-from punctura.scene.parse import parse_toml, read_text
 from punctura.scene.schema import SceneFile
 from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
@@ -28,7 +27,7 @@ class Loaded:
     file: SceneFile
     scene: Scene
 
-    def tables(self) -> dict[str, Any]:
+    def tables(self) -> Tables:
         """As JSON has them, with the file's keys; defaults are filled in."""
         return self.file.model_dump(mode="json", exclude_none=True)
 
@@ -37,7 +36,7 @@ class Loaded:
         return file_text(self.file)
 
 
-def from_tables(tables: dict[str, Any], source: str = "") -> Loaded:
+def from_tables(tables: Tables, source: str = "") -> Loaded:
     """Raises ConfigurationError with every problem, in the file's own keys."""
     try:
         file, problems = check_tables(tables)
@@ -60,7 +59,7 @@ def from_text(text: str, source: str = "the file") -> Loaded:
 def from_name(path_or_name: str) -> Loaded:
     """A ready scene or a file, as load_scene takes them. Raises ConfigurationError."""
     path = scene_path(path_or_name)
-    return from_text(read_text(path), str(path))
+    return from_text(read_text(path, "scene"), str(path))
 
 
 def problem_parts(problems: Sequence[Problem]) -> list[ProblemPart]:

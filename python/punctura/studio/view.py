@@ -7,7 +7,9 @@ import numpy as np
 from punctura import Scene, _core
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
+from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
+from punctura.studio.wire.messages import SceneMessage
 
 
 def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | None = None) -> SceneView:
@@ -28,6 +30,12 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
         tables=loaded.tables(),
         lumen=list(scene.lumen or ()),
     )
+
+
+def scene_message(run: Run, laws: list[LawCurve], new_run: bool) -> SceneMessage:
+    """The scene of this run for the pages. new_run: the run begins; else its scene has changed."""
+    view = scene_view(run.loaded, run.scenes, run.rate, laws)
+    return SceneMessage(scene=view, new_run=new_run, run=run.number)
 
 
 def membrane_views(scene: Scene) -> list[MembraneView]:

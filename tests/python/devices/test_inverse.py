@@ -3,11 +3,11 @@
 import importlib.util
 import json
 import sys
-import time
 from pathlib import Path
 
 import pytest
 from punctura import _core
+from waiting import wait_until
 
 FAKES = Path(__file__).parents[2] / "fakes"
 
@@ -21,13 +21,6 @@ def _load(name):
 
 
 fake = _load("inverse_service")
-
-
-def until(done):
-    end = time.monotonic() + 20
-    while not done():
-        assert time.monotonic() < end
-        time.sleep(0.001)
 
 
 @pytest.mark.parametrize(("version", "takes"), [("3.5.2", "vector"), ("3.4.1", "values"), ("4.0.0", "vector")])
@@ -68,9 +61,9 @@ def test_after_a_fault_the_arm_is_idle_and_the_trouble_is_in_words(fault):
         device = _core.open_device("haply", library=url)
         loop = _core.ServoLoop(device, paper_scene())
         loop.start()
-        until(lambda: loop.report()["ticks"] > 20 or device.trouble())
+        wait_until(lambda: loop.report()["ticks"] > 20 or device.trouble())
         setattr(service, fault, True)
-        until(lambda: device.trouble())
+        wait_until(lambda: device.trouble())
         assert service.idle.wait(5)
         assert service.arm.force == [0, 0, 0]
         loop.stop()
@@ -83,7 +76,7 @@ def test_after_a_stop_it_is_the_same_arm_again_or_none():
         loop = _core.ServoLoop(device, paper_scene())
         for _ in range(2):
             loop.start()
-            until(lambda: loop.report()["ticks"] > 0 and loop.latest()["sequence"][0] > 20)
+            wait_until(lambda: loop.report()["ticks"] > 0 and loop.latest()["sequence"][0] > 20)
             assert loop.latest()["fault"][0] == 0
             loop.stop()
         service.id = "BEEF"

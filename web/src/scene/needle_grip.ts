@@ -1,5 +1,5 @@
 import { Vector3 } from "three";
-import type { Hand } from "../controls/hand_model.ts";
+import type { Hand } from "../hand/hand.ts";
 import type { OrbitCamera } from "./camera.ts";
 import type { GestureHandler } from "./gestures.ts";
 import { MM } from "./moment.ts";

@@ -249,7 +249,7 @@ export interface Reply {
   text?: string;
   problems?: ProblemPart[];
   data?: {
-    [k: string]: unknown;
+    [k: string]: string | number;
   };
 }
 /**

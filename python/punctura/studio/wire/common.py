@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Vector = Annotated[list[Finite], Field(min_length=3, max_length=3)]
 Name = Annotated[str, Field(min_length=1, max_length=80)]
-Tables = dict[str, Any]  # a scene file's tables, with its keys and units: docs/scene-file.md
+Tables = dict[str, object]  # a scene file's tables, with its keys and units: docs/scene-file.md
 
 
 class Part(BaseModel):

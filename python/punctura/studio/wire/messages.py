@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -174,7 +174,7 @@ class Reply(Part):
     ok: bool
     text: str = ""
     problems: list[ProblemPart] = Field(default_factory=list)
-    data: dict[str, Any] = Field(default_factory=dict)
+    data: dict[str, str | int] = Field(default_factory=dict)
 
 
 class Notice(Part):

@@ -118,6 +118,10 @@ class TripFault(_Request):
     do: Literal["trip_fault"] = "trip_fault"
 
 
+NumberedRequest = (
+    TakeControl | Arm | Pause | Reset | Strokes | PlayMotion | Edit | Load | LoadText | Compare
+    | StartRecording | StopRecording | StartExercise | EndExercise | TripFault
+)  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
     | StartRecording | StopRecording | StartExercise | EndExercise | TripFault,

@@ -21,6 +21,7 @@ import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 export function openResult(
   app: App,
   result: ExerciseResult,
+  title: string,
   exercise: ExerciseOverview | null,
   again: (() => void) | null,
 ): void {
@@ -39,7 +40,7 @@ export function openResult(
       element(
         "h2",
         { id: "result-title" },
-        result.title,
+        title,
         " ",
         element("span", { class: result.passed ? "passed" : "failed" }, verdict(result)),
       ),
