@@ -109,6 +109,9 @@ class Limits(NamedTuple):
 def load_limits(path: str | os.PathLike[str]) -> Limits:
     """Reads a limits file. Raises ConfigurationError with all of its problems."""
     file = read_table(
-        path, "limits", LimitsFile, (lambda file: ForceLimits(**file.force), lambda file: GateLimits(**file.gate))
+        path,
+        "limits",
+        LimitsFile,
+        (lambda file: ForceLimits(**file.force), lambda file: GateLimits().replace(**file.gate)),
     )
     return Limits(ForceLimits(**file.force), file.gate, file.force)
