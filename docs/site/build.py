@@ -7,7 +7,6 @@ Any warning of Sphinx is an error: a broken link, a notebook that fails, a docst
 
 from __future__ import annotations
 
-import os
 import shutil
 import sys
 from pathlib import Path
@@ -28,7 +27,6 @@ def write(path: Path, text: str) -> None:
 
 
 def main() -> int:
-    os.environ["MPLBACKEND"] = "agg"
     source, html = OUT / "source", OUT / "html"
     shutil.rmtree(html, ignore_errors=True)
     lay_out(source)

@@ -1,7 +1,7 @@
 """The C++ reference: one page a room, from the public headers and the comments in them.
 
-The headers are parsed as text (tree-sitter), without a compiler and without their includes. A declaration is shown as it is
-written. `///` comments stand above what they describe, `///<` comments behind it.
+The headers are parsed as text (tree-sitter), without a compiler and without their includes. A declaration is shown as
+it is written. `///` comments stand above what they describe, `///<` comments behind it.
 """
 
 from __future__ import annotations
@@ -42,6 +42,10 @@ def room(header: str) -> str:
     return Path(header).parent.name if header.startswith("core/") else "runtime-" + Path(header).parent.name
 
 
+def parse(source: str) -> Node:
+    return PARSER.parse(source.encode()).root_node
+
+
 def squeeze(text: str) -> str:
     return re.sub(r"\s+", " ", re.sub(r"//[^\n]*", "", text)).strip().rstrip(";").strip()
 
@@ -66,7 +70,12 @@ def entries(block: Node, public: bool = True, owner: str = "") -> Iterator[Entry
                 body = node.child_by_field_name("body")
                 if body is not None:
                     inside = "" if name.text == b"punctura" else (name.text or b"").decode() + "::"
-                    yield from (e._replace(text=qualified(e.text, inside)) for e in entries(body))
+                    for one in entries(body):
+                        said = "\n".join([*comment, "", one.comment]).strip()  # the namespace's own words, once
+                        comment = []
+                        yield one._replace(text=qualified(one.text, inside), comment=said)
+        elif node.type in ("preproc_if", "preproc_ifdef"):
+            yield from entries(node, public, owner)
         elif public and node.is_named:
             behind = trailing(children[place + 1 :], node)
             yield from entry(node, "\n".join([*comment, behind]).strip(), owner)
@@ -152,7 +161,7 @@ def declaration(node: Node, text: str, comment: str, owner: str, prefix: str) ->
 
 
 def is_function(node: Node) -> bool:
-    """Whether a declaration declares a function, which may give a pointer or a reference; not a pointer to a function."""
+    """Whether a declaration declares a function; a pointer to a function is none."""
     found = node.child_by_field_name("declarator")
     while found is not None and found.type != "function_declarator":
         found = found.child_by_field_name("declarator") or next(
@@ -226,6 +235,6 @@ def pages() -> Iterator[tuple[str, str]]:
             include = header.split("/", 1)[1]
             lines += [f".. _{header}:", "", *heading(include, "-"), about(text), ""]
             lines += ["", ".. code-block:: cpp", "", f'   #include "{include}"', "", ".. cpp:namespace:: punctura", ""]
-            for one in entries(PARSER.parse(text.encode()).root_node):
+            for one in entries(parse(text)):
                 lines += shown(one)
         yield f"{name}.rst", "\n".join(lines)

@@ -8,16 +8,10 @@ from typing import Any
 
 from text import heading
 
-PACKAGES = {
-    "punctura": "Needle, membranes, laws, proxies, scenes, simulation",
-    "punctura.live": "Devices and the servo loop",
-    "punctura.record": "Recordings",
-    "punctura.events": "Touch, pop, out",
-    "punctura.exercise": "Exercises, attempts, results",
-    "punctura.scene": "Scene files",
-    "punctura.simulation": "From motion file to force file",
-    "punctura.reproduce": "The figures of K06",
-}
+PACKAGES = [
+    "punctura", "punctura.scene", "punctura.simulation", "punctura.live", "punctura.record", "punctura.events",
+    "punctura.exercise", "punctura.reproduce",
+]  # fmt: skip
 
 
 def python_pages() -> Iterator[tuple[str, str]]:
@@ -25,12 +19,12 @@ def python_pages() -> Iterator[tuple[str, str]]:
     index = [*heading("Python reference"), ".. toctree::", "", *(f"   {name}" for name in PACKAGES), ""]
     yield "index.rst", "\n".join(index)
     shown: set[int] = set()
-    for name, words in PACKAGES.items():
+    for name in PACKAGES:
         package = importlib.import_module(name)
         again = [member for member in package.__all__ if id(getattr(package, member)) in shown]
         shown |= {id(getattr(package, member)) for member in package.__all__}
         directive = [f".. automodule:: {name}", *([f"   :exclude-members: {', '.join(again)}"] if again else [])]
-        yield f"{name}.rst", "\n".join([*heading(name), f"{words}.", "", *directive, ""])
+        yield f"{name}.rst", "\n".join([*heading(name), *directive, ""])
 
 
 def command_line_page() -> str:
@@ -51,26 +45,29 @@ def cell(value: object) -> str:
 
 def bounds(schema: dict[str, Any]) -> str:
     """What a value may be: a list of words, or a range."""
-    if "enum" in schema or "const" in schema:
-        return ", ".join(f"`{value}`" for value in schema.get("enum", [schema.get("const")]))
+    words = schema.get("enum", [schema["const"]] if "const" in schema else [])
+    if len(words) > 5 and words == list(range(words[0], words[-1] + 1)):
+        return f"{words[0]} to {words[-1]}"
     signs = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
-    return " and ".join(f"{sign} {schema[key]:g}" for key, sign in signs.items() if key in schema)
+    return ", ".join(f"`{word}`" for word in words) or " and ".join(
+        f"{sign} {schema[key]:g}" for key, sign in signs.items() if key in schema
+    )
 
 
 def table(schema: dict[str, Any]) -> Iterator[str]:
-    yield "| key | unit | symbol | allowed | default | meaning |"
+    yield "| key | meaning | unit | allowed | default | K06 |"
     yield "|---|---|---|---|---|---|"
-    required = schema.get("required", [])
     for key, value in schema["properties"].items():
         if "$ref" in value or value.get("items", {}).get("$ref"):
             continue
-        default = "" if key in required or value.get("default") is None else f"`{value['default']}`"
+        given = value.get("default")
+        default = "required" if key in schema.get("required", []) else "" if given is None else f"`{given}`"
         columns = (
+            value.get("description", ""),
             value.get("x-unit", ""),
-            value.get("x-symbol", ""),
             bounds(value),
             default,
-            value.get("description", ""),
+            value.get("x-symbol", ""),
         )
         yield f"| `{key}` | " + " | ".join(cell(column) for column in columns) + " |"
 
