@@ -19,7 +19,7 @@ from tree_sitter import Language, Node, Parser
 
 PARSER = Parser(Language(tree_sitter_cpp.language()))
 # What else lies below runtime/ is not for users: makers' libraries, sockets, the parts of a back-end.
-PRIVATE = re.compile(r"runtime/punctura_runtime/(os/|backends/(force_dimension|inverse|openhaptics)/)")
+PRIVATE = re.compile(r"runtime/punctura_runtime/(os/(?!os\.hpp)|backends/(force_dimension|inverse|openhaptics)/)")
 CLASSES = {"class_specifier": "class", "struct_specifier": "struct"}
 
 
@@ -65,15 +65,12 @@ def entries(block: Node, public: bool = True, owner: str = "") -> Iterator[Entry
         if node.type == "access_specifier":
             public = text.rstrip(":").strip() == "public"
         elif node.type == "namespace_definition":
-            name = node.child_by_field_name("name")
-            if name is not None and name.text not in (b"detail", b"internal"):
-                body = node.child_by_field_name("body")
-                if body is not None:
-                    inside = "" if name.text == b"punctura" else (name.text or b"").decode() + "::"
-                    for one in entries(body):
-                        said = "\n".join([*comment, "", one.comment]).strip()  # the namespace's own words, once
-                        comment = []
-                        yield one._replace(text=qualified(one.text, inside), comment=said)
+            name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+            inner = (name.text or b"").decode().removeprefix("punctura").removeprefix("::") if name else "detail"
+            if not inner and body is not None:
+                yield from entries(body)
+            elif inner != "detail" and body is not None:
+                yield Entry("namespace", inner, "\n".join(comment), tuple(entries(body)))
         elif node.type in ("preproc_if", "preproc_ifdef"):
             yield from entries(node, public, owner)
         elif public and node.is_named:
@@ -81,10 +78,6 @@ def entries(block: Node, public: bool = True, owner: str = "") -> Iterator[Entry
             yield from entry(node, "\n".join([*comment, behind]).strip(), owner)
         if node.is_named:
             comment = []
-
-
-def qualified(text: str, prefix: str) -> str:
-    return text if not prefix else re.sub(r"(\w+)(\s*(?:\(|=|$|\{))", prefix + r"\1\2", text, count=1)
 
 
 def trailing(after: list[Node], node: Node) -> str:
@@ -179,6 +172,8 @@ class Config:
 
 
 def sphinx_reads(one: Entry) -> bool:
+    if one.kind == "namespace":
+        return True
     kinds = {"enum-class": "enum", "struct": "class"}
     try:
         parser = DefinitionParser(one.text, location=None, config=Config())  # type: ignore[arg-type]
@@ -192,7 +187,9 @@ def sphinx_reads(one: Entry) -> bool:
 def shown(one: Entry, indent: str = "") -> Iterator[str]:
     """The lines of reStructuredText for one entry."""
     comment, _, listing = one.comment.partition("::code\n")
-    if sphinx_reads(one):
+    if one.kind == "namespace":
+        yield f".. cpp:namespace-push:: {one.text}"
+    elif sphinx_reads(one):
         yield f"{indent}.. cpp:{one.kind}:: {one.text}"
         indent += "   "
     else:
@@ -205,6 +202,8 @@ def shown(one: Entry, indent: str = "") -> Iterator[str]:
         yield from (f"{indent}.. code-block:: cpp", "", *(f"{indent}   {line}" for line in listing.splitlines()), "")
     for member in one.members:
         yield from shown(member, indent)
+    if one.kind == "namespace":
+        yield from (".. cpp:namespace-pop::", "")
 
 
 def about(text: str) -> str:
