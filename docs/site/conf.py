@@ -53,6 +53,8 @@ def short(signature: str) -> str:
 
 def setup(app: Any) -> None:
     def docstring(app: Any, what: str, name: str, item: object, options: Any, lines: list[str]) -> None:
+        if what == "property" and lines and (kind := re.fullmatch(r"\(self\) -> (.+)", lines[0])):
+            lines[:] = [f"`{short(kind[1])}`", *lines[1:]]  # a compiled property without words of its own
         base = ", ".join(f"`{kind.__name__}`" for kind in item.__bases__) if isinstance(item, type) else ""
         lines[:] = docstring_rst([*lines, *([f"Derives from {base}."] if what == "exception" else [])])
 

@@ -188,7 +188,7 @@ def shown(one: Entry, indent: str = "") -> Iterator[str]:
     """The lines of reStructuredText for one entry."""
     comment, _, listing = one.comment.partition("::code\n")
     if one.kind == "namespace":
-        yield f".. cpp:namespace-push:: {one.text}"
+        yield from (f"In the namespace ``punctura::{one.text}``:", "", f".. cpp:namespace-push:: {one.text}")
     elif sphinx_reads(one):
         yield f"{indent}.. cpp:{one.kind}:: {one.text}"
         indent += "   "

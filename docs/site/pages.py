@@ -33,6 +33,9 @@ def command_line_page() -> str:
     from punctura.cli._app import build_app
 
     command: Any = typer.main.get_command(build_app())
+    for verb in [command, *command.commands.values()]:
+        for inner in getattr(verb, "commands", {}).values():
+            inner.short_help = (inner.help or "").partition("\n\n")[0].replace("\n", " ")  # else it is cut off
     text: str = typer.cli.get_docs_for_click(
         obj=command, ctx=typer.Context(command), name="punctura", title="Command line"
     )
