@@ -35,7 +35,6 @@ autodoc_default_options = {"members": True, "imported-members": True, "undoc-mem
 
 nb_execution_mode = "force"
 nb_execution_show_tb = True
-nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 
 html_theme = "furo"
