@@ -191,6 +191,8 @@ def shown(one: Entry, indent: str = "") -> Iterator[str]:
         yield from (f"In the namespace ``punctura::{one.text}``:", "", f".. cpp:namespace-push:: {one.text}")
     elif sphinx_reads(one):
         yield f"{indent}.. cpp:{one.kind}:: {one.text}"
+        if indent:
+            yield f"{indent}   :no-contents-entry:"  # the page's own contents list classes and functions, not members
         indent += "   "
     else:
         yield from (f"{indent}.. code-block:: cpp", "", f"{indent}   {one.text}")
