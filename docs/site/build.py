@@ -58,7 +58,7 @@ def main() -> int:
         print(finding)
     if code or findings:
         return 1
-    print(f"docs: {sum(1 for _ in html.rglob('*.html'))} pages passed in {html / 'index.html'}")
+    print(f"{sum(1 for _ in html.rglob('*.html'))} pages: {html / 'index.html'}")
     return 0
 
 
