@@ -1,6 +1,6 @@
 # The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
 
-all_steps="tree format types web cpp asan tsan consumer examples python page"
+all_steps="tree format types web cpp asan tsan consumer examples python docs page"
 fast_steps="tree format types web cpp python"
 
 choose_steps() {
@@ -162,6 +162,11 @@ step_web() {
 
 # The studio in a real browser, as a person uses it.
 step_page() { python -m pytest -n 2 --durations=8 tests/page; }
+
+# The documentation: every code block runs, and the site builds without a warning.
+step_docs() { side_by_side docs_snippets docs_site; }
+docs_snippets() { PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets tests/docs README.md CONTRIBUTING.md examples/README.md docs; }
+docs_site() { python docs/site/build.py; }
 
 # Every example runs, in a folder of its own.
 step_examples() {
