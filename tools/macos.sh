@@ -47,6 +47,6 @@ program() {
   echo "compiled and linked for $machine-macos, not run: $out/$1"
 }
 mapfile -t tests < <(find tests/runtime -name '*_test.cpp' | sort)
-program runtime_tests tests/runtime/support/inverse_fake.cpp "${tests[@]}"
+program runtime_tests tests/runtime/support/haply_fake.cpp "${tests[@]}"
 mapfile -t tests < <(find tests/core -name '*_test.cpp' | sort)
 program core_tests "${tests[@]}"

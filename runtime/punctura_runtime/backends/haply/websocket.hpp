@@ -1,0 +1,57 @@
+// A WebSocket to a service on this machine. Text messages one way and the other, within a deadline, without taking memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "punctura_runtime/backends/haply/frames.hpp"
+#include "punctura_runtime/backends/haply/url.hpp"
+#include "punctura_runtime/os/socket.hpp"
+
+namespace punctura::haply {
+
+/// How waiting for a message ended.
+enum class Received : std::uint8_t { message, timeout, closed, broken, too_big, failed };
+
+const char* describe(Received how) noexcept;
+
+class WebSocket {
+ public:
+  static constexpr std::size_t largest_command = 4096, largest_message = 262144;
+
+  WebSocket() : reader_(largest_message), out_(framed_size(largest_command)) {}
+
+  /// Connects and asks for the upgrade. Empty when it stands, else why not. Deadlines are times of os::now_ns().
+  std::string open(const Url& url, std::int64_t deadline);
+  bool is_open() const noexcept { return static_cast<bool>(socket_); }
+
+  /// False when not all of it left before the deadline; then the connection is of no more use.
+  bool send(std::string_view text, std::int64_t deadline) noexcept { return send(Opcode::text, text, deadline); }
+
+  /// The next text message, valid until the next call. Pings are answered on the way.
+  Received receive(std::string_view& text, std::int64_t deadline) noexcept;
+
+  /// What the server gave as its reason when it closed: printable ASCII, at most 123 characters.
+  std::string_view close_reason() const noexcept { return {reason_.data(), reason_size_}; }
+
+  /// Says goodbye where that is possible at once, and closes.
+  void close() noexcept;
+
+ private:
+  bool send(Opcode opcode, std::string_view payload, std::int64_t deadline) noexcept;
+  void keep_reason(std::string_view payload) noexcept;
+
+  os::Socket socket_;
+  FrameReader reader_;
+  std::vector<char> out_;
+  std::uint64_t mask_ = 0;
+  std::array<char, 125> reason_{};
+  std::size_t reason_size_ = 0;
+};
+
+/// GET path: the body of the answer, at most 16 KiB, or empty with `error` set.
+std::string http_get(const Url& url, std::string_view path, std::int64_t deadline, std::string& error);
+
+}  // namespace punctura::haply
