@@ -16,6 +16,6 @@ printf '\x40\x01\x05{"inv\x89\x01?\x80\x09erse3":3}\x81\x02{}' >build/fuzz/haply
 
 clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Icore -Iruntime -Itests \
   tests/fuzz/haply_fuzz.cpp runtime/punctura_runtime/backends/haply/{frames,handshake,json,state,service,url,websocket}.cpp \
-  runtime/punctura_runtime/os/{linux,posix_socket}.cpp -o build/fuzz/haply_fuzz
+  runtime/punctura_runtime/os/{linux,socket}.cpp -o build/fuzz/haply_fuzz
 build/fuzz/haply_fuzz -max_total_time="$seconds" -max_len=8192 -timeout=5 -rss_limit_mb=512 -print_final_stats=1 \
   -artifact_prefix=build/fuzz/haply- build/fuzz/haply

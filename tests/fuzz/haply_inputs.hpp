@@ -44,7 +44,7 @@ inline void read_anything(std::string_view input) {
   input.remove_prefix(1);
   if (how == 0) return read_text(input);
   if (how == 1) {
-    haply::upgrade_refusal(input, "dGhlIHNhbXBsZSBub25jZQ==");
+    haply::upgrade_refusal(input);
     haply::find_version(input);
     haply::parse_url(input);
     return;

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "punctura_runtime/os/socket.hpp"
+#include "runtime/support/listener.hpp"
 
 using namespace punctura;
 
@@ -74,7 +74,7 @@ TEST_CASE("a library that is nowhere is told by its name, in words") {
 TEST_CASE("a connection that nobody takes is refused in words, by its deadline") {
   std::uint16_t port = 0;
   {
-    const os::Listener listener;
+    const test::Listener listener;
     port = listener.port();
     REQUIRE(port != 0);
   }
@@ -86,7 +86,7 @@ TEST_CASE("a connection that nobody takes is refused in words, by its deadline")
 }
 
 TEST_CASE("sockets carry bytes both ways, end at their deadline, and say when the other side has gone") {
-  os::Listener listener;
+  test::Listener listener;
   const auto soon = [] { return os::now_ns() + 10'000'000'000; };
   std::string error;
   auto client = os::Socket::connect("127.0.0.1", listener.port(), soon(), error);

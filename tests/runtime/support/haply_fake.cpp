@@ -120,11 +120,11 @@ void HaplyFake::serve(os::Socket client) {
                                  ? "HTTP/1.1 404 Not Found\r\n\r\n"
                                  : "HTTP/1.1 200 OK\r\nContent-Type: application/json\r\n\r\n" + body;
     client.send(text.data(), text.size(), soon());
-  } else if (const std::size_t at = head.find("Sec-WebSocket-Key: "); at != std::string::npos) {
+  } else if (head.find("Sec-WebSocket-Key: " + std::string(haply::upgrade_key) + "\r\n") != std::string::npos) {
     const std::string text =
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
         "Sec-WebSocket-Accept: " +
-        haply::accept_for(head.substr(at + 19, 24)) + "\r\n\r\n";
+        std::string(haply::upgrade_accept) + "\r\n\r\n";
     client.send(text.data(), text.size(), soon());
     speak(client);
   }

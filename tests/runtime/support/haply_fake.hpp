@@ -13,7 +13,7 @@
 
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
-#include "punctura_runtime/os/socket.hpp"
+#include "runtime/support/listener.hpp"
 
 namespace punctura::test {
 
@@ -76,7 +76,7 @@ class HaplyFake {
   void pass(const std::array<double, 3>& force);
 
   FakeSettings settings_;
-  os::Listener listener_;
+  Listener listener_;
   Plant plant_;
   StrokesMotion motion_;
   std::array<double, 3> echo_{};

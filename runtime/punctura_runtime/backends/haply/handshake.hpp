@@ -1,23 +1,19 @@
-// The HTTP exchange by which a connection becomes a WebSocket. RFC 6455 section 4.
+// The HTTP exchange that turns a connection into a WebSocket. RFC 6455 section 4.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace punctura::haply {
 
-std::array<std::uint8_t, 20> sha1(std::string_view text);  ///< FIPS 180-4; here a proof of having understood, no secret
-std::string base64(std::string_view bytes);                ///< RFC 4648
+/// RFC 6455 asks for a random key, so that no cache between client and server answers for the server. Between two programs on one machine
+/// there is no cache. So the key is the RFC's example, and the answer to it is known: no SHA-1, no base64.
+inline constexpr std::string_view upgrade_key = "dGhlIHNhbXBsZSBub25jZQ==",
+                                  upgrade_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
 
-/// What a server must answer to a key.
-std::string accept_for(std::string_view key);
+std::string upgrade_request(std::string_view authority);
 
-/// The client's question. `key`: base64 of 16 bytes.
-std::string upgrade_request(std::string_view authority, std::string_view key);
-
-/// What is wrong with a server's answer (status line and header fields, up to the empty line); empty when it agrees.
-std::string upgrade_refusal(std::string_view answer, std::string_view key);
+/// Why a server's answer (status line and header fields, up to the empty line) is refused; empty if it agrees.
+std::string upgrade_refusal(std::string_view answer);
 
 }  // namespace punctura::haply

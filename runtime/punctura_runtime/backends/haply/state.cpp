@@ -27,11 +27,7 @@ template <std::size_t N>
 std::optional<std::array<double, N>> letters(JsonReader& json, std::string_view names) noexcept {
   std::array<std::optional<double>, N> found;
   json.object([&](std::string_view key) {
-    const std::size_t at = key.size() == 1 ? names.find(key[0]) : std::string_view::npos;
-    if (at == std::string_view::npos)
-      json.skip();
-    else
-      found[at] = json.number();
+    if (const std::size_t at = names.find(key); key.size() == 1 && at < N) found[at] = json.number();
   });
   std::array<double, N> all;
   for (std::size_t i = 0; i < N; ++i) {
@@ -46,73 +42,44 @@ Name id(JsonReader& json) noexcept { return Name(json.string().value_or("")); }
 void read_arm(JsonReader& json, Arm& arm) noexcept {
   arm = {};
   json.object([&](std::string_view key) {
-    if (key == "device_id") {
-      arm.id = id(json);
-    } else if (key == "state") {
+    if (key == "device_id") arm.id = id(json);
+    if (key == "state")
       json.object([&](std::string_view field) {
-        if (field == "cursor_position")
-          arm.position = letters<3>(json, "xyz");
-        else if (field == "current_cursor_force")
-          arm.force = letters<3>(json, "xyz");
-        else
-          json.skip();
+        if (field == "cursor_position") arm.position = letters<3>(json, "xyz");
+        if (field == "current_cursor_force") arm.force = letters<3>(json, "xyz");
       });
-    } else if (key == "status") {
+    if (key == "status")
       json.object([&](std::string_view field) {
-        if (field == "calibrated")
-          arm.calibrated = json.boolean();
-        else if (field == "in_use")
-          arm.in_use = json.boolean();
-        else if (field == "power_supply")
-          arm.power_supply = json.boolean();
-        else if (field == "ready")
-          arm.ready = json.boolean();
-        else
-          json.skip();
+        if (field == "calibrated") arm.calibrated = json.boolean();
+        if (field == "in_use") arm.in_use = json.boolean();
+        if (field == "power_supply") arm.power_supply = json.boolean();
+        if (field == "ready") arm.ready = json.boolean();
       });
-    } else {
-      json.skip();
-    }
   });
-}
-
-std::uint32_t pressed(JsonReader& json, unsigned bit) noexcept {
-  return json.boolean().value_or(false) ? 1u << bit : 0u;
 }
 
 void read_grip(JsonReader& json, Grip& grip) noexcept {
   grip = {};
+  const auto press = [&](unsigned bit) {
+    if (json.boolean().value_or(false)) grip.buttons |= 1u << bit;
+  };
   json.object([&](std::string_view key) {
-    if (key == "device_id") {
-      grip.id = id(json);
-    } else if (key == "state") {
+    if (key == "device_id") grip.id = id(json);
+    if (key == "state")
       json.object([&](std::string_view field) {
-        if (field == "orientation")
-          grip.orientation = letters<4>(json, "wxyz");
-        else if (field == "button")
-          grip.buttons |= pressed(json, 0);
-        else if (field == "buttons")
+        if (field == "orientation") grip.orientation = letters<4>(json, "wxyz");
+        if (field == "button") press(0);
+        if (field == "buttons")
           json.object([&](std::string_view button) {
-            const std::size_t at =
-                button.size() == 1 ? std::string_view("abc").find(button[0]) : std::string_view::npos;
-            if (at == std::string_view::npos)
-              json.skip();
-            else
-              grip.buttons |= pressed(json, static_cast<unsigned>(at));
+            if (button == "a") press(0);
+            if (button == "b") press(1);
+            if (button == "c") press(2);
           });
-        else
-          json.skip();
       });
-    } else if (key == "status") {
+    if (key == "status")
       json.object([&](std::string_view field) {
-        if (field == "connected")
-          grip.connected = json.boolean().value_or(true);
-        else
-          json.skip();
+        if (field == "connected") grip.connected = json.boolean().value_or(true);
       });
-    } else {
-      json.skip();
-    }
   });
 }
 
@@ -123,20 +90,16 @@ bool read_state(std::string_view text, State& state) noexcept {
   state.has_grip = false;
   JsonReader json(text);
   const bool object = json.object([&](std::string_view key) {
-    if (key == "inverse3") {
+    if (key == "inverse3")
       json.array([&] {
-        if (state.arm_count == state.arms.size()) return json.skip();
-        read_arm(json, state.arms[state.arm_count++]);
+        if (state.arm_count < state.arms.size()) read_arm(json, state.arms[state.arm_count++]);
       });
-    } else if (key == "wireless_verse_grip" || key == "verse_grip") {
+    if (key == "wireless_verse_grip" || key == "verse_grip")
       json.array([&] {
-        if (state.has_grip) return json.skip();
+        if (state.has_grip) return;
         read_grip(json, state.grip);
         state.has_grip = state.grip.connected && state.grip.orientation.has_value();
       });
-    } else {
-      json.skip();
-    }
   });
   return object && json.whole();
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <random>
 
 #include "punctura_runtime/backends/haply/handshake.hpp"
 #include "punctura_runtime/os/os.hpp"
@@ -12,16 +11,6 @@ namespace punctura::haply {
 namespace {
 
 constexpr std::size_t largest_head = 8192;
-
-/// Masks keep proxies between the two from being fooled (RFC 6455 section 10.3). On one machine there are none, so a generator
-/// with a random seed is enough, and it costs a tick nothing.
-std::uint32_t next_mask(std::uint64_t& state) noexcept {
-  state += 0x9e3779b97f4a7c15;  // SplitMix64
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return static_cast<std::uint32_t>(z >> 32);
-}
 
 std::string words(os::Io how) {
   switch (how) {
@@ -53,11 +42,8 @@ std::string WebSocket::open(const Url& url, std::int64_t deadline) {
   os::Socket socket = os::Socket::connect(url.host, url.port, deadline, error);
   if (!socket) return error;
 
-  std::random_device random;
-  std::string nonce;
-  for (int i = 0; i < 16; ++i) nonce += static_cast<char>(random() & 0xff);
-  mask_ = std::uint64_t{random()} << 32 | random();
-  const std::string key = base64(nonce), request = upgrade_request(url.authority(), key);
+  mask_.seed(std::random_device{}());
+  const std::string request = upgrade_request(url.authority());
   if (const os::Io how = socket.send(request.data(), request.size(), deadline); how != os::Io::done) return words(how);
 
   std::string answer;
@@ -71,7 +57,7 @@ std::string WebSocket::open(const Url& url, std::int64_t deadline) {
     end = answer.find("\r\n\r\n");
     if (answer.size() > largest_head) return "its answer does not end";
   }
-  error = upgrade_refusal(std::string_view(answer).substr(0, end), key);
+  error = upgrade_refusal(std::string_view(answer).substr(0, end));
   if (!error.empty()) return error;
 
   // The first frames may have come in the same piece.
@@ -84,7 +70,7 @@ std::string WebSocket::open(const Url& url, std::int64_t deadline) {
 
 bool WebSocket::send(Opcode opcode, std::string_view payload, std::int64_t deadline) noexcept {
   if (!socket_ || payload.size() > largest_command) return false;
-  const std::size_t n = write_frame(opcode, payload, next_mask(mask_), out_);
+  const std::size_t n = write_frame(opcode, payload, static_cast<std::uint32_t>(mask_()), out_);
   return socket_.send(out_.data(), n, deadline) == os::Io::done;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +47,8 @@ class WebSocket {
   os::Socket socket_;
   FrameReader reader_;
   std::vector<char> out_;
-  std::uint64_t mask_ = 0;
+  /// Masks protect the proxies between client and server (RFC 6455 section 10.3). On one machine there is none: any generator will do.
+  std::minstd_rand mask_;
   std::array<char, 125> reason_{};
   std::size_t reason_size_ = 0;
 };
