@@ -2,12 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <thread>
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura {
 
@@ -43,11 +42,9 @@ class ReplayDevice : public Device {
   std::vector<DeviceSample> samples_;
   DeviceInfo info_;
   ReplayOptions options_;
-  std::atomic<bool> stop_{false}, finished_{false}, unhealthy_{false};
-  Milestone ready_;
+  std::atomic<bool> finished_{false}, unhealthy_{false};
   std::atomic<std::uint64_t> behind_{0};
-  std::vector<os::RealtimeItem> realtime_;
-  std::thread thread_;
+  TickingThread thread_;
 };
 
 }  // namespace punctura

@@ -3,15 +3,14 @@
 
 #include <atomic>
 #include <memory>
-#include <thread>
 #include <variant>
 
 #include "punctura/device/device.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura {
 
@@ -67,11 +66,9 @@ class SimulatedDevice : public Device {
   Latest<Wish> wishes_;
   Latest<std::array<double, 3>> last_force_;
   std::atomic<void (*)(DeviceSample&)> spoiler_{nullptr};
-  std::atomic<bool> stop_{false}, finished_{false};
-  Milestone ready_;
+  std::atomic<bool> finished_{false};
   std::atomic<std::uint64_t> missed_{0};
-  std::vector<os::RealtimeItem> realtime_;
-  std::thread thread_;
+  TickingThread thread_;
 };
 
 }  // namespace punctura

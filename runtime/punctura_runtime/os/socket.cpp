@@ -48,7 +48,7 @@ void close_number(Number number) noexcept { closesocket(number); }
 
 void prepare(Number number) noexcept {
   u_long on = 1;
-  ioctlsocket(number, FIONBIO, &on);
+  ioctlsocket(number, static_cast<long>(FIONBIO), &on);
 }
 
 #else

@@ -5,7 +5,6 @@
 
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
 
 using namespace punctura;
@@ -180,19 +179,4 @@ TEST_CASE("what is handed over arrives once, and what it replaces is freed by th
     CHECK(last_taken == 19999);
   }
   CHECK(Counted::alive == 0);
-}
-
-TEST_CASE("who waits for a milestone goes on when it is reached, however soon that is, each time anew") {
-  Milestone milestone;
-  for (int i = 0; i < 2000; ++i) {
-    milestone.set_ahead();
-    std::atomic<bool> there{false};
-    std::thread other([&] {
-      there = true;
-      milestone.reach();
-    });
-    milestone.wait();
-    CHECK(there);
-    other.join();
-  }
 }

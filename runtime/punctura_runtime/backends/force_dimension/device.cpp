@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/force_dimension/measured_rate.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::force_dimension {
@@ -53,10 +52,9 @@ void ForceDimensionDevice::open() {
 }
 
 void ForceDimensionDevice::start(Tick tick) {
-  refuse_second_loop(thread_.joinable());
+  thread_.refuse_second_loop();
   if (!connection_) open();
-  stop_ = finished_ = false;
-  ready_.set_ahead();
+  finished_ = false;
   trouble_ = Trouble::none;
   saturated_ = repeated_ = missed_ = 0;
   sample_ = {};
@@ -70,28 +68,20 @@ void ForceDimensionDevice::start(Tick tick) {
   int status[status_size] = {};
   if (api.status(status, id_) < 0) throw DeviceError(info_.model + ": " + words_for(api, api.last_error()));
   error_at_start_ = status[status_error] != 0;
-  thread_ = ticking_thread([this, tick] { run(tick); });
-  ready_.wait();
-  if (!refused_) return;
-  thread_.join();
-  throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
+  if (!thread_.start(
+          options_.realtime.at_rate(info_.rate), [this, tick] { run(tick); }, [this] { return switch_on(); }))
+    throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
 }
 
 void ForceDimensionDevice::stop() noexcept {
-  stop_ = true;
-  if (thread_.joinable()) thread_.join();  // it leaves the device silent
+  thread_.stop();  // it leaves the device silent
   connection_.reset();
 }
 
 void ForceDimensionDevice::run(Tick tick) noexcept {
-  realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
-  switch_on();
-  ready_.reach();
-  if (refused_) return;
-
   Pacer<LoopClock> pacer(info_.rate, options_.clock);
   const std::int64_t start = options_.clock.now();
-  while (!stop_) {
+  while (!thread_.stopping()) {
     missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (!one_tick(tick, static_cast<double>(options_.clock.now() - start) * 1e-9)) break;
   }
@@ -99,14 +89,14 @@ void ForceDimensionDevice::run(Tick tick) noexcept {
   finished_ = true;
 }
 
-/// Not before locking memory, which may take longer than the device's watchdog waits for a command.
-void ForceDimensionDevice::switch_on() noexcept {
+/// After memory is locked: that may take longer than the device's watchdog waits for a command.
+bool ForceDimensionDevice::switch_on() noexcept {
   library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, and is harmless then
-  refused_ = library_.api.enable_force(1, id_) < 0;
-  if (!refused_) return;
+  if (library_.api.enable_force(1, id_) >= 0) return true;
   code_ = library_.api.last_error();
   silence();
   finished_ = true;
+  return false;
 }
 
 /// Zero force, then force off. Each is tried whatever became of the other.

@@ -5,15 +5,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/backends/force_dimension/axes.hpp"
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura::force_dimension {
 
@@ -67,7 +66,7 @@ class ForceDimensionDevice : public Device {
   bool one_tick(Tick tick, double time) noexcept;
   bool read() noexcept;
   bool watch(double time) noexcept;
-  void switch_on() noexcept;
+  bool switch_on() noexcept;
   void silence() noexcept;
   void fail(Trouble what, int code) noexcept;
 
@@ -80,15 +79,13 @@ class ForceDimensionDevice : public Device {
   // Of the ticking thread.
   DeviceSample sample_{};
   std::uint64_t ticks_ = 0, status_every_ = 1;
-  bool force_seen_ = false, error_at_start_ = false, refused_ = false;
+  bool force_seen_ = false, error_at_start_ = false;
 
   std::atomic<Trouble> trouble_{Trouble::none};
   std::atomic<int> code_{0};
   std::atomic<std::uint64_t> saturated_{0}, repeated_{0}, missed_{0};
-  std::atomic<bool> stop_{false}, finished_{false};
-  Milestone ready_;
-  std::vector<os::RealtimeItem> realtime_;
-  std::thread thread_;
+  std::atomic<bool> finished_{false};
+  TickingThread thread_;
 };
 
 }  // namespace punctura::force_dimension

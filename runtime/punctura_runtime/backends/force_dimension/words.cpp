@@ -60,7 +60,7 @@ std::vector<std::string> ForceDimensionDevice::statements() const {
   if (const auto count = saturated(); count > 0)
     all.push_back("the motors could not give the whole force in " + std::to_string(count) + " ticks");
   if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were left out");
-  os::add_words(realtime_, all);
+  os::add_words(thread_.realtime(), all);
   return all;
 }
 

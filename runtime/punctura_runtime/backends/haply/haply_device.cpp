@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/haply/axes.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::haply {
@@ -61,44 +60,36 @@ double HaplyDevice::measured_rate() {
 }
 
 void HaplyDevice::start(Tick tick) {
-  refuse_second_loop(running_);
-  if (thread_.joinable()) thread_.join();  // it had ended by itself
+  thread_.refuse_second_loop();
   // A connection that has stood idle may have been closed meanwhile.
   if (!service_.is_open() || service_.exchange({0, 0, 0}, ns(1)) != Received::message) {
     open();
     if (service_.exchange({0, 0, 0}, ns(1)) != Received::message)
       throw DeviceError("The Inverse Service at " + url_.text() + " has ceased to answer");
   }
-  stop_ = false;
-  ready_.set_ahead();
   trouble_ = Trouble::none;
   gripless_ = 0;
-  thread_ = ticking_thread([this, tick] { run(tick); });
-  ready_.wait();
+  thread_.start(options_.real_time ? std::optional(options_.realtime.at_rate(info_.rate)) : std::nullopt,
+                [this, tick] { run(tick); });
 }
 
 void HaplyDevice::stop() noexcept {
-  stop_ = true;
-  if (thread_.joinable()) thread_.join();
+  thread_.stop();
   service_.leave();
 }
 
 void HaplyDevice::run(Tick tick) noexcept {
-  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
-  running_ = true;
-  ready_.reach();
-
   DeviceSample sample{0, 0, {0, 0, 0}, {0, -1, 0}, 0, true};
   Pacer<> pacer(info_.rate);
   const std::int64_t start = os::now_ns();
   Trouble trouble = read(sample);
-  for (std::uint64_t k = 0; trouble == Trouble::none && !stop_; ++k) {
+  for (std::uint64_t k = 0; trouble == Trouble::none && !thread_.stopping(); ++k) {
     sample.sequence = k;
     sample.time =
         options_.real_time ? static_cast<double>(os::now_ns() - start) * 1e-9 : static_cast<double>(k) / info_.rate;
     const Tick::Force force = tick(sample);
     if (paced_) pacer.wait();
-    if (stop_) break;
+    if (thread_.stopping()) break;
     trouble = next(force);
     if (trouble == Trouble::none) trouble = read(sample);
   }
@@ -108,7 +99,6 @@ void HaplyDevice::run(Tick tick) noexcept {
     sample.healthy = false;
     tick(sample);
   }
-  running_ = false;
 }
 
 /// The force of the tick before goes out, the next reading comes in.
@@ -185,7 +175,7 @@ std::vector<std::string> HaplyDevice::statements() const {
   if (std::abs(service_.echo() - 1) > 0.05)
     all.push_back("the service gives " + whole(100 * service_.echo()) +
                   " % of the force asked for: see its force scale and force gate");
-  os::add_words(realtime_, all);
+  os::add_words(thread_.realtime(), all);
   return all;
 }
 

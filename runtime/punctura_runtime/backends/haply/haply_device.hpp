@@ -4,13 +4,12 @@
 #include <array>
 #include <atomic>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/backends/haply/service.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura::haply {
 
@@ -67,13 +66,10 @@ class HaplyDevice : public Device {
   DeviceInfo info_;
   Service service_;
   bool paced_ = true, was_in_use_ = false;
-  double fastest_ = unknown;    ///< round trips a second
-  std::uint64_t gripless_ = 0;  ///< answers in a row without a grip
-  std::vector<os::RealtimeItem> realtime_;
-  std::atomic<bool> stop_{false}, running_{false};
-  Milestone ready_;
+  double fastest_ = unknown;                     ///< round trips a second
+  std::uint64_t gripless_ = 0;                   ///< answers in a row without a grip
   std::atomic<Trouble> trouble_{Trouble::none};  ///< close_reason() may be read once this says why
-  std::thread thread_;
+  TickingThread thread_;
 };
 
 }  // namespace punctura::haply
