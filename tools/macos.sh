@@ -34,7 +34,7 @@ objects() {
 }
 
 mapfile -t runtime < <(find runtime/punctura_runtime/loop runtime/punctura_runtime/backends -name '*.cpp' | sort)
-objects runtime/punctura_runtime/os/{library,macos,posix_library,socket}.cpp "${runtime[@]}"
+objects runtime/punctura_runtime/os/{macos,posix_library,socket}.cpp "${runtime[@]}"
 library=("${made[@]}")
 for fake in drd hd; do
   objects tests/fakes/$fake/*.cpp

@@ -59,31 +59,9 @@ inline void add_words(const std::vector<RealtimeItem>& items, std::vector<std::s
     lines.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
 }
 
-// Of a shared library: the system's own calls. nullptr says that there is none, and `error` why.
+/// Loads a shared library for the rest of the process. nullptr if it does not load; `error` then says why.
 void* load_library(const char* name, std::string& error);
-void unload_library(void* handle) noexcept;
-void* library_symbol(void* handle, const char* name) noexcept;
-
-/// A shared library found at run time.
-class Library {
- public:
-  Library() = default;
-  /// Tries each name in turn. error() says what was tried when none opens.
-  static Library open(const std::vector<std::string>& names);
-  Library(Library&& other) noexcept;
-  Library& operator=(Library&& other) noexcept;
-  ~Library();
-
-  explicit operator bool() const noexcept { return handle_ != nullptr; }
-  const std::string& path() const noexcept { return path_; }
-  const std::string& error() const noexcept { return error_; }
-
-  /// nullptr where the library has no such symbol.
-  void* symbol(const char* name) const noexcept;
-
- private:
-  void* handle_ = nullptr;
-  std::string path_, error_;
-};
+/// nullptr if the library has no such symbol.
+void* library_symbol(void* library, const char* name) noexcept;
 
 }  // namespace punctura::os

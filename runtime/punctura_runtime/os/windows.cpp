@@ -130,10 +130,8 @@ void* load_library(const char* name, std::string& error) {
   return reinterpret_cast<void*>(handle);
 }
 
-void unload_library(void* handle) noexcept { FreeLibrary(reinterpret_cast<HMODULE>(handle)); }
-
-void* library_symbol(void* handle, const char* name) noexcept {
-  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(handle), name));
+void* library_symbol(void* library, const char* name) noexcept {
+  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(library), name));
 }
 
 }  // namespace punctura::os
