@@ -1,4 +1,5 @@
-// What the parsers of the Inverse Service's messages are thrown at: by the tests from seeds, by libFuzzer from its corpus.
+// What the parsers of the Inverse Service's messages are thrown at: by the tests from seeds, by libFuzzer from its
+// corpus.
 #pragma once
 
 #include <algorithm>

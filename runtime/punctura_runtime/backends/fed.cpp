@@ -9,7 +9,7 @@
 namespace punctura {
 
 namespace {
-constexpr double tolerance = 0.05;  // of the rate, above which the user is told
+constexpr double tolerance = 0.05;  // relative error of the rate above which the user is told
 }
 
 FedDevice::FedDevice(DeviceInfo info, bool real_time) : info_(std::move(info)), real_time_(real_time) {

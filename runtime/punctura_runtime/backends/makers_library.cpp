@@ -10,7 +10,8 @@ namespace punctura {
 
 namespace {
 
-/// Whether the file exists and yet did not load. Where the system looked for it by its name, the error is then about another file.
+/// Whether the file exists and yet did not load. Where the system looked for it by its name, the error is then about
+/// another file.
 bool exists(const std::string& place, const std::string& error) {
   std::error_code ignored;
   if (place.find_first_of("/\\") != std::string::npos) return std::filesystem::exists(place, ignored);

@@ -39,8 +39,8 @@ struct LoadedLibrary {
   std::string path;    ///< of the library that was loaded
 };
 
-/// Loads a library and takes the functions from it. A file that was named, by `named` or by the variable, is the only one tried. A library
-/// stays loaded for the rest of the process: it may have threads of its own.
+/// Loads a library and takes the functions from it. A file that was named, by `named` or by the variable, is the only
+/// one tried. A library stays loaded for the rest of the process: it may have threads of its own.
 LoadedLibrary load_makers_library(LibrarySearch search, const std::string& named, const std::vector<Symbol>& symbols);
 
 /// An environment variable; empty if it is not set.

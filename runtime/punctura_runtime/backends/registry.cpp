@@ -9,7 +9,7 @@ namespace punctura {
 
 namespace {
 
-/// Our own, behind those that were registered.
+/// The registered back-ends, then the built-in ones.
 class Table {
  public:
   static std::vector<const Backend*> all() {
@@ -44,7 +44,7 @@ std::vector<BackendStatus> enumerate_devices() {
   for (const Backend* backend : Table::all()) {
     try {
       all.push_back(backend->status());
-    } catch (const std::exception& error) {  // one that fails must not hide the others
+    } catch (const std::exception& error) {  // the others are listed all the same
       all.push_back({backend->name, BackendStatus::State::fault, error.what(), {}});
     }
   }

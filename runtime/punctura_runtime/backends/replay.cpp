@@ -10,7 +10,7 @@ ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorde
     : samples_(std::move(samples)), info_(std::move(recorded)), options_(options) {
   if (!(info_.rate > 0) || !std::isfinite(info_.rate))
     throw DeviceError("a recording at " + std::to_string(info_.rate) + " Hz cannot be replayed: it must be above 0");
-  // All else is what the recorded device said: its ratings limit the force, its encoder step decides the conditioning.
+  // Everything else is the recorded device's: its ratings limit the force, its encoder step selects the conditioning.
   if (info_.backend != "replay") info_.model = info_.model.empty() ? "a recorded motion" : info_.model + ", recorded";
   info_.backend = "replay";
 }
@@ -41,7 +41,7 @@ void ReplayDevice::run(Tick tick) noexcept {
   Pacer<> pacer(info_.rate);
   for (const DeviceSample& sample : samples_) {
     if (thread_.stopping()) return;
-    // A pacer leaves out times, not samples: what is late stays late.
+    // A pacer skips times, not samples: a delay stays.
     if (options_.real_time) behind_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (!sample.healthy) unhealthy_ = true;
     tick(sample);

@@ -15,7 +15,8 @@
 
 namespace punctura {
 
-/// Throws DeviceError if the device runs in a loop: a second one would leave the first without ticks, and that would not know.
+/// Throws DeviceError if the device runs in a loop: a second one would leave the first without ticks, and that would
+/// not know.
 inline void refuse_second_loop(bool runs) {
   if (runs) throw DeviceError("the device runs in another loop already: stop that one first");
 }
@@ -30,8 +31,9 @@ class TickingThread {
 
   void refuse_second_loop() const { punctura::refuse_second_loop(thread_.joinable()); }
 
-  /// In the new thread: real-time scheduling where settings are given, prepare(), and, if that gives true, run(), which returns soon
-  /// after stopping(). Returns what prepare() gave, as soon as it has. Throws DeviceError if it runs or the system has no thread to give.
+  /// In the new thread: real-time scheduling where settings are given, prepare(), and, if that gives true, run(), which
+  /// returns soon after stopping(). Returns what prepare() gave, as soon as it has. Throws DeviceError if it runs or
+  /// the system has no thread to give.
   template <typename Run, typename Prepare = bool (*)()>
   bool start(const std::optional<os::RealtimeSettings>& realtime, Run run, Prepare prepare = [] { return true; }) {
     refuse_second_loop();

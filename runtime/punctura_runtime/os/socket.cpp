@@ -1,4 +1,5 @@
-// The sockets of Windows and of POSIX differ in names, types and error numbers. Those stand in the first half of this file.
+// The sockets of Windows and of POSIX differ in names, types and error numbers. Those stand in the first half of this
+// file.
 #ifdef _WIN32
 #ifndef NOMINMAX
 #define NOMINMAX
@@ -84,7 +85,8 @@ void prepare(Number number) noexcept {
 
 Number number_of(Socket::Handle handle) noexcept { return static_cast<Number>(handle); }
 
-/// Waits until the socket is ready for `events` or has failed: then the call that follows says what is wrong. False at the deadline.
+/// Waits until the socket is ready for `events` or has failed: then the call that follows says what is wrong. False at
+/// the deadline.
 bool ready(Number number, short events, std::int64_t deadline) noexcept {
   for (;;) {
     const std::int64_t left = std::max<std::int64_t>(0, deadline - now_ns());

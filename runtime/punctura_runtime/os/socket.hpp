@@ -10,8 +10,8 @@ namespace punctura::os {
 /// How an attempt to send or to receive ended.
 enum class Io : std::uint8_t { done, timeout, closed, failed };
 
-/// One connection. No call blocks beyond its deadline (ns on now_ns()), raises a signal when the other side has gone, or, after connect(),
-/// allocates. Small messages leave at once (TCP_NODELAY).
+/// One connection. No call blocks beyond its deadline (ns on now_ns()), raises a signal when the other side has gone,
+/// or, after connect(), allocates. Small messages leave at once (TCP_NODELAY).
 class Socket {
  public:
   using Handle = std::intptr_t;
@@ -23,7 +23,8 @@ class Socket {
   Socket& operator=(Socket&& other) noexcept;
   ~Socket() { close(); }
 
-  /// Tries every address of the host in turn. Without a connection by the deadline, the socket is empty and `error` says why.
+  /// Tries every address of the host in turn. Without a connection by the deadline, the socket is empty and `error`
+  /// says why.
   static Socket connect(const std::string& host, std::uint16_t port, std::int64_t deadline, std::string& error);
 
   explicit operator bool() const noexcept { return handle_ != none; }

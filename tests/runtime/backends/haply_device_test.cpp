@@ -106,7 +106,8 @@ TEST_CASE("after every mishap the plant's force is zero at once and stays so, an
     CHECK(loop.latest().force == zero);
     CHECK_MESSAGE(device->trouble().find(words) != std::string::npos, device->trouble());
     const auto ticks = loop.report().ticks;
-    CHECK_THROWS_AS(ServoLoop(device, paper_scene()).start(), DeviceError);  // the first loop's stop would end its ticks
+    CHECK_THROWS_AS(ServoLoop(device, paper_scene()).start(),
+                    DeviceError);  // the first loop's stop would end its ticks
     loop.stop();
     CHECK(loop.report().ticks == ticks);  // it ticked once more, to say so, and never again
 

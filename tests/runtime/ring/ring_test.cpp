@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "punctura_runtime/ring/handover.hpp"
-#include "punctura_runtime/ring/latest.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
+#include "punctura_runtime/ring/triple_buffer.hpp"
 
 using namespace punctura;
 
@@ -125,7 +125,7 @@ TEST_CASE("the latest value is never half of one and half of another, and never 
   struct Value {
     std::uint64_t a = 0, b = 0;
   };
-  Latest<Value> latest;
+  TripleBuffer<Value> latest;
   std::atomic<bool> done{false};
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= 300000; ++i) latest.write([&](Value& to) { to = {i, ~i}; });

@@ -1,7 +1,8 @@
 // A simulated Inverse Service with a simulated Inverse3 in a simulated hand, in the test's own process.
 //
-// Its contract is the real one's: on connecting it sends one inventory, then exactly one state for each message; a force lasts for
-// one period and not beyond, so a client that falls silent leaves the device idle. Time passes by messages: no clock is read.
+// Its contract is the real one's: on connecting it sends one inventory, then exactly one state for each message; a
+// force lasts for one period and not beyond, so a client that falls silent leaves the device idle. Time passes by
+// messages: no clock is read.
 #pragma once
 
 #include <atomic>
@@ -59,7 +60,8 @@ class HaplyFake {
   void travel(Travel how) { travel_ = how; }
   std::function<void()> on_message;  ///< before any message is answered; set before the first
 
-  /// The force on the plant in each period from begin() on, N, in Punctura's axes, and after which of them the mishap came.
+  /// The force on the plant in each period from begin() on, N, in Punctura's axes, and after which of them the mishap
+  /// came.
   std::vector<std::array<double, 3>> forces();
   std::size_t mishap_at();
   std::vector<std::string> messages();  ///< the first ones of the last connection, up to 16

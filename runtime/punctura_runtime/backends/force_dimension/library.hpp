@@ -13,8 +13,8 @@ struct Loaded : LoadedLibrary {
   Api api{};  ///< all functions, if it is `available`
 };
 
-/// named: a path; if empty, that of the environment variable PUNCTURA_DRD_LIBRARY; else where the maker's installer and its users put it.
-/// The robotics library comes first: it holds all of the haptics library.
+/// named: a path; if empty, that of the environment variable PUNCTURA_DRD_LIBRARY; else where the maker's installer and
+/// its users put it. The robotics library comes first: it holds all of the haptics library.
 Loaded load(const std::string& named = {});
 
 /// The files and names that are tried, in this order.

@@ -1,4 +1,4 @@
-// Where Force Dimension's library may be.
+// The places where Force Dimension's library may be.
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 [[maybe_unused]] constexpr const char *linux_machine = "x86_64", *mac_machine = "x86_64";
 #endif
 
-/// What a folder holds whose name begins so, the newest version first: 3.17.5 before 3.9.0.
+/// The entries of a folder whose names have this prefix, the newest version first: 3.17.5 before 3.9.0.
 std::vector<fs::path> matching(const fs::path& folder, const std::string& beginning) {
   std::vector<fs::path> found;
   std::error_code nothing;
@@ -42,8 +42,8 @@ std::vector<fs::path> matching(const fs::path& folder, const std::string& beginn
 
 struct Places {
   std::vector<fs::path> folders;
-  std::string suffix;              ///< of a library's file: drd + this, with anything behind it
-  std::vector<std::string> names;  ///< for the system to find, after `lib` or not
+  std::string suffix;              ///< of a library's file name: drd + suffix + anything
+  std::vector<std::string> names;  ///< endings of the names that the system looks up
 };
 
 Places places() {

@@ -1,4 +1,4 @@
-// What a Force Dimension device tells people: what went wrong, and how it runs.
+// Messages of a Force Dimension device: its trouble and its statements.
 #include <cstdio>
 
 #include "punctura_runtime/backends/force_dimension/device.hpp"

@@ -1,4 +1,4 @@
-// The Inverse3's axes and ours. Its: x right, y away from the user, z up. Ours: x right, y up, z towards the user.
+// The Inverse3's axes (x right, y away from the user, z up) and Punctura's (x right, y up, z towards the user).
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace punctura::haply {
 
-/// A proper rotation, so that forces go back by its transpose.
+/// A proper rotation: its transpose converts forces back.
 constexpr std::array<double, 3> ours(const Vector& v) noexcept { return {v[0], v[2], -v[1]}; }
 constexpr Vector theirs(const std::array<double, 3>& v) noexcept { return {v[0], -v[2], v[1]}; }
 
-/// Where a grip points, R(q) (+Y), as a unit vector in our axes; nothing when q is no rotation.
+/// The direction of a grip, R(q) (+Y), as a unit vector in Punctura's axes; nothing if q is not a rotation.
 inline std::optional<std::array<double, 3>> pointing(const Quaternion& q) noexcept {
   const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   if (!(norm2 > 1e-6) || !std::isfinite(norm2)) return {};

@@ -17,7 +17,8 @@
 
 namespace punctura::haply {
 
-/// A JSON number as the nearest double. Nothing if it is outside the range of a double: too large, or not 0 and too small.
+/// A JSON number as the nearest double. Nothing if it is outside the range of a double: too large, or not 0 and too
+/// small.
 inline std::optional<double> decimal(std::string_view text) noexcept {
   double value = 0;
 #ifdef __cpp_lib_to_chars
@@ -36,7 +37,8 @@ inline std::optional<double> decimal(std::string_view text) noexcept {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Writes a finite number into `out`, which has 32 bytes or more, and gives the size: the shortest text that reads as the same number.
+/// Writes a finite number into `out`, which has 32 bytes or more, and gives the size: the shortest text that reads as
+/// the same number.
 inline std::size_t write_decimal(double value, std::span<char> out) noexcept {
 #ifdef __cpp_lib_to_chars
   return static_cast<std::size_t>(std::to_chars(out.data(), out.data() + out.size(), value).ptr - out.data());

@@ -8,7 +8,7 @@ namespace punctura::haply {
 std::size_t write_frame(Opcode opcode, std::string_view payload, std::uint32_t mask, std::span<char> out) noexcept {
   std::size_t n = 0;
   const auto put = [&](std::uint64_t byte) { out[n++] = static_cast<char>(byte & 0xff); };
-  put(0x80u | static_cast<unsigned>(opcode));  // one frame is the whole message
+  put(0x80u | static_cast<unsigned>(opcode));  // final: each message is one frame
   const std::uint64_t size = payload.size();
   if (size < 126) {
     put(0x80u | size);
@@ -37,7 +37,7 @@ std::span<char> FrameReader::space() noexcept {
 
 Event FrameReader::fail(Event why) noexcept { return failed_ = why; }
 
-/// Reads the head of a frame when all of it is there: then in_frame_.
+/// Reads the header of a frame once all of it has arrived, and sets in_frame_.
 Event FrameReader::header() noexcept {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::uint64_t>(static_cast<unsigned char>(input_[begin_ + i]));
@@ -45,14 +45,14 @@ Event FrameReader::header() noexcept {
   const std::size_t there = end_ - begin_;
   if (there < 2) return Event::more;
   const std::uint64_t first = byte(0), second = byte(1), short_size = second & 0x7f;
-  if ((first & 0x70) != 0) return fail(Event::broken);   // extensions that nobody has agreed on
-  if ((second & 0x80) != 0) return fail(Event::broken);  // only clients mask
+  if ((first & 0x70) != 0) return fail(Event::broken);   // an extension that was not negotiated
+  if ((second & 0x80) != 0) return fail(Event::broken);  // a server must not mask
   const std::size_t size_bytes = short_size == 126 ? 2 : short_size == 127 ? 8 : 0;
   if (there < 2 + size_bytes) return Event::more;
 
   std::uint64_t size = size_bytes == 0 ? short_size : 0;
   for (std::size_t i = 0; i < size_bytes; ++i) size = size << 8 | byte(2 + i);
-  if (size_bytes == 2 && size < 126) return fail(Event::broken);      // the shortest form is the only one
+  if (size_bytes == 2 && size < 126) return fail(Event::broken);      // only the shortest form is allowed
   if (size_bytes == 8 && size < 0x10000) return fail(Event::broken);  // likewise
   if ((size >> 63) != 0) return fail(Event::broken);
 

@@ -1,4 +1,4 @@
-// WebSocket frames, as a client sends and reads them. RFC 6455 section 5; no I/O here, so that it can be fed anything.
+// WebSocket frames as a client writes and reads them (RFC 6455 section 5), without input or output.
 #pragma once
 
 #include <array>
@@ -12,34 +12,34 @@ namespace punctura::haply {
 
 enum class Opcode : std::uint8_t { continuation = 0, text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
 
-/// The largest frame that write_frame() makes of a payload.
+/// The largest frame that write_frame() writes for a payload.
 constexpr std::size_t framed_size(std::size_t payload) noexcept { return payload + 14; }
 
-/// A whole masked frame into `out`, which must have framed_size(payload.size()) bytes. Gives its size.
+/// Writes a whole masked frame into `out`, which must have framed_size(payload.size()) bytes. Returns its size.
 std::size_t write_frame(Opcode opcode, std::string_view payload, std::uint32_t mask, std::span<char> out) noexcept;
 
-/// What came, once enough bytes have come.
+/// What FrameReader has found in the bytes so far.
 enum class Event : std::uint8_t {
-  more,    ///< nothing yet: receive more bytes
-  text,    ///< a whole message, its fragments put together
-  binary,  ///< the same, not text
+  more,    ///< nothing complete: receive more bytes
+  text,    ///< a whole text message, of one or more fragments
+  binary,  ///< a whole binary message
   ping,
   pong,
   close,
-  broken,   ///< the other side does not speak as RFC 6455 wants; nothing can be read any more
-  too_big,  ///< a message beyond the limit; nothing can be read any more
+  broken,   ///< a violation of RFC 6455; nothing can be read after it
+  too_big,  ///< a message beyond the limit; nothing can be read after it
 };
 
-/// Cuts what comes over a connection, in pieces of any size, into messages. Takes all its memory when it is made.
+/// Assembles messages from received pieces of any size. Allocates in its constructor only.
 class FrameReader {
  public:
   explicit FrameReader(std::size_t largest_message) : message_(largest_message) {}
 
-  /// Where the next bytes are to be put; never empty while next() has said `more`.
+  /// Where to put the next bytes; never empty after next() has returned `more`.
   std::span<char> space() noexcept;
   void filled(std::size_t bytes) noexcept { end_ += bytes; }
 
-  /// The next thing that came. The payload stays until the next call. Ask again until it says `more`.
+  /// The next event. The payload is valid until the next call. Call it until it returns `more`.
   Event next(std::string_view& payload) noexcept;
 
  private:
@@ -49,7 +49,7 @@ class FrameReader {
   std::array<char, 16384> input_{};
   std::size_t begin_ = 0, end_ = 0;
 
-  // The frame being read: so much of its payload is still to come.
+  // The frame that is being read; left_: bytes of its payload that are missing.
   bool in_frame_ = false, final_ = false;
   Opcode opcode_ = Opcode::continuation;
   std::uint64_t left_ = 0;

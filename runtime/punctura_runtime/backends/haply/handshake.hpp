@@ -6,8 +6,9 @@
 
 namespace punctura::haply {
 
-/// RFC 6455 asks for a random key, so that no cache between client and server answers for the server. Between two programs on one machine
-/// there is no cache. So the key is the RFC's example, and the answer to it is known: no SHA-1, no base64.
+/// RFC 6455 asks for a random key, so that no cache between client and server answers for the server. Between two
+/// programs on one machine there is no cache. So the key is the RFC's example, and the answer to it is known: no SHA-1,
+/// no base64.
 inline constexpr std::string_view upgrade_key = "dGhlIHNhbXBsZSBub25jZQ==",
                                   upgrade_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
 

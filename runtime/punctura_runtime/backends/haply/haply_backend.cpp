@@ -48,7 +48,8 @@ std::shared_ptr<Device> open(const OpenOptions& how) {
   options.device = how.device;
   options.rate = how.rate;
   options.realtime = how.realtime;
-  if (!how.library.empty()) options.url = how.library;  // its maker's software is a service: it has an address
+  if (!how.library.empty())
+    options.url = how.library;  // the maker's software is a service, which has an address instead of a path
   return std::make_shared<haply::HaplyDevice>(std::move(options));
 }
 

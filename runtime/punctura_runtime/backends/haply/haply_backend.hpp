@@ -1,4 +1,4 @@
-// What the registry says of an Inverse Service at some address.
+// The status of the Inverse Service at an address.
 #pragma once
 
 #include <string>

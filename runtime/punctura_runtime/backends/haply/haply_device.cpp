@@ -23,7 +23,7 @@ HaplyDevice::HaplyDevice(HaplyOptions options) : options_(std::move(options)) {
   info_.backend = "haply";
   info_.model = "Inverse3";
   info_.serial = service_.device().view();
-  options_.device = info_.serial;  // a later start drives this arm or none
+  options_.device = info_.serial;  // a later start() uses the same arm or fails
   info_.has_orientation = service_.state().has_grip;
   info_.button_count = info_.has_orientation ? 3 : 0;
   info_.max_force = options_.max_force;
@@ -45,7 +45,7 @@ void HaplyDevice::open() {
   }
 }
 
-/// How many answers come in a second when the next question follows at once. Zero force.
+/// Round trips a second, without force, if each message is sent as soon as the last answer is there.
 double HaplyDevice::measured_rate() {
   const std::int64_t begin = options_.now_ns();
   std::int64_t passed = 0;
@@ -61,7 +61,7 @@ double HaplyDevice::measured_rate() {
 
 void HaplyDevice::start(Tick tick) {
   thread_.refuse_second_loop();
-  // A connection that has stood idle may have been closed meanwhile.
+  // The service may have closed an idle connection.
   if (!service_.is_open() || service_.exchange({0, 0, 0}, ns(1)) != Received::message) {
     open();
     if (service_.exchange({0, 0, 0}, ns(1)) != Received::message)
@@ -93,7 +93,7 @@ void HaplyDevice::run(Tick tick) noexcept {
     trouble = next(force);
     if (trouble == Trouble::none) trouble = read(sample);
   }
-  service_.leave();  // the force is off before anything else happens
+  service_.leave();  // zero force before anything else
   if (trouble != Trouble::none) {
     trouble_ = trouble;
     sample.healthy = false;
@@ -101,7 +101,7 @@ void HaplyDevice::run(Tick tick) noexcept {
   }
 }
 
-/// The force of the tick before goes out, the next reading comes in.
+/// Sends the force of the last tick and receives the next reading.
 HaplyDevice::Trouble HaplyDevice::next(const Tick::Force& force) noexcept {
   switch (service_.exchange(bounded(force), ns(options_.stale))) {
     case Received::message: return Trouble::none;
@@ -122,7 +122,8 @@ HaplyDevice::Trouble HaplyDevice::read(DeviceSample& sample) noexcept {
   if (!arm->calibrated.value_or(true) || !arm->power_supply.value_or(true)) return Trouble::unready;
   sample.position = ours(*arm->position);
 
-  // Without a grip no button is held, so a dead man's button is let go; where it pointed last is good for a moment.
+  // Without a grip, no button counts as held, so that a dead-man button is released. The last direction is kept for
+  // no_grip seconds.
   const auto axis = state.has_grip ? pointing(*state.grip.orientation) : std::nullopt;
   sample.buttons = state.has_grip ? state.grip.buttons : 0;
   if (axis) sample.axis = *axis;
@@ -131,7 +132,7 @@ HaplyDevice::Trouble HaplyDevice::read(DeviceSample& sample) noexcept {
   return lost ? Trouble::no_grip : Trouble::none;
 }
 
-/// Clamped by norm, and no number that is none: whatever the tick is, the device is given no more than this.
+/// Limits the norm; NaN and infinity give zero. The last guard before the device, whatever the tick returns.
 Vector HaplyDevice::bounded(const Tick::Force& force) const noexcept {
   const double norm = std::hypot(force[0], force[1], force[2]);
   if (!std::isfinite(norm)) return {0, 0, 0};

@@ -1,4 +1,4 @@
-// A Haply Inverse3 behind the Inverse Service: we ask, it answers; each question carries a force, each answer a position.
+// A Haply Inverse3 behind the Inverse Service: each message to the service has a force, each answer a position.
 #pragma once
 
 #include <array>
@@ -16,19 +16,18 @@ namespace punctura::haply {
 struct HaplyOptions {
   std::string url = default_url();
   std::string device;     ///< its device_id; empty is the first
-  double rate = 1600;     ///< Hz, wished for; the service's round trip may allow less
-  double max_force = 5;   ///< N. Its maker publishes no limit; this is the cautious one of those in use
-  double stale = 0.015;   ///< s that an answer may take
-  double no_grip = 0.25;  ///< s that a grip may be missing from the answers
+  double rate = 1600;     ///< Hz, requested; the service's round trip may allow less
+  double max_force = 5;   ///< N. The maker publishes no limit; this is the lowest in public use
+  double stale = 0.015;   ///< s: timeout of an answer
+  double no_grip = 0.25;  ///< s for which a grip may be missing from the answers
   bool real_time = true;  ///< false: as fast as answers come, on a clock of its own
   os::RealtimeSettings realtime{};
-  std::int64_t (*now_ns)() noexcept =
-      os::now_ns;  ///< what the rate is measured by; tests put a clock of their own here
+  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< the clock that measures the rate; tests replace it
 };
 
 class HaplyDevice : public Device {
  public:
-  /// Connects, finds out how the service wants its force, and measures how often it answers. Throws DeviceError.
+  /// Connects, determines the format of the force, and measures the rate of the service. Throws DeviceError.
   explicit HaplyDevice(HaplyOptions options);
   ~HaplyDevice() override { stop(); }
 
@@ -39,7 +38,7 @@ class HaplyDevice : public Device {
   std::vector<std::string> statements() const override;
 
  private:
-  /// Why ticks have ceased.
+  /// Why ticks have ended.
   enum class Trouble : std::uint8_t {
     none,
     no_answer,
@@ -68,7 +67,7 @@ class HaplyDevice : public Device {
   bool paced_ = true, was_in_use_ = false;
   double fastest_ = unknown;                     ///< round trips a second
   std::uint64_t gripless_ = 0;                   ///< answers in a row without a grip
-  std::atomic<Trouble> trouble_{Trouble::none};  ///< close_reason() may be read once this says why
+  std::atomic<Trouble> trouble_{Trouble::none};  ///< once it is not `none`, close_reason() may be read
   TickingThread thread_;
 };
 

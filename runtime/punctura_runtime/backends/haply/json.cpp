@@ -80,7 +80,7 @@ bool JsonReader::numeral(std::string_view& raw) noexcept {
   };
   if (peek() == '-') ++at_;
   if (peek() == '0')
-    ++at_;  // nothing but a point or an exponent may follow it
+    ++at_;  // only a point or an exponent may follow
   else if (!digits())
     return false;
   if (peek() == '.') {

@@ -1,4 +1,5 @@
-// A JSON reader (RFC 8259) that does not allocate. It walks over a text once; its caller picks the values that it wants.
+// A JSON reader (RFC 8259) that does not allocate. It walks over a text once; its caller picks the values that it
+// wants.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +9,22 @@
 
 namespace punctura::haply {
 
-/// Each call reads one value. A value of another kind than was asked for is skipped and gives nothing, so every field is optional. After a
-/// text that is not JSON, all calls fail: see whole().
+/// Each call reads one value. A value of another kind than was asked for is skipped and gives nothing, so every field
+/// is optional. After a text that is not JSON, all calls fail: see whole().
 ///
 ///     JsonReader json(text);
 ///     json.object([&](std::string_view key) { if (key == "x") take(json.number()); });
 ///
-/// Keys and strings are given as they stand in the text, with their escapes: one with an escape equals none of our names.
+/// Keys and strings are given as they stand in the text, with their escapes: one with an escape equals none of our
+/// names.
 class JsonReader {
  public:
   static constexpr int deepest = 32;  ///< levels of arrays and objects
 
   explicit JsonReader(std::string_view text) noexcept : text_(text) {}
 
-  /// Calls `member(key)` for each member. It reads the value by one call, or leaves it. False if the value is not an object.
+  /// Calls `member(key)` for each member. It reads the value by one call, or leaves it. False if the value is not an
+  /// object.
   template <typename Member>
   bool object(Member&& member) noexcept {
     if (!enter('{')) return false;
@@ -37,7 +40,8 @@ class JsonReader {
     return !failed_;
   }
 
-  /// Calls `element()` for each element. It reads the value by one call, or leaves it. False if the value is not an array.
+  /// Calls `element()` for each element. It reads the value by one call, or leaves it. False if the value is not an
+  /// array.
   template <typename Element>
   bool array(Element&& element) noexcept {
     if (!enter('[')) return false;

@@ -10,9 +10,9 @@ namespace punctura::haply {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
-constexpr std::int64_t patience = 1000 * ms;  ///< for what happens once, before anything runs
+constexpr std::int64_t patience = 1000 * ms;  ///< ns: timeout of each step before the first tick
 
-/// "3.5" at the beginning of a text.
+/// "3.5" at the start of a text.
 std::optional<Version> version_at(std::string_view text) {
   Version version;
   const char* const end = text.data() + text.size();
@@ -72,7 +72,7 @@ std::string Service::begin(std::string_view device) {
   std::string error = hello();
   if (!error.empty()) return error;
 
-  // A service that does not tell its version shows by its echo which form it takes.
+  // Without a known version, the echo shows which format the service takes.
   const ForceKey candidates[] = {version_ ? force_key(*version_) : ForceKey::vector, ForceKey::values};
   const std::size_t count = version_ ? 1 : 2;
   for (std::size_t i = 0; i < count; ++i) {
@@ -94,7 +94,8 @@ std::string Service::begin(std::string_view device) {
          ". No force can be trusted to come; update the Inverse Service";
 }
 
-/// Who we are. Only services from 3.5 on are known to take it; for older ones the first command is the first message.
+/// Introduces Punctura to the service. Versions before 3.5 are not known to accept that; there a command is the first
+/// message.
 std::string Service::hello() {
   if (!version_ || force_key(*version_) != ForceKey::vector) return {};
   const std::string text = R"({"session":{"configure":{"profile":{"name":"org.punctura","required_version":">=3.5"},)"
@@ -106,7 +107,7 @@ std::string Service::hello() {
   return how == Received::message ? "" : "to the first message, " + trouble(how);
 }
 
-/// Asks for a force upwards until the answers show some of it, ten times at most: the share that they show.
+/// Requests an upward force, up to ten times, until an answer shows some of it. Returns the share that it shows.
 std::optional<double> Service::echoed(double force) {
   for (int i = 0; i < 10; ++i) {
     if (exchange({0, 0, force}, patience) != Received::message) return {};
@@ -130,7 +131,7 @@ Received Service::exchange(const Vector& force, std::int64_t timeout_ns) noexcep
   const std::int64_t deadline = os::now_ns() + timeout_ns;
   const std::size_t size = write_force(device_.view(), key_, force, out_);
   if (!socket_.send({out_.data(), size}, deadline)) {
-    std::string_view text;  // it may have said goodbye before it went
+    std::string_view text;  // the service may have sent a close frame before
     garbled_ = false;
     return socket_.receive(text, os::now_ns()) == Received::closed ? Received::closed : Received::failed;
   }
@@ -141,7 +142,7 @@ void Service::leave() noexcept {
   if (!socket_.is_open()) return;
   if (!device_.empty()) {
     const std::size_t size = write_force(device_.view(), key_, {0, 0, 0}, out_);
-    // Its answer shows that it was read: a connection that closes over unread words may take them along.
+    // Wait for the answer: a connection that is closed earlier may discard the unread command.
     if (socket_.send({out_.data(), size}, os::now_ns() + 2 * ms)) take(os::now_ns() + 5 * ms);
   }
   socket_.close();

@@ -1,4 +1,4 @@
-// The Inverse Service: found, understood, and spoken to. What is wrong is said in words.
+// A connection to the Inverse Service.
 #pragma once
 
 #include <array>
@@ -17,33 +17,35 @@ struct Version {
   bool operator==(const Version&) const = default;
 };
 
-/// From what GET /version answers: the first number with a point after the word "version", or the first at all.
+/// Finds the version in the answer to GET /version: the first number with a point after the word "version", or the
+/// first in the text.
 std::optional<Version> find_version(std::string_view body);
 ForceKey force_key(const Version& version);
 
-/// A connection to the service, with one of its devices chosen. It sends one message for each that it receives.
+/// A connection to the service, and one of its devices. The service sends one message for each that it receives.
 class Service {
  public:
-  /// Connects and reads the inventory. Gives no force and configures nothing. Empty when that went well, else what is wrong.
+  /// Connects and reads the list of devices. Gives no force and configures nothing. Returns an error message, or
+  /// nothing.
   std::string connect(const Url& url);
 
-  const State& state() const noexcept { return state_; }  ///< what came last
+  const State& state() const noexcept { return state_; }  ///< the last answer
   const std::optional<Version>& version() const noexcept { return version_; }
 
-  /// Chooses a device (empty: the first), tells the service who we are, and finds out how it wants its force, by forces that
-  /// nobody feels: up to 0.05 N for a few milliseconds. Empty when that went well, else what is wrong.
+  /// Selects a device (empty: the first) and determines the format of the force, with forces too small to feel: up to
+  /// 0.05 N for a few milliseconds. Returns an error message, or nothing.
   std::string begin(std::string_view device);
   const Name& device() const noexcept { return device_; }
   ForceKey key() const noexcept { return key_; }
-  double echo() const noexcept { return echo_; }  ///< the share of a force asked for that the service says it gives
+  double echo() const noexcept { return echo_; }  ///< the share of a requested force that the service reports
 
-  /// One message, with a force (N, finite, the service's axes), and its answer, which is then state().
+  /// Sends a force (N, finite, in the service's axes) and receives the answer, which is then state().
   Received exchange(const Vector& force, std::int64_t timeout_ns) noexcept;
-  /// The service's last words were not JSON.
+  /// The last answer was not JSON.
   bool garbled() const noexcept { return garbled_; }
   std::string_view close_reason() const noexcept { return socket_.close_reason(); }
 
-  /// Zero force, goodbye. Safe at any time, and twice.
+  /// Sends zero force and closes the connection. Allowed at any time, also twice.
   void leave() noexcept;
   bool is_open() const noexcept { return socket_.is_open(); }
 

@@ -22,7 +22,7 @@ const Arm* State::find(std::string_view id) const noexcept {
 
 namespace {
 
-/// {"x": 1, "y": 2, "z": 3}: all of the letters, or nothing.
+/// {"x": 1, "y": 2, "z": 3}: all of the components, or nothing.
 template <std::size_t N>
 std::optional<std::array<double, N>> letters(JsonReader& json, std::string_view names) noexcept {
   std::array<std::optional<double>, N> found;

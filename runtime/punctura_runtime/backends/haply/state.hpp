@@ -1,4 +1,4 @@
-// What the Inverse Service says of its devices, and what it is told.
+// The messages of the Inverse Service, and those to it.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace punctura::haply {
 
-/// A name that came in a message, kept without taking memory. Longer ones, and ones with an escape or a blank, are not kept.
+/// A device_id, stored without allocation. Empty for names that are longer or have an escape or a blank.
 class Name {
  public:
   Name() = default;
@@ -29,37 +29,37 @@ using Quaternion = std::array<double, 4>;  ///< w, x, y, z
 struct Arm {
   Name id;
   std::optional<Vector> position;  ///< m
-  std::optional<Vector> force;     ///< N, that the service says it gives out
+  std::optional<Vector> force;     ///< N, as the service reports it
   std::optional<bool> calibrated, in_use, power_supply, ready;
 };
 
-/// A VerseGrip in the hand, wired or wireless.
+/// A VerseGrip, wired or wireless.
 struct Grip {
   Name id;
   std::optional<Quaternion> orientation;
-  std::uint32_t buttons = 0;  ///< a, b, c, or the only one, as bits 0, 1, 2
+  std::uint32_t buttons = 0;  ///< bits 0, 1, 2: buttons a, b, c; bit 0: the only button
   bool connected = true;
 };
 
-/// One message of the service, as far as we use it. Every field of it may be missing.
+/// The used parts of a message of the service. Every field may be missing.
 struct State {
   std::array<Arm, 8> arms;
-  std::size_t arm_count = 0;  ///< how many of them are there; more than eight are passed over
+  std::size_t arm_count = 0;  ///< more than eight are ignored
   Grip grip;                  ///< the first that is connected and has an orientation
   bool has_grip = false;
 
-  const Arm* find(
-      std::string_view id) const noexcept;  ///< the first of all where id is empty; nullptr when it is not there
+  const Arm* find(std::string_view id) const noexcept;  ///< the first if id is empty; nullptr if there is none
 };
 
-/// False when the text is not JSON, or no object. `state` is overwritten.
+/// False if the text is not JSON or not an object. Overwrites `state`.
 bool read_state(std::string_view text, State& state) noexcept;
 
-/// The two names of the vector in set_cursor_force: `vector` from version 3.5 of the service on, `values` before it.
+/// The key of the vector in set_cursor_force: `vector` from version 3.5 of the service on, `values` before.
 enum class ForceKey : std::uint8_t { vector, values };
 constexpr std::string_view name(ForceKey key) noexcept { return key == ForceKey::vector ? "vector" : "values"; }
 
-/// The command of a tick into `out`, which has 512 bytes or more. force: N, finite, in the service's axes. Gives its size.
+/// Writes the command of a tick into `out`, which has 512 bytes or more. force: N, finite, in the service's axes.
+/// Returns the size.
 std::size_t write_force(std::string_view id, ForceKey key, const Vector& force, std::span<char> out) noexcept;
 
 }  // namespace punctura::haply

@@ -1,4 +1,4 @@
-// Where the Inverse Service listens.
+// The address of the Inverse Service.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ struct Url {
   }
 };
 
-/// "ws://host", "ws://host:port", "ws://[::1]:port", with or without a slash at the end; nothing when it is none of these.
+/// "ws://host", "ws://host:port", "ws://[::1]:port", with or without a slash at the end. Nothing for any other text.
 std::optional<Url> parse_url(std::string_view text);
 
-/// PUNCTURA_INVERSE_URL of the environment, or the service's own default, ws://localhost:10001.
+/// The environment variable PUNCTURA_INVERSE_URL, or the service's default, ws://localhost:10001.
 std::string default_url();
 
 }  // namespace punctura::haply

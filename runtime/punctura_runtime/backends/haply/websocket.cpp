@@ -60,7 +60,7 @@ std::string WebSocket::open(const Url& url, std::int64_t deadline) {
   error = upgrade_refusal(std::string_view(answer).substr(0, end));
   if (!error.empty()) return error;
 
-  // The first frames may have come in the same piece.
+  // The piece may have the first frames, too.
   const std::string_view rest = std::string_view(answer).substr(end + 4);
   std::ranges::copy(rest, reader_.space().begin());
   reader_.filled(rest.size());
@@ -80,10 +80,10 @@ Received WebSocket::receive(std::string_view& text, std::int64_t deadline) noexc
     std::string_view payload;
     switch (reader_.next(payload)) {
       case Event::text: text = payload; return Received::message;
-      case Event::binary: return Received::broken;  // the service speaks text only
+      case Event::binary: return Received::broken;  // the service sends text only
       case Event::ping:
         if (!send(Opcode::pong, payload, deadline)) return Received::failed;
-        if (os::now_ns() >= deadline) return Received::timeout;  // however many pings there are
+        if (os::now_ns() >= deadline) return Received::timeout;  // also if pings come without end
         continue;
       case Event::pong: continue;
       case Event::close: keep_reason(payload); return Received::closed;
@@ -91,7 +91,7 @@ Received WebSocket::receive(std::string_view& text, std::int64_t deadline) noexc
       case Event::too_big: return Received::too_big;
       case Event::more: break;
     }
-    // Asked before each piece: a message that drips in byte by byte must not hold a tick.
+    // Checked before each piece: a message that arrives byte by byte must not delay a tick beyond the deadline.
     if (dripping && os::now_ns() >= deadline) return Received::timeout;
     dripping = true;
     const auto space = reader_.space();
@@ -106,14 +106,14 @@ Received WebSocket::receive(std::string_view& text, std::int64_t deadline) noexc
 }
 
 void WebSocket::keep_reason(std::string_view payload) noexcept {
-  if (payload.size() <= 2) return;  // two bytes of code, then words
+  if (payload.size() <= 2) return;  // a code of two bytes, then a text
   reason_size_ = payload.size() - 2;
   std::ranges::transform(payload.substr(2), reason_.begin(), [](char c) { return ' ' <= c && c <= '~' ? c : '?'; });
 }
 
 void WebSocket::close() noexcept {
   if (!socket_) return;
-  send(Opcode::close, std::string_view("\x03\xe8", 2), os::now_ns());  // 1000: all is well
+  send(Opcode::close, std::string_view("\x03\xe8", 2), os::now_ns());  // 1000: normal closure
   socket_.close();
 }
 

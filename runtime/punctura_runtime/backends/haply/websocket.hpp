@@ -1,4 +1,4 @@
-// A WebSocket to a service on this machine. Text messages one way and the other, within a deadline, without taking memory.
+// A WebSocket client for a service on this machine: text messages with deadlines, no allocation after open().
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace punctura::haply {
 
-/// How waiting for a message ended.
+/// The result of receive().
 enum class Received : std::uint8_t { message, timeout, closed, broken, too_big, failed };
 
 const char* describe(Received how) noexcept;
@@ -24,20 +24,20 @@ class WebSocket {
 
   WebSocket() : reader_(largest_message), out_(framed_size(largest_command)) {}
 
-  /// Connects and asks for the upgrade. Empty when it stands, else why not. Deadlines are times of os::now_ns().
+  /// Connects. Returns an error message, or nothing. Deadlines are times of os::now_ns().
   std::string open(const Url& url, std::int64_t deadline);
   bool is_open() const noexcept { return static_cast<bool>(socket_); }
 
-  /// False when not all of it left before the deadline; then the connection is of no more use.
+  /// False if not all of it was sent before the deadline. The connection is then unusable.
   bool send(std::string_view text, std::int64_t deadline) noexcept { return send(Opcode::text, text, deadline); }
 
-  /// The next text message, valid until the next call. Pings are answered on the way.
+  /// The next text message, valid until the next call. Answers pings.
   Received receive(std::string_view& text, std::int64_t deadline) noexcept;
 
-  /// What the server gave as its reason when it closed: printable ASCII, at most 123 characters.
+  /// The server's reason for closing: printable ASCII, at most 123 characters.
   std::string_view close_reason() const noexcept { return {reason_.data(), reason_size_}; }
 
-  /// Says goodbye where that is possible at once, and closes.
+  /// Sends a close frame if that is possible without waiting, and closes.
   void close() noexcept;
 
  private:
@@ -47,13 +47,14 @@ class WebSocket {
   os::Socket socket_;
   FrameReader reader_;
   std::vector<char> out_;
-  /// Masks protect the proxies between client and server (RFC 6455 section 10.3). On one machine there is none: any generator will do.
+  /// Masks protect the proxies between client and server (RFC 6455 section 10.3). On one machine there is none: any
+  /// generator will do.
   std::minstd_rand mask_;
   std::array<char, 125> reason_{};
   std::size_t reason_size_ = 0;
 };
 
-/// GET path: the body of the answer, at most 16 KiB, or empty with `error` set.
+/// GET path. Returns the body, of at most 16 KiB; empty with `error` set if it fails.
 std::string http_get(const Url& url, std::string_view path, std::int64_t deadline, std::string& error);
 
 }  // namespace punctura::haply

@@ -1,4 +1,4 @@
-// The newest value of one thread, for one other, without a lock.
+// The newest value of one thread for one other thread, without a lock.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace punctura {
 
-/// Three copies: one being written, one being read, one between them. Neither side ever waits, and none sees half a value.
+/// One copy is written, one is read, one is between them. Neither side ever waits or sees half a value.
 template <typename T>
-class Latest {
+class TripleBuffer {
  public:
-  explicit Latest(const T& first = T{}) : copies_{first, first, first} {}
+  explicit TripleBuffer(const T& first = T{}) : copies_{first, first, first} {}
 
   /// Writer.
   template <typename Fill>
