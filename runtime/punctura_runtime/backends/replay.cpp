@@ -9,7 +9,7 @@ namespace punctura {
 ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorded, const ReplayOptions& options)
     : samples_(std::move(samples)), info_(std::move(recorded)), options_(options) {
   if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("a recording at " + std::to_string(info_.rate) + " Hz cannot be replayed: it must be above 0");
+    throw DeviceError("the rate of a recording must be above 0 Hz, not " + std::to_string(info_.rate));
   // Everything else is the recorded device's: its ratings limit the force, its encoder step selects the conditioning.
   if (info_.backend != "replay") info_.model = info_.model.empty() ? "a recorded motion" : info_.model + ", recorded";
   info_.backend = "replay";
@@ -30,9 +30,9 @@ std::string ReplayDevice::trouble() const {
 }
 
 std::vector<std::string> ReplayDevice::statements() const {
-  std::vector<std::string> all{"a recorded motion does not yield to the force"};
+  std::vector<std::string> all{"the force has no effect on a recorded motion"};
   if (const std::uint64_t periods = behind(); periods > 0)
-    all.push_back("the replay was held up by " + std::to_string(periods) + " periods in all; no sample is missing");
+    all.push_back("the replay is " + std::to_string(periods) + " periods late in total; no sample is missing");
   os::add_words(thread_.realtime(), all);
   return all;
 }

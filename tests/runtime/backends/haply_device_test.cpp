@@ -77,12 +77,12 @@ TEST_CASE("K06 Fig. 10 through the service is the offline experiment to the last
 
 TEST_CASE("after every mishap the plant's force is zero at once and stays so, and the trouble is said in words") {
   const std::pair<Mishap, const char*> cases[] = {
-      {Mishap::removed, "The Inverse3 049D has gone"},
+      {Mishap::removed, "The Inverse3 049D is no longer in the service's list"},
       {Mishap::closes, "closed the connection: \"going away\""},
       {Mishap::silent, "did not answer within 200 ms"},
       {Mishap::malformed, "not JSON"},
       {Mishap::oversized, "too long"},
-      {Mishap::masked, "does not keep to the WebSocket protocol"},
+      {Mishap::masked, "violates the WebSocket protocol"},
       {Mishap::cut_off, "closed the connection"},
       {Mishap::no_position, "reports no position"},
       {Mishap::no_power, "its power supply"},
@@ -223,5 +223,5 @@ TEST_CASE("a service that answers less often than asked for gives the rate: it i
   CHECK(paced.info().rate == 400);
   const auto said = paced.statements();
   CHECK(said.front() == "haply: tested against a simulated service only");
-  CHECK(said.at(1) == "the service answers 500 times a second; asked at 400 Hz");
+  CHECK(said.at(1) == "the service answers 500 times a second; the rate is 400 Hz");
 }

@@ -103,13 +103,13 @@ TEST_CASE("a service that takes the force by another key than its version says i
 
 TEST_CASE("what hinders the opening is said, with where it looked") {
   FakeSettings settings;
-  CHECK(refusal(settings, "FFFF").find("knows no Inverse3 called 'FFFF'") != std::string::npos);
+  CHECK(refusal(settings, "FFFF").find("has no Inverse3 called 'FFFF'") != std::string::npos);
   settings.inventory = R"({"session_id":1})";
   CHECK(refusal(settings).find("plug one in") != std::string::npos);
   settings.inventory = "[";
-  CHECK(refusal(settings).find("no inventory of its devices came: a message was not JSON") != std::string::npos);
+  CHECK(refusal(settings).find("it sent no list of its devices: a message was not JSON") != std::string::npos);
   settings.inventory = R"({"inverse3":[{"device_id":"a\"b"}]})";
-  CHECK(refusal(settings).find("no device_id that could be used") != std::string::npos);
+  CHECK(refusal(settings).find("no usable device_id") != std::string::npos);
 
   HaplyOptions nowhere;
   nowhere.url = "nowhere";
@@ -132,7 +132,7 @@ TEST_CASE("a service that gives out less than it is asked for is used, and it is
   options.real_time = false;
   const HaplyDevice device(options);
   CHECK(device.statements().back() ==
-        "the service gives 30 % of the force asked for: see its force scale and force gate");
+        "the service gives 30 % of the requested force: check its force scale and force gate");
 }
 
 TEST_CASE("each state of the back-end is told in words") {

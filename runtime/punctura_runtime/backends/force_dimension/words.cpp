@@ -59,7 +59,7 @@ std::vector<std::string> ForceDimensionDevice::statements() const {
     all.push_back("no wrist: set direction = \"motion\" in the scene, or the needle points away from you");
   if (const auto count = saturated(); count > 0)
     all.push_back("the motors could not give the whole force in " + std::to_string(count) + " ticks");
-  if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were left out");
+  if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were skipped");
   os::add_words(thread_.realtime(), all);
   return all;
 }

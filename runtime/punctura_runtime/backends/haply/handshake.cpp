@@ -41,9 +41,9 @@ std::string upgrade_refusal(std::string_view answer) {
   }
   if (lower(field(answer, "upgrade")) != "websocket" ||
       lower(field(answer, "connection")).find("upgrade") == std::string::npos)
-    return "it did not agree to become a WebSocket";
+    return "it refused to become a WebSocket";
   if (field(answer, "sec-websocket-accept") != upgrade_accept) return "its Sec-WebSocket-Accept is wrong";
-  if (!field(answer, "sec-websocket-extensions").empty()) return "it wants an extension that nobody offered";
+  if (!field(answer, "sec-websocket-extensions").empty()) return "it uses an extension that was not offered";
   return {};
 }
 

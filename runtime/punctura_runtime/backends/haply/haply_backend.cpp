@@ -14,7 +14,9 @@ BackendStatus haply::status_at(const std::string& text) {
     return status;
   };
   const auto url = parse_url(text);
-  if (!url) return is(State::fault, "PUNCTURA_INVERSE_URL is '" + text + "': it looks like ws://localhost:10001.");
+  if (!url)
+    return is(State::fault,
+              "PUNCTURA_INVERSE_URL is '" + text + "', which is not an address such as ws://localhost:10001.");
 
   Service service;
   const std::string error = service.connect(*url);
@@ -26,15 +28,15 @@ BackendStatus haply::status_at(const std::string& text) {
                             (service.version() ? ", version " + service.version()->text() : ", version unknown");
   for (std::size_t i = 0; i < found.arm_count; ++i) status.devices.emplace_back(found.arms[i].id.view());
   const Arm* first = found.find("");
-  if (!first) return is(State::no_device, which + ", knows no Inverse3: plug one in and switch it on.");
+  if (!first) return is(State::no_device, which + ", has no Inverse3: plug one in and switch it on.");
   if (!first->power_supply.value_or(true))
     return is(State::fault, "The Inverse3 has no power: connect its power supply.");
   if (!first->calibrated.value_or(true))
-    return is(State::needs_calibration, "Calibrate the Inverse3 in Haply's own program.");
+    return is(State::needs_calibration, "Calibrate the Inverse3 in Haply's program.");
   if (first->in_use.value_or(false))
-    return is(State::in_use, "Another program may be using the Inverse3: forces of several add up, close the others.");
-  if (!first->ready.value_or(true))
-    return is(State::fault, "The Inverse3 is not ready: see to it in Haply's own program.");
+    return is(State::in_use,
+              "Another program may be using the Inverse3. The forces of several programs add up: close the others.");
+  if (!first->ready.value_or(true)) return is(State::fault, "The Inverse3 is not ready: check it in Haply's program.");
   return is(State::available, which + (found.has_grip ? ", with a VerseGrip" : ", without a VerseGrip") +
                                   ". Tested against a simulated service only.");
 }

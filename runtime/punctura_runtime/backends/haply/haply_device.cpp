@@ -16,8 +16,7 @@ std::int64_t ns(double seconds) noexcept { return static_cast<std::int64_t>(seco
 HaplyDevice::HaplyDevice(HaplyOptions options) : options_(std::move(options)) {
   const auto url = parse_url(options_.url);
   if (!url)
-    throw DeviceError("'" + options_.url +
-                      "' is no address of the Inverse Service: it looks like ws://localhost:10001");
+    throw DeviceError("'" + options_.url + "' is not an address of the Inverse Service, such as ws://localhost:10001");
   url_ = *url;
   open();
   info_.backend = "haply";
@@ -65,7 +64,7 @@ void HaplyDevice::start(Tick tick) {
   if (!service_.is_open() || service_.exchange({0, 0, 0}, ns(1)) != Received::message) {
     open();
     if (service_.exchange({0, 0, 0}, ns(1)) != Received::message)
-      throw DeviceError("The Inverse Service at " + url_.text() + " has ceased to answer");
+      throw DeviceError("The Inverse Service at " + url_.text() + " no longer answers");
   }
   trouble_ = Trouble::none;
   gripless_ = 0;
@@ -152,14 +151,13 @@ std::string HaplyDevice::trouble() const {
       return service("closed the connection" + (reason.empty() ? "." : ": \"" + reason + "\"."));
     }
     case Trouble::not_json: return service("sent a message that is not JSON.");
-    case Trouble::broken: return service("does not keep to the WebSocket protocol.");
+    case Trouble::broken: return service("violates the WebSocket protocol.");
     case Trouble::too_big: return service("sent a message that is too long.");
-    case Trouble::failed: return service("cannot be reached any more: the connection failed.");
-    case Trouble::gone: return device + "has gone from the service's list: check its cable.";
-    case Trouble::no_position: return device + "reports no position: look at it in Haply's own program.";
-    case Trouble::unready:
-      return device + "has lost its calibration or its power supply: see to it in Haply's own program.";
-    case Trouble::no_grip: return "The grip has gone from the service's list: switch it on, and pair it again.";
+    case Trouble::failed: return service("is no longer reachable: the connection failed.");
+    case Trouble::gone: return device + "is no longer in the service's list: check its cable.";
+    case Trouble::no_position: return device + "reports no position: check it in Haply's program.";
+    case Trouble::unready: return device + "has lost its calibration or its power supply: check it in Haply's program.";
+    case Trouble::no_grip: return "The grip is no longer in the service's list: switch it on and pair it again.";
   }
   return {};
 }
@@ -169,13 +167,14 @@ std::vector<std::string> HaplyDevice::statements() const {
   std::vector<std::string> all{"haply: tested against a simulated service only"};
   if (options_.real_time)
     all.push_back("the service answers " + whole(fastest_) + " times a second" +
-                  (paced_ ? "; asked at " + whole(info_.rate) + " Hz" : ", less than was asked for: that is the rate"));
-  if (!info_.has_orientation) all.push_back("no VerseGrip: the needle's direction must come from the motion");
+                  (paced_ ? "; the rate is " + whole(info_.rate) + " Hz" : ", less than requested: that is the rate"));
+  if (!info_.has_orientation) all.push_back("no VerseGrip: set direction = \"motion\" in the scene");
   if (was_in_use_)
-    all.push_back("the service says that the Inverse3 is in use: forces of several programs add up, close the others");
+    all.push_back(
+        "the service reports that the Inverse3 is in use: the forces of several programs add up, so close the others");
   if (std::abs(service_.echo() - 1) > 0.05)
     all.push_back("the service gives " + whole(100 * service_.echo()) +
-                  " % of the force asked for: see its force scale and force gate");
+                  " % of the requested force: check its force scale and force gate");
   os::add_words(thread_.realtime(), all);
   return all;
 }

@@ -59,14 +59,14 @@ std::string Service::connect(const Url& url) {
   const Received how = take(os::now_ns() + patience);
   if (how == Received::message) return {};
   socket_.close();
-  return "no inventory of its devices came: " + trouble(how);
+  return "it sent no list of its devices: " + trouble(how);
 }
 
 std::string Service::begin(std::string_view device) {
   const Arm* arm = state_.find(device);
   if (!arm || arm->id.empty()) {
-    if (!arm && !device.empty()) return "it knows no Inverse3 called '" + std::string(device) + "'";
-    return arm ? "its Inverse3 has no device_id that could be used" : "it knows no Inverse3: plug one in";
+    if (!arm && !device.empty()) return "it has no Inverse3 called '" + std::string(device) + "'";
+    return arm ? "its Inverse3 has no usable device_id" : "it has no Inverse3: plug one in";
   }
   device_ = arm->id;
   std::string error = hello();
@@ -80,7 +80,7 @@ std::string Service::begin(std::string_view device) {
     for (const double force : {0.001, 0.01, 0.05}) {
       const auto echo = echoed(force);
       const Received quiet = exchange({0, 0, 0}, patience);
-      if (quiet != Received::message) return "while it was asked for its force, " + trouble(quiet);
+      if (quiet != Received::message) return "while its force was checked: " + trouble(quiet);
       if (!echo) continue;
       echo_ = *echo;
       return {};
@@ -91,7 +91,7 @@ std::string Service::begin(std::string_view device) {
   const std::string which = version_ ? "version " + version_->text() : "unknown version";
   return "it (" + which + ") did not take a force by " + form + ": current_cursor_force in its answers " +
          (state_.find(device_.view()) && state_.find(device_.view())->force ? "stayed 0" : "is missing") +
-         ". No force can be trusted to come; update the Inverse Service";
+         ". Forces may not arrive: update the Inverse Service";
 }
 
 /// Introduces Punctura to the service. Versions before 3.5 are not known to accept that; there a command is the first
@@ -104,7 +104,7 @@ std::string Service::hello() {
                            R"(","configure":{"preset":{"preset":"arm_front_centered"}}}]})";
   Received how = Received::failed;
   if (socket_.send(text, os::now_ns() + patience)) how = take(os::now_ns() + patience);
-  return how == Received::message ? "" : "to the first message, " + trouble(how);
+  return how == Received::message ? "" : "after the first message: " + trouble(how);
 }
 
 /// Requests an upward force, up to ten times, until an answer shows some of it. Returns the share that it shows.
