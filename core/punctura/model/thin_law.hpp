@@ -1,8 +1,7 @@
 // K06 section 2.1: an infinitely thin membrane, crossed along its normal.
 #pragma once
 
-#include <cmath>
-
+#include "punctura/model/lane.hpp"
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/needle.hpp"
 #include "punctura/model/piecewise_band.hpp"
@@ -19,7 +18,8 @@ struct LawConstants {
   Scalar F;    ///< dry friction of the shaft, N
 
   LawConstants(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {
-    const Scalar t = std::tan(needle.tip_angle), mu = membrane.friction, kappa = membrane.stiffness;
+    using namespace lane;
+    const Scalar t = tan(needle.tip_angle), mu = membrane.friction, kappa = membrane.stiffness;
     X = needle.diameter / t;
     A_I = kappa * t * (2 * mu + (1 - mu * mu) * t) / (1 - mu * t);
     A_O = kappa * t * (2 * mu - (1 - mu * mu) * t) / (1 + mu * t);
