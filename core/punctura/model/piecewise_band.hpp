@@ -96,12 +96,4 @@ struct PiecewiseBand {
   }
 };
 
-template <typename M, Lanes V, std::size_t N>
-PiecewiseBand<V, N> select(const M& mask, const PiecewiseBand<V, N>& a, const PiecewiseBand<V, N>& b) noexcept {
-  PiecewiseBand<V, N> selected;
-  for (std::size_t i = 0; i < N - 1; ++i) selected.breaks[i] = select(mask, a.breaks[i], b.breaks[i]);
-  for (std::size_t i = 0; i < N; ++i) selected.pieces[i] = select(mask, a.pieces[i], b.pieces[i]);
-  return selected;
-}
-
 }  // namespace punctura

@@ -134,8 +134,11 @@ bool is_unit(const Vector3<Scalar>& v) noexcept {
 }
 static_assert(std::is_trivially_copyable_v<Vector3d>);
 
-/// Plain storage for records.
-inline std::array<double, 3> plain(const Vector3d& v) noexcept { return v.array(); }
+/// Plain storage for records, which are double.
+template <OneNumber Scalar>
+std::array<double, 3> plain(const Vector3<Scalar>& v) noexcept {
+  return v.template cast<double>().array();
+}
 inline Vector3d vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

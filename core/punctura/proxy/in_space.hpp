@@ -87,21 +87,6 @@ struct SpaceTick {
   }
 };
 
-/// Lane by lane: a where the mask is true, else b.
-template <typename M, ObliqueLaw L, typename C>
-  requires Lanes<typename L::Scalar>
-SpaceState<L, C> select(const M& mask, const SpaceState<L, C>& a, const SpaceState<L, C>& b) noexcept {
-  SpaceState<L, C> selected{a.started && b.started,
-                            select(mask, a.phase, b.phase),
-                            select(mask, a.p, b.p),
-                            select(mask, a.e, b.e),
-                            select(mask, a.f, b.f),
-                            select(mask, a.b, b.b),
-                            select(mask, a.cos_beta, b.cos_beta),
-                            select(mask, a.pieces, b.pieces)};
-  if constexpr (!std::is_empty_v<decltype(a.coupling)>) selected.coupling = select(mask, a.coupling, b.coupling);
-  return selected;
-}
 template <typename M, Lanes V>
 SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b) noexcept {
   return {select(mask, a.force, b.force),         select(mask, a.proxy, b.proxy),
@@ -132,9 +117,7 @@ void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typen
   state.cos_beta = select(passed, cos_beta, state.cos_beta);
   if (!any(enters)) return;
   state.b = select(enters, axis, state.b);
-  const auto before = state.pieces;
-  lay_out(params, state);
-  if (!all(enters)) state.pieces = select(enters, state.pieces, before);
+  lay_out(params, state);  // a lane that does not enter gets the pieces that it had
 }
 
 /// The end of a tick inside: friction along b is known, so is where the proxy goes.
@@ -179,7 +162,11 @@ SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>&
   SpaceState<L, C> outside = state;
   const SpaceTick<Scalar> of_outside = settle_outside(params, outside, p);
   const SpaceTick<Scalar> of_inside = settle_inside(params, state, p, p_prev, f_star, friction, depth);
-  state = select(is_inside, state, outside);
+  state.phase = select(is_inside, state.phase, outside.phase);
+  state.e = select(is_inside, state.e, outside.e);
+  state.f = select(is_inside, state.f, outside.f);
+  if constexpr (!std::is_empty_v<decltype(state.coupling)>)
+    state.coupling = select(is_inside, state.coupling, outside.coupling);
   return select(is_inside, of_inside, of_outside);
 }
 
