@@ -35,10 +35,11 @@ struct Smoothing {
 /// From the measured position (m) to the one that the model is given (m).
 ///
 /// Each axis by itself: encoders count axis by axis, and an axis that rests stays quiet while another moves.
-template <typename Scalar>
+template <typename Scalar, typename Storage = HeapStorage>
 class PositionConditioner {
  public:
   using Vector = Vector3<Scalar>;
+  using Line = LineFit<Scalar, Storage>;
 
   /// low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m; 0 is off.
   PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
@@ -59,7 +60,7 @@ class PositionConditioner {
 
   static void archive(auto& self, auto& state) {
     if (self.fits_)
-      for (auto& line : self.lines_) LineFit<Scalar>::archive(line, state);
+      for (auto& line : self.lines_) Line::archive(line, state);
     LowPass<Scalar, Vector>::archive(self.low_pass_, state);
   }
   void describe(auto& parameters) const {
@@ -74,13 +75,13 @@ class PositionConditioner {
   }
 
  private:
-  LineFit<Scalar> fit(Scalar encoder_step, Scalar period) const {
+  Line fit(Scalar encoder_step, Scalar period) const {
     return {encoder_step, Smoothing<Scalar>::of(encoder_step).window, period, low_pass_.lag()};
   }
 
   bool fits_;
   LowPass<Scalar, Vector> low_pass_;
-  std::array<LineFit<Scalar>, 3> lines_;
+  std::array<Line, 3> lines_;
 };
 
 }  // namespace punctura
