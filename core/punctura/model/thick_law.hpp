@@ -1,7 +1,11 @@
 // K06 section 2.2: a membrane of thickness H, crossed at an angle beta to its normal.
 #pragma once
 
-#include "punctura/model/thin_law.hpp"
+#include <array>
+#include <cstddef>
+
+#include "punctura/model/law_constants.hpp"
+#include "punctura/model/piecewise_band.hpp"
 
 namespace punctura {
 

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/safety/force_budget.hpp"
 
 namespace punctura {
 
 struct ForceLimits {
-  double max_force = 3.3;          ///< N, norm. A PHANTOM Omni's peak, by its maker's data sheet
-  double continuous_force = 0.88;  ///< N rms in any continuous_time. The Omni's rating, by its maker's data sheet
-  double continuous_time = 10;     ///< s. A choice: no data sheet gives the motors' thermal time constant
-  double ramp_time = 0.5;          ///< s from zero to full force after arming
-  double warm_motor = 0.8;         ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
+  double max_force = Omni::max_force;                ///< N, norm
+  double continuous_force = Omni::continuous_force;  ///< N rms in any continuous_time
+  double continuous_time = 10;  ///< s. A choice: no data sheet gives the motors' thermal time constant
+  double ramp_time = 0.5;       ///< s from zero to full force after arming
+  double warm_motor = 0.8;      ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
 };
 
 /// The limit that makes the force of a tick smaller than the model's.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura/servo/servo_step.hpp"
 

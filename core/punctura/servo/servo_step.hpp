@@ -13,7 +13,7 @@
 #include <limits>
 #include <utility>
 
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/servo/snapshot.hpp"

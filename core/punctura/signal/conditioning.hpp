@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/signal/line_fit.hpp"
 #include "punctura/signal/low_pass.hpp"
@@ -19,7 +20,7 @@ enum class Conditioning : std::uint8_t {
   line_fit,  ///< LineFit on each axis, then a low-pass whose lag it makes up for: for real devices
 };
 
-/// How much a line fit smooths: what a step of 0.055 mm needs, and less for finer encoders. With the root of the step the force
+/// How much a line fit smooths: what the Omni's step needs, and less for finer encoders. With the root of the step the force
 /// noise stays about the same, and a fine device is not made to lag for noise that it does not have.
 template <typename Scalar>
 struct Smoothing {
@@ -27,7 +28,7 @@ struct Smoothing {
   Scalar cutoff_hz;  ///< of the low-pass behind it; 0 is off, for an ideal sensor
 
   static Smoothing of(Scalar encoder_step) noexcept {
-    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(0.055e-3)));
+    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
     return {Scalar(0.010) * share, share > 0 ? Scalar(150) / share : Scalar(0)};
   }
 };

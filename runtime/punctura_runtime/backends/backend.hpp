@@ -5,13 +5,14 @@
 #include <string>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/status.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
 struct OpenOptions {
-  double rate = 1600;               ///< Hz, wished for: the device's `info().rate` says what came of it
+  double rate = usual_rate;         ///< Hz, wished for: the device's `info().rate` says what came of it
   std::string device;               ///< which one, as its maker names it; empty is the first
   std::string library;              ///< path of the maker's library; empty looks where it usually is
   os::RealtimeSettings realtime{};  ///< of the thread that ticks, where that is ours and not a maker's

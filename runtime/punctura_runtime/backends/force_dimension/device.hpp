@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/force_dimension/axes.hpp"
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
@@ -29,11 +30,11 @@ struct LoopClock {
 inline constexpr double fastest = 4000;  ///< Hz: what its maker gives for USB
 
 struct Options {
-  double rate = 1600;      ///< Hz, at most `fastest`
-  std::string device;      ///< label, model or serial number; empty is the first
-  std::string library;     ///< see load()
-  Triple tool{-1, 0, 0};   ///< where the needle points, in the axes of the handle: a direction, not of length 0
-  bool auto_init = false;  ///< a device without calibration may find it by itself: THE ARM MOVES
+  double rate = usual_rate;  ///< Hz, at most `fastest`
+  std::string device;        ///< label, model or serial number; empty is the first
+  std::string library;       ///< see load()
+  Triple tool{-1, 0, 0};     ///< where the needle points, in the axes of the handle: a direction, not of length 0
+  bool auto_init = false;    ///< a device without calibration may find it by itself: THE ARM MOVES
   LoopClock clock{};
   os::RealtimeSettings realtime{};
 };

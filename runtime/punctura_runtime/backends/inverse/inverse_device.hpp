@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/inverse/service.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/milestone.hpp"
@@ -16,12 +17,12 @@ namespace punctura::inverse {
 
 struct InverseOptions {
   std::string url = default_url();
-  std::string device;     ///< its device_id; empty is the first
-  double rate = 1600;     ///< Hz, wished for; the service's round trip may allow less
-  double max_force = 5;   ///< N. Its maker publishes no limit; this is the cautious one of those in use
-  double stale = 0.015;   ///< s that an answer may take
-  double no_grip = 0.25;  ///< s that a grip may be missing from the answers
-  bool real_time = true;  ///< false: as fast as answers come, on a clock of its own
+  std::string device;        ///< its device_id; empty is the first
+  double rate = usual_rate;  ///< Hz, wished for; the service's round trip may allow less
+  double max_force = 5;      ///< N. Its maker publishes no limit; this is the cautious one of those in use
+  double stale = 0.015;      ///< s that an answer may take
+  double no_grip = 0.25;     ///< s that a grip may be missing from the answers
+  bool real_time = true;     ///< false: as fast as answers come, on a clock of its own
   os::RealtimeSettings realtime{};
   std::int64_t (*now_ns)() noexcept =
       os::now_ns;  ///< what the rate is measured by; tests put a clock of their own here

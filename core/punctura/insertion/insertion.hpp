@@ -8,9 +8,9 @@
 
 #include "punctura/model/storage.hpp"
 #include "punctura/model/thick_law.hpp"
-#include "punctura/proxy/entry_direction.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
 #include "punctura/signal/conditioning.hpp"
+#include "punctura/signal/entry_direction.hpp"
 
 namespace punctura {
 

@@ -10,7 +10,7 @@
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/state/archive.hpp"
 
 using namespace punctura;
