@@ -92,13 +92,16 @@ struct Cases {
   }
   template <template <typename> typename Law>
   Law<FourLanes<Scalar>> law() const {
-    return {
-        {all([&](auto i) { return needle[i].diameter; }), all([&](auto i) { return needle[i].tip_angle; })},
-        {all([&](auto i) { return membrane[i].stiffness; }), all([&](auto i) { return membrane[i].precompression; }),
-         all([&](auto i) { return membrane[i].friction; }), all([&](auto i) { return membrane[i].thickness; })}};
+    return {{all([&](std::size_t i) { return needle[i].diameter; }),
+             all([&](std::size_t i) { return needle[i].tip_angle; })},
+            {all([&](std::size_t i) { return membrane[i].stiffness; }),
+             all([&](std::size_t i) { return membrane[i].precompression; }),
+             all([&](std::size_t i) { return membrane[i].friction; }),
+             all([&](std::size_t i) { return membrane[i].thickness; })}};
   }
   SampledCoupling<FourLanes<Scalar>> couplings() const {
-    return {{all([&](auto i) { return coupling[i].stiffness; }), all([&](auto i) { return coupling[i].damping; })},
+    return {{all([&](std::size_t i) { return coupling[i].stiffness; }),
+             all([&](std::size_t i) { return coupling[i].damping; })},
             static_cast<Scalar>(T)};
   }
 };
@@ -127,7 +130,7 @@ void compare_on_a_line(Noise& noise, Seen& seen) {
     alone.push_back({{cases.needle[i], cases.membrane[i]}, {cases.coupling[i], static_cast<Scalar>(T)}});
   }
   for (std::size_t k = 0; k < ticks; ++k) {
-    const auto p = cases.all([&](auto i) { return static_cast<Scalar>(motion[i][k]); });
+    const auto p = cases.all([&](std::size_t i) { return static_cast<Scalar>(motion[i][k]); });
     const auto before = allocations();
     const auto tick = Solver::step(params, state, p);
     if (allocations() != before) FAIL("tick " << k << " takes memory");
@@ -167,8 +170,9 @@ void compare_in_space(Noise& noise, Seen& seen) {
         {{cases.needle[i], cases.membrane[i]}, point[i], normal[i], {cases.coupling[i], static_cast<Scalar>(T)}});
   }
   const auto all = [&](const std::array<Vector3<Scalar>, 4>& v) {
-    return Vector3<V>{cases.all([&](auto i) { return v[i].x(); }), cases.all([&](auto i) { return v[i].y(); }),
-                      cases.all([&](auto i) { return v[i].z(); })};
+    return Vector3<V>{cases.all([&](std::size_t i) { return v[i].x(); }),
+                      cases.all([&](std::size_t i) { return v[i].y(); }),
+                      cases.all([&](std::size_t i) { return v[i].z(); })};
   };
   const SpaceParams<BasicThickLaw<V>> params{cases.template law<BasicThickLaw>(), all(point), all(normal),
                                              cases.couplings()};
