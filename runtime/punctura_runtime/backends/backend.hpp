@@ -5,13 +5,14 @@
 #include <string>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/status.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
 struct OpenOptions {
-  double rate = 1600;               ///< Hz, requested; `info().rate` of the device is the actual rate
+  double rate = usual_rate;         ///< Hz, requested; `info().rate` of the device is the actual rate
   std::string device;               ///< the maker's name of it; empty is the first
   std::string library;              ///< path of the maker's library; empty searches the usual places
   os::RealtimeSettings realtime{};  ///< of the ticking thread, unless a maker's library owns it

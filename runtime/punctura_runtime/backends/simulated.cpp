@@ -18,8 +18,9 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
       plant_(options.dynamics, options.hand, 1 / options.rate, options.seed),
       wish_{plain(desired_at(motion_, 0).position), options.axis, 0},
       wishes_(wish_) {
-  info_ = {"simulated", "PHANTOM Omni, simulated",     "",          true, 1, options.dynamics.max_force, 0.88,
-           unknown,     options.dynamics.encoder_step, options.rate};
+  info_ = {"simulated", "PHANTOM Omni, simulated", "", true, 1, options.dynamics.max_force, Omni::continuous_force};
+  info_.encoder_step = options.dynamics.encoder_step;
+  info_.rate = options.rate;
   plant_.place(vector(wish_.target));
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
 #include "punctura_runtime/backends/ticking_thread.hpp"
@@ -17,7 +18,7 @@ namespace punctura {
 struct SimulatedOptions {
   DeviceDynamics dynamics{};
   Hand hand{};
-  double rate = 1600;  ///< Hz
+  double rate = usual_rate;  ///< Hz
   std::uint64_t seed = 0;
   bool real_time = true;                 ///< false: as fast as possible, on a clock of its own
   std::uint64_t ticks = 0;               ///< number of ticks; 0 is endless

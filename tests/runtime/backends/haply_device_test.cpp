@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/support/paper_scene.hpp"
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/haply_fake.hpp"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/force_dimension/axes.hpp"
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
@@ -28,11 +29,11 @@ struct LoopClock {
 inline constexpr double fastest = 4000;  ///< Hz: the maker's rating for USB
 
 struct Options {
-  double rate = 1600;      ///< Hz, at most `fastest`
-  std::string device;      ///< label, model or serial number; empty is the first
-  std::string library;     ///< see load()
-  Triple tool{-1, 0, 0};   ///< direction of the needle in the axes of the handle; any length but 0
-  bool auto_init = false;  ///< lets an uncalibrated device calibrate itself: THE ARM MOVES
+  double rate = usual_rate;  ///< Hz, at most `fastest`
+  std::string device;        ///< label, model or serial number; empty is the first
+  std::string library;       ///< see load()
+  Triple tool{-1, 0, 0};     ///< direction of the needle in the axes of the handle; any length but 0
+  bool auto_init = false;    ///< lets an uncalibrated device calibrate itself: THE ARM MOVES
   LoopClock clock{};
   os::RealtimeSettings realtime{};
 };

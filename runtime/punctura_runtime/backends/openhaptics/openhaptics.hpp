@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
@@ -16,7 +17,7 @@
 namespace punctura {
 
 struct OpenHapticsOptions {
-  double rate = 1600;                              ///< Hz, requested
+  double rate = usual_rate;                        ///< Hz, requested
   std::string device;                              ///< empty is the default device
   std::string library;                             ///< empty searches the usual places
   bool keep_device = false;                        ///< never closes it: some FireWire drivers crash when it is closed

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <vector>
+#include <span>
 
+#include "punctura/model/storage.hpp"
 #include "punctura/model/thick_law.hpp"
-#include "punctura/proxy/entry_direction.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
 #include "punctura/signal/conditioning.hpp"
+#include "punctura/signal/entry_direction.hpp"
 
 namespace punctura {
 
@@ -29,15 +30,17 @@ struct SiteOf {
 /// The model from measured position to force: position conditioning, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
 ///
 /// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction. L: the membranes' law,
-/// which may be a MixedLaw; C: the coupling.
-template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
+/// which may be a MixedLaw. C: the coupling. Storage: HeapStorage, or FixedStorage for a machine without a heap, whose bounds end the
+/// program where the sites or the rate are beyond them.
+template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>, typename Storage = HeapStorage>
 class InsertionOf {
  public:
   using Scalar = typename L::Scalar;
   using Vector = Vector3<Scalar>;
   using Proxy = Proxy3d<L, C>;
+  using Proxies = typename Storage::template Membranes<Proxy>;
 
-  InsertionOf(const std::vector<SiteOf<L>>& sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
+  InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
               Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
               Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
       : conditioner_(conditioning, low_pass_hz, encoder_step, period), from_motion_(tracker(direction, period)) {
@@ -46,7 +49,7 @@ class InsertionOf {
     reset();
   }
 
-  InsertionOf(const std::vector<SiteOf<L>>& sites, const BasicCoupling<Scalar>& coupling, Scalar period,
+  InsertionOf(std::span<const SiteOf<L>> sites, const BasicCoupling<Scalar>& coupling, Scalar period,
               Solver solver = Solver::exact)
       : InsertionOf(sites, C(coupling, period), period, solver) {}
 
@@ -87,8 +90,8 @@ class InsertionOf {
   }
 
   static void archive(auto& self, auto& state) {
-    PositionConditioner<Scalar>::archive(self.conditioner_, state);
-    if (self.from_motion_) EntryDirection<Scalar>::archive(*self.from_motion_, state);
+    Conditioner::archive(self.conditioner_, state);
+    if (self.from_motion_) Tracker::archive(*self.from_motion_, state);
     for (auto& proxy : self.proxies_) Proxy::archive(proxy, state);
     state.numbers(self.tip_, self.force_);
   }
@@ -102,7 +105,7 @@ class InsertionOf {
   const Vector& tip() const noexcept { return tip_; }      ///< the conditioned position, m
   const Vector& force() const noexcept { return force_; }  ///< the sum of all membranes, N
   bool uses_axis() const noexcept { return !from_motion_; }
-  const std::vector<Proxy>& proxies() const noexcept { return proxies_; }
+  const Proxies& proxies() const noexcept { return proxies_; }
 
   /// Whether the tip is in front of every membrane: the only state in which forces may be switched on.
   bool outside() const noexcept {
@@ -112,6 +115,9 @@ class InsertionOf {
   }
 
  private:
+  using Conditioner = PositionConditioner<Scalar, Storage>;
+  using Tracker = EntryDirection<Scalar, Storage>;
+
   /// How many proxies before the i-th are in its place.
   std::size_t same_before(std::size_t i) const noexcept {
     const auto first = proxies_.begin();
@@ -119,14 +125,14 @@ class InsertionOf {
                                                   [&](const Proxy& other) { return other.same_place(proxies_[i]); }));
   }
   /// None where the device gives the direction.
-  static std::optional<EntryDirection<Scalar>> tracker(Direction direction, Scalar period) {
-    if (direction == Direction::motion) return std::make_optional<EntryDirection<Scalar>>(period);
+  static std::optional<Tracker> tracker(Direction direction, Scalar period) {
+    if (direction == Direction::motion) return std::make_optional<Tracker>(period);
     return std::nullopt;
   }
 
-  PositionConditioner<Scalar> conditioner_;
-  std::optional<EntryDirection<Scalar>> from_motion_;
-  std::vector<Proxy> proxies_;
+  Conditioner conditioner_;
+  std::optional<Tracker> from_motion_;
+  Proxies proxies_;
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
 };
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "punctura/experiment/experiment_table.hpp"
+#include "punctura/plant/experiment_table.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
 #include "punctura/scene/build.hpp"

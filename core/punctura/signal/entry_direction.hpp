@@ -2,12 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
+#include "punctura/model/storage.hpp"
 #include "punctura/model/vector3.hpp"
 
 namespace punctura {
@@ -17,15 +18,14 @@ namespace punctura {
 ///
 /// The 10 ms are kept sample by sample. Of the path, which may take a slow hand minutes, only one point in every 1/64 of
 /// 0.2 mm is kept, so the memory is fixed and the window is 0.2 mm to 0.2031 mm long. All memory is taken at construction.
-template <typename Scalar>
+template <typename Scalar, typename Storage = HeapStorage>
 class EntryDirection {
  public:
   using Vector = Vector3<Scalar>;
   static constexpr Scalar window = Scalar(0.010);      ///< s
   static constexpr Scalar path_window = Scalar(2e-4);  ///< m
 
-  explicit EntryDirection(Scalar period)
-      : recent_(static_cast<std::size_t>(std::lround(window / period)) + 1), path_(marks + 2) {}
+  explicit EntryDirection(Scalar period) : recent_(static_cast<std::size_t>(std::lround(window / period)) + 1) {}
 
   void reset() noexcept {
     std::fill(recent_.begin(), recent_.end(), Vector());
@@ -102,8 +102,8 @@ class EntryDirection {
 
   std::size_t next(std::size_t i) const noexcept { return i + 1 < path_.size() ? i + 1 : 0; }
 
-  std::vector<Vector> recent_;
-  std::vector<Mark> path_;
+  typename Storage::template Samples<Vector> recent_;
+  std::array<Mark, marks + 2> path_{};
   std::size_t head_ = 0, tail_ = 0;
   std::uint64_t ticks_ = 0;
   Scalar length_{};

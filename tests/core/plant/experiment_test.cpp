@@ -1,4 +1,4 @@
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 
 #include <doctest/doctest.h>
 

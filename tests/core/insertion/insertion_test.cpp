@@ -1,4 +1,4 @@
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 
 #include <doctest/doctest.h>
 

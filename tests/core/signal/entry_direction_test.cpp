@@ -1,4 +1,4 @@
-#include "punctura/proxy/entry_direction.hpp"
+#include "punctura/signal/entry_direction.hpp"
 
 #include <doctest/doctest.h>
 
