@@ -5,6 +5,7 @@
 #include "punctura/events/law_curve.hpp"
 #include "punctura/insertion/insertion.hpp"
 #include "punctura/model/law.hpp"
+#include "punctura/model/table_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/validity.hpp"
