@@ -34,7 +34,7 @@ def test_a_drag_that_is_held_over_the_end_of_an_attempt_does_not_move_the_next_n
         seen = len(looks_on.of("event"))
         looks_on.wait(lambda n=looks_on.ticks: looks_on.ticks > n + 1600)
         page.mouse.up()
-        tips = [tip for f in looks_on.frames if f.run == run + 1 for tip in f.columns["tip"][:, 1]]
+        tips = [tip for f in looks_on.frames if f.run == run + 1 for tip in f.ticks["tip"][:, 1]]
         assert len(tips) > 1600 and min(tips) > 4e-3, "the needle of the next run has moved"
         assert looks_on.of("event")[seen:] == []
 

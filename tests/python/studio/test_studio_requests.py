@@ -14,7 +14,7 @@ AXIS = [0.0, -1.0, 0.0]
 
 
 def all_rows(page, column):
-    return np.concatenate([f.columns[column] for f in page.frames if f.run == page.frames[-1].run])
+    return np.concatenate([f.ticks[column] for f in page.frames if f.run == page.frames[-1].run])
 
 
 def test_a_newcomer_is_told_everything_there_is(page):
@@ -54,12 +54,12 @@ def test_every_tick_comes_once_and_in_order(page):
     tick = np.concatenate([f.first_tick + np.arange(len(f)) for f in page.frames])
     assert np.array_equal(tick, tick[0] + np.arange(len(tick)))
     assert page.frames[-1].lost == 0
-    time = np.concatenate([f.first_time + f.columns["time"].astype(float) for f in page.frames])
+    time = np.concatenate([f.first_time + f.ticks["time"].astype(float) for f in page.frames])
     assert np.all(np.diff(time) > 0)
 
 
 def test_the_hand_is_dragged_through_a_membrane_and_the_pop_is_told_and_seen(page):
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.active))
     for k in range(100):
         page.target([0.0, 5e-3 - 2e-4 * k, 0.0], AXIS)
         page.wait(lambda n=page.ticks: page.ticks > n + 30)
@@ -113,11 +113,11 @@ def test_an_edit_may_add_and_take_away_membranes(page):
 
 
 def test_pause_and_arm_say_what_they_say(page):
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.active))
     assert page.ask(do="pause")["ok"]
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.disarmed))
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.disarmed))
     assert page.ask(do="arm")["ok"]
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.active))
     page.wait(lambda: page.status()["armed"])
 
 
@@ -125,26 +125,26 @@ def test_a_fault_is_told_with_its_reason_and_left_by_a_reset(page):
     assert page.ask(do="trip_fault")["ok"]
     fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
     assert fault["fault"] == "non_finite_input" and fault["kept"] > 0 and fault["tick"] is not None
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.faulted))
-    assert not page.last.columns["force"][-1].any()
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.faulted))
+    assert not page.last.ticks["force"][-1].any()
     assert page.ask(do="reset")["ok"]
     page.wait(lambda: page.of("fault")[-1]["reason"] == "")
     assert page.ask(do="arm")["ok"]
-    page.wait(lambda: page.last.columns["state"][-1] == int(ServoState.active))
+    page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.active))
 
 
 def test_the_other_solver_runs_beside_and_begins_equal(page):
     assert page.ask(do="compare", on=True)["ok"]
     assert page.ask(do="strokes", period=1.0)["ok"]
     page.wait(lambda: sum(e["what"] == "pop" for e in page.of("event")) >= 2)
-    both = [f for f in page.frames if "other_force" in f.columns]
-    other = np.concatenate([f.columns["other_force"] for f in both])
-    own = np.concatenate([f.columns["model_force"] for f in both])
+    both = [f for f in page.frames if "other_force" in f.ticks]
+    other = np.concatenate([f.ticks["other_force"] for f in both])
+    own = np.concatenate([f.ticks["model_force"] for f in both])
     assert np.isfinite(other).all()
     assert np.array_equal(other[:10], own[:10])
     assert 1e-3 < np.abs(other - own).max() < 1.0
     assert page.ask(do="compare", on=False)["ok"]
-    page.wait(lambda: "other_force" not in page.last.columns)
+    page.wait(lambda: "other_force" not in page.last.ticks)
 
 
 def test_a_scene_is_loaded_by_name_and_by_text_as_a_new_run(page):
@@ -191,7 +191,7 @@ def test_only_who_has_control_may_ask_and_anyone_may_take_it(served, page):
         page.wait(lambda: not page.of("control")[-1]["you"])
         assert not page.ask(do="pause")["ok"]
         assert other.ask(do="pause")["ok"]
-        assert page.last.columns["tip"][-1][1] > 4e-3
+        assert page.last.ticks["tip"][-1][1] > 4e-3
     page.wait(lambda: page.of("control")[-1]["holder"] is None)
     with StudioClient(served.address.url) as third:
         third.wait(lambda: third.of("control") and third.of("control")[-1]["you"])

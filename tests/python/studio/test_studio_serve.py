@@ -98,7 +98,7 @@ def test_each_run_has_a_token_of_its_own_and_answers_on_loopback_alone(served, t
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_no_force_is_left_when_it_stops_nor_when_the_worker_fails(served, page):
     page.target([0.0, -3e-3, 0.0], [0.0, -1.0, 0.0])
-    page.wait(lambda: abs(float(page.last.columns["force"][-1][1])) > 0.1)
+    page.wait(lambda: abs(float(page.last.ticks["force"][-1][1])) > 0.1)
     device = served.session.run.loop.device
 
     def fail():
