@@ -92,7 +92,7 @@ step_cpp() {
   else
     compile dev || return
   fi
-  build/dev/tests/core/core_without_exceptions && both_tests dev
+  build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap && both_tests dev
 }
 
 # All sources as Clang compiles them, for its warnings, and each header alone; the tests under sanitizers. Those are slow: a few of

@@ -14,7 +14,9 @@
 #include <memory>
 #include <vector>
 
+#include "punctura/model/table_law.hpp"
 #include "punctura/model/thick_law.hpp"
+#include "punctura/model/thin_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/solver.hpp"
@@ -85,6 +87,10 @@ struct GivenThickLaw : ThickLaw {
   Needle needle;
   Membrane membrane;
   double obliquity;
+};
+
+struct GivenTableLaw : TableLaw {
+  std::vector<double> depth, lower, upper;
 };
 
 /// Every bound that a needle, a membrane or the pair of them breaks.

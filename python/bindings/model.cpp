@@ -56,10 +56,33 @@ GivenThickLaw make_thick_law(Needle needle, Membrane membrane, double obliquity)
   return {{needle, membrane, obliquity}, needle, membrane, obliquity};
 }
 
+GivenTableLaw make_table_law(std::vector<double> depth, std::vector<double> lower, std::vector<double> upper) {
+  std::vector<Problem> problems;
+  check_table(depth, lower, upper, problems);
+  raise_if(problems);
+  return {TableLaw(depth, lower, upper), depth, lower, upper};
+}
+
+template <typename L>
+void def_bounds(nb::class_<L>& law) {
+  law.def(
+         "bounds",
+         [](const L& l, double q) {
+           const auto b = l.band(q);
+           return nb::make_tuple(b.lower, b.upper);
+         },
+         nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
+         "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
+      .def("bounds", &bounds<L>, nb::arg("depth"),
+           nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
+                   "numpy.typing.NDArray[numpy.float64]]"),
+           "The same for an array of depths of any shape. Returns (lower, upper) of that shape, N.");
+}
+
 template <typename L>
 nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
-  return nb::class_<L>(m, name, doc)
-      .def_ro("needle", &L::needle)
+  auto law = nb::class_<L>(m, name, doc);
+  law.def_ro("needle", &L::needle)
       .def_ro("membrane", &L::membrane)
       .def_prop_ro(
           "X", [](const L& l) { return l.constants().X; }, "Length of the tip, m. K06 (15)")
@@ -70,20 +93,9 @@ nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
           "Growth of the withdrawal force, N/m; negative where the membrane expels the tip. K06 (15)")
       .def_prop_ro(
           "Q", [](const L& l) { return l.constants().Q; }, "Precompression as a depth, m. K06 (15)")
-      .def_prop_ro(
-          "F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)")
-      .def(
-          "bounds",
-          [](const L& l, double q) {
-            const auto b = l.band(q);
-            return nb::make_tuple(b.lower, b.upper);
-          },
-          nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
-          "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
-      .def("bounds", &bounds<L>, nb::arg("depth"),
-           nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
-                   "numpy.typing.NDArray[numpy.float64]]"),
-           "The same for an array of depths of any shape. Returns (lower, upper) of that shape, N.");
+      .def_prop_ro("F", [](const L& l) { return l.constants().F; }, "Dry friction of the shaft, N. K06 (15)");
+  def_bounds(law);
+  return law;
 }
 
 }  // namespace
@@ -127,6 +139,23 @@ void bind_model(nb::module_& m) {
   def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
            &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.");
   def_value(thick, {"needle", "membrane", "obliquity"});
+  auto table = nb::class_<GivenTableLaw>(
+      m, "TableLaw",
+      "A law from a table: straight lines between at most 32 knots. For Proxy1d.\n\n"
+      "No friction before the first knot; constant edges behind the last one; the edges may jump at the first knot.");
+  def_bounds(table);
+  def_init(
+      table, {{"depth", "Sequence[float]"}, {"lower", "Sequence[float]"}, {"upper", "Sequence[float]"}},
+      &make_table_law,
+      "depth: of the knots, m, ascending. lower, upper: the edges Phi_I and Phi_O there, N. Raises ConfigurationError.");
+  def_value(table, {"depth", "lower", "upper"});
+  const auto knots = [&table](const char* name, auto member, const char* doc) {
+    table.def_prop_ro(name, [member](const GivenTableLaw& l) { return nb::tuple(nb::cast(l.*member)); }, doc);
+  };
+  knots("depth", &GivenTableLaw::depth, "Of the knots, m");
+  knots("lower", &GivenTableLaw::lower, "Phi_I at the knots, N");
+  knots("upper", &GivenTableLaw::upper, "Phi_O at the knots, N");
+
   thick.def_ro("obliquity", &GivenThickLaw::obliquity, "beta, rad")
       .def_prop_ro("H", &GivenThickLaw::thickness, "Thickness, m")
       .def_prop_ro("U", &GivenThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");

@@ -24,7 +24,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
     problems.push_back({"period", period, "must be less than 1 s: the period of a tick is wanted, not its rate in Hz"});
 }
 
-using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw>;
+using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;
 
 /// One Python class for proxies on either law, which knows what it was made of.
 class LineProxy : public OneThread {
@@ -79,10 +79,12 @@ class LineProxy : public OneThread {
   nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
 
  private:
-  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>>;
+  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<TableLaw>>;
   Proxies made() const {
     if (const auto* thin = std::get_if<GivenThinLaw>(&law_))
       return Proxy1d<ThinLaw>(*thin, coupling_, period_, solver_);
+    if (const auto* table = std::get_if<GivenTableLaw>(&law_))
+      return Proxy1d<TableLaw>(*table, coupling_, period_, solver_);
     return Proxy1d<ThickLaw>(std::get<GivenThickLaw>(law_), coupling_, period_, solver_);
   }
 
@@ -189,7 +191,7 @@ void bind_proxy(nb::module_& m) {
   auto line =
       nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line,
-           {{"law", "ThinLaw | ThickLaw"},
+           {{"law", "ThinLaw | ThickLaw | TableLaw"},
             {"coupling", "Coupling"},
             {"period", "float"},
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},

@@ -1,4 +1,4 @@
-"""`punctura exercise`: what exercises there are, and how a recorded attempt was."""
+"""`punctura exercise`: lists exercises, and scores a recorded attempt."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def score(
 ) -> None:
     """Scores a recorded attempt as the studio would have.
 
-    The status is 0 whether it was passed or not: the first line says so.
+    The exit status is 0 for passed and not passed; the first line says which.
     """
     from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge

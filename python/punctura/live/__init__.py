@@ -1,4 +1,4 @@
-"""A scene on a device, now: what `punctura run` does, for programs."""
+"""Runs a scene on a device, as `punctura run` does, for programs."""
 
 from punctura._core import (
     Device,

@@ -37,7 +37,7 @@ def _placement(file: PlacementFile) -> Placement:
 
 
 def placement_text(placement: Placement) -> str:
-    """The file that load_placement reads back."""
+    """The text of a placement file for load_placement."""
     rotation = ", ".join(repr(x) for x in placement.rotation)
     offset = ", ".join(repr(x * 1e3) for x in placement.offset)
     return (
@@ -56,7 +56,7 @@ def placement_from_pose(
     wanted_axis: npt.ArrayLike,
     tip_offset: float = 0.0,
 ) -> Placement:
-    """The placement that puts a pose of the device where the scene wants it, by the shortest turn.
+    """The placement that maps a pose of the device to a pose in the scene, by the smallest rotation.
 
     position (m) and axis: as the device reports them. wanted_tip (m) and wanted_axis: in the scene, of any length.
     """
@@ -71,7 +71,7 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
     """The quaternion w, x, y, z of the smallest rotation that takes one direction to another."""
     a, b = (np.asarray(v, float) / np.linalg.norm(np.asarray(v, float)) for v in (start, end))
     w = 1.0 + float(a @ b)
-    if w < 1e-9:  # opposite: half a turn about anything across
+    if w < 1e-9:  # opposite directions: half a turn about any perpendicular axis
         across = np.cross(a, [1.0, 0.0, 0.0] if abs(a[0]) < 0.9 else [0.0, 1.0, 0.0])
         q = np.array([0.0, *(across / np.linalg.norm(across))])
     else:
@@ -81,7 +81,7 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
 
 
 def rotate(quaternion: tuple[float, float, float, float], v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """v turned by a unit quaternion w, x, y, z."""
+    """v rotated by the unit quaternion w, x, y, z."""
     w, u = quaternion[0], np.array(quaternion[1:])
     turned: npt.NDArray[np.float64] = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
     return turned

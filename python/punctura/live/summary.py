@@ -1,4 +1,4 @@
-"""What a live run was, gathered while it runs in constant memory."""
+"""The summary of a live run, collected during the run in constant memory."""
 
 from __future__ import annotations
 
@@ -87,9 +87,9 @@ class RunSummary:
             self.fault = describe(Fault(fault))
 
     def finish(self, loop: ServoLoop) -> None:
-        """Takes the loop's own account, after it has stopped."""
+        """Takes the loop's report, after it has stopped."""
         report = loop.report()
-        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # with those after the last one that was read
+        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # including ticks after the last read
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
@@ -97,14 +97,14 @@ class RunSummary:
         self.blame(loop.device)
 
     def blame(self, device: Device) -> None:
-        """What the device has to say of a fault, or of trouble that no tick has told."""
+        """Adds the device's explanation of a fault, or of trouble outside ticks."""
         trouble = device.trouble()
         if trouble.rstrip(". ") not in self.fault:
             self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
 
     @property
     def limits_in_words(self) -> str:
-        """Which limits have cut the force, and for how long: "the long-run limit for 1.2 s"; empty without any."""
+        """The limits that cut the force, and for how long: "the long-run limit for 1.2 s"; empty if none did."""
         acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
         return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)
 

@@ -1,6 +1,6 @@
-"""The addresses under /api that read and keep things: recordings, exercises, results. The table is in docs/studio.md.
+"""The addresses under /api for recordings, exercises and results. docs/studio.md has the table.
 
-Each runs in a thread of the server's pool, so that a long file holds up neither a page nor the worker.
+Each request runs in a thread of the server's pool, so that a long file blocks neither a page nor the worker.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _STATUS: dict[type[Exception], int] = {
 
 
 class Api:
-    """What the routes work on."""
+    """Holds what the routes need."""
 
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
@@ -101,7 +101,7 @@ class Api:
             finished = self._shelf.find(name)
             if finished == path:
                 raise
-            return self._file(finished, name, kind)  # it has been made whole while it was being read
+            return self._file(finished, name, kind)  # the recording was finished while it was being read
 
     def _file(self, path: Path, name: str, kind: str) -> Response:
         if kind == "parquet" and path.suffix == SUFFIX:
@@ -150,7 +150,7 @@ class Api:
 
 
 def disposition(filename: str) -> str:
-    """A header that makes a download of an answer, under a name of any characters."""
+    """The header that makes a browser download the response under this name; any characters are allowed."""
     return f"attachment; filename*=utf-8''{quote(filename, safe='')}"
 
 

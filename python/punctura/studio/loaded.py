@@ -1,4 +1,4 @@
-"""A scene together with the tables of its file: the page's editor shows the file, the loop runs the scene."""
+"""A scene and the tables of its file: the page's editor shows the tables, the loop runs the scene."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from punctura.scene.schema import SceneFile
 from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
 
-# What a table could hold that Decimal, float and str cannot say is told by the schema; these are Python's own limits.
+# The schema finds wrong types; these are the limits of Python's own types.
 _TOO_MUCH = (RecursionError, OverflowError)
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """A sound scene file, and its scene in SI."""
+    """A scene file without errors, and its scene in SI."""
 
     file: SceneFile
     scene: Scene
 
     def tables(self) -> Tables:
-        """As JSON has them, with the file's keys; defaults are filled in."""
+        """The tables as JSON values, under the file's keys, with defaults filled in."""
         return self.file.model_dump(mode="json", exclude_none=True)
 
     def text(self) -> str:
-        """As a scene file."""
+        """The text of a scene file."""
         return file_text(self.file)
 
 
@@ -63,7 +63,7 @@ def from_name(path_or_name: str) -> Loaded:
 
 
 def problem_parts(problems: Sequence[Problem]) -> list[ProblemPart]:
-    """What is wrong, for the page."""
+    """The problems, for the page."""
     return [
         ProblemPart(path=p.path, value="" if p.value is MISSING else repr(p.value)[:200], reason=p.reason)
         for p in problems

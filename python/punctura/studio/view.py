@@ -1,4 +1,4 @@
-"""A scene as the page draws it."""
+"""Converts a scene to what the page draws."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from punctura.studio.wire.messages import SceneMessage
 
 
 def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | None = None) -> SceneView:
-    """number: of the scenes of this run. rate: Hz, the device's. laws: without them, those of an upright needle."""
+    """number: index of the scene in this run. rate: the device's, Hz. laws: by default those of an upright needle."""
     scene = loaded.scene
     if laws is None:
         laws = law_curves(scene, obliquities(scene, np.array(scene.membranes[0].inward_normal)))
@@ -39,7 +39,7 @@ def scene_message(run: Run, laws: list[LawCurve], new_run: bool) -> SceneMessage
 
 
 def membrane_views(scene: Scene) -> list[MembraneView]:
-    """Where the membranes are."""
+    """The places of the membranes."""
     return [
         MembraneView(
             name=placed.name,

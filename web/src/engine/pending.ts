@@ -5,7 +5,7 @@ export class Pending {
   private readonly waiting = new Map<number, { resolve: (reply: Reply) => void; reject: (error: Error) => void }>();
   private last = 0;
 
-  /** A new id, and the promise of its reply. */
+  /** Returns a new id, and the promise of its reply. */
   add(): { id: number; reply: Promise<Reply> } {
     this.last += 1;
     const id = this.last;
@@ -13,7 +13,7 @@ export class Pending {
     return { id, reply };
   }
 
-  /** False where nobody asked. */
+  /** False if no request has this id. */
   settle(reply: Reply): boolean {
     const asked = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
@@ -21,7 +21,7 @@ export class Pending {
     return asked !== undefined;
   }
 
-  /** The connection went: no reply can come any more. */
+  /** The connection was lost: no reply can come. */
   rejectAll(reason: string): void {
     const asked = [...this.waiting.values()];
     this.waiting.clear();

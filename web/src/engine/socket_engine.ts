@@ -6,16 +6,16 @@ import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
 import { Pending } from "./pending.ts";
 
 const PROTOCOL = "punctura.v1";
-/** A browser hides why a socket was refused; this address, asked with the same token, gives the same refusal. */
+/** A browser hides why a socket was refused; this address gives the same refusal with its reason. */
 const ACCESS = "/api/access";
-/** Statuses after which another attempt would end alike: no token, a foreign page, a wrong name of the computer. */
+/** Statuses for which another attempt is useless: no token, a foreign page, a wrong host name. */
 const REFUSED = [401, 403, 421];
 const SETTLED_MS = 2000;
 
-/** What the engine needs of its surroundings; the tests bring their own. */
+/** The environment of the engine; tests replace it. */
 export interface Surroundings {
   open(url: string, protocols: string[]): WebSocket;
-  /** Calls once before the next picture. */
+  /** Calls once before the next animation frame. */
   frame(call: () => void): void;
   chance(): number;
   readonly fetch: Fetch;
@@ -28,7 +28,7 @@ const BROWSER: Surroundings = {
   fetch: (input, init) => fetch(input, init),
 };
 
-/** The studio's server, over a WebSocket: it comes back by itself when the connection goes. */
+/** The studio's server over a WebSocket; reconnects by itself. */
 export class SocketEngine implements Engine {
   private readonly url: string;
   private readonly token: string;
@@ -43,7 +43,7 @@ export class SocketEngine implements Engine {
   private nextTarget: { run: number; position: Triple; axis: Triple; buttons: number } | null = null;
   private complained = false;
 
-  /** page: where the page came from; its `?token=` opens the socket too. */
+  /** page: the URL of the page, with the `?token=` for the socket. */
   constructor(
     page: Pick<Location, "protocol" | "host" | "search">,
     private readonly around: Surroundings = BROWSER,
@@ -101,7 +101,7 @@ export class SocketEngine implements Engine {
     }
     this.socket = socket;
     socket.binaryType = "arraybuffer";
-    // A socket that was replaced, or stopped, has nothing to say any more.
+    // Events of a socket that was replaced or stopped are ignored.
     const mine =
       <E>(handle: (event: E) => void) =>
       (event: E) => {
@@ -109,7 +109,7 @@ export class SocketEngine implements Engine {
       };
     socket.onopen = mine(() => {
       this.opened = true;
-      // One that opens and closes at once must not be tried again without growing waits.
+      // A connection that closes soon after it opens must not reset the growing waits.
       this.settled = setTimeout(() => {
         this.attempt = 0;
       }, SETTLED_MS);
@@ -130,7 +130,7 @@ export class SocketEngine implements Engine {
     if (!this.opened) void this.askWhy();
   }
 
-  /** Whether the studio has gone, or does not want this page: then no further attempt is made. */
+  /** Finds out whether the studio is gone or refuses this page; after a refusal there is no further attempt. */
   private async askWhy(): Promise<void> {
     try {
       await this.api.get(ACCESS);
@@ -166,10 +166,10 @@ export class SocketEngine implements Engine {
     else if (!this.pending.settle(message)) this.complain(`a reply to nothing, ${message.id}`);
   }
 
-  /** Once a connection is enough: what is wrong with one frame is likely to be wrong with sixty a second. */
+  /** Tells the user once per connection, because the same error may come sixty times a second. */
   private complain(what: string): void {
     if (this.complained) return;
     this.complained = true;
-    this.listener?.message({ kind: "notice", text: `The studio sent what this page cannot read: ${what}.` });
+    this.listener?.message({ kind: "notice", text: `The studio sent something that this page cannot read: ${what}.` });
   }
 }

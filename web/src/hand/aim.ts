@@ -8,7 +8,10 @@ export function heightOver(scene: SceneView, position: Triple): number {
   return first ? -dot(sub(position, first.point), first.inward_normal) : 0;
 }
 
-/** Where the tip is when it is `height` (m) in front of the first membrane and `axis` leads to the middle of all membranes. */
+/**
+ * The place of the tip `height` (m) in front of the first membrane from which `axis` points to the middle of all
+ * membranes.
+ */
 export function aiming(scene: SceneView, axis: Triple, height: number): Triple {
   const first = scene.membranes[0];
   if (!first) return scaled(axis, -height);

@@ -6,19 +6,19 @@ const FASTEST = 0.025; // m/s
 const TURNING = 0.8; // rad/s
 const FULL_DROP = 0.5; // N
 
-/** A stick's way from -1 to 1 as a speed: nothing at rest, fine near it. */
+/** Converts a stick's position, -1 to 1, to a speed: 0 at rest, with fine control near it. */
 export function stick(value: number | undefined): number {
   const way = Math.abs(value ?? 0);
   if (!(way > IDLE)) return 0;
   return Math.sign(value!) * Math.min(1, (way - IDLE) / (1 - IDLE)) ** 2;
 }
 
-/** The first gamepad that there is; browsers show one only after a button of it was pressed. */
+/** The first connected gamepad; browsers show it only after one of its buttons was pressed. */
 export function firstGamepad(): Gamepad | null {
   return navigator.getGamepads?.().find((pad) => pad?.connected) ?? null;
 }
 
-/** A gamepad that leads the hand. Sticks that were held when a new run began must come to rest first. */
+/** Moves the hand by a gamepad. After a new run begins, all sticks must come to rest first. */
 export class Sticks {
   private run: number;
   private rested = true;
@@ -36,8 +36,9 @@ export class Sticks {
 }
 
 /**
- * Moves the hand: left stick along the needle (forward is in) and to the side, right stick tilts and goes towards the viewer. True where
- * something moved.
+ * Moves the hand: the left stick moves along the needle (forward is in) and to the side; the right stick tilts, and
+ * moves
+ * towards the viewer. True if something moved.
  */
 export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
   const [side, back, turn, near] = pad.axes.map(stick);
@@ -52,7 +53,7 @@ export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolea
   return true;
 }
 
-/** A knock as strong as the drop of force, N, where pad and browser can. */
+/** Vibrates in proportion to the drop of force, N, if gamepad and browser can. */
 export function rumble(pad: Gamepad, drop: number): void {
   const strong = Math.min(1, 0.3 + Math.abs(drop) / FULL_DROP);
   const effect = { duration: 90, strongMagnitude: strong, weakMagnitude: 0.5 * strong };

@@ -19,11 +19,11 @@ const poseOf = ({ position: [x = 0, y = 0, z = 0], axis: [a = 0, b = -1, c = 0] 
   axis: unit([a, b, c]),
 });
 
-/** The simulated hand, as the page moves it: where it shall go, m, and where the needle points. */
+/** The simulated hand as this page moves it: its target, m, and the direction of the needle. */
 export class Hand {
-  /** Where this page wants the hand; null while something else leads it. */
+  /** The target from this page; null while something else moves the hand. */
   readonly target = new Signal<Pose | null>(null);
-  /** Why it cannot be moved from here, in words; null where it can. */
+  /** Why this page cannot move the hand, in words; null if it can. */
   readonly barred = new Signal<string | null>("The studio is not connected yet.");
 
   constructor(private readonly app: App) {
@@ -35,13 +35,13 @@ export class Hand {
     let you = false;
     app.control.watch((control) => {
       look();
-      // Who gets control leads the hand on from where it is, which is not where tissue holds the needle back.
+      // A page that gets control continues from the hand, which may be ahead of the needle in tissue.
       if (control.you && !you && control.hand && !this.barred.value) this.target.value = poseOf(control.hand);
       you = control.you;
     });
     app.connection.watch(look);
     app.source.watch(look);
-    // A new run begins where the server puts the hand, not where it was.
+    // A new run begins at the pose that the server chooses.
     app.run.watch(() => {
       this.target.value = null;
     });
@@ -50,12 +50,12 @@ export class Hand {
     });
   }
   private touched = Number.NEGATIVE_INFINITY;
-  /** A status that was on its way when the hand was taken must not take it back. */
+  /** A status message sent before this page moved the hand must not undo that. */
   private get fresh(): boolean {
     return performance.now() - this.touched < 600;
   }
 
-  /** The number of the live run: what moved the hand before it began must be let go and taken anew. */
+  /** The number of the live run: keys and sticks held since an earlier run do not count. */
   get run(): number {
     return this.app.run.value;
   }
@@ -69,7 +69,7 @@ export class Hand {
     return null;
   }
 
-  /** Where the hand is led to now, or else where the needle is. */
+  /** The present target, or else the pose of the needle. */
   pose(): Pose | null {
     if (this.target.value) return this.target.value;
     const { history } = this.app.live;
@@ -93,19 +93,19 @@ export class Hand {
     this.app.engine.target(this.run, to.position, to.axis);
   }
 
-  /** Something else leads the hand from now on. */
+  /** Gives up the target: something else moves the hand now. */
   release(): void {
     this.touched = Number.NEGATIVE_INFINITY;
     this.target.value = null;
   }
-  /** Stays where the needle is now. */
+  /** Makes the present pose of the needle the target. */
   hold(): void {
     this.release();
     const now = this.pose();
     if (now) this.moveTo(now.position, now.axis);
   }
 
-  /** Along the needle, m; positive goes in. */
+  /** Moves along the needle, m; positive is inward. */
   push(depth: number): void {
     const now = this.pose();
     if (now) this.moveTo(add(now.position, scaled(now.axis, depth)));
@@ -116,12 +116,15 @@ export class Hand {
     if (now) this.moveTo(add(now.position, step));
   }
 
-  /** rad between the needle and the first membrane's inward normal, leaning along +x; 0 while nothing is known of it. */
+  /** rad between the needle and the first membrane's inward normal, leaning along +x; 0 before the first tick. */
   tilt(): number {
     const now = this.pose();
     return now ? tiltOf(now.axis, this.normal()) : 0;
   }
-  /** In tissue the needle turns about its tip; in front of it so that it aims at the middle of the scene, as far from the skin as before. */
+  /**
+   * In tissue the needle turns about its tip. In front of it, it aims at the middle of the scene and keeps its
+   * height.
+   */
   setTilt(angle: number): void {
     const now = this.pose();
     if (!now) return;
@@ -131,7 +134,7 @@ export class Hand {
     this.moveTo(scene && before > 0 ? aiming(scene, axis, before) : now.position, axis);
   }
 
-  /** In front of the first membrane, m away from it, aiming at the middle of the scene. */
+  /** Moves in front of the first membrane, `height` (m) away, aiming at the middle of the scene. */
   home(height = 0.005): void {
     const now = this.pose();
     const scene = this.app.live.scene.value;
@@ -141,11 +144,11 @@ export class Hand {
   normal(): Triple {
     return this.app.live.scene.value?.membranes[0]?.inward_normal ?? [0, -1, 0];
   }
-  /** In the face of the first membrane: the way that the needle leans. */
+  /** The direction in the first surface towards which the needle leans. */
   side(): Triple {
     return alongSkin(this.normal());
   }
-  /** How far the needle is behind the hand, m; null where nobody leads the hand from here. */
+  /** The distance from the tip to the target, m; null without a target. */
   lag(): number | null {
     const { history } = this.app.live;
     if (!this.target.value || history.length === 0) return null;
@@ -154,5 +157,5 @@ export class Hand {
   }
 }
 
-/** The one hand of this page. */
+/** The hand of this page; there is one per app. */
 export const handOf = onePerApp((app) => new Hand(app));

@@ -10,17 +10,17 @@ export const unit = (a: Triple): Triple => {
   return size > 0 ? scaled(a, 1 / size) : [0, -1, 0];
 };
 
-/** Of length 1 in the plane with this normal, as far to the right (+x) as can be. */
+/** The unit vector in the plane with this normal that is closest to the right (+x). */
 export function alongSkin(normal: Triple): Triple {
   const right: Triple = Math.abs(normal[0]) > 0.9 ? [0, 0, 1] : [1, 0, 0];
   return unit(sub(right, scaled(normal, dot(right, normal))));
 }
 
-/** The direction that leans by `angle` (rad) from the inward normal towards alongSkin. */
+/** The direction at `angle` (rad) from the inward normal, leaning towards alongSkin. */
 export function tilted(angle: number, normal: Triple): Triple {
   return add(scaled(normal, Math.cos(angle)), scaled(alongSkin(normal), Math.sin(angle)));
 }
 
-/** The angle of `tilted` that comes nearest to the axis, rad. */
+/** The angle for which `tilted` is closest to the axis, rad. */
 export const tiltOf = (axis: Triple, normal: Triple): number =>
   Math.atan2(dot(axis, alongSkin(normal)), dot(axis, normal));

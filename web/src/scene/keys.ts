@@ -6,7 +6,7 @@ const STEP = 0.25e-3; // m
 const LONG = 4;
 const TURN = Math.PI / 90;
 
-/** For the page's list of keys. */
+/** The keys and what they do, for the list on the page. */
 export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
   ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
@@ -16,7 +16,7 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["A D W S", "go round the scene"],
 ];
 
-/** Keys while the view has the focus. */
+/** Handles keys while the view has the focus. */
 export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
   let run = hand.run; // in which the last key was pressed
   canvas.addEventListener("keydown", (event) => {
@@ -42,7 +42,7 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): v
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;
     event.preventDefault();
-    // A key that was held when a new run began must be let go first.
+    // A key held since an earlier run must be released first.
     if (!event.repeat || run === hand.run) act();
   });
 }

@@ -3,7 +3,7 @@ import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { takeControl } from "../control_line.ts";
 
-/** Says why the hand cannot be moved from here, or how it is moved. */
+/** Tells why this page cannot move the hand, or how to move it. */
 export function whyBarred(app: App, hand: Hand): HTMLElement {
   const words = element("p", {});
   const box = element("div", { class: "hand-why" }, words, takeControl(app));

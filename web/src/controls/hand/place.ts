@@ -10,11 +10,11 @@ const number = (metres: number | undefined): string =>
 
 const LAG_UNKNOWN = "– mm";
 
-/** How far the tip is behind the hand; where nothing leads the hand it has no place, and so the tip no lag. */
+/** The lag of the tip behind the hand as text; unknown without a target. */
 export const lagText = (metres: number | null): string =>
   metres === null ? LAG_UNKNOWN : `${(metres * 1e3).toFixed(2)} mm`;
 
-/** Where the hand is led and where the tip is, and buttons that move it. */
+/** The places of hand and tip, and buttons that move the hand. */
 export function placeRows(app: App, hand: Hand): HTMLElement {
   const cells = [0, 1].map(() => [0, 1, 2].map(() => element("td", {}, "–")));
   const lag = element("output", { class: "figure" }, LAG_UNKNOWN);

@@ -2,7 +2,7 @@ import type { Hand } from "../../hand/hand.ts";
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 
-/** Strokes to and fro by themselves. */
+/** Starts and stops automatic strokes. */
 export function scriptRows(app: App, hand: Hand): HTMLElement {
   const period = element("input", {
     type: "number",

@@ -5,7 +5,7 @@ import type { App } from "../../state/app.ts";
 import { Felt } from "./felt.ts";
 import { Sound } from "./sound.ts";
 
-/** Gamepad and sound: both work for a recording too, where they can. */
+/** Gamepad and sound; sound also works for recordings. */
 export function senseRows(app: App, hand: Hand): HTMLElement {
   const sound = new Sound();
   const felt = new Felt();
@@ -43,7 +43,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     name = words;
     pad.textContent = words;
     pad.title = found
-      ? "Left stick: along the needle, to the side. Right stick: tilt, nearer. It knocks at a pop."
+      ? "Left stick: along the needle, to the side. Right stick: tilt, nearer. It vibrates at a pop."
       : "";
   });
   return element(

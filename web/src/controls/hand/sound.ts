@@ -3,7 +3,10 @@ const FOLLOW_S = 0.03;
 const CLICK_S = 0.09;
 const FULL_DROP = 0.5; // N
 
-/** Friction as noise, as loud as the power that it takes; a pop as a click, as loud as its drop. Made when first switched on. */
+/**
+ * Friction as noise, as loud as the power that it takes; a pop as a click, as loud as its drop. Made when first
+ * switched on.
+ */
 export class Sound {
   private context: AudioContext | null = null;
   private friction: GainNode | null = null;
