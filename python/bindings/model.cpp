@@ -150,7 +150,10 @@ void bind_model(nb::module_& m) {
       "depth: of the knots, m, ascending. lower, upper: the edges Phi_I and Phi_O there, N. Raises ConfigurationError.");
   def_value(table, {"depth", "lower", "upper"});
   const auto knots = [&table](const char* name, auto member, const char* doc) {
-    table.def_prop_ro(name, [member](const GivenTableLaw& l) { return nb::tuple(nb::cast(l.*member)); }, doc);
+    const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";
+    table.def_prop_ro(
+        name, [member](const GivenTableLaw& l) { return nb::tuple(nb::cast(l.*member)); }, nb::sig(signature.c_str()),
+        doc);
   };
   knots("depth", &GivenTableLaw::depth, "Of the knots, m");
   knots("lower", &GivenTableLaw::lower, "Phi_I at the knots, N");

@@ -56,7 +56,7 @@ class BasicTremor {
 
   Vector step(Noise& noise) noexcept {
     if (b_ == 0) return Vector::Zero();
-    const Vector u = Vector3d{noise.normal(), noise.normal(), noise.normal()}.template cast<Scalar>();
+    const Vector u = noise.normal_vector().template cast<Scalar>();
     const Vector y = a1_ * y1_ + a2_ * y2_ + b_ * u;
     y2_ = y1_;
     y1_ = y;

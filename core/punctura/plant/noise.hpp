@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "punctura/model/vector3.hpp"
+
 namespace punctura {
 
 /// The standard fixes the engine's numbers but not its distributions, so those stand here.
@@ -20,6 +22,16 @@ class Noise {
   double normal() noexcept {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+  /// Three numbers. They are drawn in the order z, y, x: the order of arguments in a call would be the compiler's choice.
+  Vector3d uniform_vector() noexcept {
+    const double z = uniform(), y = uniform(), x = uniform();
+    return {x, y, z};
+  }
+  Vector3d normal_vector() noexcept {
+    const double z = normal(), y = normal(), x = normal();
+    return {x, y, z};
   }
 
  private:

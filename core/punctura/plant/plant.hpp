@@ -23,7 +23,7 @@ class BasicPlant {
   BasicPlant(const BasicDeviceDynamics<Scalar>& device, const BasicHand<Scalar>& hand, Scalar period,
              std::uint64_t seed = 0) noexcept
       : device_(device), hand_(hand), h_(period / substeps), noise_(seed), tremor_(hand, period) {
-    phase_ = Vector3d{noise_.uniform(), noise_.uniform(), noise_.uniform()}.template cast<Scalar>();
+    phase_ = noise_.uniform_vector().template cast<Scalar>();
   }
 
   /// Puts the tip somewhere, at rest.

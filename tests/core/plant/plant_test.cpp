@@ -153,3 +153,10 @@ TEST_CASE("a target that jumps is followed without a jump, to its end") {
   }
   CHECK(last.x() == doctest::Approx(1e-2));
 }
+
+TEST_CASE("a seed gives the same numbers with every compiler") {
+  Noise vectors(7), numbers(7);
+  const Vector3d u = vectors.uniform_vector(), n = vectors.normal_vector();
+  for (const double one : {u[2], u[1], u[0]}) CHECK(one == numbers.uniform());
+  for (const double one : {n[2], n[1], n[0]}) CHECK(one == numbers.normal());
+}

@@ -47,7 +47,7 @@ def test_a_file_sets_every_limit_in_the_units_of_its_keys(tmp_path):
 
 def test_the_example_in_the_docs_is_a_limits_file(tmp_path):
     text = (Path(__file__).parents[3] / "docs" / "safety.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r"^```toml limits[^\n]*\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    (example,) = re.findall(r"^```toml limits.*?\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     limits = limits_of(tmp_path, example)
     assert limits.force == ForceLimits(max_force=0.5, continuous_force=0.3)
     assert limits.gate_on(with_buttons(1)) == GateLimits(dead_man=0b1)

@@ -10,8 +10,8 @@ from punctura.live import BackendState, Limits, enumerate_devices, load_limits, 
 from punctura.record import open_recording
 from punctura.studio.activity import Activity, Outcome
 from punctura.studio.exercise_activity import ExerciseActivity
-from punctura.studio.wire.frames import Columns
 from punctura.studio.wire.messages import Notice
+from punctura.ticks import Ticks
 
 needle = pn.Needle(diameter=1.08e-3, tip_angle=0.28)
 scene: pn.Scene = pn.load_scene("k06-fig10")
@@ -21,6 +21,8 @@ force: object = insertion.step([0.0, 5e-3, 0.0], np.array([0.0, -1.0, 0.0]))
 proxy = pn.Proxy1d(pn.ThinLaw(needle, scene.membranes[0].membrane), scene.coupling, 1e-3, solver="paper")
 newtons: float = proxy.step(1e-3)
 summary: pn.SimulationSummary = pn.simulate(scene, "motion.csv", Path("forces.csv"))
+ticks: pn.Ticks = pn.simulate(scene, np.linspace(0.0, 9e-3, 100), axis=[0, -1, 0])
+peak = float(ticks.axial_force[:, 0].min()) + float(ticks[10:20]["lower"].max()) + len(proxy.run([0.0, 1e-3]).force)
 
 states: list[BackendState] = enumerate_devices()
 names: list[str] = [device for state in states if state["state"] == "available" for device in state["devices"]]
@@ -41,7 +43,7 @@ class Quiet:
 
     def begin(self, scene: pn.Scene) -> None: ...
 
-    def ticks(self, columns: Columns, now: float) -> list[Notice]:
+    def ticks(self, ticks: Ticks, now: float) -> list[Notice]:
         return []
 
     def scene_change(self) -> None: ...
