@@ -17,9 +17,9 @@ ROOT = Path(__file__).resolve().parents[1]
 
 PAGE = """# The fields of a tick
 
-One table in the core, `core/punctura/servo/tick_table.hpp`, names every field of a tick. `punctura.Ticks`,
-recordings, exports, the studio's page and this page follow it. SI units throughout;
-[conventions.md](conventions.md) has axes and signs.
+One table in the core, `core/punctura/servo/tick_table.hpp`, defines every field of a tick. `punctura.Ticks`,
+recordings, exports, the studio's page and this page follow this table. All units are SI.
+[conventions.md](conventions.md) describes axes and signs.
 
 ```python
 import numpy
@@ -32,16 +32,17 @@ ticks.save("run.parquet")  # or .csv
 ticks.plot("depth").figure.savefig("run.png")  # each membrane's force along the needle, and its band
 ```
 
-In Python a field is an attribute, `ticks.force`, an array with one row a tick: n ticks, m membranes. In a file it
-is one column for each component and each membrane, in the order of this table; the columns of the first membrane
-stand together, then those of the next. The membranes count from 0, in the order of the scene. A membrane that the
-scene of a tick does not have is NaN in Python, and an empty cell (null) in a file.
+In Python a field is an attribute, for example `ticks.force`. It is an array with one row per tick: n ticks, m
+membranes. In a file, a field has one column for each component and each membrane, in the order of this table. All
+columns of the first membrane come first, then those of the next. The membranes are numbered from 0, in the order of
+the scene. If the scene of a tick lacks a membrane, its values are NaN in Python and empty cells (null) in a file.
 
 | field | shape | columns of a file | unit | what it is |
 |---|---|---|---|---|
 {rows}
 
-Fields with words hold their numbers in Python, `Phase(ticks.phase[0, 0]).name`, and the words in a file:
+Some fields have words. In Python they hold numbers: `Phase(ticks.phase[0, 0]).name` gives the word. A file holds the
+words:
 
 | field | words, from 0 |
 |---|---|
@@ -49,15 +50,15 @@ Fields with words hold their numbers in Python, `Phase(ticks.phase[0, 0]).name`,
 
 ## Which ticks have which fields
 
-| ticks of | fields |
+| ticks from | fields |
 |---|---|
 | `Proxy1d.run` | position, force, depth, axial_force, lower, upper, phase, proxy: each (n,), along the needle |
-| `Proxy3d.run` | these and axis, direction; of the membrane (n,), vectors (n, 3) |
+| `Proxy3d.run` | the same, and axis, direction; fields of the membrane are (n,), vectors (n, 3) |
 | `Insertion.run` | position, axis, tip, force, and all fields of the membranes |
-| `simulate` in memory | those of `Insertion.run`, tick and time |
+| `simulate` in memory | the same as `Insertion.run`, and tick, time |
 | `Experiment.run` | all |
 | a loop's `Listener.read`, `latest`, `fault_history` | all but true_position and desired |
-| `open_recording(...).ticks()` | the same, and `lost`: ticks that are missing before the row |
+| `open_recording(...).ticks()` | the same, and `lost`: the number of ticks that are missing before the row |
 """
 
 MODULE = """// Made by tools/make_tick_table.py, from core's table of a tick's fields.

@@ -70,9 +70,9 @@ def compile_cpp(code: str, example: Example) -> None:
 
 def read_toml(code: str, kind: str) -> None:
     from punctura.exercise import load_exercise
+    from punctura.files.toml import parse_toml
     from punctura.live import load_limits, load_placement
     from punctura.scene import load_scene
-    from punctura.scene.parse import parse_toml
 
     readers: dict[str, Callable[[Path], Any]] = {
         "scene": load_scene, "limits": load_limits, "placement": load_placement, "exercise": load_exercise,
