@@ -58,7 +58,7 @@ def test_a_scene_that_a_computer_may_not_keep_up_with_is_told(tmp_path):
     scene = many()
     summary = run_live(device_for(scene, 100), scene)
     (told,) = [text for text in summary.statements if "64 membranes at 100000 Hz" in text]
-    assert "Fewer membranes or a lower rate" in told
+    assert "Use fewer membranes or a lower rate" in told
     loop = ServoLoop(device_for(scene, 100), scene)
     with Recorder(loop, tmp_path / "run.parquet"):
         pass
@@ -74,4 +74,4 @@ def test_the_command_line_says_it_before_the_run_and_in_the_summary(tmp_path, as
     )
     assert "punctura: note: 64 membranes at 100000 Hz" in done.stderr
     said = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
-    assert "64 membranes at 100000 Hz are a lot of data" in said
+    assert "64 membranes at 100000 Hz produce a lot of data" in said

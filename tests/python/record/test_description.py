@@ -66,7 +66,7 @@ def test_a_field_that_is_missing_is_told(tool, recorded, tmp_path, field, form):
 @pytest.mark.parametrize("value", [None, 3, "text", [], [1]])
 def test_a_description_that_is_no_object_is_told(tool, recorded, tmp_path, value):
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", value)
-    with pytest.raises(RecordingError, match="no JSON object"):
+    with pytest.raises(RecordingError, match="not a JSON object"):
         open_recording(tmp_path / "bad.parquet")
 
 
@@ -74,7 +74,7 @@ def test_a_description_that_is_no_object_is_told(tool, recorded, tmp_path, value
 def test_what_could_not_be_written_as_json_again_is_told(tool, recorded, tmp_path, value):
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", data | {"about": {"title": value}})
-    with pytest.raises(RecordingError, match=r"bad\.parquet: the description of the run cannot be used"):
+    with pytest.raises(RecordingError, match=r"bad\.parquet: the run description is invalid"):
         open_recording(tmp_path / "bad.parquet")
 
 

@@ -33,7 +33,7 @@ def test_a_file_that_is_cut_off_has_what_was_whole(growing, share):
     data, all_ticks = growing.read_bytes(), open_recording(growing).rows
     growing.write_bytes(data[: int(share * len(data))])
     if share < 0.1:
-        with pytest.raises(RecordingError, match="not a recording of Punctura, or is damaged at its beginning"):
+        with pytest.raises(RecordingError, match="not a recording of Punctura, or its beginning is damaged"):
             open_recording(growing)
         return
     recording = open_recording(growing)

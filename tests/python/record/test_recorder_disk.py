@@ -51,7 +51,7 @@ def test_a_disk_that_is_full_for_a_while_costs_no_tick(start, disk):
     run.go()
     status = run.recorder.finish()
     assert len(failures) >= 1 and status.finished and status.lost == 0
-    assert any("No space left" in note and "that was over after" in note for note in status.notes)
+    assert any("No space left" in note and "resolved after" in note for note in status.notes)
     assert open_recording(run.path).rows == run.ticks
 
 
@@ -138,7 +138,7 @@ def test_a_parquet_file_that_cannot_be_written_leaves_the_recording_where_it_is(
     run = start()
     run.go()
     status = run.recorder.finish()
-    assert not status.finished and "could not be turned into Parquet" in status.trouble
+    assert not status.finished and "conversion to Parquet failed" in status.trouble
     assert open_recording(run.path).rows == run.ticks
     assert str(status.file) in status.trouble and status.file.name == "run.parquet.part"
 

@@ -63,7 +63,7 @@ def test_a_batch_that_was_being_written_when_the_process_was_killed_blocks_no_na
 def test_one_that_is_being_written_blocks_its_name_until_it_is_closed(start):
     run = start()
     assert in_use(run.recorder.status().file)
-    with pytest.raises(RecordingError, match="still runs"):
+    with pytest.raises(RecordingError, match="still running"):
         start()
     run.record()
     assert not in_use(run.path)
@@ -72,7 +72,7 @@ def test_one_that_is_being_written_blocks_its_name_until_it_is_closed(start):
 @pytest.mark.parametrize("content", [b"somebody else's", b"\xff\xff\xff\xff", bytes(100)])
 def test_what_is_none_of_ours_is_left_alone(start, tmp_path, content):
     (tmp_path / "run.parquet.part").write_bytes(content)
-    with pytest.raises(RecordingError, match="is there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         start()
     assert (tmp_path / "run.parquet.part").read_bytes() == content
 
@@ -92,7 +92,7 @@ def test_a_link_to_an_empty_file_is_not_followed(start, tmp_path):
         (tmp_path / "run.parquet.part").symlink_to(tmp_path / "empty")
     except OSError:
         pytest.skip("this system makes no links")
-    with pytest.raises(RecordingError, match="is there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         start()
     assert (tmp_path / "empty").exists()
 
