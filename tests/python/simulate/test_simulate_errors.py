@@ -42,14 +42,14 @@ def with_field(line, column, text):
 
 HEADERS = {
     "": f"line 1: is empty; {WANTED}",
-    "time_s;x_m;y_m;z_m": "line 1: the columns are separated by semicolons; use commas, and points in the numbers",
-    "time_s\tx_m\ty_m\tz_m": "line 1: the columns are separated by tabs; use commas, and points in the numbers",
+    "time_s;x_m;y_m;z_m": "line 1: the columns are separated by semicolons; use commas, and decimal points in numbers",
+    "time_s\tx_m\ty_m\tz_m": "line 1: the columns are separated by tabs; use commas, and decimal points in numbers",
     "time_s,x_m,y_m": f"line 1: column z_m is missing; {WANTED}",
     "time_s,x_m,y_m,z_m,axis_x": f"line 1: column axis_y, axis_z is missing; {WANTED}",
     "time_s,x_m,y_m,z_m,note": f"line 1: column 'note' is unknown; {WANTED}",
     "time_s,x_mm,y_m,z_m": f"line 1: column x_m is missing, column 'x_mm' is unknown (did you mean x_m?); {WANTED}",
     "time_s,x_m,z_m,y_m": f"line 1: the columns are in another order, time_s,x_m,z_m,y_m; {WANTED}",
-    "time_s,x_m,y_m,z_m,z_m": f"line 1: column z_m is there twice; {WANTED}",
+    "time_s,x_m,y_m,z_m,z_m": f"line 1: column z_m appears twice; {WANTED}",
     "0,0,0.001,0": f"line 1: the first line holds numbers, not the names of the columns; {WANTED}",
 }
 
@@ -67,7 +67,7 @@ FIELDS = {
     "1_0": "y_m is '1_0', which is not a number",
     "0x1p3": "y_m is '0x1p3', which is not a number",
     "NULL": "y_m is 'NULL', which is not a number",
-    "1e999": "y_m is 1e999, more than a number can hold",
+    "1e999": "y_m is 1e999, which is too large for a number",
     '"0,001"': "y_m is '0,001', with a decimal comma; write 0.001",
 }
 
@@ -85,10 +85,10 @@ def test_lines_of_another_length_are_told(tmp_path):
     assert error_of(tmp_path, spoilt(9, lambda row: "0.1")) == f"line 9: holds 1 value for 4 columns; {each}"
     assert error_of(tmp_path, spoilt(9, lambda row: row + ",7")) == f"line 9: holds 5 values for 4 columns; {each}"
     assert error_of(tmp_path, spoilt(9, lambda row: "0,1,0,2,0,3,0,4")) == (
-        "line 9: holds 8 values for 4 columns; where the numbers are written with decimal commas, write points"
+        "line 9: holds 8 values for 4 columns; replace decimal commas by points"
     )
     assert error_of(tmp_path, spoilt(9, lambda row: "0,1;0,2;0,3;0,4")) == (
-        "line 9: holds 5 values for 4 columns; separate the columns by commas, and write numbers with points"
+        "line 9: holds 5 values for 4 columns; use commas, and decimal points in numbers"
     )
 
 
@@ -190,11 +190,11 @@ def test_stamps_too_coarse_to_tell_the_samples_apart_are_told(tmp_path):
 
 def test_one_uneven_step_is_told(tmp_path):
     assert error_of(tmp_path, with_field(50, 0, "0.0303")) == (
-        "line 50: time_s is uneven here: 0.0303 s lies 0.48 steps off even sampling every 0.000625 s; "
+        "line 50: time_s is uneven here: 0.0303 s is 0.48 steps off a regular grid of 0.000625 s; "
         "resample the motion evenly first (numpy.interp does it)"
     )
     assert error_of(tmp_path, [HEADER, *LINES[:60], "0.0371,0,0,0", *LINES[60:]]) == (
-        "line 62: time_s is uneven here: a step of 0.000225 s where 0.000625 s is usual; "
+        "line 62: time_s is uneven here: a step of 0.000225 s instead of the usual 0.000625 s; "
         "resample the motion evenly first (numpy.interp does it)"
     )
 
@@ -234,7 +234,7 @@ def test_paths_that_cannot_serve_are_told_all_at_once(tmp_path):
 def test_the_motion_is_never_written_over(write):
     path = write([HEADER, *LINES])
     before = path.read_bytes()
-    assert problems_of("k06-fig10", path, path) == [f"out {path}: is the motion itself"]
+    assert problems_of("k06-fig10", path, path) == [f"out {path}: is the motion file itself; choose another name"]
     assert path.read_bytes() == before
 
 
