@@ -105,7 +105,7 @@ def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(t
     assert "goal[0].depth_mm" in said and "-3" in said and "must be at least 0.1 mm" in said
     bad.write_text("a = " + 500 * "[" + 500 * "]", encoding="utf-8")
     code, said = told(capsys, "--exercise", str(bad))
-    assert code == 2 and "deep in each other" in said
+    assert code == 2 and "nested more than" in said
     code, said = told(capsys, "--exercise", str(tmp_path / "none.toml"))
     assert code == 2 and "no such file" in said
     code, said = told(capsys, "--headless", "--exercise", str(bad))

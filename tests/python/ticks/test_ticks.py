@@ -157,9 +157,9 @@ def test_a_plot_has_each_membranes_force_and_band():
     assert np.array_equal(axes.lines[3].get_ydata(), ticks.axial_force[:, 1])
     assert [text.get_text() for text in axes.get_legend().get_texts()] == list(ticks.membranes)
     assert on_a_line().plot().get_xlabel() == "depth (m)"
-    with pytest.raises(ValueError, match="position is a vector"):
+    with pytest.raises(ValueError, match="x = 'position' is a vector"):
         ticks.plot("position")
-    with pytest.raises(KeyError, match="no ceiling"):
+    with pytest.raises(KeyError, match="needs the field ceiling"):
         ticks.plot("ceiling")
 
 
