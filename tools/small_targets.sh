@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The core for machines without exceptions, run-time types or an operating system: compiled for WebAssembly and for a Cortex-M4F.
+# Compiles the core without exceptions and RTTI for WebAssembly and for a Cortex-M4F without an operating system.
 #   tools/small_targets.sh
-# The WebAssembly program is run in Node: it must find the forces of tests/core/without_exceptions. The program for the Cortex is linked and
-# measured, not run. Needs Debian 12's packages; says which.
+# Node runs the WebAssembly program, which must compute the forces of tests/core/without_exceptions. The program for
+# the Cortex is linked and its size printed, but not run. Needs packages of Debian 12 and prints the missing ones.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
