@@ -1,4 +1,4 @@
-"""pip's way into the build, tools/build_backend, with a PATH and a scikit-build-core of the test's."""
+"""The build back-end for pip, tools/build_backend, with an artificial PATH and scikit-build-core."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ HOOK = (
 
 
 class Pip:
-    """Calls a hook of the back-end in a tree of its own, as pip does; `native.txt` says that CMake has started."""
+    """Calls a hook of the back-end in a separate tree, like pip. `native.txt` exists if CMake was started."""
 
     def __init__(self, folder: Path) -> None:
         self.tree, self.path, self.stubs = folder / "tree", folder / "bin", folder / "stubs"

@@ -1,4 +1,4 @@
-"""Each check of the tree passes on a good tree and says what is wrong, and where, on a bad one."""
+"""Each check of the source tree passes on a good tree, and reports problem and place on a bad one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def check(monkeypatch):
 
 
 def plant(root: Path, **files: str) -> Path:
-    """A small tree; in the names `__` stands for a slash and `_dot_` for a dot."""
+    """Creates a small tree. In the names `__` stands for a slash and `_dot_` for a dot."""
     for name, text in files.items():
         path = root / name.replace("__", "/").replace("_dot_", ".")
         path.parent.mkdir(parents=True, exist_ok=True)

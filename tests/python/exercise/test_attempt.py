@@ -1,4 +1,4 @@
-"""An attempt is judged the same however its ticks come, and whatever is in them."""
+"""The score of an attempt does not depend on how its ticks are split into batches, nor on invalid values in them."""
 
 import time
 

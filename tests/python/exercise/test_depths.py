@@ -1,4 +1,4 @@
-"""A depth behind a membrane as what is to be reached, without another membrane behind it."""
+"""Goals at a depth behind a membrane, without another membrane behind it."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Exercise files: what is in them, and everything that is wrong with one at once."""
+"""Exercise files: their content, and the report of all problems at once."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Metrics against values worked out by hand, for a needle that moves without lag."""
+"""Compares metrics with values calculated by hand, for a needle that moves without lag."""
 
 import math
 

@@ -80,7 +80,7 @@ def test_a_run_with_a_placement_meets_the_membrane_where_the_placement_puts_it()
 
 
 class LoopWhoseTicksCome:
-    """A loop of which nothing is known before so many waits."""
+    """A loop whose state is unknown until the given number of waits."""
 
     def __init__(self, waits, axis=(0.0, -1.0, 0.0)):
         self.waits = waits

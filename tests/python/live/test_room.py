@@ -1,4 +1,4 @@
-"""Ticks that are too many: bounded memory, every loss counted, and said where it matters."""
+"""Too many ticks for the buffer: memory stays bounded, and each loss is counted and reported."""
 
 import json
 import subprocess
@@ -17,7 +17,7 @@ SCENE = load_scene("k06-fig10")
 
 
 def many(count=64, rate=100_000.0):
-    """A sound scene of so many membranes."""
+    """A valid scene with the given number of membranes."""
     first = SCENE.membranes[0]
     placed = [first.replace(name=f"membrane {i}", point=(0.0, -1e-4 * i, 0.0)) for i in range(count)]
     return Scene(SCENE.name, SCENE.needle, SCENE.coupling, placed, SCENE.servo.replace(rate=rate))

@@ -1,4 +1,4 @@
-"""Limits, placement and exercise files are read as carefully as scene files."""
+"""Limits, placement and exercise files are checked like scene files."""
 
 import os
 import sys
@@ -20,7 +20,7 @@ every_reader = pytest.mark.parametrize("what", READERS)
 
 @pytest.fixture
 def refusal(tmp_path):
-    """What a reader says of a file with this content; it must name the file."""
+    """The error of a reader for a file with this content; it must name the file."""
 
     def read(what, content, path=None):
         path = path or tmp_path / "file.toml"

@@ -1,4 +1,4 @@
-"""A description that is wrong under a right check sum is refused by file and field, and hides nothing else."""
+"""A wrong description with a right checksum is rejected, with file and field, and does not affect other recordings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def tool(monkeypatch):
 
 @pytest.fixture
 def recorded(start, tmp_path):
-    """A finished recording and the same as it was growing."""
+    """A finished recording, and the same one unfinished."""
     run = start(ticks=200)
     return {".part": run.killed(tmp_path / "killed.parquet.part"), ".parquet": run.path}
 

@@ -110,7 +110,7 @@ def test_a_ring_that_overflows_is_told_of_tick_by_tick(start):
 
 def test_nothing_is_overwritten(start, tmp_path):
     run = start().record()
-    with pytest.raises(RecordingError, match="overwrites nothing"):
+    with pytest.raises(RecordingError, match="overwrites no file"):
         start()
     run.path.rename(tmp_path / "run.parquet.part")
     with pytest.raises(RecordingError, match=r"punctura export .*run\.parquet\.part --out"):

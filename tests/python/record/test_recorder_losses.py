@@ -1,4 +1,4 @@
-"""Whatever goes wrong with a recording: in the end every tick is a row or is counted as lost, and it is told."""
+"""After any failure of a recording, every tick is a row or is counted as lost, and the failure is reported."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from punctura.record.stream import Decoder, Encoder
 
 
 def all_told(run, status):
-    """Rows and losses together are the ticks, in the status and in the file."""
+    """Rows plus losses equal the number of ticks, in the status and in the file."""
     made = run.loop.report()["ticks"]
     assert status.rows + status.lost == made and f"{status.lost} of {made} ticks are lost" in status.notes[-1]
     if status.rows:
@@ -27,7 +27,7 @@ def all_told(run, status):
 
 
 class Failing:
-    """In place of a function: fails at the calls with these numbers."""
+    """Replaces a function. Fails at the calls with the given numbers."""
 
     def __init__(self, function, error, calls):
         self.function, self.error, self.calls, self.count = function, error, calls, 0
@@ -63,7 +63,7 @@ def test_an_error_in_the_reading_thread_costs_ticks_that_are_counted(start, monk
 
 
 class Reader:
-    """A listener whose ticks are taken, and lost where its read fails."""
+    """A listener that loses the ticks of a failed read."""
 
     def __init__(self, listener, failing):
         self._listener, self._failing = listener, failing
@@ -115,7 +115,7 @@ def empty(run):
 
 @pytest.fixture
 def begun(start, monkeypatch):
-    """A recording with ticks on the disk, and what somebody does to its file before more ticks come."""
+    """A recording with ticks on the disk, whose file another program changes before more ticks come."""
     monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
 
     def go(meddle, **more):
@@ -207,7 +207,7 @@ def test_where_the_present_name_is_not_known_no_path_is_given(begun):
     def move(run):
         aside.append(run.part.rename(run.part.with_name("aside")))
         os.close(run.recorder._file._name)
-        run.recorder._file._name = None  # as on a system that does not tell it
+        run.recorder._file._name = None  # as on a system that does not report it
 
     run = begun(move)
     run.wait(lambda: "this system does not report the new path" in run.recorder.status().trouble)
@@ -236,7 +236,7 @@ def test_a_file_that_comes_back_is_finished_and_the_note_says_so(begun):
     assert any("was moved" in note and "resolved after" in note for note in status.notes)
 
 
-def test_a_recording_does_not_take_the_place_of_one_that_has_appeared_meanwhile(start):
+def test_a_recording_does_not_replace_a_file_created_during_the_run(start):
     run = start(ticks=500)
     run.go()
     run.path.write_bytes(b"another")

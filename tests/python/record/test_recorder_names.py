@@ -1,4 +1,4 @@
-"""What a killed process left without a tick blocks no name; what holds ticks, or is still written, does."""
+"""The file of a killed process blocks its name only if it holds ticks or is still being written."""
 
 from __future__ import annotations
 
@@ -70,14 +70,14 @@ def test_one_that_is_being_written_blocks_its_name_until_it_is_closed(start):
 
 
 @pytest.mark.parametrize("content", [b"somebody else's", b"\xff\xff\xff\xff", bytes(100)])
-def test_what_is_none_of_ours_is_left_alone(start, tmp_path, content):
+def test_a_file_that_is_not_a_recording_is_left_alone(start, tmp_path, content):
     (tmp_path / "run.parquet.part").write_bytes(content)
     with pytest.raises(RecordingError, match="already exists"):
         start()
     assert (tmp_path / "run.parquet.part").read_bytes() == content
 
 
-def test_what_holds_a_tick_blocks_its_name(start, tmp_path):
+def test_a_file_with_a_tick_blocks_its_name(start, tmp_path):
     run = start(ticks=200)
     run.killed(tmp_path / "kept")
     run.path.unlink()

@@ -1,4 +1,4 @@
-"""A recording's forces come out again to the last bit."""
+"""A replay gives the recorded forces, bit for bit."""
 
 from __future__ import annotations
 
@@ -182,7 +182,7 @@ def test_a_recording_without_a_tick_is_not_called_identical(start, capsys):
 
 
 def test_a_file_that_is_damaged_inside_is_not_called_identical(start, tmp_path):
-    """One bit of a part's length: what comes after cannot be found, and it is most of the file."""
+    """A flipped bit in the length of a part: the rest of the file, which is most of it, cannot be found."""
     kept = tmp_path / "kept.parquet.part"
     start(ticks=20_000).killed(kept)
     data = bytearray(kept.read_bytes())

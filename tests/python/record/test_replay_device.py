@@ -1,4 +1,4 @@
-"""A recorded motion as a device: the forces of its own scene again, and those of another."""
+"""A recorded motion as a device, with its own scene and with another one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from recorded import run_to_end
 
 
 def snapshots(device, scene, gate=None):
-    """Every tick of an armed loop on a device that ends by itself."""
+    """All ticks of an armed loop on a device that ends by itself."""
     loop = ServoLoop(device, scene, gate or GateLimits())
     listener = loop.listen(len(device))
     run_to_end(loop)

@@ -1,4 +1,4 @@
-"""Files that no person writes: told in words, in time, whatever they hold."""
+"""Absurd scene files are rejected with a clear message and in short time, whatever they contain."""
 
 from __future__ import annotations
 

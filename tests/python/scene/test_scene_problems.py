@@ -1,4 +1,4 @@
-"""Every problem of a scene file is told, all at once, in the file's own keys and units."""
+"""All problems of a scene file are reported at once, in the file's keys and units."""
 
 from __future__ import annotations
 

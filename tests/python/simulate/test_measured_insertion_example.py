@@ -1,4 +1,4 @@
-"""examples/measured_insertion.py runs on a trace of the form that it expects; the measured data are not needed."""
+"""Runs examples/measured_insertion.py on an artificial trace; the measured data are not needed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A motion that cannot be used is refused with file, line, what was found and what to do; nothing is left behind."""
+"""An invalid motion is rejected with file, line, problem and remedy, and leaves no output file."""
 
 from __future__ import annotations
 

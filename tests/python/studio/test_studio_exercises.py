@@ -1,4 +1,4 @@
-"""Exercises of one's own in the studio: files that the command line names, and nothing that a page could name."""
+"""User exercises in the studio: only files from the command line, never a file named by a page."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def own_file(folder, text=None, name="mine"):
 
 @pytest.fixture
 def own(tmp_path):
-    """An exercise with a scene of its own beside it."""
+    """An exercise with its own scene file in the same folder."""
     save_scene(load_exercise("venipuncture").scene.replace(name="Somebody"), tmp_path / "somebody.toml")
     return own_file(tmp_path, HEAD.replace('scene = "venipuncture"', 'scene = "somebody.toml"') + "".join(GOALS))
 

@@ -27,7 +27,7 @@ def frames_of(body):
 
 
 def record(page, name=None, edit=True):
-    """A short recording with a pop, and an edit on the way. Gives what stop_recording says."""
+    """A short recording with a pop and a scene edit. Returns the answer of stop_recording."""
     assert page.ask(do="start_recording", name=name)["ok"]
     seen = len(page.of("event"))
     assert page.ask(do="strokes", period=1.0)["ok"]

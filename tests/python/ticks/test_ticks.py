@@ -1,4 +1,4 @@
-"""Ticks: what every run gives."""
+"""Ticks, the result of every run."""
 
 import pickle
 import sys
@@ -127,7 +127,7 @@ def test_pandas_gets_numbers_and_words():
 
 
 def test_polars_gets_the_arrow_table(monkeypatch):
-    """The package is large, and the call is one line: a module in its place keeps what it is given."""
+    """Replaces the package, which is large, by a module that stores its arguments. The tested call is one line."""
     polars = types.ModuleType("polars")
     polars.DataFrame = type("DataFrame", (), {})
     given = []
