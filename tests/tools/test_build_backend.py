@@ -106,7 +106,7 @@ def test_a_compiler_that_is_named_to_cmake_is_left_to_cmake(pip: Pip, environmen
     assert pip.call(**environment).returncode == 0 and pip.native_started
 
 
-def test_python_headers_that_are_missing_are_told(pip_with_compiler: Pip, tmp_path: Path) -> None:
+def test_python_headers_that_are_missing_are_reported(pip_with_compiler: Pip, tmp_path: Path) -> None:
     code = "import sysconfig; sysconfig.get_path = lambda *_: '/nowhere'\n"
     (pip_with_compiler.stubs / "sitecustomize.py").write_text(code)
     said = pip_with_compiler.call()

@@ -14,7 +14,7 @@ from punctura.record.new_file import make_file
 _OPEN_FILES = "/proc/self/fd"  # on Linux
 
 
-class Amiss(NamedTuple):
+class FileChange(NamedTuple):
     """A change that another program made to the file.
 
     lost: some or all of the written data is gone. place: the file's present path, None if unknown.
@@ -59,13 +59,13 @@ class AppendFile:
             rest = rest[os.write(self._descriptor, rest) :]
         self.size += len(data)
 
-    def amiss(self) -> Amiss | None:
+    def change(self) -> FileChange | None:
         """None if the file is still at its path and has its full length; else what has changed."""
         mine = os.fstat(self._descriptor)
         if self._counts_names and mine.st_nlink == 0:
-            return Amiss(f"{self._path} was removed or replaced by another program while it was being recorded", True)
+            return FileChange(f"{self._path} was removed or replaced by another program during the recording", True)
         if mine.st_size < self.size:
-            return Amiss(f"{self._path} was truncated by another program while it was being recorded", True)
+            return FileChange(f"{self._path} was truncated by another program during the recording", True)
         try:
             if os.path.samestat(mine, os.stat(self._path)):
                 return None
@@ -73,7 +73,7 @@ class AppendFile:
             pass
         place = self.place()
         where = f"recording continues in {place}" if place else "this system does not report the new path"
-        return Amiss(f"{self._path} was moved while it was being recorded; {where}", False, place)
+        return FileChange(f"{self._path} was moved during the recording; {where}", False, place)
 
     def place(self) -> Path | None:
         """The file's present path, even after a move or rename. None if the system does not report it."""

@@ -33,7 +33,7 @@ class _Part(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
 
 
-class DeviceSaid(_Part):
+class DeviceBefore(_Part):
     """The device's DeviceInfo from before the run."""
 
     backend: str = ""
@@ -87,7 +87,7 @@ class Description(_Part):
     began_ns: Count
     rate_hz: Positive
     period_s: Positive
-    device: DeviceSaid
+    device: DeviceBefore
     gate: dict[str, Value]
     limits: dict[str, Value]
     spent_N2s: NotNegative = 0.0

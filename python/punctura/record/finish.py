@@ -11,7 +11,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from punctura.record.append_file import Amiss, AppendFile
+from punctura.record.append_file import AppendFile, FileChange
 from punctura.record.errors import RecordingError
 from punctura.record.parquet_file import parquet_output
 from punctura.record.part_file import PartFile
@@ -45,11 +45,11 @@ def finish_recording(
     made: number of ticks of the loop since the recording began. Ticks that cannot be read back count as lost.
     after: further fields for the header.
     """
-    trouble, part, amiss, written = status.trouble, None, None, status.rows
+    trouble, part, change, written = status.trouble, None, None, status.rows
     try:
         file.settle()
-        amiss = file.amiss()
-        trouble = amiss.words if amiss else trouble
+        change = file.change()
+        trouble = change.words if change else trouble
         part = PartFile(file.source())
         rows = part.survey.rows
         status = replace(_counted(status, rows, part.survey.last_tick, made), file=file.place())
@@ -65,7 +65,7 @@ def finish_recording(
         trouble = f"{path} was created by another program during the recording"
     except (OSError, ValueError, MemoryError, pa.ArrowException) as bad:
         trouble = trouble or f"conversion to Parquet failed: {str(bad) or type(bad).__name__}"
-        if not part and _is_spoiled(bad, amiss):
+        if not part and _is_spoiled(bad, change):
             status = _counted(status, 0, -1, made)
         elif not part:  # the ticks are still on the disk, even if reading them failed
             status = replace(_counted(status, written, status.last_tick, made), file=file.place())
@@ -80,9 +80,9 @@ def finish_recording(
     return replace(status, trouble=f"{trouble}; {stays}; {how}")
 
 
-def _is_spoiled(bad: BaseException, amiss: Amiss | None) -> bool:
+def _is_spoiled(bad: BaseException, change: FileChange | None) -> bool:
     """Whether the file itself is the cause, rather than a lack of memory or of file descriptors."""
-    return isinstance(bad, (RecordingError, FileNotFoundError)) or (amiss is not None and amiss.lost)
+    return isinstance(bad, (RecordingError, FileNotFoundError)) or (change is not None and change.lost)
 
 
 def _counted(status: RecorderStatus, rows: int, last_tick: int, made: int) -> RecorderStatus:

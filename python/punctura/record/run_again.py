@@ -60,7 +60,7 @@ def replay(
     if recording.info.build != build_id():
         result.same_build = False
         result.notes.append(f"recorded by another build ({recording.info.build}) than this one ({build_id()})")
-    again = _Again(recording, result)
+    again = _Replayer(recording, result)
     with ExitStack() as stack:
         output = None
         if out is not None:
@@ -82,7 +82,7 @@ def replay(
     return result
 
 
-class _Again:
+class _Replayer:
     """Runs the servo step of a recording and compares the results."""
 
     def __init__(self, recording: Recording, result: ReplayResult) -> None:
@@ -94,7 +94,7 @@ class _Again:
 
     def run(self, batch: pa.RecordBatch) -> pa.RecordBatch | None:
         """Replays up to the first gap; None if there is nothing to replay."""
-        n, why = self._knowable(batch)
+        n, why = self._replayable(batch)
         if n < len(batch):
             self._result.complete = False
             self._result.notes.append(why)
@@ -112,7 +112,7 @@ class _Again:
     def _scenes(self, texts: list[str]) -> list[Scene]:
         return [from_text(text, self._path) for text in texts]
 
-    def _knowable(self, batch: pa.RecordBatch) -> tuple[int, str]:
+    def _replayable(self, batch: pa.RecordBatch) -> tuple[int, str]:
         """The number of ticks at the start of the batch that can be replayed, and the reason if more cannot."""
         tick = numbers(batch, "tick").astype(np.int64)
         gaps = np.flatnonzero(tick != self._result.ticks + np.arange(len(tick)))

@@ -76,19 +76,19 @@ class Writer:
 
     def _check(self) -> str:
         """A message if the file was moved, else empty. Raises _Lost if it was deleted or truncated."""
-        amiss = self._file.amiss()
-        if amiss is None:
+        change = self._file.change()
+        if change is None:
             self.place = self._path
             return ""
-        if not amiss.lost:
-            self.place = amiss.place
-            return amiss.words
+        if not change.lost:
+            self.place = change.place
+            return change.words
         if not self._lost:
             self._lost = True
             before = self.rows
             self.rows, self.last_tick = self._readable()
             self.ruined = max(0, before - self.rows)
-        raise _Lost(amiss.words)
+        raise _Lost(change.words)
 
     def _readable(self) -> tuple[int, int]:
         """Number of readable ticks and the last tick; (0, -1) if none."""

@@ -118,7 +118,7 @@ class Silent:
         raise AssertionError("the driver is asked before the stop")
 
 
-def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
+def test_ticks_that_cease_are_noticed_and_reported(monkeypatch):
     now = [0.0]
     monkeypatch.setattr("punctura.live.silence.time.monotonic", lambda: now[0])
     for deadline, longest in ((0.02, 0.1), (0.1, 0.5)):

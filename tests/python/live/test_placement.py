@@ -116,7 +116,7 @@ def test_a_device_that_never_ticks_is_told_with_its_reason():
         present_pose(loop, sleep=loop.sleep)
 
 
-def test_a_device_that_points_nowhere_is_told():
+def test_a_device_that_points_nowhere_is_reported():
     loop = LoopWhoseTicksCome(waits=0, axis=(0.0, 0.0, 0.0))
     with pytest.raises(DeviceError, match="no place at all"):
         present_pose(loop, sleep=loop.sleep)

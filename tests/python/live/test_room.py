@@ -53,7 +53,7 @@ def test_a_summary_counts_every_tick_also_those_lost_after_the_last_that_was_rea
     assert loops[0].report()["ticks"] == 300_000 == summary.ticks + summary.gaps and summary.gaps > 0
 
 
-def test_a_scene_that_a_computer_may_not_keep_up_with_is_told(tmp_path):
+def test_a_scene_that_a_computer_may_not_keep_up_with_is_reported(tmp_path):
     assert room_note(ServoLoop(device_for(SCENE, 1), SCENE)) == ""
     scene = many()
     summary = run_live(device_for(scene, 100), scene)

@@ -40,7 +40,7 @@ def test_deep_nesting_is_told_in_words(what, refusal):
 
 
 @every_reader
-def test_a_file_that_is_too_large_is_told(what, refusal):
+def test_a_file_that_is_too_large_is_reported(what, refusal):
     assert f"is larger than 256 KiB: no {what} needs that" in refusal(what, b"#" * (MOST_BYTES + 1))
 
 
@@ -56,7 +56,7 @@ def test_a_device_and_a_pipe_are_refused_unread(what, refusal, tmp_path):
 
 
 @every_reader
-def test_a_folder_a_missing_file_and_bytes_that_are_no_text_are_told(what, refusal, tmp_path):
+def test_a_folder_a_missing_file_and_bytes_that_are_no_text_are_reported(what, refusal, tmp_path):
     assert f"is a folder, not {FILE_OF[what]}" in refusal(what, None, tmp_path)
     assert "there is no such file" in refusal(what, None, tmp_path / "none.toml")
     assert "line 2: is not UTF-8 text; save it as UTF-8" in refusal(what, b"\n\xff")

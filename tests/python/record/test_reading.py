@@ -41,7 +41,7 @@ def test_a_file_that_is_cut_off_has_what_was_whole(growing, share):
     assert len(recording.notes) == 1
 
 
-def test_a_flipped_bit_costs_its_batch_and_is_told(start, tmp_path, monkeypatch):
+def test_a_flipped_bit_costs_its_batch_and_is_reported(start, tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
     run = start()
     run.go()

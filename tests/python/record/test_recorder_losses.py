@@ -172,7 +172,7 @@ def test_a_file_that_is_removed_after_the_last_tick_is_not_called_whole(start, m
 def test_a_folder_that_is_moved_is_told_while_it_runs_and_its_file_is_whole(begun, tmp_path):
     (tmp_path / "here").mkdir()
     run = begun(lambda _: (tmp_path / "here").rename(tmp_path / "there"), name="here/run.parquet")
-    run.wait(lambda: "was moved while it was being recorded" in run.recorder.status().trouble)
+    run.wait(lambda: "was moved during the recording" in run.recorder.status().trouble)
     status = run.recorder.finish()
     assert "was moved" in status.trouble and not status.finished
     there = tmp_path / "there" / "run.parquet.part"
@@ -291,7 +291,7 @@ def test_a_file_that_is_spoiled_is_not_called_readable(start, monkeypatch):
     )
 
 
-def test_a_ring_that_is_smaller_than_was_asked_for_is_told(start):
+def test_a_ring_that_is_smaller_than_was_asked_for_is_reported(start):
     run = start(ticks=300, capacity=1 << 40)
     (note,) = run.record().recorder.status().notes
     assert f"{1 << 40} to {run.recorder._listener.capacity} snapshots" in note

@@ -105,7 +105,7 @@ def contend(path, turns, won):
             continue
         with won.get_lock():
             won.value += 1
-        assert file.amiss() is None, "two processes had the same name"
+        assert file.change() is None, "two processes had the same name"
         file.close()
 
 
@@ -139,7 +139,7 @@ def test_a_file_that_cannot_be_opened_by_its_name_is_closed_and_removed(tmp_path
     AppendFile(path).close()
 
 
-def test_a_damaged_file_without_a_readable_tick_is_renamed_and_told(start, tmp_path):
+def test_a_damaged_file_without_a_readable_tick_is_renamed_and_reported(start, tmp_path):
     run = start(ticks=300)
     header = run.recorder.status().file.read_bytes()
     damaged = bytearray(run.killed(tmp_path / "killed").read_bytes())

@@ -114,7 +114,7 @@ def test_ticks_that_are_missing_at_the_end_are_noted(start, monkeypatch):
     assert result.identical and "ticks are missing at the end" in result.notes[-1]
 
 
-def test_a_scene_that_came_past_the_recorder_is_told(start):
+def test_a_scene_that_came_past_the_recorder_is_reported(start):
     run = start()
     run.loop.exchange(load_scene("k06-fig10"))
     run.record()

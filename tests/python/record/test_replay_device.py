@@ -88,7 +88,7 @@ def test_the_command_line_runs_a_recorded_motion_and_records_the_same_forces(sta
     assert np.array_equal(forces(open_recording(again)), forces(open_recording(run.path)))
 
 
-def test_what_cannot_be_replayed_is_told(start, tmp_path, capsys):
+def test_what_cannot_be_replayed_is_reported(start, tmp_path, capsys):
     with pytest.raises(DeviceError, match=r"replay:FILE\.parquet"):
         open_for(load_scene("k06-fig10"), "replay")
     with pytest.raises(SystemExit) as end:

@@ -129,7 +129,7 @@ def test_the_experiment_is_the_model_on_the_measured_positions_with_no_limit_act
     again = Insertion(experiment.scene).run(experiment.trace.position, INWARD)
     np.testing.assert_array_equal(again.force, experiment.trace.model_force)
     np.testing.assert_array_equal(experiment.trace.force, experiment.trace.model_force)
-    assert experiment.trace.limited_ticks == 0
+    assert not experiment.trace.limit.any()
 
 
 def test_the_pop_picture_lies_on_the_band_it_is_drawn_over(column: Column) -> None:

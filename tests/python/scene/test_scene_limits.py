@@ -39,13 +39,13 @@ def test_a_number_of_thousands_of_digits_is_told_with_its_line(write, number):
 
 
 @pytest.mark.parametrize("deep", ["[" * 5000 + "]" * 5000, "[\n" * 5000, "{a=" * 5000 + "1" + "}" * 5000])
-def test_lists_and_tables_a_thousand_deep_are_told(write, deep):
+def test_lists_and_tables_a_thousand_deep_are_reported(write, deep):
     (problem,) = problems(write(("thickness_mm = 1.0", f"thickness_mm = {deep}")))
     assert problem.endswith(": lists and tables are nested more than 16 deep")
     assert problem.startswith("line ")
 
 
-def test_a_key_of_a_hundred_thousand_parts_is_told(write):
+def test_a_key_of_a_hundred_thousand_parts_is_reported(write):
     path = write(("friction = 0.2", "friction." + "a." * 100_000 + "b = 0.2"))
     assert problems(path) == ["line 16: a key has more than 16 dots"]
 

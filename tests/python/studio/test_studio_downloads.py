@@ -119,7 +119,7 @@ def test_a_download_that_is_broken_off_gives_its_place_back_at_once(served, page
     assert os.listdir(folder) == ["run.parquet"]
 
 
-def test_too_many_downloads_at_once_are_told(served, page):
+def test_too_many_downloads_at_once_are_reported(served, page):
     make(served.session.shelf.folder / "run.parquet", TICKS)
     address = "/api/recordings/run/download"
     unread = [Unread(served, address) for _ in range(MOST_EXPORTS)]

@@ -119,7 +119,7 @@ def test_the_end_of_the_studio_finishes_a_recording(served, page):
     assert recording.finished and recording.lost == 0 and recording.rows >= 400
 
 
-def test_a_folder_that_cannot_be_written_is_told(served, page):
+def test_a_folder_that_cannot_be_written_is_reported(served, page):
     served.session.shelf.folder.write_text("a file stands in the way")
     answer = page.ask(do="start_recording", name="x")
     assert not answer["ok"] and answer["text"]

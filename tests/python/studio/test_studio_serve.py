@@ -78,7 +78,7 @@ def test_a_token_that_could_be_guessed_is_refused(monkeypatch):
             token_from_environment()
 
 
-def test_a_port_that_is_taken_is_told(tmp_path):
+def test_a_port_that_is_taken_is_reported(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
