@@ -1,4 +1,4 @@
-"""Ways to condition positions against encoder noise, compared. See docs/conditioning.md.
+"""Compares methods of position conditioning against encoder noise. See docs/conditioning.md.
 
 python benchmarks/conditioning.py [--check] [--json FILE]
 """
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from program import ROOT, ProgramError, build
 
-# What conditioning must do (docs/conditioning.md), and which method the core promises it of.
+# The demands on conditioning (docs/conditioning.md), and the method of the core that must meet them.
 MOST_NOISE, MOST_POP_ERROR, MOST_ADDED_DELAY = 0.016, 0.02, 1e-3  # N rms, relative, s
 CHOSEN = "line_fit"
 SOLVERS = ("exact", "paper")
@@ -25,7 +25,7 @@ Method = dict[str, Any]
 
 
 def noise(method: Method) -> float:
-    """The worst force noise along one axis over all dithers and both solvers, N rms from tick to tick."""
+    """The largest force noise along one axis over all dithers and both solvers, N rms between ticks."""
     along = max(method[f"{solver}_{dither}"] for solver in SOLVERS for dither in DITHERS)
     across = max(method[f"{solver}_rest_across_N"] for solver in SOLVERS) / 2**0.5  # two axes
     return max(along, across, *(method[f"{solver}_rest_all_along_N"] for solver in SOLVERS))
@@ -36,7 +36,7 @@ def pop_error(method: Method) -> float:
 
 
 class Verdict(NamedTuple):
-    """Which of the three demands a method meets."""
+    """The demands that a method meets."""
 
     noise: bool
     pop: bool
@@ -88,13 +88,13 @@ def measure(folder: Path) -> dict[str, Any]:
     print("Measuring, a dot for each method:", file=sys.stderr)
     done = subprocess.run([str(program)], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        raise ProgramError(f"{program.name} ended with {done.returncode}; its message stands above")
+        raise ProgramError(f"{program.name} ended with {done.returncode}; see its message above")
     result: dict[str, Any] = json.loads(done.stdout)
     return result
 
 
 def report(result: dict[str, Any], json_file: Path | None, check: bool) -> int:
-    """Prints and writes everything; the exit status: 1 where CHOSEN misses a demand and that is asked for."""
+    """Prints and writes the results. Returns the exit status: 1 if `check` is set and CHOSEN misses a demand."""
     print("\n".join(table(result)))
     if json_file is not None:
         verdicts = {m["name"]: verdict(m)._asdict() for m in result["methods"]}
@@ -104,9 +104,9 @@ def report(result: dict[str, Any], json_file: Path | None, check: bool) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description="Ways to condition positions against encoder noise, compared.")
+    parser = argparse.ArgumentParser(description="Compares methods of position conditioning against encoder noise.")
     parser.add_argument("--check", action="store_true", help=f"exit with 1 if {CHOSEN} misses a demand")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all results")
     options = parser.parse_args(arguments)
     try:
         result = measure(ROOT / "build/bench")

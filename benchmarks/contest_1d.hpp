@@ -1,4 +1,4 @@
-// One dimension: K06 (33) by hand, and Proxy1d with both solvers, over the same ticks.
+// One dimension: hand-written K06 (33), and Proxy1d with both solvers, over the same ticks.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace bench {
 
-/// One membrane: the model is copied to the stack first, so that its state may live in registers as the reference's does.
-/// Never inlined, so that the compiler knows no more of solver and parameters than it would in a servo loop.
+/// One membrane. The model is copied to the stack first, so that its state can stay in registers like the reference's.
+/// Never inlined, so that the compiler knows no more about solver and parameters than in a servo loop.
 template <typename Model, typename Scalar>
 [[gnu::noinline]] void run_one(const Model& start, const std::vector<Scalar>& depth, std::vector<Scalar>& force) {
   Model model = start;
@@ -23,7 +23,7 @@ template <typename Model, typename Scalar>
   for (std::size_t k = 0; k < n; ++k) f[k] = model.step(p[k]);
 }
 
-/// Several membranes, each with the depth of its surface: their forces added up.
+/// The sum over several membranes, each with the depth of its surface.
 template <typename Model, typename Scalar>
 [[gnu::noinline]] void run_several(const std::vector<Model>& start, const std::vector<Scalar>& surface,
                                    const std::vector<Scalar>& depth, std::vector<Scalar>& force) {
@@ -49,7 +49,7 @@ Contestant contestant_1d(const char* name, std::vector<Model> models, const std:
           [=] { return std::vector<double>(force->begin(), force->end()); }};
 }
 
-/// The depth is that along the normal.
+/// Depth along the normal.
 template <typename Scalar>
 std::vector<Contestant> contestants_1d(const punctura::Scene& scene, const Motion& motion) {
   using Law = punctura::BasicThickLaw<Scalar>;

@@ -1,4 +1,4 @@
-// In space: K06 (41) by hand, Insertion with both solvers, and the whole servo step.
+// In space: hand-written K06 (41), Insertion with both solvers, and the whole servo step.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ std::vector<double> flat(const std::vector<Vector>& vectors) {
   return out;
 }
 
-/// Never inlined, as in contest_1d.hpp. The state is where it is in a servo loop: in memory.
+/// Never inlined, as in contest_1d.hpp. The state is in memory, as in a servo loop.
 template <typename Model, typename Vector>
 [[gnu::noinline]] void run_in_space(Model& model, const std::vector<Vector>& tip, const std::vector<Vector>& axis,
                                     std::vector<Vector>& force) {
@@ -48,7 +48,7 @@ Contestant contestant_3d(const char* name, const Model& start, const std::vector
           [=] { return flat(*force); }};
 }
 
-/// Without the low-pass: the tip is filtered already.
+/// Without low-pass, because the tip is already filtered.
 template <typename Scalar>
 std::vector<Contestant> contestants_3d(const punctura::Scene& scene, const Motion& motion) {
   using Vector = punctura::Vector3<Scalar>;
@@ -71,7 +71,7 @@ std::vector<Contestant> contestants_3d(const punctura::Scene& scene, const Motio
   for (std::size_t k = 0; k < samples.size(); ++k) force[k] = servo.step(samples[k]).model_force;
 }
 
-/// The whole tick: input gate, low-pass, proxies, limits, snapshot. There is no reference loop for it.
+/// The whole tick: input gate, low-pass, proxies, limits, snapshot. It has no reference loop.
 inline std::vector<Contestant> contestants_servo(const punctura::Scene& scene, const Motion& motion) {
   std::vector<punctura::DeviceSample> samples;
   for (std::size_t k = 0; k < motion.measured.size(); ++k)
@@ -95,7 +95,7 @@ inline std::vector<Contestant> contestants_servo(const punctura::Scene& scene, c
   return contestants;
 }
 
-/// How the proxies spent their ticks, as shares of 1.
+/// The share of ticks that the proxies spent in each phase.
 struct Shares {
   double outside = 0, sticking = 0, sliding_in = 0, sliding_out = 0, barred = 0;
 };

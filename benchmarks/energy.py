@@ -1,10 +1,10 @@
-"""What a device that holds the force over the tick gives out, beside what the model gives: docs/passivity.md.
+"""Compares the energy from a device that holds the force during the tick with that of the model: docs/passivity.md.
 
     python benchmarks/energy.py [--json FILE]
 
-Each row is a simulated operator at a simulated device who goes in and out of K06's membranes and ends where it began.
-`model` counts the work as f(k).(x(k) - x(k-1)), which the discrete-time model cannot make positive; `held` counts it as
-the hand feels it, f(k).(x(k+1) - x(k)). The difference is what holding costs. Negative is dissipated.
+Each row is a simulated operator at a simulated device, who moves in and out of K06's membranes and returns to the
+start. `model` sums the work f(k).(x(k) - x(k-1)), which the discrete-time model keeps at or below zero. `held` sums the
+work on the hand, f(k).(x(k+1) - x(k)). The difference is the cost of holding. Negative work is dissipated.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ DEVICES = {
 
 
 def work(trace: pn.Ticks) -> tuple[float, float, float]:
-    """(model, held, length of the path): J, J, m; over the whole trace, which ends where it began."""
+    """(model, held, path length) in J, J, m, over the whole trace, which ends at its start position."""
     x, f = trace.true_position, trace.force
     moved = np.diff(x, axis=0)
     model = float(np.einsum("ij,ij->", f[1:], moved))
@@ -74,7 +74,7 @@ def main() -> None:
     print(
         f"\nColgate and Schenkel: passive at any grip with b > K T / 2 + |B| = {bound:.3f} N s/m in the device itself."
     )
-    print(f"The Omni has dry friction instead, 0.26 N: as much at every speed below {0.26 / bound:.2f} m/s.")
+    print(f"The Omni has 0.26 N of dry friction instead, which exceeds this damping below {0.26 / bound:.2f} m/s.")
     if arguments.json:
         arguments.json.write_text(json.dumps(table, indent=2) + "\n")
 

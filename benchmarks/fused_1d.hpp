@@ -1,4 +1,4 @@
-// The yardstick: K06 (33) written out by hand as one straight line of arithmetic.
+// The reference: K06 (33) written by hand as straight-line arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace bench {
 
-/// The constants of the thick law, divided out beforehand. K06 (15) to (19).
+/// The constants of the thick law with the divisions done in advance. K06 (15) to (19).
 template <typename Scalar>
 struct FusedLaw {
-  Scalar X, U, two_Q, half_A_I, half_A_O, F;  ///< half_A and F are already divided by H
+  Scalar X, U, two_Q, half_A_I, half_A_O, F;  ///< half_A_I, half_A_O and F are divided by H
 
   FusedLaw(const punctura::LawConstants<Scalar>& law, Scalar H, Scalar cos_beta)
       : X(law.X),
@@ -21,8 +21,8 @@ struct FusedLaw {
         half_A_O(law.A_O / (2 * H)),
         F(law.F / H) {}
 
-  /// f* clamped to [Phi_I(q), Phi_O(q)], without a branch: G_A of the near face less G_A of the far face, where A is the only
-  /// thing in which the two edges differ. K06 (18), (19), (32).
+  /// Clamps f* to [Phi_I(q), Phi_O(q)] without a branch. Each edge is G_A of the near face minus G_A of the far face;
+  /// the two edges differ only in A. K06 (18), (19), (32).
   Scalar clamp(Scalar q, Scalar f_star) const noexcept {
     const Scalar far = q - U;
     const Scalar tip_near = std::min(q, X), tip_far = std::min(far, X);
@@ -34,7 +34,7 @@ struct FusedLaw {
   }
 
  private:
-  Scalar zero = 0;  ///< not a literal: GCC 12 turns a max with a literal 0 into a jump
+  Scalar zero = 0;  ///< not a literal, because GCC 12 compiles a max with a literal 0 to a jump
 };
 
 template <typename Scalar>

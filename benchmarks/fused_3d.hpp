@@ -1,4 +1,4 @@
-// The yardstick in space: K06 (41) by hand, on plain numbers.
+// The reference in space: K06 (41) written by hand, on plain numbers.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ struct Vec {
   friend Scalar dot(const Vec& a, const Vec& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
-/// One membrane. Entered from the front and steeply only: what the motion of a measurement does not do is left out.
+/// One membrane, entered only from the front and steeply. Cases that the measured motions do not have are left out.
 template <typename Scalar>
 class Fused3d {
  public:
@@ -41,7 +41,7 @@ class Fused3d {
     inside_ = false;
   }
 
-  /// Inlined by force: where it is called, GCC 12 hands vectors over in memory and loses 5 ns.
+  /// Forced inline: otherwise GCC 12 passes vectors through memory, which costs 5 ns.
   [[gnu::always_inline]] Vec<Scalar> step(const Vec<Scalar>& p, const Vec<Scalar>& axis) noexcept {
     if (!started_) p_ = p;
     started_ = true;
@@ -79,7 +79,7 @@ class Fused3d {
   bool started_ = false, inside_ = false;
 };
 
-/// Several membranes: the sum, in scene order.
+/// The sum over several membranes, in scene order.
 template <typename Scalar>
 class FusedInsertion {
  public:

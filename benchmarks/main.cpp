@@ -1,6 +1,6 @@
-// The measurements of ./bench that are made in C++. Prints one JSON object; see run.py, which builds, calls and reads it.
+// The C++ measurements of ./bench. Prints one JSON object for run.py, which builds and runs this program.
 //
-//   bench_ticks [--seconds S] [--dump FILE]     S: for each row of the table
+//   bench_ticks [--seconds S] [--dump FILE]     S: seconds for each row of the table
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +24,7 @@ struct Row {
 double seconds = 0.5;
 bool first_row = true;
 
-/// Compares, then measures. Exits with 3 where the contestants do not agree: what is not right is not timed.
+/// Compares the forces, then measures. Exits with 3 if the contestants disagree, because a wrong result is not timed.
 void measure(const Row& row) {
   for (const auto& contestant : row.contestants) contestant.run();
   double difference = -1;
@@ -45,7 +45,8 @@ void measure(const Row& row) {
   for (std::size_t i = 0; i < row.contestants.size(); ++i) {
     const Spread& t = times.spreads[i];
     std::printf(
-        "%s\n      \"%s\": {\"median_ns\": %.4g, \"lower_quartile_ns\": %.4g, \"upper_quartile_ns\": %.4g, \"fastest_ns\": %.4g",
+        "%s       \"%s\": {\"median_ns\": %.4g, \"lower_quartile_ns\": %.4g, \"upper_quartile_ns\": %.4g,\n"
+        "\"fastest_ns\": %.4g",
         i == 0 ? "" : ",", row.contestants[i].name.c_str(), t.median, t.lower_quartile, t.upper_quartile, t.fastest);
     if (difference >= 0 && i > 0) {
       const Spread over = ratio(times.rounds[i], times.rounds[0]);
@@ -59,7 +60,7 @@ void measure(const Row& row) {
   std::fprintf(stderr, ".");
 }
 
-/// The depths of the one-membrane work and the paper solver's forces, as doubles one after the other: for the NumPy loop.
+/// Writes the depths of the one-membrane work, then the paper solver's forces, as doubles, for the NumPy loop.
 void dump(const std::string& file, const Motion& motion, const std::vector<Contestant>& contestants) {
   contestants[1].run();
   std::vector<double> numbers;

@@ -1,4 +1,4 @@
-"""K06 (33) as one writes it first: a law on NumPy arrays, and a loop over the ticks. Read, never optimised."""
+"""A straightforward K06 (33): a law on NumPy arrays and a loop over the ticks. Written for clarity, not optimised."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# K06 section 4, the membrane 1.0 mm thick: the first of the work in work.hpp.
+# K06 section 4, the membrane of 1.0 mm: the first membrane in work.hpp.
 W, THETA, KAPPA, C, MU, H = 1.08e-3, 0.28, 570.0, 0.41, 0.2, 1.0e-3
 K, B, T = 400.0, 1.0, 1 / 1600
 G = (K * T + B) / T
@@ -25,7 +25,7 @@ F = 2 * MU * (KAPPA * W + C)
 
 
 def primitive(q: Array, a: float) -> Array:
-    """The integral of the thin law's size from 0 to q, N m."""
+    """Integral of the thin law's magnitude from 0 to q, N m."""
     z = np.clip(q, 0, X)
     integral: Array = a * z * (z + 2 * Q) / 2 + F * np.maximum(q - X, 0)
     return integral
@@ -37,7 +37,7 @@ def bounds(q: Array) -> tuple[Array, Array]:
 
 
 def numpy_loop(p: Array) -> Array:
-    """Forces (N) for the depths p (m): K06 (33), tick after tick, by NumPy."""
+    """Forces (N) for the depths p (m) by K06 (33), tick by tick, with NumPy."""
     force = np.zeros_like(p)
     p_prev, e, f = p[0], np.float64(0), np.float64(0)
     for k in range(len(p)):
@@ -52,7 +52,7 @@ def numpy_loop(p: Array) -> Array:
 
 
 def python_loop(p: Array) -> Array:
-    """The same on Python's own numbers, without NumPy in the loop."""
+    """The same with Python floats, without NumPy in the loop."""
     x, a_i, a_o, q_, f_shaft = float(X), float(A_I), float(A_O), float(Q), float(F)
 
     def g(q: float, a: float) -> float:

@@ -1,4 +1,4 @@
-"""Builds the C++ part of the measurements, and runs it."""
+"""Builds and runs the C++ part of the measurements."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 class ProgramError(RuntimeError):
-    """The program could not be built, or its contestants did not agree."""
+    """The program could not be built, or its contestants disagree."""
 
 
 def tool(name: str) -> str | None:
-    """A program beside this Python, or else on the path."""
+    """A program next to this Python, or else on PATH."""
     beside = Path(sys.executable).parent / name
     return str(beside) if beside.is_file() else shutil.which(name)
 
 
 def build(folder: Path, target: str = "bench_ticks") -> Path:
-    """Configures where needed and compiles; gives the path of the program."""
+    """Configures if needed and compiles. Returns the path of the program."""
     cmake, ninja = tool("cmake"), tool("ninja")
     if cmake is None:
-        raise ProgramError("no CMake found; ./bench brings one")
+        raise ProgramError("CMake is missing; run ./bench, which installs it")
     configure = [cmake, "-S", str(ROOT), "-B", str(folder), "-DPUNCTURA_BENCH=ON", "-DCMAKE_BUILD_TYPE=None"]
     if ninja is not None:
         configure += ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"]
-    # What was configured for another place or compiler is laid anew.
+    # Configure afresh after a change of the folder or compiler.
     wanted, stamp = "\n".join([*configure, os.environ.get("CXX", "")]), folder / "configured-with"
     if not stamp.is_file() or stamp.read_text() != wanted:
         shutil.rmtree(folder, ignore_errors=True)
@@ -44,11 +44,11 @@ def build(folder: Path, target: str = "bench_ticks") -> Path:
 
 
 def call(program: Path, seconds: float, dump: Path) -> dict[str, Any]:
-    """Runs it, `seconds` for each row; the depths and forces for the NumPy loop go to `dump`."""
+    """Runs the program, `seconds` for each row. It writes the depths and forces for the NumPy loop to `dump`."""
     done = subprocess.run(
         [str(program), "--seconds", str(seconds), "--dump", str(dump)], stdout=subprocess.PIPE, text=True
     )
     if done.returncode != 0:
-        raise ProgramError(f"{program.name} ended with {done.returncode}; its message stands above")
+        raise ProgramError(f"{program.name} ended with {done.returncode}; see its message above")
     result: dict[str, Any] = json.loads(done.stdout)
     return result

@@ -1,19 +1,19 @@
-"""What the measurements are held against."""
+"""The targets of the measurements."""
 
 from __future__ import annotations
 
 import math
 from typing import Any, NamedTuple
 
-# Of one tick of one membrane in one dimension.
+# Targets for one tick of one membrane in one dimension.
 MOST_OVER_FUSED = {"paper": 1.5, "exact": 2.5}
 LEAST_UNDER_NUMPY = 300.0
-# Of the wake-ups' latency that 99.9 % do not exceed.
+# Target for the 99.9 % quantile of the wake-up latency.
 MOST_OVER_CYCLICTEST = 1.3
 
 
 class Ratio(NamedTuple):
-    """One ratio of two times, with its quartiles and what it is held against."""
+    """A ratio of two times, with its quartiles and its target."""
 
     what: str
     value: float
@@ -24,7 +24,7 @@ class Ratio(NamedTuple):
 
 
 def over_fused(rows: list[dict[str, Any]]) -> list[Ratio]:
-    """Solver over reference loop, of each round apart: what slows a round slows both."""
+    """Solver / reference loop, computed per round, because a disturbance slows both in the same round."""
     ratios = []
     for row in rows:
         if row["form"] != "1-D" or row["membranes"] != 1:
@@ -45,7 +45,7 @@ def over_fused(rows: list[dict[str, Any]]) -> list[Ratio]:
 
 
 def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) -> list[Ratio]:
-    """NumPy loop over each solver in double; the quartiles are the least and the most that both spreads allow."""
+    """NumPy loop / solver in double. The quartiles are the extremes that both spreads allow."""
     numpy = loops["numpy"]
     row = next(r for r in rows if (r["form"], r["scalar"], r["membranes"]) == ("1-D", "double", 1))
     ratios = []
@@ -60,7 +60,7 @@ def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) 
 
 
 def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
-    """Servo loop over cyclictest, all slices together; the quartiles are of neighbours. Not measured is not met."""
+    """Servo loop / cyclictest over all slices, with quartiles of neighbouring slices. Fails if not measured."""
     ratios = []
     for row in wakeups["conditions"]:
         over = row.get("over_cyclictest", dict.fromkeys(("pooled", "lower_quartile", "upper_quartile"), math.nan))
@@ -78,5 +78,5 @@ def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
 
 
 def all_ratios(result: dict[str, Any]) -> list[Ratio]:
-    """Of a tick's time."""
+    """All ratios of tick times."""
     return over_fused(result["rows"]) + under_numpy(result["rows"], result["loops"])

@@ -1,5 +1,7 @@
-"""The measurements: ns per tick of the model beside a hand-written loop and a NumPy loop, and how late the servo loop
-wakes beside cyclictest. See docs/bench.md.
+"""The benchmarks. See docs/bench.md.
+
+Measures the model's ns per tick, compared with a hand-written loop and a NumPy loop, and the wake-up latency of the
+servo loop, compared with cyclictest.
 
 python benchmarks/run.py [--check] [--json FILE] [--seconds S] [--wakeup-seconds S]
 """
@@ -24,7 +26,7 @@ from ratios import Ratio, all_ratios, over_cyclictest
 from table import table, verdicts, wakeup_table
 from wakeups import CONDITIONS, measure_wakeups
 
-LOOP_TICKS = 4000  # 2.5 s of the hand: into the membrane and out again
+LOOP_TICKS = 4000  # 2.5 s of motion: one insertion and withdrawal
 LOOP_REPETITIONS = 7
 
 
@@ -50,7 +52,7 @@ def versions() -> dict[str, str]:
 
 
 def time_loops(depth: Array, force: Array, ticks: int, repetitions: int) -> dict[str, dict[str, float]]:
-    """ns per tick of the loops in Python, in turn, after each has shown the paper solver's forces to 1e-10 N."""
+    """ns per tick of the Python loops, measured in turn. First each must give the paper solver's forces to 1e-10 N."""
     depth, force = depth[:ticks], force[:ticks]
     for name, loop in LOOPS.items():
         if not (worst := float(np.max(np.abs(loop(depth) - force)))) <= 1e-10:
@@ -83,13 +85,13 @@ def measure(program: Path, seconds: float) -> dict[str, Any]:
 
 
 def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, check: bool) -> int:
-    """Prints and writes everything; the exit status: 1 for a missed target where that is asked for, else 0."""
+    """Prints and writes the results. Returns the exit status: 1 if `check` is set and a target is missed, else 0."""
     print("\n".join(table(result)), end="\n\n")
     print("\n".join(verdicts(ratios)))
     if wakeups := result.get("wakeups"):
         print("\n" + "\n".join(wakeup_table(wakeups)), end="\n\n")
         of_wakeups = over_cyclictest(wakeups)
-        print("\n".join(verdicts(of_wakeups, "Wake-up latency that 99.9 % do not exceed: all together")))
+        print("\n".join(verdicts(of_wakeups, "99.9 % quantile of the wake-up latency, all slices")))
         ratios = ratios + of_wakeups
     if json_file is not None:
         in_json = [{key: None if value != value else value for key, value in r._asdict().items()} for r in ratios]
@@ -101,27 +103,27 @@ def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="./bench",
-        description="Nanoseconds per tick, beside a hand-written loop and NumPy; wake-up latency, beside cyclictest.",
+        description="Measures ns per tick against hand-written and NumPy loops, wake-up latency against cyclictest.",
     )
     parser.add_argument("--check", action="store_true", help="exit with 1 if a target is missed")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured, and on what")
-    parser.add_argument("--seconds", type=float, default=0.5, help="for each of the 25 rows (default %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all results and the machine's data")
+    parser.add_argument("--seconds", type=float, default=0.5, help="seconds for each of 25 rows (default %(default)s)")
     parser.add_argument(
         "--wakeup-seconds",
         type=float,
         default=20,
         metavar="S",
-        help=f"for the servo loop and for cyclictest in each of {len(CONDITIONS)} conditions; 0 leaves them out "
+        help=f"seconds for servo loop and cyclictest in each of {len(CONDITIONS)} conditions; 0 skips them "
         "(default %(default)s)",
     )
     options = parser.parse_args(arguments)
     try:
         program = build(ROOT / "build/bench")
-        print("Measuring, a dot for each row:", file=sys.stderr)
+        print("Measuring ticks, one dot per row:", file=sys.stderr)
         result = measure(program, options.seconds)
         if options.wakeup_seconds > 0:
             wakeups = build(ROOT / "build/bench", "bench_wakeups")
-            print("Waking up, a dot for each condition:", file=sys.stderr)
+            print("Measuring wake-ups, one dot per condition:", file=sys.stderr)
             result["wakeups"] = measure_wakeups(wakeups, options.wakeup_seconds)
     except ProgramError as error:
         print(error, file=sys.stderr)

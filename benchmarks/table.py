@@ -1,4 +1,4 @@
-"""The measurements as text for a terminal."""
+"""Prints the measurements as text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SHARES = ("outside", "sticking", "sliding_in", "sliding_out")
 
 
 def time(timing: dict[str, float] | None) -> str:
-    """Median and half the distance between the quartiles, ns."""
+    """Median and half of the interquartile range, ns."""
     if timing is None:
         return ""
     half = (timing["upper_quartile_ns"] - timing["lower_quartile_ns"]) / 2
@@ -35,7 +35,7 @@ def table(result: dict[str, Any]) -> Iterator[str]:
         shares = ", ".join(f"{k.replace('_', ' ')} {work[k]:.0%}" for k in SHARES)
         yield f"  {work['membranes']:3} membranes, {work['motion']:8} {shares}"
     yield ""
-    yield "ns per tick: median of interleaved rounds, in processor time, ± half the distance between the quartiles"
+    yield "ns per tick: median of interleaved rounds, in processor time, ± half of the interquartile range"
     yield (
         f"  {'form':11} {'scalar':7} {'membranes':9} {'motion':8}"
         + "".join(f"{n:>14}" for n in NAMES)
@@ -48,13 +48,13 @@ def table(result: dict[str, Any]) -> Iterator[str]:
             + "".join(f"{time(timings.get(name)):>14}" for name in NAMES)
             + "".join(f"{over(timings[name]):>13}" for name in NAMES[1:])
         )
-    for name, timing in result["loops"].items():  # over the work of the first row
+    for name, timing in result["loops"].items():  # with the work of the first row
         yield f"  {'1-D':11} {'double':7} {1:9} {'encoder':8}  {name} loop: {time(timing)}"
 
 
 def wakeup_table(wakeups: dict[str, Any]) -> Iterator[str]:
     priority = wakeups["priority"]
-    how = f"SCHED_FIFO real-time priority {priority}" if priority else "no real-time priority, which was not granted"
+    how = f"SCHED_FIFO real-time priority {priority}" if priority else "no real-time priority (not granted)"
     where = ", ".join(str(processor) for processor in wakeups["processors"])
     yield f"Wake-up latency at {wakeups['rate_hz']:g} Hz, {how}, on each processor in turn ({where}), us"
     heads = "".join(f"{head:>10}" for head in ("median", "99 %", "99.9 %", "largest"))
@@ -63,12 +63,12 @@ def wakeup_table(wakeups: dict[str, Any]) -> Iterator[str]:
         for name in ("loop", "cyclictest"):
             if name in row:
                 values = (row[name][key] for key in ("p50_us", "p99_us", "p99_9_us", "largest_us"))
-                after = f"   {row[name]['missed']} left out of {row[name]['wake_ups']}" if name == "loop" else ""
+                after = f"   {row[name]['missed']} of {row[name]['wake_ups']} skipped" if name == "loop" else ""
                 yield f"  {row['name']:14} {name:10}" + "".join(f"{v:10.1f}" for v in values) + after
         if row.get("stolen_s"):
-            yield f"  {'':14} a virtual machine: its host took {row['stolen_s']:.2f} s of its processors meanwhile"
+            yield f"  {'':14} virtual machine: the host took {row['stolen_s']:.2f} s of processor time"
     if wakeups["cyclictest"] is None:
-        yield "  cyclictest is not on this machine: Debian and Ubuntu have it in the package rt-tests. Not compared."
+        yield "  cyclictest is missing, so there is no comparison. On Debian and Ubuntu install the package rt-tests."
 
 
 def verdicts(ratios: list[Ratio], of: str = "One tick, one membrane, 1-D: median") -> Iterator[str]:

@@ -1,4 +1,4 @@
-// Times several ways of doing the same work against each other on a machine that is not quiet.
+// Compares the run times of several implementations on a machine that is not idle.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace bench {
 
-/// The compiler must take it that memory was read and written: what was computed up to here stays.
+/// A compiler barrier: memory counts as read and written, so the results so far are not optimised away.
 inline void keep_memory() { asm volatile("" ::: "memory"); }
 
-/// Time that this thread has computed, ns: what others do with the processor meanwhile is not counted.
+/// Processor time of this thread, ns. Time that other threads use does not count.
 inline double computed_ns() {
 #ifdef CLOCK_THREAD_CPUTIME_ID
   std::timespec t{};
@@ -29,15 +29,16 @@ inline double computed_ns() {
 
 struct Contestant {
   std::string name;
-  std::function<void()> run;                      ///< does the whole work once, always from the same start
-  std::function<std::vector<double>()> forces{};  ///< what its last run gave, N: to compare before measuring
+  std::function<void()> run;  ///< does the whole work once, from the same initial state
+  std::function<std::vector<double>()>
+      forces{};  ///< forces of the last run, N, for the comparison before the measurement
 };
 
 struct Spread {
   double median, lower_quartile, upper_quartile, fastest;
 };
 
-/// The value below which a share of the sorted numbers lies, interpolated.
+/// The quantile of sorted numbers, interpolated.
 inline double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
   const std::size_t i = static_cast<std::size_t>(at);
@@ -50,7 +51,7 @@ inline Spread spread(std::vector<double> values) {
   return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), values.front()};
 }
 
-/// Of each round apart: what slows a round slows both. (`fastest` is then the least ratio.)
+/// The ratio per round, because a disturbance slows both in the same round. (`fastest` is then the smallest ratio.)
 inline Spread ratio(std::vector<double> times, const std::vector<double>& reference) {
   for (std::size_t i = 0; i < times.size(); ++i) times[i] /= reference[i];
   return spread(std::move(times));
@@ -58,11 +59,11 @@ inline Spread ratio(std::vector<double> times, const std::vector<double>& refere
 
 struct Times {
   std::vector<Spread> spreads;              ///< nanoseconds per tick, one per contestant
-  std::vector<std::vector<double>> rounds;  ///< the same of every round, one row per contestant
+  std::vector<std::vector<double>> rounds;  ///< the values of each round, one row per contestant
 };
 
-/// Rounds in which every contestant runs once, each round in a new order: whatever else the machine does meets all alike.
-/// Ends after `seconds`, but not before `least` rounds nor after `most`.
+/// Runs rounds. In each round every contestant runs once, in a new order, so that disturbances affect all equally.
+/// Ends after `seconds`, with at least `least` and at most `most` rounds.
 inline Times time_against_each_other(const std::vector<Contestant>& contestants, std::size_t ticks, double seconds,
                                      std::size_t least = 21, std::size_t most = 401) {
   using Clock = std::chrono::steady_clock;
@@ -71,7 +72,7 @@ inline Times time_against_each_other(const std::vector<Contestant>& contestants,
   std::mt19937 random(1);
 
   Times times{{}, std::vector<std::vector<double>>(contestants.size())};
-  for (const auto& contestant : contestants) contestant.run();  // caches and branch predictors
+  for (const auto& contestant : contestants) contestant.run();  // warm up caches and branch predictors
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   for (std::size_t round = 0; round < most && (round < least || Clock::now() < end); ++round) {
     std::shuffle(order.begin(), order.end(), random);

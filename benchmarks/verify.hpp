@@ -1,4 +1,4 @@
-// Nothing is timed before it is known to be right.
+// Verifies results before the timing.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace bench {
 
-/// In N; NaN counts as without bound.
+/// Largest difference, N; infinite if there is a NaN.
 inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = a.size() == b.size() && !a.empty() ? 0 : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -24,13 +24,14 @@ inline double largest_difference(const std::vector<double>& a, const std::vector
   return largest;
 }
 
-/// 1e-10 N per membrane in double. In float, one digit of a depth of 40 mm is 4e-9 m, which g = 2000 N/m turns into 7e-6 N a
-/// tick; the rounding of a few such ticks stands in the state.
+/// 1e-10 N per membrane in double. In float, the last digit of a depth of 40 mm is 4e-9 m, which g = 2000 N/m turns
+/// into 7e-6 N per tick; the state holds the rounding of a few such ticks.
 inline double tolerance(const std::string& scalar, std::size_t membranes) {
   return (scalar == "double" ? 1e-10 : 2e-3) * static_cast<double>(membranes);
 }
 
-/// The exact solver has no second implementation here: its answer is put into K06 (21) and (23). Exits with 3 beyond 1e-10 N.
+/// The exact solver has no second implementation here, so its result is inserted into K06 (21) and (23). Exits with 3
+/// if the residual is above 1e-10 N.
 inline void check_exact(punctura::Scene scene, const Motion& motion) {
   scene.servo.low_pass = 0;
   scene.servo.solver = punctura::Solver::exact;

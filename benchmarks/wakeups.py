@@ -1,4 +1,4 @@
-"""How late the servo loop wakes, beside cyclictest: at the same time on the same processor. See docs/bench.md."""
+"""Measures the wake-up latency of servo loop and cyclictest, at the same time on the same CPU. See docs/bench.md."""
 
 from __future__ import annotations
 
@@ -19,33 +19,33 @@ from numpy.typing import NDArray
 from program import ProgramError
 
 RATE_HZ, PRIORITY = 1600, 80
-SLICE_S = 5.0  # of both, on one processor; the next slice is on the next
-WARM_UP_S = 0.2  # before each slice: what a process does as it begins is not how late a loop wakes
+SLICE_S = 5.0  # for both on one CPU; the next slice uses the next CPU
+WARM_UP_S = 0.2  # before each slice, so that the start of the processes does not count
 RESAMPLES = 400
 SHARES = {"p50_us": 0.5, "p99_us": 0.99, "p99_9_us": 0.999}
 
-Latencies = NDArray[np.int64]  # ns, one a period
+Latencies = NDArray[np.int64]  # ns, one per period
 
 
 def quantile(latencies: Latencies, share: float) -> float:
-    """The least latency that so large a share does not exceed, us."""
+    """The smallest measured latency that the given share does not exceed, us."""
     return float(np.quantile(latencies, share, method="inverted_cdf")) / 1e3
 
 
 def warm(latencies: Latencies) -> Latencies:
-    """Those after the warm-up."""
+    """The latencies after the warm-up."""
     return latencies[round(WARM_UP_S * RATE_HZ) :]
 
 
 def summary(slices: list[Latencies]) -> dict[str, float]:
-    """Of all slices together."""
+    """Quantiles over all slices."""
     pooled = np.concatenate(slices)
     shares = {name: quantile(pooled, share) for name, share in SHARES.items()}
     return shares | {"largest_us": float(pooled.max()) / 1e3, "wake_ups": len(pooled)}
 
 
 class Slice(NamedTuple):
-    """When and where a contestant runs."""
+    """Length, CPU and priority of one slice."""
 
     seconds: float
     priority: int  # 0: none
@@ -58,7 +58,7 @@ class Slice(NamedTuple):
 
 
 def begin_loop(program: Path, of: Slice) -> Callable[[], tuple[Latencies, dict[str, Any]]]:
-    """Starts the servo loop. What is returned waits for its end: its latencies, and what its program says of it."""
+    """Starts the servo loop. The returned function waits for its end and returns its latencies and its report."""
     dump = of.folder / "loop.i64"
     command = [program, "--seconds", WARM_UP_S + of.seconds, "--rate", RATE_HZ, "--priority", of.priority]
     where = ["--processor", of.processor, "--dump", dump]
@@ -67,16 +67,16 @@ def begin_loop(program: Path, of: Slice) -> Callable[[], tuple[Latencies, dict[s
     def end() -> tuple[Latencies, dict[str, Any]]:
         said, _ = process.communicate()
         if process.returncode != 0:
-            raise ProgramError(f"{program.name} ended with {process.returncode}; its message stands above")
+            raise ProgramError(f"{program.name} ended with {process.returncode}; see its message above")
         return warm(np.fromfile(dump, np.int64)), json.loads(said)
 
     return end
 
 
 def begin_cyclictest(cyclictest: str, of: Slice) -> Callable[[], Latencies]:
-    """Starts cyclictest, one thread. Both lock their memory and keep the processor awake.
+    """Starts cyclictest with one thread. Like the servo loop, it locks its memory and keeps the CPU from sleeping.
 
-    It writes to a file: a reader at the other end of a pipe would keep a processor from idling, for this one alone.
+    It writes to a file, because the reader of a pipe would keep a CPU busy for cyclictest only.
     """
     scheduling = [f"--priority={of.priority}", "--policy=fifo"] if of.priority else ["--policy=other"]
     how = [
@@ -109,7 +109,7 @@ def begin_cyclictest(cyclictest: str, of: Slice) -> Callable[[], Latencies]:
 
 
 def interval(loops: list[Latencies], others: list[Latencies]) -> tuple[float, float]:
-    """Quartiles of the pooled ratio over runs that might have been: slices of both drawn anew."""
+    """Quartiles of the pooled ratio by bootstrap: slices of both are resampled."""
     draw = np.random.default_rng(0)
 
     def ratio() -> float:
@@ -122,7 +122,7 @@ def interval(loops: list[Latencies], others: list[Latencies]) -> tuple[float, fl
 
 
 def stolen() -> float | None:
-    """What the host of a virtual machine has taken from all its processors so far, s; None where nothing says so."""
+    """Processor time that the host of a virtual machine has taken so far, s; None if the system does not report it."""
     try:
         counts = Path("/proc/stat").read_text().split("\n", 1)[0].split()
         return int(counts[8]) / os.sysconf("SC_CLK_TCK")
@@ -149,7 +149,7 @@ CONDITIONS: dict[str, Callable[[], Any]] = {"nothing else": nothing_else, "one c
 
 
 def measure_wakeups(program: Path, seconds: float) -> dict[str, Any]:
-    """`seconds` of both at once in each condition, a slice on each processor in turn: what goes on there meets both."""
+    """Runs both for `seconds` in each condition, in slices on each CPU in turn, so that disturbances affect both."""
     cyclictest = shutil.which("cyclictest")
     processors = sorted(os.sched_getaffinity(0))
     result: dict[str, Any] = {"rate_hz": RATE_HZ, "cyclictest": cyclictest, "processors": processors}

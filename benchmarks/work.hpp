@@ -1,4 +1,4 @@
-// What is measured: a stack of membranes and a hand that goes through it and back.
+// The measured work: a stack of membranes and a hand that moves through it and back.
 #pragma once
 
 #include <cmath>
@@ -13,9 +13,10 @@
 namespace bench {
 
 inline constexpr double rate = 1600, low_pass_hz = 300;  // K06 section 4
-inline constexpr std::size_t ticks = 16384;              // 10.24 s of the hand
+inline constexpr std::size_t ticks = 16384;              // 10.24 s of motion
 
-/// The membrane of K06 section 4, `count` times, 1.0 and 0.5 mm thick in turn as in Fig. 12 and 3 mm apart, or as many as go into 40 mm.
+/// `count` membranes of K06 section 4, alternately 1.0 and 0.5 mm thick as in Fig. 12, 3 mm apart or closer to fit
+/// into 40 mm.
 inline punctura::Scene scene_of(std::size_t count, punctura::Solver solver) {
   punctura::Scene scene{"bench", {1.08e-3, 0.28}, {400, 1}, {}, {rate, 0, solver}, punctura::Direction::stylus};
   const double apart = std::min(3e-3, 40e-3 / static_cast<double>(count));
@@ -29,16 +30,17 @@ inline punctura::Scene scene_of(std::size_t count, punctura::Solver solver) {
 
 using Point = std::array<double, 3>;
 
-/// The tip and the direction of the needle, tick by tick.
+/// Tip and direction of the needle for each tick.
 struct Motion {
   std::string name;
-  std::vector<Point> measured;  ///< what the device reports, m
-  std::vector<Point> tip;       ///< the same behind the low-pass of 300 Hz: what the model works on
+  std::vector<Point> measured;  ///< device positions, m
+  std::vector<Point> tip;       ///< the positions after the 300 Hz low-pass, the model's input
   std::vector<Point> axis;      ///< of length 1
 };
 
-/// Strokes from 2 mm in front of the first surface to 7 mm behind the last, 20 degrees off the normal, with rests at both ends
-/// and a tremor of 8 to 12 Hz and about 0.1 mm. encoder: the resolution of the device, m (0.055 mm is a PHANTOM Omni's), or 0.
+/// Strokes from 2 mm in front of the first surface to 7 mm behind the last, at 20 degrees to the normal, with rests
+/// at both ends and a tremor of 8 to 12 Hz and about 0.1 mm. encoder: resolution of the device, m (PHANTOM Omni:
+/// 0.055 mm), or 0.
 inline Motion strokes(const std::string& name, const punctura::Scene& scene, double encoder) {
   std::mt19937 random(7);
   const auto between = [&](double low, double high) {
@@ -60,7 +62,7 @@ inline Motion strokes(const std::string& name, const punctura::Scene& scene, dou
 
   Motion motion{name, {}, {}, {}};
   punctura::LowPass<double> filter[3] = {{low_pass_hz, 1 / rate}, {low_pass_hz, 1 / rate}, {low_pass_hz, 1 / rate}};
-  double part_start = 0, part = 0.2, from = 0, to = 0;  // a rest in front comes first
+  double part_start = 0, part = 0.2, from = 0, to = 0;  // begins with a rest in front
   for (std::size_t k = 0, leg = 0; k < ticks; ++k) {
     const double t = static_cast<double>(k) / rate;
     if (t >= part_start + part) {
@@ -72,7 +74,7 @@ inline Motion strokes(const std::string& name, const punctura::Scene& scene, dou
       part = from == to ? between(0.1, 0.5) : travel * between(0.8, 1.2);
     }
     const double s = (t - part_start) / part;
-    const double along = from + (to - from) * s * s * s * (10 - 15 * s + 6 * s * s);  // least jerk
+    const double along = from + (to - from) * s * s * s * (10 - 15 * s + 6 * s * s);  // minimum jerk
     const double lean = 20 * std::numbers::pi / 180 + 0.02 * std::sin(3 * t);
     motion.axis.push_back({std::sin(lean), -std::cos(lean), 0});
     Point p{0.36 * along + tremor(0, t), 2e-3 - along + tremor(1, t), tremor(2, t)};

@@ -1,4 +1,4 @@
-"""The model's force beside a measured one: punctura simulate driven by a needle insertion into bovine liver.
+"""Compares the model's force with a measured one: runs punctura simulate on a needle insertion into bovine liver.
 
     python examples/measured_insertion.py FOLDER [--scene SCENE] [--out measured_insertion.png]
 
@@ -33,14 +33,14 @@ Array = NDArray[Any]
 
 
 def read_measurement(folder: Path) -> tuple[Array, Array, Array]:
-    """Time (s), displacement (m) and force on the needle (N) at every instant of the digitised trace."""
+    """Time (s), displacement (m) and force on the needle (N) of each digitised sample."""
     time, displacement, force = np.loadtxt(folder / FILE, delimiter=",", skiprows=1).T
     time, first = np.unique(time, return_index=True)
     return time, displacement[first] / AXIS_TOO_LARGE, force[first]
 
 
 def write_motion(path: Path, time: Array, depth: Array) -> None:
-    """The insertion along -y, evenly at the servo rate: the digitised samples are not even."""
+    """Writes the insertion along -y, resampled evenly at the servo rate, since the digitised samples are not even."""
     even = np.arange(int(time[-1] * RATE_HZ) + 1) / RATE_HZ
     y = -np.interp(even, time, depth)
     rows = np.column_stack((even, np.zeros_like(y), y, np.zeros_like(y)))
@@ -48,7 +48,7 @@ def write_motion(path: Path, time: Array, depth: Array) -> None:
 
 
 def simulate(scene: Path, time: Array, depth: Array) -> Array:
-    """What punctura simulate makes of the motion, as a table with named columns."""
+    """Runs punctura simulate on the motion. Returns a table with named columns."""
     with tempfile.TemporaryDirectory() as folder:
         motion, out = Path(folder, "motion.csv"), Path(folder, "out.csv")
         write_motion(motion, time, depth)
@@ -73,8 +73,8 @@ def draw(path: Path, measured: tuple[Array, Array, Array], model: Array) -> None
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="The model's force beside a measured one.")
-    parser.add_argument("folder", type=Path, help=f"folder that holds {FILE}")
+    parser = argparse.ArgumentParser(description="Compares the model's force with a measured one.")
+    parser.add_argument("folder", type=Path, help=f"folder with the file {FILE}")
     parser.add_argument("--scene", type=Path, default=Path(__file__).with_name("bovine_liver.toml"))
     parser.add_argument("--out", type=Path, default=Path("measured_insertion.png"))
     arguments = parser.parse_args()

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The proof that two commands are enough: a Debian with git, Python and certificates only, a clone, ./run and ./test, with a clock.
+# Checks and times ./run and ./test in a fresh clone on a bare Debian that has only git, Python and certificates.
 #   sudo tools/bare_machine.sh                    Debian 12 (bookworm), then Debian 13 (trixie)
-#   sudo tools/bare_machine.sh trixie             one of them
-#   sudo tools/bare_machine.sh --keep FOLDER ...  keeps the systems and the logs there; the next call starts from the same bare system
-# Needs debootstrap, 8 GB of disk and about an hour for each. Prints the tables that stand in docs/bare-machine.md.
+#   sudo tools/bare_machine.sh trixie             only one of them
+#   sudo tools/bare_machine.sh --keep FOLDER ...  keeps systems and logs in FOLDER; the next call reuses the bare system
+# Needs debootstrap, 8 GB of disk and about an hour per system. Prints the tables of docs/bare-machine.md.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
@@ -18,10 +18,10 @@ while [ $# -gt 0 ]; do
 done
 [ ${#suites[@]} -gt 0 ] || suites=(bookworm trixie)
 
-if [ "$(id -u)" -ne 0 ]; then echo "Only root may make and enter a bare system: sudo $0" >&2; exit 1; fi
+if [ "$(id -u)" -ne 0 ]; then echo "Creating a bare system needs root rights. Run: sudo $0" >&2; exit 1; fi
 command -v debootstrap >/dev/null || { echo "debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
 
-# Each by itself, so that one that fails does not hide the other.
+# Run each system separately, so that a failure of one does not skip the other.
 if [ ${#suites[@]} -gt 1 ]; then
   failed=0
   for suite in "${suites[@]}"; do "$0" ${folder:+--keep "$folder"} "$suite" || failed=1; done
@@ -29,7 +29,7 @@ if [ ${#suites[@]} -gt 1 ]; then
 fi
 suite=${suites[0]}
 
-# A mount namespace of our own: whatever happens, no mount is left behind.
+# A private mount namespace, so that no mount is left behind.
 if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "${words[@]}"; fi
 
 place=${folder:-$(mktemp -d /var/tmp/punctura-bare.XXXXXX)}
@@ -44,7 +44,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# How this machine reaches Debian's archive and PyPI is its own affair: its settings are carried over, and none is written down here.
+# Copies this machine's network settings for Debian's archive and PyPI.
 mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null | grep -v security | sort -u | head -n 1)}
 mirror=${mirror:-http://deb.debian.org/debian}
 carry() {
@@ -61,7 +61,7 @@ carry() {
   done
 }
 
-# inside SYSTEM USER COMMAND: as that user would type it after logging in, with nothing of this session's environment.
+# inside SYSTEM USER COMMAND: runs the command as in that user's login shell, without this session's environment.
 inside() {
   local system=$1 user=$2 home
   home=$(chroot "$system" getent passwd "$user" | cut -d: -f6)
@@ -69,7 +69,7 @@ inside() {
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "${settings[@]}" bash -c "cd && $3" </dev/null
 }
 
-# a_system NAME: a fresh copy of the bare system, with the clone's source in /srv.
+# a_system NAME: a fresh copy of the bare system, with the repository to clone in /srv.
 a_system() {
   local system=$place/$1
   rm -rf --one-file-system "$system"
@@ -84,7 +84,7 @@ a_system() {
 }
 
 table=""
-# timed SYSTEM USER WORDS COMMAND EXPECTED-EXIT: runs it, checks the exit, adds a row to the table.
+# timed SYSTEM USER WORDS COMMAND EXPECTED-EXIT: runs the command, checks its exit status, adds a row to the table.
 timed() {
   local code=0 file=$log/${1##*/}-${3// /-}.log took
   TIMEFORMAT='%0R s | %0U s'
@@ -93,14 +93,14 @@ timed() {
   table="$table| $3 | $took |
 "
   if [ $code -ne "$5" ]; then
-    say "should have ended with $5; the end of $file:"
+    say "expected exit status $5; the end of $file:"
     tail -n 40 "$file" >&2
     report
     exit 1
   fi
 }
 
-# report: the table so far, and the steps of the first ./test.
+# report: prints the table so far, and the steps of the first ./test.
 report() {
   printf '\nDebian %s (%s; debootstrap minbase + git python3 ca-certificates), %s cores, commit %s\n\n' \
     "$(cat "$place/base/etc/debian_version")" "$suite" "$(nproc)" "$(git -C "$root" rev-parse --short HEAD)"
@@ -109,7 +109,7 @@ report() {
 }
 
 if [ ! -f "$place/base/.made" ]; then
-  say "Making a bare $suite ..."
+  say "Creating a bare $suite ..."
   rm -rf --one-file-system "$place/base"
   debootstrap --variant=minbase --include=git,python3,ca-certificates "$suite" "$place/base" "$mirror" >"$log/debootstrap.log" 2>&1 ||
     { tail -n 20 "$log/debootstrap.log" >&2; exit 1; }
@@ -117,10 +117,10 @@ if [ ! -f "$place/base/.made" ]; then
 fi
 carry "$place/base"
 
-# As root; called from another folder, in a path with a space.
+# As root, from another folder, with a space in the path.
 system=$(a_system root)
 inside "$system" root "git clone -q /srv/punctura.git 'a clone'"
-# The studio would go on until Ctrl-C: one second of it is enough to have been there.
+# The studio runs until Ctrl-C, so limit it to one second.
 timed "$system" root "run, first time, to the studio's page" "'a clone/run' run --no-browser --duration 1" 0
 timed "$system" root "run, second time" "'a clone/run' run --no-browser --duration 1" 0
 timed "$system" root "run reproduce" "'a clone/run' reproduce" 0
@@ -129,7 +129,7 @@ timed "$system" root "test tree, second time" "'a clone/test' tree" 0
 installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
 sizes=$(inside "$system" root 'cd "a clone" && du -sh .venv build | tr "\t\n" " ;"')
 
-# Someone who is not root and has no sudo: told the one line, which root then types.
+# A user without root rights and sudo: ./run prints the command that root must type.
 system=$(a_system user)
 timed "$system" ann "run, by a user without rights" "git clone -q /srv/punctura.git punctura && punctura/run run --no-browser --duration 1" 1
 line=$(grep -m 1 -o 'apt-get update && apt-get install .*' "$log/user-run,-by-a-user-without-rights.log")

@@ -1,4 +1,4 @@
-"""The studio's page weighs less than 1 MB as a browser fetches it, gzipped."""
+"""Checks that the studio's page is smaller than 1 MB gzipped, as a browser loads it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ MOST = 1_000_000  # bytes
 
 
 def weight(page: Path) -> dict[str, int]:
-    """Of each file of the page, gzipped, bytes."""
+    """Gzipped size of each file of the page, bytes."""
     return {
         file.relative_to(page).as_posix(): len(gzip.compress(file.read_bytes(), 9))
         for file in sorted(page.rglob("*"))
@@ -21,7 +21,7 @@ def weight(page: Path) -> dict[str, int]:
 if __name__ == "__main__":
     files = weight(Path(__file__).resolve().parents[1] / "python" / "punctura" / "studio" / "page")
     if "index.html" not in files:
-        sys.exit("bundle: there is no page; python tools/build_backend/studio_page.py builds it")
+        sys.exit("bundle: there is no page; build it with: python tools/build_backend/studio_page.py")
     total = sum(files.values())
     if total > MOST:
         print("\n".join(f"{size:>9} {name}" for name, size in files.items()))

@@ -1,4 +1,4 @@
-"""docs/equations.md maps number -> file -> test; this keeps it together with the citations in the sources.
+"""Checks docs/equations.md (equation number -> file -> test) against the citations in the sources.
 
 - Every `K06 (n)` cited in core has a row for that number.
 - The file of every row exists and cites that number.
@@ -30,8 +30,8 @@ class Row(NamedTuple):
 
 
 def cited(text: str) -> Iterator[tuple[int, int]]:
-    """(line, number) of every equation that a text cites; a range cites both of its ends and all between them."""
-    joined = re.sub(r"\n\s*(//+|#)", "\n", text)  # a citation may go over the end of a line of comment
+    """(line, number) of every equation that a text cites. A range cites both ends and all numbers between."""
+    joined = re.sub(r"\n\s*(//+|#)", "\n", text)  # a citation may continue on the next comment line
     for match in CITATION.finditer(joined):
         line = joined.count("\n", 0, match.start()) + 1
         last = 0
@@ -42,7 +42,7 @@ def cited(text: str) -> Iterator[tuple[int, int]]:
 
 
 def rows(text: str) -> Iterator[Row | Finding]:
-    """The rows of the table `| number | file | test |`; several files or tests in a cell are parted by <br>."""
+    """The rows of the table `| number | file | test |`. <br> separates several files or tests in a cell."""
     in_table = False
     for line, content in enumerate(text.splitlines(), 1):
         cells = [cell.strip() for cell in content.strip().strip("|").split("|")]

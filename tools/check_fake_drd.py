@@ -1,10 +1,10 @@
-"""The fake Force Dimension library, driven by an independent public client: a check of the fake, not of Punctura.
+"""Checks the fake Force Dimension library with an independent public client. This tests the fake, not Punctura.
 
 python tools/check_fake_drd.py [FAKE_LIBRARY]     after ./test cpp
 
-Installs forcedimension-core (LGPL-3) from PyPI into build/fake-drd-check. It binds every function of the maker's
-library when it is imported; those that the fake lacks are made on the spot as functions that fail, by the names in
-its sources.
+Installs forcedimension-core (LGPL-3) from PyPI into build/fake-drd-check. On import, it binds every function of the
+maker's library. For functions that the fake lacks, this program generates stubs that fail, with the names from the
+client's sources.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Settings(ctypes.Structure):
 
 
 def prepare(fake: Path) -> tuple[Path, Path]:
-    """A virtual environment with the client, and a folder laid out as the maker's SDK: its Python, and that folder."""
+    """Makes a virtual environment with the client, and a folder laid out like the SDK. Returns Python and folder."""
     python = PLACE / "venv/bin/python"
     if not python.exists():
         venv.create(PLACE / "venv", with_pip=True)
@@ -60,7 +60,7 @@ def prepare(fake: Path) -> tuple[Path, Path]:
 
 
 def drive(fake: Path) -> None:
-    """In the client's environment: each rule of the library that the back-end relies on."""
+    """Runs in the client's environment. Checks each rule of the library that the back-end relies on."""
     from forcedimension_core import containers, dhd, drd  # type: ignore[import-not-found]
     from forcedimension_core.constants import DeviceType, ErrorNum, ForceOffCause  # type: ignore[import-not-found]
 
@@ -127,13 +127,13 @@ def drive(fake: Path) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Prepares, then runs itself in the client's environment."""
+    """Prepares the environment, then runs this program in it."""
     if arguments[:1] == ["--drive"]:
         drive(Path(arguments[1]))
         return 0
     fake = Path(arguments[0] if arguments else FAKE).resolve()
     if not fake.exists():
-        print(f"{fake} is not there: build it first with ./test cpp", file=sys.stderr)
+        print(f"{fake} does not exist: build it first with ./test cpp", file=sys.stderr)
         return 1
     python, sdk = prepare(fake)
     environment = {**os.environ, "FDSDK": str(sdk)}

@@ -1,4 +1,4 @@
-"""The fake HD library of OpenHaptics, driven by an independent public client: a check of the fake, not of Punctura.
+"""Checks the fake HD library of OpenHaptics with an independent public client. This tests the fake, not Punctura.
 
 python tools/check_fake_hd.py [FAKE_LIBRARY]     after ./test cpp
 
@@ -30,7 +30,7 @@ class Record(ctypes.Structure):
 
 
 def drive() -> None:
-    """In the client's environment: each rule of the library that the back-end relies on."""
+    """Runs in the client's environment. Checks each rule of the library that the back-end relies on."""
     from pyOpenHaptics import hd, hd_callback, hd_define, hd_device  # type: ignore[import-not-found]
 
     control = ctypes.CDLL("libHD.so")
@@ -112,13 +112,13 @@ def drive() -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Prepares, then runs itself in the client's environment."""
+    """Prepares the environment, then runs this program in it."""
     if arguments == ["--drive"]:
         drive()
         return 0
     fake = Path(arguments[0] if arguments else FAKE).resolve()
     if not fake.exists():
-        print(f"{fake} is not there: build it first with ./test cpp", file=sys.stderr)
+        print(f"{fake} does not exist: build it first with ./test cpp", file=sys.stderr)
         return 1
     python = PLACE / "venv/bin/python"
     if not python.exists():

@@ -1,4 +1,4 @@
-"""A file may include or import only files of its own room and of higher rooms. docs/architecture.md lists the rooms."""
+"""Checks that files include or import only files of their own and of higher rooms (docs/architecture.md)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from imports import PACKAGE, PAGE, Import, circles, cpp_imports, page_imports, python_imports
 from sources import CPP_SUFFIXES, Finding, report, sources
 
-# From the top down: core, what stands on core, the Python package, the page.
+# From top to bottom: core, the code on top of core, the Python package, the page.
 ROOMS = (
     "core/punctura/model",
     "core/punctura/state",
@@ -53,18 +53,18 @@ ROOMS = (
     "web/src/main.ts",
 )
 WITH_ROOMS = ("core/", "runtime/", PACKAGE, PAGE)  # every source file in these folders belongs to a room
-OUTSIDE = {"tests", "benchmarks", "tools", "examples", "oracles"}  # the package does without these
+OUTSIDE = {"tests", "benchmarks", "tools", "examples", "oracles"}  # the package must not import these
 
 
 def room_of(path: str) -> str | None:
-    """The room of a file: the longest that matches, because `studio/wire` is a room of its own inside `studio`."""
+    """The room of a file: the longest match, because `studio/wire` is a separate room inside `studio`."""
     return max((room for room in ROOMS if path == room or path.startswith(room + "/")), key=len, default=None)
 
 
 def unknown_rooms(root: Path) -> Iterator[Finding]:
     for path in sources(root, (*CPP_SUFFIXES, ".py", ".ts"), generated=True):
         if path.startswith(WITH_ROOMS) and room_of(path) is None:
-            yield Finding(path, 1, "lies in no room that tools/check_rooms.py knows")
+            yield Finding(path, 1, "is in no room that tools/check_rooms.py knows")
 
 
 def order_findings(imports: list[Import]) -> Iterator[Finding]:
@@ -86,7 +86,7 @@ def order_findings(imports: list[Import]) -> Iterator[Finding]:
 
 
 def circle_findings(imports: list[Import]) -> Iterator[Finding]:
-    """A package's own __init__.py is left out: it imports its modules, and they may import its siblings."""
+    """Import circles. Leaves out a package's __init__.py: it imports its modules, and they may import its siblings."""
     targets: dict[str, set[str]] = {}
     for found in imports:
         if found.target is not None and not found.path.endswith("/__init__.py"):

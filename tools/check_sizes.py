@@ -1,4 +1,4 @@
-"""No source file over 350 lines, and at most one in four over 200: one idea per file."""
+"""Checks that no source file has over 350 lines, and at most one in four over 200: one idea per file."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ MOST_OVER_USUAL = 0.25
 def findings(root: Path) -> list[Finding]:
     files = sources(root, SOURCE_SUFFIXES)
     lengths = {path: len((root / path).read_text(encoding="utf-8").splitlines()) for path in files}
-    found = [Finding(path, n, f"{n} lines; none may have over {LONGEST}") for path, n in lengths.items() if n > LONGEST]
+    found = [Finding(path, n, f"{n} lines; the limit is {LONGEST}") for path, n in lengths.items() if n > LONGEST]
     over = sorted((path for path, n in lengths.items() if n > USUAL), key=lambda path: -lengths[path])
     if len(over) > MOST_OVER_USUAL * len(lengths):
-        reason = f"one of {len(over)} files over {USUAL} lines, of {len(lengths)}: most must be shorter"
+        reason = f"one of {len(over)} files over {USUAL} lines; the limit is a quarter of {len(lengths)}"
         found.append(Finding(over[0], lengths[over[0]], reason))
     return found
 

@@ -1,4 +1,4 @@
-"""The system's Chromium, without a window and without a graphics card."""
+"""Starts the system's Chromium without a window and without a graphics card."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import shutil
 
 from playwright.sync_api import Browser, Playwright
 
-# Without a graphics card Chromium draws by the processor, as it thinks best. Only WebGL has to be allowed by name.
+# Without a graphics card, Chromium renders in software. Only WebGL must be enabled explicitly.
 FLAGS = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formats all sources the way ./test wants them.
+# Formats all sources as ./test requires.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 source "$root/tools/setup.sh"
 source "$root/tools/steps.sh"

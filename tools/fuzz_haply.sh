@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Throws broken frames and messages at the parsers of the Inverse Service's back-end, with Clang's libFuzzer and its sanitizers.
-#   tools/fuzz_haply.sh [SECONDS]     10 minutes when nothing is said
-# What it learns, and what breaks something, stays in build/fuzz/. ./test does the same for a moment, from a fixed seed.
+# Fuzzes the parsers of the haply back-end with Clang's libFuzzer and sanitizers.
+#   tools/fuzz_haply.sh [SECONDS]     default: 10 minutes
+# The corpus and failing inputs stay in build/fuzz/. ./test runs a short version with a fixed seed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
 seconds=${1:-600}
 mkdir -p build/fuzz/haply
 
-# The first inputs: a true message as a text, and as a frame.
+# The first inputs: a valid message as text, and as a frame.
 message='{"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":0.0,"y":-0.12,"z":0.15}},"status":{"calibrated":true}}],"wireless_verse_grip":[{"state":{"orientation":{"w":1,"x":0,"y":0,"z":0},"buttons":{"a":true}}}]}'
 printf '\0%s' "$message" >build/fuzz/haply/text
 printf '\1HTTP/1.1 101 x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: x' >build/fuzz/haply/answer

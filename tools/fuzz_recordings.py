@@ -1,6 +1,6 @@
-"""Opens recordings that were cut off, have bits flipped, or say of their run what cannot be, under a right check sum.
+"""Fuzzes the reader of recordings with truncated files, flipped bits, and invalid descriptions with a right checksum.
 
-No crash, no hang, no growth, no error but RecordingError, and never a wrong number.
+Fails on a crash, a hang, growing memory, an error other than RecordingError, or a wrong number.
 
 python tools/fuzz_recordings.py --minutes 10
 """
@@ -34,7 +34,7 @@ SCENE, WIDER = "k06-fig10", "k06-fig12"  # one membrane, then two: a file of two
 
 
 def originals(folder: Path) -> list[Path]:
-    """One recording as it was growing, and the same finished."""
+    """One recording, unfinished and finished."""
     device = SimulatedDevice(Strokes((0, 5e-3, 0), (0, -0.02, 0), duration=0.2), real_time=False, ticks=1500)
     loop = ServoLoop(device, load_scene(SCENE))
     path, kept = folder / "whole.parquet", folder / "growing.part"
@@ -53,7 +53,7 @@ def originals(folder: Path) -> list[Path]:
 def spoil(data: bytes, chance: random.Random) -> bytes:
     spoilt = bytearray(data)
     for _ in range(chance.choice([0, 1, 1, 1, 2, 8])):
-        # The ends hold what the rest is read by, so half of the flips go there.
+        # The ends hold the metadata, so half of the flips go there.
         place = chance.randrange(len(spoilt)) if chance.random() < 0.5 else _near_an_end(len(spoilt), chance)
         spoilt[place] ^= 1 << chance.randrange(8)
     kind = chance.randrange(6)
@@ -74,7 +74,7 @@ def _near_an_end(size: int, chance: random.Random) -> int:
 
 
 def read_all(path: Path, whole: pa.Table) -> int:
-    """Ticks that could be read. Raises AssertionError where one is not as it was written."""
+    """Number of readable ticks. Raises AssertionError if one differs from the original."""
     try:
         recording = open_recording(path)
         names = [name for name in recording.schema.names if name in whole.schema.names]
@@ -85,14 +85,14 @@ def read_all(path: Path, whole: pa.Table) -> int:
                 first = batch.column("tick")[0].as_py()
                 wanted = whole.slice(first, len(batch)).select(names)
                 given = pa.Table.from_batches([batch]).select(names)
-                assert given.to_pydict() == wanted.to_pydict(), f"ticks from {first} on are not as they were recorded"
+                assert given.to_pydict() == wanted.to_pydict(), f"ticks from {first} on differ from the original"
         return rows
     except RecordingError:
         return 0
 
 
 def use_all(path: Path) -> None:
-    """All that punctura does with a recording. Raises AssertionError for an error that is none of recordings."""
+    """Runs all operations on a recording. Raises AssertionError for an error other than RecordingError."""
     uses = (
         lambda: json.dumps(asdict(entry_of("case", open_recording(path))), allow_nan=False).encode(),
         lambda: json.dumps(overview(open_recording(path)), allow_nan=False).encode(),
@@ -115,7 +115,7 @@ def memory_mb() -> float:
 
 
 def fuzz(seconds: float, seed: int, folder: Path) -> None:
-    """The process that may crash: it says which case it is at before each."""
+    """Runs in the process that may crash. Prints each case before running it."""
     files = originals(folder)
     contents = [file.read_bytes() for file in files]
     described = [description_of(file) for file in files]
@@ -125,7 +125,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> None:
     began, count, memory = time.monotonic(), 0, 0.0
     while time.monotonic() - began < seconds:
         chance = random.Random(seed * 1_000_003 + count)
-        wrong = count % 4 >= 2  # two cases of each kind in turn
+        wrong = count % 4 >= 2  # alternately two cases of each kind
         if wrong:
             rewrite(files[count % 2], case, spoil_description(described[count % 2], chance))
         else:
@@ -141,7 +141,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> None:
             memory = memory_mb()
     grown = memory_mb() - memory if memory else 0.0
     assert grown < MOST_GROWTH_MB, f"memory grew by {grown:.0f} MB"
-    print(f"{count} spoilt files: no crash, no hang, no wrong number; memory grew by {grown:.1f} MB")
+    print(f"{count} broken files: no crash, no hang, no wrong number; memory grew by {grown:.1f} MB")
 
 
 def main() -> int:

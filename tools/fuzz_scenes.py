@@ -1,9 +1,9 @@
-"""Feeds spoilt scene files to the reader: each gives a Scene or says what is wrong with it, in time and in flat memory.
+"""Fuzzes the reader of scene files. Each file must give a Scene or a list of problems, in time and in flat memory.
 
     python tools/fuzz_scenes.py --seconds 600
     python tools/fuzz_scenes.py --seed 1 --case 17 > scene.toml    # the file of one case
 
-A Scene that comes out is written and read again, and must be the same to the last bit.
+Each resulting Scene is written and read again, and must be identical to the last bit.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from spoil_scene import spoilt
 
 HANG_S = 10.0
 MOST_GROWTH_MB = 50.0
-WARM_UP = 2000  # cases, after which memory is compared
-OF_THE_WHOLE_FILE = ("is larger than",)  # reasons that belong to no place in it
+WARM_UP = 2000  # cases before the memory measurement starts
+OF_THE_WHOLE_FILE = ("is larger than",)  # reasons without a place in the file
 
 
 class Tally(NamedTuple):
-    """What became of the cases."""
+    """The results of the cases."""
 
     cases: int
     scenes: int
@@ -40,17 +40,17 @@ class Tally(NamedTuple):
 
     def __str__(self) -> str:
         return (
-            f"{self.cases} files: {self.scenes} were scenes, {self.cases - self.scenes} refused with reasons; "
+            f"{self.cases} files: {self.scenes} scenes, {self.cases - self.scenes} rejected with reasons; "
             f"slowest {self.slowest_s:.2f} s (case {self.slowest_case}); memory grew by {self.grown_mb:.1f} MB"
         )
 
 
 def judge(path: Path) -> bool:
-    """Whether the file is a scene. AssertionError, or whatever the reader should not have raised, where it fails."""
+    """Whether the file is a scene. Raises AssertionError or the reader's unexpected exception on a failure."""
     try:
         scene = load_scene(path)
     except ConfigurationError as bad:
-        assert bad.problems and str(bad), "refused without a problem"
+        assert bad.problems and str(bad), "rejected without a problem"
         for problem in bad.problems:
             assert isinstance(problem.path, str) and isinstance(problem.reason, str)
             assert problem.reason.strip(), f"no reason: {problem}"
@@ -58,7 +58,7 @@ def judge(path: Path) -> bool:
             assert "\n" not in str(problem), f"not one line: {problem}"
         return False
     path.write_text(scene_text(scene), encoding="utf-8")
-    assert load_scene(path) == scene, "written and read again it is another scene"
+    assert load_scene(path) == scene, "the scene differs after writing and reading it again"
     return True
 
 
@@ -67,7 +67,7 @@ def case_bytes(seed: int, case: int) -> bytes:
 
 
 def fuzz(folder: Path, seed: int, seconds: float = float("inf"), cases: int = sys.maxsize) -> Tally:
-    """The process that may fail: it leaves the case that it was at in `folder`."""
+    """Runs in the process that may fail. Keeps the file of the present case in `folder`."""
     file, number = folder / "case.toml", folder / "case"
     scenes, slowest, grown, began = 0, (0.0, 0), 0.0, time.monotonic()
     memory, count = resident_mb(), 0
@@ -91,7 +91,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=600.0)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--case", type=int, help="print the file of this case, and do nothing else")
+    parser.add_argument("--case", type=int, help="only print the file of this case")
     parser.add_argument("--here", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.case is not None:

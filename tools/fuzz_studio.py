@@ -1,9 +1,9 @@
-"""Throws random frames, requests and HTTP at a studio for minutes, while a page watches and a recording runs.
+"""Fuzzes a studio with random frames, requests and HTTP for minutes, with a page connected and a recording running.
 
     python tools/fuzz_studio.py --minutes 10 --seed 1
 
-Passes if the studio does not end, says no traceback, its memory in the second half stays within 5 %, and no
-tick is lost.
+Passes if the studio does not end and prints no traceback, if its memory grows by less than 5 % in the second half, and
+if no tick is lost.
 """
 
 from __future__ import annotations
@@ -28,28 +28,28 @@ from studio_process import Memory, StudioProcess, blank_page
 from websockets.frames import Opcode
 from websockets.sync.client import connect
 
-# A thread of the server keeps the memory that it once needed for a request; that settles in the first half of a run.
+# A server thread keeps the memory of its largest request, so the memory settles during the first half of a run.
 WARMING_UP, MOST_GROWTH = 0.5, 0.05
 CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
 PATHS = ("/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x")
 
 
 class Fuzzer(threading.Thread):
-    """Opens connection after connection, and sends what it likes; it never has control."""
+    """Opens one connection after the other and sends random data. It never has control of the device."""
 
     def __init__(self, url: str, page: StudioClient, seed: int) -> None:
         super().__init__(daemon=True)
         self._random = random.Random(seed)
         self._host, self._token = page.host, page.token
         self._requests = json.loads(CONTRACT.read_text(encoding="utf-8"))
-        self.ends: Counter[str] = Counter()  # how connections ended
+        self.ends: Counter[str] = Counter()  # number of connections by the way they ended
         self.sent = 0
         self.stop = False
 
     def run(self) -> None:
         while not self.stop:
             attack = self._random.choice((self._messages, self._messages, self._raw_frames, self._http))
-            with contextlib.suppress(Exception):  # being thrown out is what it is here for
+            with contextlib.suppress(Exception):  # disconnection is the expected result
                 attack()
 
     def _messages(self) -> None:
@@ -65,7 +65,7 @@ class Fuzzer(threading.Thread):
         self.ends[str(opened.close_code)] += 1
 
     def _raw_frames(self) -> None:
-        """Bytes below the messages: wrong opcodes, lengths that lie, frames without a mask."""
+        """Sends broken WebSocket frames: wrong opcodes, wrong lengths, frames without a mask."""
         with self._socket() as opened:
             for _ in range(self._random.randint(1, 5)):
                 if self._random.random() < 0.5:
@@ -135,7 +135,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
     with StudioProcess(folder, page=blank_page(folder)) as studio:
         page = StudioClient(studio.url, patience=600)  # a long recording takes a while to finish
         page.wait(lambda: page.last)
-        # A small recording to read, again and again: of the one that grows, more would be read each time.
+        # Requests read this small recording, because the growing one would need more memory each time.
         page.ask(do="start_recording", name="small")
         page.wait(lambda n=page.ticks: page.ticks > n + 3200)
         page.ask(do="stop_recording")
@@ -178,7 +178,7 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=10.0)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    logging.getLogger("websockets").setLevel(logging.CRITICAL + 1)  # of the fuzzers' own end
+    logging.getLogger("websockets").setLevel(logging.CRITICAL + 1)  # messages of the fuzzers' side
     with tempfile.TemporaryDirectory() as folder:
         return fuzz(60 * options.minutes, options.seed, Path(folder))
 

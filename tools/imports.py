@@ -1,4 +1,4 @@
-"""Finds the includes and imports of the tree's files, and the file that each one names."""
+"""Finds the includes and imports of all files in the tree, and the file that each one refers to."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _PAGE_IMPORT = re.compile(r"""(?:\bfrom|\bimport|\bimport\s*\(|\bnew\s+URL\s*\()
 
 
 class Import(NamedTuple):
-    """One include or import. target: the file of this tree that it names; None if it names another program's."""
+    """One include or import. target: the file of this tree that it refers to; None if it is external."""
 
     path: str
     line: int
@@ -39,7 +39,7 @@ def cpp_imports(root: Path) -> Iterator[Import]:
 
 
 def page_imports(root: Path) -> Iterator[Import]:
-    """All imports of the page's own files, also of types, and dynamic ones."""
+    """All imports in the page's files, including type and dynamic imports."""
     files = [path for path in sources(root, (".ts", ".json"), generated=True) if path.startswith(PAGE)]
     code = [path for path in files if path.endswith(".ts")]
     for path, text in _texts(root, code):
@@ -49,9 +49,9 @@ def page_imports(root: Path) -> Iterator[Import]:
 
 
 def python_imports(root: Path) -> Iterator[Import]:
-    """All imports of the package's files, also inside functions and for type checkers only.
+    """All imports in the package's files, including those in functions and under TYPE_CHECKING.
 
-    A name that `punctura/__init__.py` re-exports counts as an import of the module from which it comes.
+    A name that `punctura/__init__.py` re-exports counts as an import of its defining module.
     """
     texts = dict(_texts(root, [path for path in sources(root, (".py",)) if path.startswith(PACKAGE)]))
     modules = {_module(path): path for path in texts}
@@ -68,7 +68,7 @@ def python_imports(root: Path) -> Iterator[Import]:
 
 
 def _imported(text: str, module: str, is_package: bool) -> Iterator[tuple[str, str, int]]:
-    """Of each import: the module, the name that is taken from it (empty if the module itself), and the line."""
+    """For each import: the module, the imported name (empty for the module itself), and the line."""
     package = module.split(".") if is_package else module.split(".")[:-1]
     for node in ast.walk(ast.parse(text, module)):
         if isinstance(node, ast.Import):

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Core, runtime and their tests, compiled and linked for macOS from Linux. Nothing is run: there is no macOS here.
-#   tools/macos.sh [aarch64|x86_64]     aarch64 when nothing is said
-# The compiler is Zig's Clang from PyPI, which brings the system's public headers; it goes into build/macos/. What came of it: docs/windows-and-macos.md.
+# Compiles and links core, runtime and their tests for macOS on Linux. It runs nothing, because macOS is not available.
+#   tools/macos.sh [aarch64|x86_64]     default: aarch64
+# The compiler is Zig's Clang from PyPI, which includes the system's public headers; it is installed in build/macos/.
+# Results: docs/windows-and-macos.md.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
@@ -14,14 +15,15 @@ venv=build/macos/venv
 mkdir -p "$out" build/macos/include && ln -sfn /usr/include/doctest build/macos/include/doctest
 export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/build/macos/cache
 
-# The same warnings as elsewhere, all of them errors. The fakes' places stand in the tests; they are not opened here. doctest asks
-# for a constant of <cfloat>, which it counts on some other header to include, and for __COUNTER__, which this Clang calls an extension.
+# The same warnings as elsewhere, all as errors. The tests hold the paths of the fakes, which are not opened here.
+# doctest needs a constant of <cfloat> without including it, and uses __COUNTER__, which this Clang reports as an
+# extension.
 compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
 flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
   '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"' '-DFAKE_HD="fake_hd"'
   '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
 
-# objects SOURCE...: compiles them, and sets `made`. What has not changed Zig takes from its cache.
+# objects SOURCE...: compiles the sources and sets `made`. Zig caches unchanged files.
 objects() {
   local source object
   made=()
@@ -40,7 +42,7 @@ for fake in drd hd; do
   objects tests/fakes/$fake/*.cpp
   "${compiler[@]}" -shared "${made[@]}" -o "$out/fake_$fake.dylib"
 done
-# program NAME SOURCE...: links it with what every program of tests has.
+# program NAME SOURCE...: links a test program with the shared objects.
 program() {
   objects tests/core/main.cpp tests/core/support/allocations.cpp "${@:2}"
   "${compiler[@]}" "${made[@]}" "${library[@]}" -o "$out/$1"

@@ -1,10 +1,10 @@
-"""Writes tests/contract: what server and page must read alike, once and for both.
+"""Writes tests/contract: wire data that server and page must read in the same way.
 
     python tools/make_contract.py          writes the files
-    python tools/make_contract.py --check  fails where they are not what would be written
+    python tools/make_contract.py --check  fails if the files are out of date
 
-frames.json: frames of ticks, as base64, with what is in them (null is NaN); those without `holds` must be refused.
-messages.json: one of each kind of message and request that is sound, and requests that are none.
+frames.json: frames of ticks, as base64, with their content (null is NaN). Frames without `holds` must be rejected.
+messages.json: a valid example of each message and request, and invalid requests.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ VIEW = {
 
 
 def columns(n: int, m: int, first: int, nan: bool) -> dict[str, Any]:
-    """Numbers that f32 holds exactly, each other than its neighbours."""
+    """Numbers that float32 holds exactly, each different from its neighbours."""
     made: dict[str, Any] = {"tick": np.arange(first, first + n, dtype=np.uint64)}
     for at, field in enumerate(NUMBERS):
         shape = (n, *((m,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
@@ -176,7 +176,7 @@ def main() -> int:
     for name, text in wanted().items():
         path = FOLDER / name
         if check and (not path.is_file() or path.read_text(encoding="utf-8") != text):
-            print(f"{path}: is not what the wire format gives; run python tools/make_contract.py")
+            print(f"{path} is out of date; run: python tools/make_contract.py")
             drifted += 1
         elif not check:
             FOLDER.mkdir(parents=True, exist_ok=True)

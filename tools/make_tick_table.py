@@ -1,7 +1,7 @@
-"""Writes what others read of core's table of a tick's fields (core/punctura/servo/tick_table.hpp).
+"""Generates files from the core's table of tick fields (core/punctura/servo/tick_table.hpp).
 
 python tools/make_tick_table.py          writes docs/tick.md and web/src/wire/tick_table.ts
-python tools/make_tick_table.py --check  fails where they are not what would be written
+python tools/make_tick_table.py --check  fails if these files are out of date
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def module() -> str:
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="fail where the files are not what would be written")
+    parser.add_argument("--check", action="store_true", help="fail if the files are out of date")
     check = parser.parse_args(argv).check
     old = []
     for path, text in (

@@ -1,5 +1,6 @@
-# What pip cannot bring: a compiler, Python's headers, for the tests a second compiler and two packages of Debian's, for ./bench one.
-# Asked for by what it can do, not by name, so that other systems and hand-made set-ups count too.
+# System packages that pip cannot install: a compiler and Python's headers; for ./test a second compiler and some
+# Debian packages; for ./bench one package. Checks for abilities, not for package names, so that other systems and
+# manual installations work too.
 
 has_compiler() {
   printf '#include <concepts>\nint main() { return std::same_as<int, int> ? 0 : 1; }\n' |
@@ -17,35 +18,35 @@ has_browser() { command -v chromium || command -v chromium-browser || command -v
 has_cyclictest() { command -v cyclictest >/dev/null; }
 has_siconos() { /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null; }
 
-# find_missing KIND: fills missing with Debian's names, and needs with words for people on other systems.
+# find_missing KIND: sets `missing` to Debian's package names, and `needs` to descriptions for other systems.
 find_missing() {
   missing="" needs=""
   local lacking="$python_lacks" compiler="${CXX:-c++}" prefix="python$python_minor"
   if [ "$python" = "$(readlink -f /usr/bin/python3 2>/dev/null)" ]; then prefix=python3; fi
   lack() { missing="$missing $1" needs="$needs
   - $2"; }
-  if [ "$1" = test ]; then compiler=g++; fi  # the tests compile with GCC and with Clang, whatever CXX says
+  if [ "$1" = test ]; then compiler=g++; fi  # the tests compile with GCC and Clang, independent of CXX
   has_compiler "$compiler" || lack g++ "a C++20 compiler (g++ 10 or newer, clang 14 or newer; Fedora: gcc-c++; macOS: xcode-select --install)"
   case $lacking in *headers*) lack "$prefix-dev" "the headers of $python (Python.h; Fedora: python3-devel)" ;; esac
   case $lacking in *venv*) lack "$prefix-venv" "the modules venv and ensurepip of $python" ;; esac
-  # What the servo loop's wake-ups are measured against. Where no archive has it, ./bench says that it is missing and goes on.
+  # The reference for the servo loop's wake-ups. If no archive has it, ./bench reports that and continues.
   if [ "$1" = bench ]; then has_cyclictest || ! known rt-tests || lack rt-tests "cyclictest, of rt-tests"; fi
   [ "$1" = test ] || return 0
-  has_compiler clang++ || lack clang "clang++, for the second opinion on warnings"
+  has_compiler clang++ || lack clang "clang++, the second compiler of the tests"
   has_sanitizers || lack libclang-rt-dev "the address and undefined-behaviour sanitizers of clang++ (Fedora: compiler-rt)"
   has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
-  # An independent solver that the clamp is compared with, for the system's Python. Only some releases of Debian have it;
-  # elsewhere its one test is left out, which ./test says, and SciPy's solver remains.
+  # An independent solver for the system's Python, compared with the clamp. Only some Debian releases have it. Elsewhere
+  # its single test is left out, which ./test reports, and SciPy's solver remains.
   has_siconos || ! known python3-siconos || lack python3-siconos "Siconos for /usr/bin/python3"
 }
 
-# known PACKAGE: the lists of this machine's archive name it.
+# known PACKAGE: whether the package lists of this machine contain it.
 known() { command -v apt-cache >/dev/null && apt-cache show --no-all-versions "$1" >/dev/null 2>&1; }
 
 apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 "$@"; }
 
-# The lists are old when a package's file is gone from the archive: then they are fetched, and all is tried once more.
+# If a package's file is gone from the archive, the lists are out of date: update them and try again.
 apt_install() {
   apt install --no-install-recommends "$@" || { apt update && apt install --no-install-recommends "$@"; }
 }
@@ -53,7 +54,7 @@ apt_install() {
 provide_packages() {
   local as_root="" line answer
   if [ -n "${CXX:-}" ] && ! has_compiler "$CXX"; then
-    fail "CXX=$CXX is no compiler that knows C++20. Name another one, or leave CXX unset."
+    fail "CXX=$CXX is not a C++20 compiler. Set another one, or leave CXX unset."
   fi
   find_missing "$1"
   [ -n "$missing" ] || return 0
@@ -71,9 +72,9 @@ then start again."; fi
 then start again."; fi
     printf 'Some Debian packages are missing:%s\nInstall them now with sudo? [Y/n] ' "$missing"
     read -r answer || answer=n
-    case $answer in "" | [Yy]*) ;; *) fail "Then type it yourself when you like, and start again:
+    case $answer in "" | [Yy]*) ;; *) fail "Run this command yourself, then start again:
   $line" ;; esac
-    sudo -v || fail "sudo did not let you. Someone who may should type
+    sudo -v || fail "sudo was refused. An administrator must run
   $line"
     as_root=sudo
   fi

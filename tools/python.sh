@@ -1,6 +1,8 @@
-# Which Python: PYTHON if set; else the first complete one (>= 3.10, venv, headers), the system's before others; else the first that is new enough.
+# Selects Python: PYTHON if set; else the first complete one (>= 3.10, venv, headers), the system's before others; else
+# the first that is new enough.
 
-# python_facts PYTHON: prints its version; yes or old; complete, or what it lacks; and its real path (a shim or a venv leads elsewhere).
+# python_facts PYTHON: prints its version; yes or old; complete, or what it lacks; and its real path (a shim or a venv
+# leads elsewhere).
 python_facts() {
   "$1" - <<'PY' 2>/dev/null
 import importlib.util, os, sys, sysconfig
@@ -13,7 +15,8 @@ print("%d.%d.%d" % sys.version_info[:3], "yes" if sys.version_info >= (3, 10) el
 PY
 }
 
-# Sets python (a path), python_version (3.11.2), python_minor (3.11) and python_lacks ("complete", "venv", "headers", "venv+headers").
+# Sets python (a path), python_version (3.11.2), python_minor (3.11) and python_lacks ("complete", "venv", "headers",
+# "venv+headers").
 find_python() {
   local candidate path version new_enough lacks real best="" old=""
   for candidate in "${PYTHON:-/usr/bin/python3}" python3 python3.13 python3.12 python3.11 python3.10; do
@@ -27,9 +30,9 @@ find_python() {
     [ -z "${PYTHON:-}" ] || break
   done
   if [ -z "$best" ] && [ -n "${PYTHON:-}" ]; then
-    fail "PYTHON=$PYTHON is $([ -n "$old" ] && echo "too old:$old" || echo "no Python that runs"). Punctura needs Python 3.10 or newer: name one, or leave PYTHON unset."
+    fail "PYTHON=$PYTHON is $([ -n "$old" ] && echo "too old:$old" || echo "not a working Python"). Punctura needs Python 3.10 or newer: set another one, or leave PYTHON unset."
   elif [ -z "$best" ]; then
-    fail "Punctura needs Python 3.10 or newer.${old:+ Found only:$old.} Install one (Debian, Ubuntu: apt-get install python3), or say where it is: PYTHON=/path/to/python3 ./run"
+    fail "Punctura needs Python 3.10 or newer.${old:+ Found only:$old.} Install one (Debian, Ubuntu: apt-get install python3), or give its path: PYTHON=/path/to/python3 ./run"
   fi
   read -r python_version python_lacks python <<<"$best"
   python_minor=${python_version%.*}

@@ -1,4 +1,4 @@
-"""How much memory a process has, for soaks and fuzzers that watch it."""
+"""Resident memory of a process, for soak tests and fuzzers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def resident_mb(process: int | str = "self") -> float:
-    """Resident now, not at most, MB; NaN where the system does not tell. process: its number."""
+    """Present (not peak) resident memory, MB; NaN if the system does not report it. process: its id."""
     try:
         for line in Path(f"/proc/{process}/status").read_text().splitlines():
             if line.startswith("VmRSS:"):

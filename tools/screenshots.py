@@ -1,8 +1,8 @@
-"""Pictures of the studio in every state, docs/images/studio-*.png, taken in Chromium as the end-to-end tests use it.
+"""Takes screenshots of the studio in every state, docs/images/studio-*.png, in the Chromium of the end-to-end tests.
 
     python tools/screenshots.py [--out FOLDER]
 
-Laptop (1440 x 900) and tablet (900 x 1200), light and dark. Look at them.
+Laptop (1440 x 900) and tablet (900 x 1200), light and dark. Check the pictures by eye.
 """
 
 from __future__ import annotations
@@ -81,14 +81,14 @@ def exercise(page: Page) -> None:
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     for _ in range(200):
         push(page, "ArrowDown", 2)
-        page.wait_for_timeout(100)  # a hand that pushes on steadily, and does not see the flash-back
+        page.wait_for_timeout(100)  # a hand that keeps pushing and misses the flash-back
         if page.get_by_role("dialog").count():
             break
     expect(page.get_by_role("dialog")).to_contain_text("Peak model force", timeout=PATIENCE)
     expect(page.locator("svg.trace")).to_be_visible(timeout=PATIENCE)
 
 
-# name, scene, what is done, size, colours
+# name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...] = (
     ("tour", "k06-fig10", tour, LAPTOP, "light"),
     ("pop", "k06-fig10", popped, LAPTOP, "light"),
@@ -116,7 +116,7 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
             page = context.new_page()
             page.goto(studio.url, timeout=PATIENCE)
             act(page)
-            page.wait_for_timeout(1500)  # for plots and view to have drawn
+            page.wait_for_timeout(1500)  # until plots and view are drawn
             shot = page.screenshot(full_page=width < 1080)
             Image.open(io.BytesIO(shot)).quantize(256).save(out / f"studio-{name}.png", optimize=True)
             context.close()

@@ -1,5 +1,6 @@
-# What ./run, ./test and ./bench share: Debian packages, a virtual environment, the project installed into it.
-# Sourced by bash with $root set. Each stage leaves a stamp keyed on what it depends on; a stage whose stamp is right costs nothing.
+# The set-up of ./run, ./test and ./bench: Debian packages, a virtual environment, and the project installed in it.
+# Sourced by bash with $root set. Each stage writes a stamp with a hash of its inputs, and is skipped while the stamp
+# is valid.
 set -euo pipefail
 
 source "$root/tools/say.sh"
@@ -12,7 +13,7 @@ site() { "$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("pure
 # digest: one hash of standard input.
 digest() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 256; fi | cut -c1-32; }
 
-# digest_files PATH...: one hash of all files below the paths, names and contents; caches do not count.
+# digest_files PATH...: one hash of names and contents of all files below the paths, without caches.
 digest_files() {
   (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' ! -path '*/node_modules/*' ! -path '*/studio/page/*' -print0 2>/dev/null | LC_ALL=C sort -z |
     xargs -0 $(command -v sha256sum || echo shasum -a 256)) | digest
@@ -22,17 +23,17 @@ stamped() { [ -f "$venv/.punctura/$1" ] && [ "$(cat "$venv/.punctura/$1")" = "$2
 stamp() { mkdir -p "$venv/.punctura" && echo "$2" >"$venv/.punctura/$1.new" && mv "$venv/.punctura/$1.new" "$venv/.punctura/$1"; }
 unstamp() { rm -f "$venv/.punctura/$1"; }
 
-# One set-up at a time in one clone; the second waits. (Without flock, as on macOS, nothing is locked.)
+# Only one set-up runs in a clone at a time; a second one waits. (Without flock, as on macOS, there is no lock.)
 lock() {
   mkdir -p "$root/build/log"
   command -v flock >/dev/null || return 0
   exec 9>"$root/build/log/.lock"
-  flock -n 9 || { note "another set-up is at work in this folder; waiting for it"; flock 9; }
+  flock -n 9 || { note "another set-up is running in this folder; waiting for it"; flock 9; }
 }
 unlock() { { exec 9>&-; } 2>/dev/null || true; }
 
-# A virtual environment is believed only with a stamp that names this folder and this Python; the stamp is written last.
-# One made by hand is taken over if it works; a half-made one is made anew.
+# A virtual environment is valid only with a stamp that names this folder and this Python; the stamp is written last.
+# A working one that the user made is kept; an incomplete one is made again.
 make_venv() {
   local key="$root $python $python_minor" made_by_hand=""
   stamped venv "$key" && [ -x "$venv/bin/python" ] && return 0
@@ -40,14 +41,14 @@ make_venv() {
     made_by_hand=$("$venv/bin/python" -c 'import sys, pip; print("%d.%d" % sys.version_info[:2], sys.prefix)' 2>/dev/null || true)
   fi
   if [ "$made_by_hand" != "$python_minor $venv" ]; then
-    rm -rf "$venv" "$root/build/python" && mkdir -p "$venv/.punctura"  # the folder .punctura says that this venv is ours, even when interrupted here
+    rm -rf "$venv" "$root/build/python" && mkdir -p "$venv/.punctura"  # the folder .punctura marks this venv as ours, even after an interruption here
     step "Virtual environment .venv with Python $python_version" venv "$python" -m venv "$venv"
   fi
   stamp venv "$key"
 }
 
-# The back-end's own requirements stand in pyproject.toml alone; CMake and Ninja come with them, so that no system has to bring them,
-# and Node for the studio's page where there is none.
+# The build requirements from pyproject.toml. They include CMake and Ninja, so that the system need not have them, and
+# Node for the studio's page if it is missing.
 build_requirements() {
   "$venv/bin/python" - "$root/pyproject.toml" <<'PY'
 import sys
@@ -65,7 +66,7 @@ pip_build_tools() {
     pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
 }
 
-# The project is built in place of pip's throw-away folder, so that a changed file costs its own compilation only.
+# Builds in a permanent folder instead of pip's temporary one, so that only changed files are compiled again.
 pip_project() { pip install --progress-bar off --no-build-isolation "$@"; }
 
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
@@ -78,12 +79,12 @@ set_up() {
   packages_key() { echo "$(digest_files tools/packages.sh) $python $python_minor ${CXX:-}"; }
   if ! stamped "packages-$kind" "$(packages_key)"; then
     provide_packages "$kind"
-    find_python  # what was installed may have completed another one
+    find_python  # the installed packages may have completed another Python
     make_venv
     stamp "packages-$kind" "$(packages_key)"
   fi
   make_venv
-  node=$(command -v node || true)  # the system's: one from PyPI, in the virtual environment, would look like a change
+  node=$(command -v node || true)  # the system's Node; one from PyPI in the virtual environment would look like a change
   export PATH="$venv/bin:$PATH"
   deps="$(digest_files pyproject.toml tools/build_backend)"
   sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python web) ${CXX:-}"
@@ -93,11 +94,11 @@ set_up() {
   fi
   if ! stamped "needs-$kind" "$deps"; then
     unstamp sources
-    step "Punctura, built and installed with what it needs (a minute or two)" install pip_project "$root${extra:+[$extra]}"
+    step "Punctura, built and installed with its dependencies (a minute or two)" install pip_project "$root${extra:+[$extra]}"
     stamp "needs-$kind" "$deps"
     stamp sources "$sources"
   elif ! stamped sources "$sources"; then
-    step "Punctura, built anew" install pip_project --no-deps --force-reinstall "$root"
+    step "Punctura, built again" install pip_project --no-deps --force-reinstall "$root"
     stamp sources "$sources"
   fi
   unlock

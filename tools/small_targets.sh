@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The core for machines without exceptions, run-time types or an operating system: compiled for WebAssembly and for a Cortex-M4F.
+# Compiles the core without exceptions and RTTI for WebAssembly and for a Cortex-M4F without an operating system.
 #   tools/small_targets.sh
-# Two programs each: tests/core/without_exceptions, and tests/core/without_heap, which is linked without the C++ library and its operator new.
-# The WebAssembly programs are run in Node and must find their forces. Those for the Cortex are linked and measured, not run. Needs Debian 12's packages; says which.
+# Two programs each: tests/core/without_exceptions, and tests/core/without_heap, which is linked without the C++ library
+# and its operator new. Node runs the WebAssembly programs, which must compute the expected forces. The programs for the
+# Cortex are linked and their sizes printed, but they do not run. Needs packages of Debian 12 and prints the missing ones.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"

@@ -1,4 +1,4 @@
-"""Records the simulated device at 1600 Hz for minutes while a process keeps one core busy.
+"""Records the simulated device at 1600 Hz for minutes while another process keeps one core busy.
 
     python tools/soak_live.py --minutes 10
 
@@ -25,11 +25,11 @@ from punctura.record.schema import numbers
 from resident import resident_mb
 
 RATE = 1600.0
-MOST_COMPUTE = 0.02  # of the period
+MOST_COMPUTE = 0.02  # share of the period
 
 
 def stolen_s() -> float:
-    """Processor time that a virtual machine's host kept for itself since boot, s; NaN where no one tells."""
+    """Processor time that a virtual machine's host took since boot, s; NaN if the system does not report it."""
     try:
         return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
     except (OSError, ValueError, IndexError):
@@ -58,7 +58,7 @@ def soak(minutes: float, folder: Path) -> int:
         memory, told, stolen = 0.0, began, stolen_s()
         while (now := time.monotonic()) - began < 60 * minutes:
             time.sleep(0.05)
-            if int(loop.latest()["fault"][0]):  # what a person does after a fault
+            if int(loop.latest()["fault"][0]):  # reset the loop, like a user after a fault
                 loop.reset()
                 loop.arm()
             if memory == 0 and now - began > min(10.0, 30 * minutes):
@@ -74,7 +74,7 @@ def soak(minutes: float, folder: Path) -> int:
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     print(
         f"ticks made {report['ticks']}, recorded {recording.rows}, lost {recording.lost}, "
-        f"gap-free {'yes' if whole else 'NO'}, left out by the device {device.missed}, late {report['late']}"
+        f"gap-free {'yes' if whole else 'NO'}, skipped by the device {device.missed}, late {report['late']}"
     )
     print(
         f"compute: p50 {compute['p50'] * 1e6:.2f} us, p99.9 {compute['p99_9'] * 1e6:.2f} us "
@@ -83,9 +83,9 @@ def soak(minutes: float, folder: Path) -> int:
     print(
         f"memory grew by {grown:.1f} MB; file {status.bytes / 1e6:.1f} MB; slowest write "
         f"{status.slowest_write_s * 1e3:.1f} ms; load {load:.1f} on {os.cpu_count()} cores; "
-        f"{stolen:.2f} s of them went to a virtual machine's host"
+        f"the virtual machine's host took {stolen:.2f} s"
     )
-    print(f"faults: {recording.summary['fault_count']}, each left by a reset")
+    print(f"faults: {recording.summary['fault_count']}, each cleared by a reset")
     for fault in recording.faults[:5]:
         print(f"  at tick {fault['tick']}: {fault['meaning']}")
     again = replay(path)

@@ -1,10 +1,10 @@
-"""Kills a recording process at random moments; what it has left must open, and lack at most the last half second.
+"""Kills recording processes at random moments. The remaining file must open and lack at most the last 0.5 s.
 
     python tools/soak_recorder.py --kills 1000
 
-Every process records under the same name. Half of them are killed in their first moments, before their file has a
-beginning or before it has a tick: such a kill must not block the name for the next process. A quarter is killed while
-it records, a quarter while it finishes its file. A process tells the tick that it is at through a file in memory.
+All processes use the same file name. Half of them are killed at the start, before the file has a header or a tick; this
+must not block the name for the next process. A quarter is killed while recording, a quarter while finishing the file. A
+process reports its present tick through shared memory.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from waiting import wait_until
 
 RATE = 1600.0
 MOST_MISSING_S = 0.5
-# A process is killed within so long of its start, of its start, of its recorder's being there, of its finish.
+# Longest delay of the kill, s, for each kind: after the start, the start, the recorder's creation, the call of finish.
 KILLED_WITHIN_S = (0.03, 0.2, 0.8, 0.1)
 MOST_WAIT_S = 60.0
 TICKS, FINISHING, STATE = 0, 8, 16  # places in the shared memory
@@ -40,16 +40,16 @@ BEGUN, BLOCKED = 1, 2  # states
 
 
 class Kill(NamedTuple):
-    """What came of one kill."""
+    """The result of one kill."""
 
     ticks: int
     missing_s: float
     blocked: bool
-    began: bool  # the recorder was there when the kill came
+    began: bool  # whether the recorder existed at the kill
 
 
 def record(path: Path, shared: mmap.mmap, finish_after_s: float) -> None:
-    """In the process that will be killed."""
+    """Records in the process that will be killed."""
     scene = load_scene("k06-fig12")
     device = SimulatedDevice(strokes_through(scene), rate=RATE, axis=scene.membranes[0].inward_normal)
     loop = ServoLoop(device, scene)
@@ -74,7 +74,7 @@ def record(path: Path, shared: mmap.mmap, finish_after_s: float) -> None:
 
 
 def serve() -> int:
-    """A process that has imported everything, and forks one that records for each line: a start takes no second."""
+    """A process with all imports done. It forks a recording process for each input line, so that a start is fast."""
     build_id()
     for line in sys.stdin:
         path, memory, finish_after = line.rstrip("\n").split("\t")
@@ -84,14 +84,14 @@ def serve() -> int:
                 record(Path(path), shared, float(finish_after))
             os._exit(0)
         sys.stdin.readline()
-        os.kill(child, signal.SIGKILL)  # until it is waited for, its number is its own, also when it has ended
+        os.kill(child, signal.SIGKILL)  # safe even if it has ended: its id is not reused before it is waited for
         os.waitpid(child, 0)
         print("over", flush=True)
     return 0
 
 
 class Server:
-    """Processes to kill, one after the other."""
+    """Starts the processes to kill, one after the other."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(
@@ -102,7 +102,7 @@ class Server:
         self._ask(*words)
 
     def kill(self) -> None:
-        """The one that was started."""
+        """Kills the last started process."""
         self._ask("kill")
         assert self._process.stdout and self._process.stdout.readline() == "over\n"
 
@@ -117,7 +117,7 @@ class Server:
 
 
 def kill_once(server: Server, folder: Path, chance: random.Random, kind: int) -> Kill:
-    """kind: 0, 1 at the beginning; 2 while it records; 3 while it finishes. Raises AssertionError."""
+    """Starts and kills a process. kind: 0, 1 at its start; 2 recording; 3 finishing. Raises AssertionError."""
     path, memory = folder / "run.parquet", folder.with_name(folder.name + "-tick")
     memory.write_bytes(bytes(24))
     finish_after = chance.uniform(0.05, 0.5) if kind == 3 else 2 * MOST_WAIT_S
@@ -138,7 +138,7 @@ def kill_once(server: Server, folder: Path, chance: random.Random, kind: int) ->
 
 
 def missing_at_end(path: Path, ticks: int) -> float:
-    """s from the last tick in the file to the last that was made. Takes a file with ticks away, as a person would."""
+    """Time from the last tick in the file to the last tick made, s. Removes a file with ticks, like a user would."""
     rows = 0
     part = path.with_name(path.name + ".part")
     if path.exists() or (part.exists() and part.stat().st_size):
@@ -151,7 +151,7 @@ def missing_at_end(path: Path, ticks: int) -> float:
             path.unlink(missing_ok=True)
             part.unlink(missing_ok=True)
     missing = max(0, ticks - rows) / RATE
-    assert missing <= MOST_MISSING_S, f"{missing:.3f} s are missing at the end"
+    assert missing <= MOST_MISSING_S, f"the last {missing:.3f} s are missing"
     return missing
 
 
@@ -164,7 +164,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--folder", help="where to record; without it where temporary files go")
+    parser.add_argument("--folder", help="folder for the recordings; default: the folder for temporary files")
     parser.add_argument("--serve", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.serve:
@@ -191,10 +191,8 @@ def main() -> int:
     missing = [kill.missing_s for kill in kills] or [0.0]
     blocked = sum(kill.blocked for kill in kills)
     early = sum(not kill.began for kill in kills)
-    print(f"missing at the end: {np.median(missing):.3f} s in the middle, {max(missing):.3f} s at most")
-    print(
-        f"{early} killed before their recorder was there; left in the folder at the end: {', '.join(left) or 'nothing'}"
-    )
+    print(f"missing at the end: median {np.median(missing):.3f} s, maximum {max(missing):.3f} s")
+    print(f"{early} killed before their recorder existed; files left in the folder: {', '.join(left) or 'none'}")
     print(f"{arguments.kills} kills, {failed} failed, {blocked} names blocked")
     return 1 if failed or blocked else 0
 

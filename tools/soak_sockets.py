@@ -1,12 +1,12 @@
-"""Storms of connections against a studio that records, on loopback, and whether the person at the page notices.
+"""Tests a recording studio under storms of connections on loopback: does the user at the page notice them?
 
     python tools/soak_sockets.py                            # all storms, 20 s each
     python tools/soak_sockets.py silent --connections 1200 --seconds 60
 
-Prints for each storm the studio's memory, the ticks lost, how long "pause" takes to be answered, how many requests with
-the token were answered, and how long a new page takes to get in. Passes if no tick is lost, if every request with
-the token is answered, if memory grows by MOST_GROWTH_MB at most
-(MOST_GROWTH_KNOWN_MB where the storm has the token), and if the recording is finished and another one can begin.
+Prints for each storm the studio's memory, the number of lost ticks, the response time of "pause", the number of
+answered requests with the token, and the time that a new page needs to connect. Passes if no tick is lost, if every
+request with the token is answered, if memory grows by at most MOST_GROWTH_MB (MOST_GROWTH_KNOWN_MB if the storm has the
+token), and if the recording is finished and another one can begin.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from punctura.studio.client import StudioClient
 from storms import STORMS, Storm
 from studio_process import StudioProcess, blank_page
 
-MOST_GROWTH_MB = 100.0  # a recording alone brings about 70
-MOST_GROWTH_KNOWN_MB = 150.0  # who has the token may be 32 pages: 126 MB were measured after 20 s and after 60 s
-TOO_MUCH_MB = 1500.0  # the storm is over: the computer has other users
-FINISHING_S = 60.0  # the storm also rages while the recording is finished, which takes less
-OPEN_FILES = 1024  # of the studio: what most systems allow a program without being asked
-SHORT_S = 10.0  # a shorter run says nothing about how fast an answer comes
-SLOWEST_S = 1.0  # for the answer to "pause"
+MOST_GROWTH_MB = 100.0  # a recording alone takes about 70
+MOST_GROWTH_KNOWN_MB = 150.0  # with the token up to 32 pages; measured 126 MB after 20 s and 60 s
+TOO_MUCH_MB = 1500.0  # ends the storm, because the computer has other users
+FINISHING_S = 60.0  # the storm continues while the recording is finished, which takes less
+OPEN_FILES = 1024  # of the studio: the usual default limit
+SHORT_S = 10.0  # a shorter run cannot judge the response time
+SLOWEST_S = 1.0  # limit for the answer to "pause"
 ALL = (
     ("pings without token", "pings", False, 1),
     ("pings with token", "pings", True, 1),
@@ -46,7 +46,7 @@ ALL = (
 
 
 class Watch:
-    """What the person at the page sees meanwhile."""
+    """Measures what the user at the page notices during a storm."""
 
     def __init__(self, studio: StudioProcess, page: StudioClient) -> None:
         self._studio, self._page = studio, page
@@ -98,10 +98,10 @@ class Watch:
         )
 
     def good(self, with_token: bool, seconds: float) -> bool:
-        """with_token: the storm has it, too, and may take the places that are kept for those who have it."""
+        """with_token: the storm also has the token, and may take the connections reserved for its holders."""
         fast = seconds < SHORT_S or max(self.pauses) < SLOWEST_S
         most = MOST_GROWTH_KNOWN_MB if with_token else MOST_GROWTH_MB
-        flat = not max(self.memory) - self.memory[0] > most  # NaN: this system does not tell
+        flat = not max(self.memory) - self.memory[0] > most  # NaN: this system does not report it
         let_in = with_token or (set(self.answers) == {"200"} and bool(self.entries))
         return flat and let_in and not self.answers["pause refused"] and fast
 
@@ -129,7 +129,7 @@ def soak(title: str, kind: str, with_token: bool, connections: int, seconds: flo
             while time.monotonic() < end and attacker.is_alive() and watch.memory[-1] < TOO_MUCH_MB:
                 watch.look()
                 time.sleep(0.1)
-            finished, begun, recording, lost = finish(page, folder)  # while the storm goes on
+            finished, begun, recording, lost = finish(page, folder)  # during the storm
         except (OSError, TimeoutError) as error:
             finished, begun, recording, lost = False, False, f"the page is lost: {error}", -1
         watch.memory.append(studio.memory_mb())
@@ -155,7 +155,7 @@ def soak(title: str, kind: str, with_token: bool, connections: int, seconds: flo
 
 
 def finish(page: StudioClient, folder: Path) -> tuple[bool, bool, str, int]:
-    """Whether the recording was finished, whether another one could begin, and what the first has lost."""
+    """Whether the recording was finished, whether another one could begin, and the ticks lost by the first."""
     status, gaps = page.status(), page.gaps
     finished = page.ask(do="stop_recording")["ok"]
     begun = page.ask(do="start_recording", name="next")["ok"]
@@ -172,10 +172,10 @@ def finish(page: StudioClient, folder: Path) -> tuple[bool, bool, str, int]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("storm", nargs="?", choices=sorted(STORMS), help="without one: all, one after the other")
-    parser.add_argument("--seconds", type=float, default=20.0, help="of each storm, up to 600")
-    parser.add_argument("--connections", type=int, default=220, help="of a storm that is named, up to 5000")
-    parser.add_argument("--with-token", action="store_true", help="of a storm that is named")
+    parser.add_argument("storm", nargs="?", choices=sorted(STORMS), help="default: all, one after the other")
+    parser.add_argument("--seconds", type=float, default=20.0, help="duration of each storm, up to 600")
+    parser.add_argument("--connections", type=int, default=220, help="number for a named storm, up to 5000")
+    parser.add_argument("--with-token", action="store_true", help="for a named storm")
     options = parser.parse_args()
     seconds, connections = min(600.0, max(2.0, options.seconds)), min(5000, max(1, options.connections))
     chosen = [(options.storm, options.storm, options.with_token, connections)] if options.storm else ALL

@@ -1,10 +1,12 @@
-"""Runs a studio for minutes with four viewers, while every tick is recorded: the page in Chromium without a graphics
-card, two that only read, and one that never reads, which the studio ends after a while.
+"""Runs a studio for minutes with four viewers while it records every tick.
+
+The viewers are the page in Chromium without a graphics card, two that only read, and one that never reads, which the
+studio disconnects after a while.
 
     python tools/soak_studio.py --minutes 30
 
-Passes if no tick is lost in the recording nor at the viewers who read, if the server's memory and the heap of the page
-stay within 5 %, and if a plot is drawn more than 20 times a second.
+Passes if no tick is lost in the recording or at the reading viewers, if the server's memory and the page's heap grow by
+less than 5 %, and if a plot is drawn more than 20 times per second.
 """
 
 from __future__ import annotations
@@ -25,11 +27,11 @@ from studio_process import SHORT_S, Memory, StudioProcess
 from watched_page import WatchedPage
 
 MOST_GROWTH = 0.05
-LEAST_PLOTS = 20.0  # a second, drawn by the processor
+LEAST_PLOTS = 20.0  # per second, with software rendering
 
 
 def stalled_viewer(page: StudioClient) -> socket.socket:
-    """Opens the socket of a page, and never reads from it."""
+    """Opens a page's WebSocket and never reads from it."""
     host, _, port = page.host.rpartition(":")
     raw = socket.create_connection((host, int(port)), 20)
     raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -43,7 +45,7 @@ def stalled_viewer(page: StudioClient) -> socket.socket:
 
 
 class Watched:
-    """What the browser's viewer showed, minute by minute."""
+    """Statistics of the browser's viewer, minute by minute."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = seconds
@@ -52,14 +54,14 @@ class Watched:
 
     def look(self, page: WatchedPage) -> str:
         rates, heap = page.rates(), page.heap_mb()
-        page.rates()  # what collecting the garbage took is not the page's
+        page.rates()  # do not count the time of the garbage collection
         self.rates.append(rates)
         self.heap.add(heap)
         frames = ", ".join(f"{name} {rate:.1f}" for name, rate in rates.items())
         return f"browser: {frames} a second, heap {heap:.1f} MB"
 
     def fluent(self) -> bool:
-        """Whether a plot was drawn often enough. As with memory, a short run says nothing."""
+        """Whether a plot was drawn often enough. True for a short run, which cannot judge it."""
         return self.seconds < SHORT_S or self.median("plots") > LEAST_PLOTS
 
     def median(self, name: str) -> float:
@@ -83,7 +85,7 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
                 browser.pause(0.5)
                 memory.add(studio.memory_mb())
                 for page in pages:
-                    del page.messages[:-100]  # or the soak itself would grow
+                    del page.messages[:-100]  # limits the memory of this program
                 if now - told > every:
                     told = now
                     ticks = [page.ticks for page in pages]
@@ -107,7 +109,7 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
     print(
         f"{status['viewers']} viewers; {recording.rows} ticks recorded, {recording.lost} lost; gaps at viewers: {gaps}"
     )
-    print(f"late {status['late']}, not shown {status['lost']}; the studio ended with {code}")
+    print(f"late {status['late']}, not shown {status['lost']}; exit status of the studio: {code}")
     print(f"the recording was finished in {finished_s:.1f} s")
     largest = max(memory.samples, default=float("nan"))
     print(
@@ -115,8 +117,8 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
         f"grown by {memory.growth():+.1%}"
     )
     print(
-        f"browser: heap grown by {watched.heap.growth():+.1%}; a second, at the median of the minutes: "
-        f"{watched.median('plots'):.1f} of a plot, {watched.median('view'):.1f} of the 3-D view"
+        f"browser: heap grown by {watched.heap.growth():+.1%}; per second, median over the minutes: "
+        f"{watched.median('plots'):.1f} plots, {watched.median('view'):.1f} frames of the 3-D view"
     )
     good = answer["ok"] and stopped["ok"] and recording.finished and status["viewers"] in (3, 4) and code == 130
     good = good and memory.flat(MOST_GROWTH) and watched.heap.flat(MOST_GROWTH) and not errors
@@ -129,7 +131,7 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--minutes", type=float, default=30.0)
-    parser.add_argument("--picture", type=Path, help="a PNG of the page at the end")
+    parser.add_argument("--picture", type=Path, help="write a PNG of the page at the end")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         return soak(60 * options.minutes, Path(folder), options.picture)

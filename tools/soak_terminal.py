@@ -1,14 +1,14 @@
-"""Runs for a while what nobody listens to, and shows that it neither waits nor grows nor loses a tick.
+"""Checks that runs with blocked output neither wait nor grow nor lose a tick.
 
     python tools/soak_terminal.py --seconds 60
 
-Three runs at once, each with a recording: one in a terminal that is stopped (Ctrl-S), one whose standard error is a
-full pipe, and a studio in a stopped terminal whose server logs a line for each request of a flood. The studio is asked
-for "pause" twice a second. At the end its terminal goes on and is stopped again, and each run gets a signal.
+Three runs record at the same time: one in a stopped terminal (Ctrl-S), one whose standard error is a full pipe, and a
+studio in a stopped terminal whose server logs a line for each request of a flood. "pause" is sent to the studio twice
+per second. At the end the studio's terminal continues and is stopped again, and each run gets a signal.
 
-Passes if no tick is lost, no memory grows by over a tenth in the last 70 % of two minutes or more, "pause" is always
-answered within 2 s, and each run ends within a minute with the signal's status and a whole recording. On a quiet
-computer "pause" takes some milliseconds; what is printed counts. Linux and macOS only.
+Passes if no tick is lost, if no memory grows by more than 10 % in the last 70 % of two minutes or more, if "pause" is
+always answered within 2 s, and if each run ends within a minute with the signal's status and a complete recording. On
+an idle computer "pause" takes a few milliseconds; judge by the printed times. Linux and macOS only.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "pytho
 
 from terminals import go_on, stop, stopped_terminal, terminal, unread_pipe
 
-MOST_GROWTH, WARM = 0.1, 0.3  # of the memory, after this share of the time
+MOST_GROWTH, WARM = 0.1, 0.3  # largest growth of memory, measured after this share of the time
 MOST_ANSWER_S = 2.0
-MOST_END_S = 60.0  # with a long recording to finish
+MOST_END_S = 60.0  # includes finishing a long recording
 FLOODERS = 4
 ASK_EVERY_S = 0.5
 LOGGED = b"Unsupported upgrade request."
 
 
 class Headless:
-    """`punctura run --headless`, whose messages nobody reads."""
+    """`punctura run --headless` whose output nobody reads."""
 
     def __init__(self, name: str, folder: Path, stderr: int, seconds: float) -> None:
         self.name, self.path = name, folder / f"{name.replace(' ', '-')}.parquet"
@@ -68,7 +68,7 @@ class Headless:
 
 
 def report(name: str, memory: Memory, code: int, took: float, expected: int, path: Path) -> bool:
-    """Prints how a run was, and says whether that was right."""
+    """Prints the results of a run and returns whether they are right."""
     last = memory.samples[-1] if memory.samples else float("nan")
     print(f"{name}: {last:.1f} MB, grown by {memory.growth():+.1%}; ended with {code} in {took:.2f} s")
     if not path.exists():
@@ -81,7 +81,7 @@ def report(name: str, memory: Memory, code: int, took: float, expected: int, pat
 
 
 class Flood:
-    """Requests without a token, of each of which the server logs a warning, one after the other."""
+    """Sends requests without a token, one after the other. The server logs a warning for each."""
 
     def __init__(self, port: int) -> None:
         self.sent = 0
@@ -99,7 +99,7 @@ class Flood:
                     while connection.recv(4096) and not self._over.is_set():
                         self.sent += 1
                         connection.sendall(request.encode())
-            except OSError:  # refused, reset or late: another connection
+            except OSError:  # refused, reset or late: open another connection
                 pass
 
     def end(self) -> None:
@@ -109,7 +109,7 @@ class Flood:
 
 
 def drained(master: int, slave: int) -> list[bytes]:
-    """What comes once the terminal goes on, until nothing more comes for a second. Then it is stopped again."""
+    """Continues the terminal, reads its output until there is none for a second, and stops it again."""
     said = b""
     go_on(slave)
     while select.select([master], [], [], 1)[0]:
@@ -129,7 +129,7 @@ def soak(seconds: float, folder: Path) -> int:
 
 
 def soak_beside(runs: list[Headless], ends: tuple[int, int], seconds: float, folder: Path) -> int:
-    """ends: of the studio's terminal, which is stopped; the studio writes to the second one."""
+    """ends: the two ends of the studio's stopped terminal. The studio writes to the second."""
     memory, answers = Memory(seconds, WARM), []
     master, slave = ends
     with StudioProcess(folder, page=blank_page(folder), terminal=slave) as studio:
@@ -142,7 +142,7 @@ def soak_beside(runs: list[Headless], ends: tuple[int, int], seconds: float, fol
                 good = page.ask(do="pause")["ok"] and good
                 answers.append(time.monotonic() - asked)
                 page.ask(do="arm")
-                del page.messages[:-100]  # or the soak itself would grow
+                del page.messages[:-100]  # limits the memory of this program
                 memory.add(studio.memory_mb())
                 for run in runs:
                     run.look()
@@ -161,8 +161,8 @@ def soak_beside(runs: list[Headless], ends: tuple[int, int], seconds: float, fol
     print(
         f'"pause" was answered {len(answers)} times: median {median * 1e3:.1f} ms, largest {max(answers) * 1e3:.1f} ms'
     )
-    print(f"{flood.sent} requests to log; the terminal showed {logged} of their lines once it went on, and said:")
-    print("\n".join(f"  {line.decode()}" for line in left_out) or "  nothing of lines left out")
+    print(f"{flood.sent} requests to log; then the terminal showed {logged} of their lines, and these notes:")
+    print("\n".join(f"  {line.decode()}" for line in left_out) or "  no note about left-out lines")
     good = good and max(answers) < MOST_ANSWER_S and logged > 0
     print("passed" if good else "FAILED")
     return 0 if good else 1

@@ -1,4 +1,4 @@
-"""What the tree checks share: the files that are the project's own, and how a finding is said."""
+"""Shared by the tree checks: the project's own files, and the form of a finding."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Finding(NamedTuple):
 
 
 def sources(root: Path, suffixes: tuple[str, ...], generated: bool = False) -> list[str]:
-    """The paths git tracks or would track, with forward slashes, sorted; outside a git tree every file.
+    """Sorted paths, with forward slashes, that git tracks or would track; all files outside a git tree.
 
     generated: whether to include generated files.
     """
@@ -40,7 +40,7 @@ def sources(root: Path, suffixes: tuple[str, ...], generated: bool = False) -> l
 
 
 def report(name: str, findings: Callable[[Path], list[Finding]], argv: list[str]) -> int:
-    """Prints every finding for the tree named on the command line, or for this one; 1 if there is any."""
+    """Prints all findings for the tree given on the command line, default this one. Returns 1 if there are any."""
     root = Path(argv[1]) if len(argv) > 1 else Path(__file__).resolve().parent.parent
     found = findings(root)
     for finding in found:

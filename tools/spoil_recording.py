@@ -1,4 +1,4 @@
-"""Recordings whose description says something wrong under a right check sum: what a reader must refuse in words."""
+"""Makes recordings with an invalid description and a right checksum, which a reader must reject with a message."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 from punctura.record.header import KEY, with_check_sum
 from punctura.record.stream import Decoder, check_sum
 
-# Values that are right for no field or for few. 1e999 stands for a number beyond what a float holds.
+# Values that are valid for few fields or none. 1e999 stands for a number that a float cannot hold.
 WRONG: tuple[Any, ...] = (
     None, True, 0, -1, 1.5, 10**30, 10**400, 1e999, "", "text", "\ud800", [], [1], ["x"], [[]], [{}], {}, {"x": 1},
     {"x": None},
@@ -28,7 +28,7 @@ def description_of(path: Path) -> dict[str, Any]:
 
 
 def fields(data: Any, before: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The place of every value in a description, as keys and indices."""
+    """The place of each value in a description, as keys and indices."""
     items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
     for key, value in items:
         yield (*before, key)
@@ -36,7 +36,7 @@ def fields(data: Any, before: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]
 
 
 def changed(data: dict[str, Any], place: tuple[Any, ...], value: Any) -> dict[str, Any]:
-    """A copy with another value at a place."""
+    """A copy with another value at the given place."""
     result = copy.deepcopy(data)
     inner: Any = result
     for key in place[:-1]:
@@ -46,7 +46,7 @@ def changed(data: dict[str, Any], place: tuple[Any, ...], value: Any) -> dict[st
 
 
 def spoil_description(data: dict[str, Any], chance: random.Random) -> Any:
-    """A description with one to three fields changed or gone, rarely something else in its place."""
+    """A description with one to three fields changed or removed, or rarely another value as a whole."""
     if chance.random() < 0.05:
         return chance.choice(WRONG)
     for _ in range(chance.choice([1, 1, 1, 2, 3])):
@@ -61,7 +61,7 @@ def spoil_description(data: dict[str, Any], chance: random.Random) -> Any:
 
 
 def rewrite(source: Path, target: Path, description: Any) -> None:
-    """The recording `source` with another description, under right check sums."""
+    """Writes the recording `source` with another description and right checksums to `target`."""
     if is_parquet(source):
         table = pq.read_table(source)
         schema = _described(table.schema, description)
@@ -86,7 +86,7 @@ def is_parquet(path: Path) -> bool:
 
 
 def _described(schema: pa.Schema, description: Any) -> pa.Schema:
-    text = json.dumps(description).replace("Infinity", "1e999")  # ASCII: half a surrogate pair stays an escape
+    text = json.dumps(description).replace("Infinity", "1e999")  # ASCII keeps a lone surrogate as an escape
     return schema.with_metadata(with_check_sum(text.encode(), schema))
 
 

@@ -1,4 +1,4 @@
-"""Scene files as no person writes them: what tools/fuzz_scenes.py feeds to the reader."""
+"""Makes broken and unusual scene files for tools/fuzz_scenes.py."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import random
 import re
 from collections.abc import Callable
 
-# Sound scenes, each in another of TOML's ways to say the same.
+# Valid scenes in different TOML notations.
 SEEDS = (
     """
 name = "plain"
@@ -90,7 +90,7 @@ HEADS = (
 )
 
 _VALUE = re.compile(r"(?<== )(?:\"[^\"\n]*\"|'[^'\n]*'|\[[^\[\]\n]*\]|[^\s,{}\[\]\"']+)")
-_KEY = re.compile(r"(?<![\w\".])[\w\".]+(?= = )")  # from the beginning of a word only: long ones are looked at once
+_KEY = re.compile(r"(?<![\w\".])[\w\".]+(?= = )")  # only at the start of a word: long words are scanned once
 _HEAD = re.compile(r"^\[.*\]$", re.MULTILINE)
 
 Way = Callable[[str, random.Random], str]
@@ -139,7 +139,7 @@ def _shuffled(text: str, chance: random.Random) -> str:
 
 
 def _many(chance: random.Random) -> int:
-    """1 to 100,000, each size as likely as another."""
+    """A number from 1 to 100,000, with all orders of magnitude equally likely."""
     return round(10 ** chance.uniform(0, 5))
 
 
@@ -198,7 +198,7 @@ def _other_bytes(data: bytearray, chance: random.Random) -> None:
 
 
 def spoilt(chance: random.Random) -> bytes:
-    """A scene file that is not quite, or not at all, one."""
+    """A scene file with errors, slight or heavy."""
     text = chance.choice(SEEDS)
     for _ in range(chance.choice((0, 1, 1, 1, 2, 3, 6))):
         text = chance.choice(_WAYS)(text, chance)

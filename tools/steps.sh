@@ -1,4 +1,5 @@
-# The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
+# The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, then a
+# summary is printed.
 
 all_steps="tree format types web cpp asan tsan consumer examples python docs page"
 fast_steps="tree format types web cpp python"
@@ -38,15 +39,15 @@ run_steps() {
       tail -n "${PUNCTURA_LOG_LINES:-60}" "$log" | sed 's/^/    /'
     fi
   done
-  [ -z "$failed" ] || printf '\nFailed:%s. Again, these alone: ./test%s\n' "$failed" "$failed"
+  [ -z "$failed" ] || printf '\nFailed:%s. To repeat only these: ./test%s\n' "$failed" "$failed"
   printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) $passed $count
   [ -z "$failed" ]
 }
 
-# What the step's own runner said last of how many tests passed.
+# The last line of the step's test runner with the number of passed tests.
 closing_line() { grep -aE '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):|^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true; }
 
-# Rooms, sizes and equations: what the tree promises of itself.
+# Checks the rules of the source tree: rooms, sizes and equations.
 step_tree() {
   local check code=0
   for check in rooms sizes equations; do python "tools/check_$check.py" || code=1; done
@@ -63,7 +64,8 @@ step_format() {
 }
 step_types() { mypy; }
 
-# compile PRESET [TARGET...]: configures when needed, then builds on all cores. A folder made elsewhere is laid anew.
+# compile PRESET [TARGET...]: configures if needed, then builds on all cores. A build folder of another path is
+# configured afresh.
 compile() {
   local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
   shift
@@ -71,12 +73,12 @@ compile() {
   cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# side_by_side A B: runs both programs at once, since each needs one processor. What a program said that failed comes last.
+# side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
   local said=build/log/side-by-side a_failed=0 b_failed=0 a b
   "$1" >"$said-a.log" 2>&1 & a=$!
   "$2" >"$said-b.log" 2>&1 & b=$!
-  trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # a script's background jobs do not hear Ctrl-C
+  trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # background jobs of a script do not get Ctrl-C
   wait $a || a_failed=1
   wait $b || b_failed=1
   trap - INT TERM HUP
@@ -85,7 +87,7 @@ side_by_side() {
 }
 both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }
 
-# The C++ tests as GCC compiles them; the golden forces also where it may fuse a multiplication and an addition.
+# The C++ tests, compiled by GCC. The golden forces also run with fused multiply-add allowed.
 step_cpp() {
   if grep -qsw fma /proc/cpuinfo; then
     compile dev all golden_forces_fma && build/dev/tests/core/golden_forces_fma || return
@@ -95,8 +97,8 @@ step_cpp() {
   build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap && both_tests dev
 }
 
-# All sources as Clang compiles them, for its warnings, and each header alone; the tests under sanitizers. Those are slow: a few of
-# the random cases reach the same code.
+# Compiles all sources and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
+# random cases, which reach the same code, because sanitizers are slow.
 step_asan() {
   compile asan all punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
@@ -106,12 +108,13 @@ step_tsan() {
   local run=build/tsan/tests/runtime/runtime_tests said
   compile tsan runtime_tests || return
   export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
-  # Where the kernel places memory at more random addresses than this sanitizer knows, it refuses to start; setarch asks for fewer.
+  # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.
   said=$($run --list-test-cases 2>&1) || case $said in *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;; esac
   $run
 }
 
-# A project that knows nothing of this tree: with the core installed, with core and runtime installed, with Punctura as its subfolder.
+# An external project in three ways: with the core installed, with core and runtime installed, with Punctura as a
+# subfolder.
 step_consumer() {
   local way prefix=$root/build/consumer/prefix
   rm -rf build/consumer
@@ -130,16 +133,16 @@ step_python() {
   local but=()
   if ! has_siconos; then
     if known python3-siconos; then
-      echo "Siconos has gone: apt-get install python3-siconos"
+      echo "Siconos is missing. Run: apt-get install python3-siconos"
       return 1
     fi
-    echo "note: no archive of this system has python3-siconos: the comparison with Siconos is left out, that with SciPy is made."
+    echo "note: this system's archives have no python3-siconos. The comparison with Siconos is skipped; that with SciPy runs."
     but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
   python -m pytest -n 3 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
 }
 
-# The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
+# The studio's page: types, lint, tests, message types in agreement with the server, and size.
 step_web() {
   local types="src/wire/messages.ts src/wire/limit_words.json" file code=0
   export NO_COLOR=1
@@ -154,13 +157,13 @@ step_web() {
     cmp -s "$file" "$root/build/${file##*/}" && continue
     diff "$root/build/${file##*/}" "$file" || true
     cp "$root/build/${file##*/}" "$file"
-    echo "web/$file is not what the Python package says: cd web && npm run types" && code=1
+    echo "web/$file does not match the Python package. Run: cd web && npm run types" && code=1
   done
   npm test || code=1
   return $code
 }
 
-# The studio in a real browser, as a person uses it.
+# The studio in a real browser, used like by a person.
 step_page() { python -m pytest -n 2 --durations=8 tests/page; }
 
 # The documentation: every code block runs, and the site builds without a warning.
@@ -168,7 +171,7 @@ step_docs() { side_by_side docs_snippets docs_site; }
 docs_snippets() { PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets tests/docs README.md CONTRIBUTING.md examples/README.md docs; }
 docs_site() { python docs/site/build.py; }
 
-# Every example runs, in a folder of its own.
+# Runs every example, each in its own folder.
 step_examples() {
   local example
   compile dev || return
@@ -182,5 +185,5 @@ step_examples() {
   done
 }
 
-# By name only: slow, and a matter of taste.
+# Runs only by name: it is slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }

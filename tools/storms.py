@@ -1,7 +1,6 @@
-"""What another user of the same computer, or a program with the token, may do to a studio. For soak_sockets.py only.
+"""Attacks on a studio by another user of the same computer or by a program with the token. For soak_sockets.py only.
 
-Each storm speaks to loopback alone, runs in a process of its own, and ends when it is told to,
-or after the seconds that it is given.
+Each storm connects only to loopback, runs in its own process, and ends on request or after the given time.
 """
 
 from __future__ import annotations
@@ -23,14 +22,14 @@ try:
 except ImportError:
     resource = None  # type: ignore[assignment]
 
-PING = bytes([0x89, 0xFD]) + bytes(4) + b"x" * 125  # the longest there is, masked with zeros
+PING = bytes([0x89, 0xFD]) + bytes(4) + b"x" * 125  # the longest allowed ping, masked with zeros
 PINGS = PING * 500
 SPARE_FILES = 100
-RATE = 300  # requests a second: more than a studio answers to those with the token
+RATE = 300  # requests per second; more than a studio answers
 
 
 class Stop(Protocol):
-    """An event of this process or of another one."""
+    """An event of this or another process."""
 
     def is_set(self) -> bool: ...
 
@@ -63,7 +62,7 @@ def upgrade(storm: Storm) -> bytes:
 
 
 def pings(storm: Storm) -> Counter[str]:
-    """Sends pings as fast as they are taken, and reads nothing. Who is thrown out comes back."""
+    """Sends pings as fast as possible and reads nothing. Reconnects after a disconnection."""
     counts: Counter[str] = Counter()
     while not storm.over:
         with contextlib.suppress(OSError), open_tcp(storm) as raw:
@@ -77,17 +76,17 @@ def pings(storm: Storm) -> Counter[str]:
 
 
 def silent(storm: Storm) -> Counter[str]:
-    """Holds so many connections that say nothing; one that is ended is opened again."""
+    """Holds `connections` silent connections. Reopens closed ones."""
     return hold(storm, b"")
 
 
 def sockets(storm: Storm) -> Counter[str]:
-    """The same with WebSockets."""
+    """Holds `connections` silent WebSockets. Reopens closed ones."""
     return hold(storm, upgrade(storm))
 
 
 def hold(storm: Storm, first: bytes) -> Counter[str]:
-    """Keeps so many connections open; each sends `first`. What was open at most is counted, too."""
+    """Keeps `connections` connections open, each of which sends `first`. Also counts the most open at once."""
     more_files(storm.connections)
     counts: Counter[str] = Counter()
     held = selectors.DefaultSelector()
@@ -123,7 +122,7 @@ def drop_if_ended(held: selectors.BaseSelector, key: selectors.SelectorKey) -> N
 
 
 def requests(storm: Storm) -> Counter[str]:
-    """RATE requests a second, each on a connection of its own."""
+    """Sends RATE requests per second, each on its own connection."""
     counts: Counter[str] = Counter()
     head = f"GET /api/recordings HTTP/1.1\r\nHost: 127.0.0.1:{storm.port}\r\nConnection: close\r\n\r\n".encode()
     sent = 0
@@ -139,7 +138,7 @@ def requests(storm: Storm) -> Counter[str]:
 
 
 def more_files(connections: int) -> None:
-    """Lets this process, not the studio, have so many open."""
+    """Raises the limit of open files of this process, not of the studio."""
     if resource is not None:
         soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
         wanted = connections + SPARE_FILES

@@ -1,4 +1,4 @@
-"""`punctura run` in a process of its own: for the page's tests and pictures, for soaks and fuzzers."""
+"""Runs `punctura run` in its own process, for the page's tests and screenshots, soak tests and fuzzers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from resident import resident_mb
 from waiting import wait_until
 
 SHORT_S = 120.0
-PATIENCE_S = 120.0  # for the address, on a busy computer
+PATIENCE_S = 120.0  # wait for the address; long enough for a busy computer
 ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 
 
 class StudioProcess:
-    """A studio on the simulated device; `url` has its token. Its recordings and results stay in `folder`."""
+    """A studio with the simulated device. `url` includes the token. Recordings and results go to `folder`."""
 
     def __init__(
         self,
@@ -37,10 +37,10 @@ class StudioProcess:
         terminal: int | None = None,
         more: Sequence[str] = (),
     ) -> None:
-        """page: a folder to serve in place of the studio's own page. token: given, or one of its own.
+        """page: folder to serve in place of the studio's page. token: default: a new one.
 
-        open_files: how many the studio may have, on POSIX; 0: as many as this process. terminal: the descriptor that is
-        its standard error, of which `said` then knows nothing. more: options of `punctura run`.
+        open_files: limit of the studio's open files, on POSIX; 0 for that of this process. terminal: descriptor for its
+        standard error; `said` is then empty. more: options of `punctura run`.
         """
         self.recordings = folder / "recordings"
         command = [sys.executable, "-m", "punctura.cli", "run", scene, "--no-browser", "--device", "simulated"]
@@ -67,7 +67,7 @@ class StudioProcess:
         raise RuntimeError(f"the studio did not start: {self.said()}")
 
     def said(self) -> str:
-        """On standard error."""
+        """Its output on standard error."""
         return _whole(self._errors)
 
     @property
@@ -75,11 +75,11 @@ class StudioProcess:
         return self._process.poll() is None
 
     def memory_mb(self) -> float:
-        """Resident; NaN where the system does not tell."""
+        """Resident memory, MB; NaN if the system does not report it."""
         return resident_mb(self._process.pid)
 
     def end(self) -> int:
-        """As Ctrl-C does; the exit code."""
+        """Ends the studio like Ctrl-C. Returns the exit status."""
         if self.running:
             self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
         return self._process.wait(600)
@@ -96,7 +96,7 @@ class StudioProcess:
 
 
 def _prepare(open_files: int) -> None:
-    """Heeds interrupts as in a terminal, also where a script has started this one in the background."""
+    """Makes the process react to interrupts, even if a script started this one in the background."""
     import resource  # not on Windows
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -109,7 +109,7 @@ def _whole(file: TextIO) -> str:
 
 
 def blank_page(folder: Path) -> Path:
-    """A page that is only a word: nothing has to be built for it."""
+    """A minimal page that needs no build."""
     page = folder / "page"
     page.mkdir()
     (page / "index.html").write_text("<!doctype html><title>page</title>")
@@ -117,7 +117,7 @@ def blank_page(folder: Path) -> Path:
 
 
 class Memory:
-    """Samples over a run, of which the first share is warming up."""
+    """Memory samples of a run. The first share is warm-up."""
 
     def __init__(self, seconds: float, warm: float = 0.1) -> None:
         self._seconds = seconds
@@ -129,11 +129,11 @@ class Memory:
             self.samples.append(megabytes)
 
     def flat(self, most: float) -> bool:
-        """Whether it has grown by no more than this share. A short run is all warming up, and says nothing."""
-        return self._seconds < SHORT_S or not self.growth() > most  # NaN: this system does not tell
+        """Whether memory has grown by at most this share. True for a short run, which is all warm-up."""
+        return self._seconds < SHORT_S or not self.growth() > most  # NaN: this system does not report it
 
     def growth(self) -> float:
-        """From the first tenth of the samples to the last, by their medians; NaN without samples."""
+        """Growth from the first to the last tenth of the samples, by medians; NaN without samples."""
         n = max(1, len(self.samples) // 10)
         if not self.samples:
             return float("nan")

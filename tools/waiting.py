@@ -1,4 +1,4 @@
-"""Waits for a condition, with an end: for tests and tools."""
+"""Waits for a condition with a time limit, for tests and tools."""
 
 from __future__ import annotations
 

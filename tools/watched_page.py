@@ -1,4 +1,4 @@
-"""The studio's page in Chromium without a graphics card, watched: pictures a second and the memory of its script."""
+"""Measures frame rates and script memory of the studio's page in Chromium without a graphics card."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import TracebackType
 from chromium import launch
 from playwright.sync_api import sync_playwright
 
-# Counts what is drawn where it is drawn, so that a frame in which the page had nothing new to show does not count.
+# Counts the draw calls, so that a frame without new content does not count.
 COUNT = """
 window.drawn = { frames: 0, plots: 0, view: 0 };
 const frame = () => { window.drawn.frames++; requestAnimationFrame(frame); };
@@ -29,7 +29,7 @@ WebGL2RenderingContext.prototype.clear = function (...of) { window.drawn.view++;
 
 
 class WatchedPage:
-    """A viewer at `url`. `rates` since it was last asked; `heap_mb` after the garbage has been collected."""
+    """A viewer at `url`. `rates` counts since its last call; `heap_mb` is measured after garbage collection."""
 
     def __init__(self, url: str, width: int = 1440, height: int = 900) -> None:
         self.errors: list[str] = []
@@ -49,7 +49,7 @@ class WatchedPage:
         return counts
 
     def rates(self) -> dict[str, float]:
-        """Frames of the browser, of the first plot and of the 3-D view, a second."""
+        """Frames per second of the browser, the first plot and the 3-D view."""
         now, drawn = time.monotonic(), self._drawn()
         rates = {name: (drawn[name] - self._before[name]) / (now - self._at) for name in drawn}
         self._before, self._at = drawn, now
@@ -63,7 +63,7 @@ class WatchedPage:
         self._page.screenshot(path=str(path))
 
     def pause(self, seconds: float) -> None:
-        """Waits, and lets the browser's messages in meanwhile."""
+        """Waits, and handles the browser's messages meanwhile."""
         self._page.wait_for_timeout(1e3 * seconds)
 
     def __enter__(self) -> WatchedPage:

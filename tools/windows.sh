@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Core, runtime and their tests, built for Windows with mingw-w64 and run under Wine, as far as that goes.
+# Builds core, runtime and their tests for Windows with mingw-w64, and runs them under Wine where possible.
 #   tools/windows.sh            builds and runs
-# Needs Debian's g++-mingw-w64-x86-64-posix, wine, wine64 and doctest-dev; installs them where it may. What came of it: docs/windows-and-macos.md.
+# Needs Debian's g++-mingw-w64-x86-64-posix, wine, wine64 and doctest-dev; installs them as root. Results:
+# docs/windows-and-macos.md.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
@@ -14,7 +15,7 @@ command -v x86_64-w64-mingw32-g++-posix >/dev/null || need="$need g++-mingw-w64-
 wine=$(command -v wine64 || command -v wine || true)
 [ -n "$wine" ] || [ -x /usr/lib/wine/wine64 ] || need="$need wine wine64"
 [ -e /usr/include/doctest/doctest.h ] || need="$need doctest-dev"
-[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first: it brings CMake and Ninja" >&2; exit 1; }
+[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first; it installs CMake and Ninja" >&2; exit 1; }
 if [ -n "$need" ]; then
   if [ "$(id -u)" = 0 ]; then
     apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq $need >/dev/null
@@ -26,12 +27,12 @@ fi
 wine=$(command -v wine64 || command -v wine || echo /usr/lib/wine/wine64)
 
 export PATH=$root/.venv/bin:$PATH
-# doctest lies among the system's own headers, which are not for Windows: take it alone.
+# Copy doctest alone, because its folder also has system headers that are not for Windows.
 mkdir -p build/windows/include && ln -sfn /usr/include/doctest build/windows/include/doctest
 cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" -DCMAKE_BUILD_TYPE=Release \
   -DPUNCTURA_TESTS=ON -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
 
-# A Wine of its own, which does not ask for Mono and Gecko. Fewer random cases: ./test takes them all, and the code is the same.
+# A separate Wine folder, without prompts for Mono and Gecko. Fewer random cases, because ./test runs all of them.
 export WINEPREFIX=$root/build/windows/wine WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml=" PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
 failed=0
 for tests in runtime core; do

@@ -1,4 +1,4 @@
-// The force acts back: a simulated device in a simulated hand that rests in tissue.
+// Closed loop: a simulated device in a simulated hand that rests in tissue.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace bench {
 
 struct Rest {
-  double tick, speed, creep;  ///< N and m/s, rms over 4 s; m, the tip's way between their begin and their end
+  double tick, speed, creep;  ///< N and m/s, rms over 4 s; m, displacement of the tip over these 4 s
 };
 
-/// In to 12 mm in a second, out by 1.5 mm, then rest.
+/// Moves in to 12 mm in one second, out by 1.5 mm, then rests.
 inline Rest at_rest(const Method& method, const punctura::DeviceDynamics& device, const punctura::Hand& hand,
                     punctura::Solver solver) {
   const Filter filter = method.make();
@@ -38,10 +38,10 @@ inline Rest at_rest(const Method& method, const punctura::DeviceDynamics& device
   return {std::sqrt(tick), std::sqrt(speed), (plant.tip() - begin).norm()};
 }
 
-/// The Omni of the data sheet in a hand that trembles by 0.03 mm, which its dry friction holds.
+/// The Omni of the data sheet in a hand with a tremor of 0.03 mm, which the dry friction of the device suppresses.
 inline Rest omni(const Method& method, punctura::Solver solver) { return at_rest(method, {}, {}, solver); }
 
-/// The same count without any friction, in a light grip without tremor: nothing but the hand's damper calms it.
+/// The same encoder without friction, in a light grip without tremor: only the hand has damping.
 inline Rest frictionless(const Method& method, punctura::Solver solver) {
   punctura::DeviceDynamics device;
   punctura::Hand hand;
@@ -51,15 +51,15 @@ inline Rest frictionless(const Method& method, punctura::Solver solver) {
   return at_rest(method, device, hand, solver);
 }
 
-/// Without friction, in a hand that trembles.
+/// Without friction, in a hand with tremor.
 inline Rest trembling(const Method& method, punctura::Solver solver) {
   punctura::DeviceDynamics device;
   device.friction = 0;
   return at_rest(method, device, {}, solver);
 }
 
-/// The largest stiffness of the coupling, N/m, at which a needle that sticks still calms the bare device: the Omni's 45 g without
-/// friction and without a hand, with an ideal sensor, displaced by less than a count.
+/// The largest coupling stiffness, N/m, at which a sticking needle still stabilizes the bare device: the Omni's 45 g
+/// without friction and without a hand, with an ideal sensor, displaced by less than a count.
 inline double largest_stiffness(const Method& method) {
   const auto calms = [&](double stiffness) {
     const Filter filter = method.make();

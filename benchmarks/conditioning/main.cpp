@@ -1,4 +1,5 @@
-// Measures every method of position conditioning. Prints one JSON object; see ../conditioning.py, which builds, calls and reads it.
+// Measures all methods of position conditioning. Prints one JSON object for ../conditioning.py, which builds and runs
+// it.
 #include <chrono>
 #include <cstdio>
 
@@ -12,7 +13,7 @@ namespace {
 using namespace bench;
 using punctura::Solver;
 
-/// Time of one position, three axes, in a trembling motion: the least of nine runs, ns.
+/// Time per position (three axes) in a motion with tremor: the minimum of nine runs, ns.
 double cost(const Method& method) {
   using Clock = std::chrono::steady_clock;
   constexpr int ticks = 16000;

@@ -1,4 +1,4 @@
-// The methods that are compared. Those that lost live here only; the one that won is the core's own LineFit.
+// The compared methods. The chosen one is the core's LineFit; the others exist only here.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace bench {
 
-/// The same scalar filter on every axis.
+/// Applies the same scalar filter to each axis.
 template <typename F>
 struct EachAxis {
   F axis[3];
@@ -19,13 +19,13 @@ struct EachAxis {
   Vector3d operator()(const Vector3d& x) { return {axis[0](x[0]), axis[1](x[1]), axis[2](x[2])}; }
 };
 
-/// Play: the output moves only when the input pushes it. `half` on either side.
+/// Play (hysteresis): the output moves only when the input pushes it. `half`: half of the width.
 struct Hysteresis {
   double half, y = NAN;
   double operator()(double x) { return y = std::isnan(y) ? x : std::clamp(y, x - half, x + half); }
 };
 
-/// The same with one ball instead of three intervals: play along the motion.
+/// Play with a ball instead of three intervals: hysteresis along the motion.
 struct Ball {
   double radius;
   Vector3d y = Vector3d::Constant(NAN);
@@ -49,7 +49,7 @@ struct AlphaBeta {
   }
 };
 
-/// A low-pass whose cutoff rises with the speed: 1 euro filter (Casiez, Roussel, Vogel 2012).
+/// The 1 euro filter, a low-pass whose cutoff rises with speed (Casiez, Roussel, Vogel 2012).
 struct OneEuro {
   double rest_hz, hz_per_speed, speed_hz, y = NAN, x_prev = 0, speed = 0;
   static double gain(double hz) { return 1 - std::exp(-2 * std::numbers::pi * hz * T); }
@@ -61,7 +61,7 @@ struct OneEuro {
   }
 };
 
-/// The last samples, newest first; before the first, there was always the first.
+/// The last samples, newest first. Missing earlier samples equal the first one.
 struct History {
   std::vector<double> samples;
   explicit History(std::size_t n) : samples(n, NAN) {}
@@ -74,8 +74,8 @@ struct History {
   std::size_t size() const { return samples.size(); }
 };
 
-/// First-order adaptive windowing, end fit (Janabi-Sharifi, Hayward, Chen 2000): the longest window whose end points' line
-/// passes within `tolerance` of all between. Gives the number of intervals.
+/// First-order adaptive windowing, end fit (Janabi-Sharifi, Hayward, Chen 2000): the longest window in which all
+/// samples are within `tolerance` of the line through its end points. Returns the number of intervals.
 inline std::size_t end_fit(const History& x, double tolerance) {
   std::size_t longest = 1;
   for (std::size_t n = 2; n < x.size(); ++n) {
@@ -87,7 +87,7 @@ inline std::size_t end_fit(const History& x, double tolerance) {
   return longest;
 }
 
-/// Its velocity, summed up to a position, which is drawn to the samples by `pull` a tick.
+/// Integrates that velocity to a position and corrects it towards the samples by the share `pull` per tick.
 struct EndFitVelocity {
   History history;
   double tolerance, pull, y = NAN;
@@ -100,7 +100,7 @@ struct EndFitVelocity {
   }
 };
 
-/// Where the least-squares line over the last n samples ends, from the newest of them.
+/// End point of the least-squares line over the last n samples, relative to the newest sample.
 inline double line_end(const History& x, std::size_t n) {
   double sum = 0, moment = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -112,7 +112,7 @@ inline double line_end(const History& x, std::size_t n) {
   return sum / m - middle * slope;
 }
 
-/// The end of that line over the window of the end fit: their best fit, as a position.
+/// End point of the least-squares line over the window of the end fit ("best fit"), as a position.
 struct BestFitPosition {
   History history;
   double tolerance;
@@ -122,7 +122,7 @@ struct BestFitPosition {
   }
 };
 
-/// The end of a least-squares line over a window that never changes.
+/// End point of a least-squares line over a window of fixed length.
 struct FixedLine {
   History history;
   double operator()(double x) {
@@ -131,7 +131,7 @@ struct FixedLine {
   }
 };
 
-/// Still while the last samples stay within one count, else tracking with their least-squares velocity.
+/// Holds while the last samples stay within one count; otherwise tracks with their least-squares velocity.
 struct HoldAndTrack {
   History history;
   double half, pull, y = NAN;
@@ -144,7 +144,7 @@ struct HoldAndTrack {
       moment += ((n - 1) / 2 - static_cast<double>(i)) * (history[i] - x);
     const double slope = moment * 12 / (n * (n * n - 1));
     const bool moves =
-        std::abs(slope) > 1.501 * count * n / (n * n - 1);  // more than any signal within one count gives
+        std::abs(slope) > 1.501 * count * n / (n * n - 1);  // more than any signal within one count can give
     if (moves) y += slope;
     const double residual = moves ? x - y : x - y - std::clamp(x - y, -half, half);
     y += pull * residual;
@@ -152,7 +152,7 @@ struct HoldAndTrack {
   }
 };
 
-/// Any filter with step(), whose state the copies of a Filter share.
+/// Wraps any filter with step(). Copies of the Filter share its state.
 template <typename F, typename... Arguments>
 Filter stateful(Arguments... arguments) {
   return [filter = std::make_shared<F>(arguments...)](const Vector3d& x) -> Vector3d { return filter->step(x); };
@@ -160,7 +160,7 @@ Filter stateful(Arguments... arguments) {
 
 inline Filter low_pass(double hz) { return stateful<punctura::LowPass<double, Vector3d>>(hz, T); }
 
-/// The core's own.
+/// The conditioning of the core.
 inline Filter core(punctura::Conditioning conditioning) {
   return stateful<punctura::PositionConditioner<double>>(conditioning, 300.0, count, T);
 }

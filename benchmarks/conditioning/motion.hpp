@@ -1,4 +1,4 @@
-// What conditioning does to motions: delay, the pop, slow strokes across the counts, reversals, sudden stops.
+// Effects of conditioning on motions: delay, the pop, slow strokes across counts, reversals, sudden stops.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace bench {
 
 inline double conditioned(const Filter& filter, double y) { return filter({0, y, 0})[1]; }
 
-/// Mean time by which the conditioned position is behind the true one at a steady speed, s, over 16 phases of the grid.
+/// Mean delay of the conditioned position at constant speed, s, over 16 phases of the encoder grid.
 inline double delay(const Method& method, double speed) {
   const int ticks = static_cast<int>(std::min(20e-3 / speed, 4.0) / T);
   double sum = 0;
@@ -29,12 +29,11 @@ inline double delay(const Method& method, double speed) {
 }
 
 struct Pop {
-  double
-      size;  ///< N: the greatest force of an insertion less the mean on the plateau, 2 to 4 mm behind the last of the tip
-  double tick;  ///< N: the largest fall within 5 ms behind the tip's widening
+  double size;  ///< N: largest force of an insertion minus the mean on the plateau, 2 to 4 mm behind the end of the tip
+  double tick;  ///< N: largest decrease within 5 ms behind the end of the slanted face
 };
 
-/// One insertion at a steady speed.
+/// One insertion at constant speed.
 inline Pop pop(const Filter& filter, double speed, double thickness, punctura::Solver solver, bool ideal,
                double phase) {
   auto model = bare_model(thickness, solver);
@@ -52,7 +51,8 @@ inline Pop pop(const Filter& filter, double speed, double thickness, punctura::S
   return {greatest - plateau / n, fall};
 }
 
-/// The worst relative errors over 5, 10 and 20 mm/s and 16 phases of the grid, against an ideal sensor behind K06's filter.
+/// The largest relative errors over 5, 10 and 20 mm/s and 16 grid phases, compared with an ideal sensor and K06's
+/// filter.
 inline Pop pop_error(const Method& method, double thickness, punctura::Solver solver) {
   Pop worst{0, 0};
   const auto keep = [](double& most, double error) {
@@ -70,10 +70,10 @@ inline Pop pop_error(const Method& method, double thickness, punctura::Solver so
 }
 
 struct Ripple {
-  double tick, worst;  ///< N: rms of f(k) - f(k-1); largest difference to an ideal sensor behind K06's filter
+  double tick, worst;  ///< N: rms of f(k) - f(k-1); largest difference from an ideal sensor with K06's filter
 };
 
-/// Force between a slow steady motion and a proxy that sticks.
+/// Force between a slow constant motion and a sticking proxy.
 inline Ripple ripple(const Method& method, double speed) {
   const Filter filter = method.make(), ideal = low_pass(300);
   double y = 0, z = 0, f = 0, sum = 0, worst = 0;
@@ -90,7 +90,7 @@ inline Ripple ripple(const Method& method, double speed) {
   return {std::sqrt(sum), worst};
 }
 
-/// Width of the loop between the way in and the way out of a slow triangle of 1 mm/s, in counts. Turns (30 ms) are left out.
+/// Width of the hysteresis loop of a slow triangular motion of 1 mm/s, in counts. The turns (30 ms) are left out.
 inline double loop_width(const Method& method) {
   const Filter filter = method.make();
   double width = 0;
@@ -106,7 +106,7 @@ inline double loop_width(const Method& method) {
   return width / n / count;
 }
 
-/// Largest distance, in counts, from where K06's filter on an ideal sensor is: a stroke of the hand, 2 Hz and 2 mm.
+/// Largest distance from K06's filter on an ideal sensor, in counts, for a stroke of the hand of 2 Hz and 2 mm.
 inline double stroke_error(const Method& method) {
   const Filter filter = method.make(), ideal = low_pass(300);
   double worst = 0;
@@ -118,7 +118,7 @@ inline double stroke_error(const Method& method) {
   return worst / count;
 }
 
-/// By how many counts the conditioned position runs past a motion that stops dead.
+/// Overshoot of the conditioned position when a motion stops suddenly, in counts.
 inline double overshoot(const Method& method, double speed) {
   const Filter filter = method.make();
   double worst = 0, x = 0;

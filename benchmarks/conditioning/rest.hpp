@@ -1,4 +1,4 @@
-// The force on a device that rests in a membrane, the needle sticking, while its encoders dither.
+// The force on a device at rest in a membrane with a sticking needle, while its encoders dither.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace bench {
 
-enum class Dither { toggle, two, three };  ///< n, n+1 in turn; n or n+1 at random; n-1, n or n+1 at random
+enum class Dither { toggle, two, three };  ///< alternately n, n+1; randomly n or n+1; randomly n-1, n or n+1
 enum class Axes { along, across, all };
 
 inline double dither(Dither kind, int k, punctura::Noise& noise) {
@@ -18,10 +18,10 @@ inline double dither(Dither kind, int k, punctura::Noise& noise) {
 }
 
 struct RestNoise {
-  double norm, along;  ///< rms of f(k) - f(k-1), N: of the vector, and of its part along the needle
+  double norm, along;  ///< rms of f(k) - f(k-1), N: of the vector, and of its component along the needle
 };
 
-/// In to 12 mm and out by `back`, all through the encoder, then 2 s of rest of which the last 1.5 s count.
+/// Moves in to 12 mm and out by `back`, all through the encoder, then rests 2 s. The last 1.5 s are evaluated.
 inline RestNoise rest_noise(const Method& method, Dither kind, Axes axes, punctura::Solver solver, double back = 1e-3) {
   const Filter filter = method.make();
   auto model = bare_model(1e-3, solver);
@@ -51,7 +51,7 @@ inline RestNoise rest_noise(const Method& method, Dither kind, Axes axes, punctu
   return {std::sqrt(norm), std::sqrt(along)};
 }
 
-/// How much of the force is lost to 2 s of dither where the needle came to rest on the edge of the band, N.
+/// Force lost during 2 s of dither if the needle came to rest on an edge of the band, N.
 inline double creep(const Method& method, Dither kind) {
   const Filter filter = method.make();
   auto model = bare_model(1e-3, punctura::Solver::exact);

@@ -1,8 +1,10 @@
-// How late the servo loop wakes: its own pacer and real-time settings, a whole servo tick after each wake-up.
+// Measures the wake-up latency of the servo loop: its pacer and real-time settings, with a whole servo tick per
+// wake-up.
 //
 //   bench_wakeups --seconds S --rate HZ --priority P --processor N --dump FILE
 //
-// FILE: the latency of each wake-up, ns as 64-bit integers. Prints one JSON object; see wakeups.py, which calls and reads it.
+// FILE: the latency of each wake-up, ns, as 64-bit integers. Prints one JSON object for wakeups.py, which runs this
+// program.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +20,7 @@ namespace {
 
 using namespace punctura;
 
-/// A device without hardware that notes when it was woken, and moves a needle steadily to and fro through the tissue.
+/// A device without hardware. It records its wake-up times and moves a needle back and forth through the tissue.
 class Metronome : public Device {
  public:
   Metronome(double rate, double seconds, const os::RealtimeSettings& settings)
@@ -49,7 +51,7 @@ class Metronome : public Device {
       const std::int64_t asleep = os::now_ns();
       missed_ += pacer.wait();
       const std::int64_t woken = os::now_ns();
-      // A tick that was due already was not waited for: no wake-up, for cyclictest neither.
+      // A tick that was already due did not wait, so it is not a wake-up. cyclictest counts in the same way.
       if (pacer.due() > asleep) *latency++ = woken - pacer.due();
       const double time = static_cast<double>(woken) * 1e-9;
       tick({k, time, {0, 5e-3 * std::cos(time), 0}, {0, -1, 0}, 0, true});
@@ -82,7 +84,7 @@ int main(int argc, char** argv) {
   ServoLoop loop(device, {"one wall", {1.08e-3, 0.28}, {400, 1}, {wall}});
   loop.arm();
   loop.start();
-  device->stop();  // which waits for the last tick
+  device->stop();  // waits for the last tick
   loop.stop();
 
   const auto& latencies = device->latencies();

@@ -1,4 +1,4 @@
-// One membrane on one axis: depth in, force out. K06 section 4's wall of 0.1 mm, at a steady 5 mm/s.
+// One membrane in one dimension: depth in, force out. The 0.1 mm membrane of K06 section 4 at a constant 5 mm/s.
 #include <cstdio>
 
 #include "punctura/punctura.hpp"
@@ -13,7 +13,7 @@ int main() {
   punctura::Proxy1d proxy(punctura::ThickLaw(needle, wall), coupling, period);
   for (int k = 0; k <= 3200; ++k) {
     const double depth = -1e-3 + 5e-3 * k * period;  // m
-    const double force = proxy.step(depth);          // N, positive pushes the needle out
+    const double force = proxy.step(depth);          // N; negative resists insertion
     if (k % 160 == 0) std::printf("depth %6.2f mm   force %7.4f N\n", depth * 1e3, force);
   }
 }

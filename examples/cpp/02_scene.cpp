@@ -1,4 +1,4 @@
-// A needle in space, 40 degrees off the normal, through two membranes three millimetres apart.
+// A needle in space, at 40 degrees to the normal, through two membranes 3 mm apart.
 #include <cmath>
 #include <cstdio>
 
@@ -10,7 +10,7 @@ int main() {
   scene.membranes.push_back({"first", {570, 0.41, 0.2, 1.0e-3}, {0, 0, 0}, {0, -1, 0}});
   scene.membranes.push_back({"second", {570, 0.41, 0.2, 0.5e-3}, {0, -4e-3, 0}, {0, -1, 0}});
 
-  Insertion insertion = build_insertion(scene);  // throws SceneError with every problem of the scene
+  Insertion insertion = build_insertion(scene);  // throws SceneError with all problems of the scene
   const double beta = 40 * 3.14159265358979 / 180;
   const Vector3d axis(std::sin(beta), -std::cos(beta), 0);
   for (int k = 0; k <= 4000; ++k) {

@@ -1,9 +1,9 @@
-// A friction law of your own: anything that gives the pieces of which its band is made.
+// A custom friction law: any class that provides the pieces of its band.
 #include <cstdio>
 
 #include "punctura/punctura.hpp"
 
-/// A gel that grips the shaft in proportion to the length inside it: friction(q) = slope q, both ways, up to a bottom.
+/// A gel whose friction grows with the inserted length, up to its bottom: friction(q) = slope q, in both directions.
 class GelLaw {
  public:
   using Scalar = double;

@@ -1,7 +1,7 @@
-// A device of your own in under 80 lines: implement Device, and call the tick whenever there is a reading.
+// A custom device in less than 80 lines: implement Device, and call the tick for each reading.
 //
-// This one is made up, a pendulum whose bob carries the needle and swings into the tissue. Where read() and write() stand,
-// a driver's own calls would; all else is what any device that is paced by this program needs.
+// This device is an imaginary pendulum. Its bob carries the needle and swings into the tissue. Replace read() and
+// write() by the calls of your driver. Any device that this program clocks needs the rest unchanged.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -18,18 +18,18 @@ class Pendulum : public Device {
 
   const DeviceInfo& info() const noexcept override { return info_; }
   void start(Tick tick) override {
-    if (thread_.joinable()) throw DeviceError("the pendulum ticks already");
+    if (thread_.joinable()) throw DeviceError("the pendulum is already running");
     stop_ = false;
     thread_ = std::thread([this, tick] { run(tick); });
   }
-  void stop() noexcept override {  // when it returns, the force is zero and no tick comes any more
+  void stop() noexcept override {  // on return the force is zero and the ticks have ended
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
 
  private:
   void run(Tick tick) noexcept {
-    // Without real-time priority any other program may hold up a tick by 20 ms, which is a fault.
+    // Without real-time priority another program can delay a tick by 20 ms, which is a fault.
     for (const os::RealtimeItem& item : os::make_realtime(os::RealtimeSettings{}.at_rate(info_.rate)))
       std::printf("%s: %s %s\n", item.what.c_str(), item.granted ? "granted" : "not granted,", item.detail.c_str());
     const std::int64_t begin = os::now_ns();
@@ -43,14 +43,14 @@ class Pendulum : public Device {
 
   /// In Punctura's axes, m: x right, y up, z towards the user.
   std::array<double, 3> read() const noexcept { return {0, height_, 0}; }
-  /// Takes the force, N, and swings on for a period.
+  /// Applies the force, N, and simulates one period.
   void write(const Tick::Force& force) noexcept {
     speed_ += (force[1] / mass - stiffness / mass * height_) / info_.rate;
     height_ += speed_ / info_.rate;
   }
 
   static constexpr double mass = 0.2, stiffness = 2;  // kg; N/m: a period of two seconds
-  // max_force, N: the loop's limits come down to it. rate, Hz: at which ticks will come.
+  // max_force, N: the loop reduces its limits to it. rate, Hz: ticks per second.
   const DeviceInfo info_{
       .backend = "pendulum", .model = "made up", .serial = "", .has_orientation = true, .max_force = 3, .rate = 1000};
   double height_ = 0.05, speed_ = 0;  // m above its lowest point, m/s

@@ -1,4 +1,4 @@
-"""One membrane on one axis: depth in, force out. K06 section 4's wall of 0.1 mm, at a steady 5 mm/s."""
+"""One membrane in one dimension: depth in, force out. The 0.1 mm membrane of K06 section 4 at a constant 5 mm/s."""
 
 import numpy as np
 import punctura as pn

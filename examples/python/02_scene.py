@@ -1,4 +1,4 @@
-"""A needle in space, 40 degrees off the normal, through two membranes three millimetres apart."""
+"""A needle in space, at 40 degrees to the normal, through two membranes 3 mm apart."""
 
 import numpy as np
 import punctura as pn

@@ -1,7 +1,7 @@
-"""A device of your own in under 80 lines: feed what it reports, and give it the force that comes back.
+"""A custom device in less than 80 lines: feed its readings, and apply the returned force.
 
-This one is made up, a pendulum whose bob carries the needle and swings into the tissue. Where read() and write()
-stand, a driver's own calls would. The tick itself is compiled and never waits for Python; when it comes is up to us.
+This device is an imaginary pendulum. Its bob carries the needle and swings into the tissue. Replace read() and write()
+by the calls of your driver. The tick is compiled and never waits for Python, but this program decides when it runs.
 """
 
 import threading
@@ -9,11 +9,11 @@ import threading
 import punctura as pn
 from punctura.live import DeviceInfo, FedDevice, Pacer, make_realtime, run_live
 
-RATE = 1000.0  # Hz, at which readings will be fed
+RATE = 1000.0  # readings per second, Hz
 
 
 class Pendulum:
-    """Stands for the hardware. Punctura's axes: x right, y up, z towards the user; m, N."""
+    """Simulates the hardware. Punctura's axes: x right, y up, z towards the user; m, N."""
 
     mass, stiffness = 0.2, 2.0  # kg; N/m: a period of two seconds
     height, speed = 0.05, 0.0  # m above its lowest point, m/s
@@ -22,13 +22,13 @@ class Pendulum:
         return 0.0, self.height, 0.0
 
     def write(self, force: tuple[float, float, float]) -> None:
-        """Takes the force, and swings on for a period."""
+        """Applies the force and simulates one period."""
         self.speed += (force[1] - self.stiffness * self.height) / self.mass / RATE
         self.height += self.speed / RATE
 
 
 class Driver(threading.Thread):
-    """The device's own clock: a reading in, the force out, and zero force at the end, whatever ended it."""
+    """The device's clock: feeds a reading, applies the force. Always sets zero force at the end."""
 
     def __init__(self, hardware: Pendulum, device: FedDevice) -> None:
         super().__init__(daemon=True)
@@ -36,7 +36,7 @@ class Driver(threading.Thread):
         self.over = threading.Event()
 
     def run(self) -> None:
-        self.device.make_realtime()  # of this thread: without it other programs may delay a tick by 20 ms, a fault
+        self.device.make_realtime()  # without this, other programs can delay a tick by 20 ms, a fault
         pacer = Pacer(RATE)
         try:
             while not self.over.is_set():
@@ -51,7 +51,7 @@ device = FedDevice(RATE, info=DeviceInfo(model="Pendulum, made up", has_orientat
 wall = pn.PlacedMembrane("wall", pn.Membrane(570, 0.41, 0.2, 1e-3), [0, 0.02, 0], [0, -1, 0])
 scene = pn.Scene("one wall", pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1), [wall])
 
-make_realtime(priority=10)  # of this thread, too: the driver waits while another thread holds Python's lock
+make_realtime(priority=10)  # this thread too, because the driver waits while another thread holds the GIL
 driver = Driver(hardware, device)
 driver.start()
 try:

@@ -1,4 +1,4 @@
-// Reads the arguments of a call by name, and says what does not fit.
+// Reads the arguments of a call by name and reports wrong ones.
 #include "arguments.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ struct Usual {
   std::string_view field;
   double low, high;
   const char* unit;        ///< SI
-  const char* other_unit;  ///< `factor` SI units are one of these
+  const char* other_unit;  ///< one of these is `factor` SI units
   double factor;
 };
 constexpr Usual usual[] = {

@@ -1,4 +1,4 @@
-// Constructors that name the argument which does not fit. And numbers that are off by a factor of 1000.
+// Constructors whose errors name the wrong argument, and warnings for numbers that are off by a factor of 1000.
 #pragma once
 
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace punctura::bindings {
 
-/// "; did you mean friction?", or nothing where no word is near.
+/// "; did you mean friction?", or empty if no word is similar.
 std::string nearest(const std::string& word, const nb::list& words);
 
 struct Argument {
   const char* name;
-  const char* type;        ///< as a type checker writes it
-  nb::object otherwise{};  ///< its default; without one it is required
+  const char* type;        ///< in the notation of type hints
+  nb::object otherwise{};  ///< default value; an argument without one is required
 };
 
-/// What a call has given for the arguments that it takes, defaults filled in.
+/// The values of a call's arguments, defaults included.
 class Arguments {
  public:
-  /// Throws TypeError for an argument that is missing, unknown, given twice, or one too many; an unknown one with the word that was most
-  /// likely meant.
+  /// Throws TypeError for a missing, unknown, repeated or surplus argument, and suggests a similar name for an
+  /// unknown one.
   Arguments(const std::string& call, const std::vector<Argument>& wanted, const nb::args& args,
             const nb::kwargs& kwargs);
 
-  /// Throws TypeError that names the argument and its type, where it does not fit.
+  /// Throws TypeError that names the argument and its type if the value has another type.
   template <typename T>
   T get(std::size_t i) const {
     try {
@@ -45,7 +45,7 @@ class Arguments {
   std::vector<nb::object> values_;
 };
 
-/// The constructor of T: `make` gets the arguments in the order of `wanted`.
+/// Defines the constructor of T. `make` gets the arguments in the order of `wanted`.
 template <typename T, typename... A>
 void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...), const char* doc) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
@@ -64,8 +64,8 @@ void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...),
       nb::sig(signature.c_str()), doc);
 }
 
-/// Warns (UserWarning) where a number in SI units lies outside the range in which one finds that field in practice, and the same number in
-/// mm, N/mm or mN would lie inside: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
+/// Emits a UserWarning if a number lies outside the usual range of its field in SI units, but inside it in mm, N/mm or
+/// mN: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
 void warn_unusual(const std::string& path, double value);
 
 }  // namespace punctura::bindings

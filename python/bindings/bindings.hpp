@@ -1,4 +1,4 @@
-// What the binding files share: one registering function a core folder, and how arrays come and go.
+// Shared by the binding files: one registering function for each core folder, and the conversion of arrays.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -39,22 +39,22 @@ void bind_given_devices(nb::module_&);
 void bind_devices(nb::module_&);
 void bind_replay(nb::module_&);
 
-/// A read-only view of numbers in memory: somebody's own array, without a copy, where it is float64 and contiguous.
+/// A read-only view of an array. No copy is made if the array is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-/// The view of anything NumPy takes for an array: a list, another type, a slice. Throws what NumPy throws.
+/// Converts anything that NumPy accepts as an array (a list, another type, a slice). Throws NumPy's exceptions.
 Input input(const nb::object& array_like);
-/// The same, (n,) or (n, 3) only. Throws ValueError that names the argument.
+/// The same for shape (n,), or (n, 3) for points. Throws ValueError that names the argument.
 Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);
 using Triple = std::array<double, 3>;
 
-/// Three numbers of one call. A NumPy vector is read at once, not element by element.
+/// A vector argument of a call. A NumPy vector is read as a buffer, not element by element.
 struct Point {
   Triple numbers;
   Vector3d vector() const noexcept { return Vector3d(numbers); }
 };
 
-/// Hands a buffer to NumPy without a copy, in the shape given.
+/// Passes a buffer to NumPy without a copy, in the given shape.
 template <typename T>
 nb::object to_numpy(std::vector<T>&& buffer, const std::vector<std::size_t>& shape) {
   auto owned = std::make_unique<std::vector<T>>(std::move(buffer));
@@ -63,13 +63,13 @@ nb::object to_numpy(std::vector<T>&& buffer, const std::vector<std::size_t>& sha
   return nb::cast(nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner));
 }
 
-/// Row i of an (n, 3) array, or of a (3,) array that stands for all rows.
+/// The rows of an (n, 3) array, or a (3,) array repeated for all n rows.
 class Rows {
  public:
-  /// Throws ValueError where the shape is neither (n, 3) nor (3,).
+  /// Throws ValueError if the shape is neither (n, 3) nor (3,).
   Rows(Input array, std::size_t n, const char* name);
   Vector3d operator[](std::size_t i) const noexcept { return Vector3d(data_ + stride_ * i); }
-  /// Throws ValueError where a row is not finite or has no length.
+  /// Throws ValueError if a row is not finite or has length 0.
   void check(const char* name) const;
 
  private:
@@ -78,7 +78,7 @@ class Rows {
   std::size_t stride_;
 };
 
-/// Laws that know what they were made of.
+/// Laws that keep the arguments of their constructor.
 struct GivenThinLaw : ThinLaw {
   Needle needle;
   Membrane membrane;
@@ -93,18 +93,18 @@ struct GivenTableLaw : TableLaw {
   std::vector<double> depth, lower, upper;
 };
 
-/// Every bound that a needle, a membrane or the pair of them breaks.
+/// All problems of a needle, a membrane, and their combination.
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
-/// Throws punctura.ConfigurationError that carries every problem, if there is one.
+/// Throws punctura.ConfigurationError with all problems, if there are any.
 void raise_if(const std::vector<Problem>& problems);
-/// The same for a word that is not one of those allowed.
+/// The same for a word that is not allowed.
 [[noreturn]] void raise_word(const std::string& path, const std::string& given, const char* reason);
 
-/// "exact" or "paper" to Solver and back. Throws ConfigurationError for another word.
+/// Converts "exact" or "paper" to Solver and back. Throws ConfigurationError for any other word.
 Solver solver_from(const std::string& name, const std::string& path = "solver");
 std::string name_of(Solver solver);
 
-/// A direction of any length but 0 as a unit vector. Throws ConfigurationError.
+/// Normalizes a direction of any length but 0. Throws ConfigurationError.
 Vector3d unit(const Triple& direction, const std::string& path);
 
 }  // namespace punctura::bindings
@@ -115,7 +115,7 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
                  const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating | numpy.integer]"))
 
   bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
-    // Of other types, as a masked array, only the elements say what they are.
+    // Only a plain ndarray: the buffer of a subclass, such as a masked array, may not hold its element values.
     if (std::strcmp(Py_TYPE(from.ptr())->tp_name, "numpy.ndarray") == 0 && read_buffer(from.ptr())) return true;
     if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;
     make_caster<punctura::bindings::Triple> triple;
@@ -125,7 +125,7 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
   }
 
  private:
-  /// Of three doubles in a row.
+  /// Reads a buffer of three doubles. False for any other buffer.
   bool read_buffer(PyObject* from) noexcept {
     Py_buffer view;
     if (PyObject_GetBuffer(from, &view, PyBUF_FORMAT | PyBUF_STRIDES) != 0) {

@@ -1,4 +1,4 @@
-// Conversions and errors that all binding files use.
+// Conversions and errors shared by all binding files.
 #include "bindings.hpp"
 
 #include "ticks.hpp"

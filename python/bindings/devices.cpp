@@ -1,4 +1,4 @@
-// runtime/backends: which devices there are, and opening one.
+// runtime/backends: lists and opens devices.
 #include <nanobind/stl/shared_ptr.h>
 
 #include "bindings.hpp"
@@ -38,16 +38,18 @@ std::shared_ptr<Device> opened(const std::string& backend, double rate, const st
 
 void bind_devices(nb::module_& m) {
   m.def("enumerate_devices", &enumerated, nb::sig("def enumerate_devices() -> list[dict[str, typing.Any]]"),
-        "Of each back-end a dict: backend, state (available, library_not_found, symbol_missing, no_device, in_use,\n"
-        "needs_calibration, fault), detail (in words: where it looked, what to do), devices. Gives no force.");
+        "Lists the devices of all back-ends. Sends no force.\n\n"
+        "Each back-end is a dict: backend, state (available, library_not_found, symbol_missing, no_device, in_use,\n"
+        "needs_calibration, fault), detail (text: where it searched, what to do), devices.");
   const OpenOptions options;
-  m.def(
-      "open_device", &opened, nb::arg("backend"), nb::arg("rate") = options.rate, nb::arg("device") = options.device,
-      nb::arg("library") = options.library, nb::arg("priority") = options.realtime.priority,
-      nb::arg("processor") = options.realtime.processor,
-      "rate: Hz, wished for; the device's info says what came of it. device: which one, as its maker names it. library: path\n"
-      "of the maker's library. priority: of real-time scheduling, 0 asks for none. processor: the one to tick on, -1 is any\n"
-      "(both where the thread is not the maker's own). Raises DeviceError, which says what to do.");
+  m.def("open_device", &opened, nb::arg("backend"), nb::arg("rate") = options.rate, nb::arg("device") = options.device,
+        nb::arg("library") = options.library, nb::arg("priority") = options.realtime.priority,
+        nb::arg("processor") = options.realtime.processor,
+        "Opens a device.\n\n"
+        "rate: requested rate, Hz; the device's info has the actual rate. device: its name as the maker gives it.\n"
+        "library: path of the maker's library. priority: real-time scheduling priority, 0 for none. processor: CPU\n"
+        "number, -1 for any. priority and processor have no effect if the maker's library owns the thread. Raises\n"
+        "DeviceError, which says what to do.");
 }
 
 }  // namespace punctura::bindings

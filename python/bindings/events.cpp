@@ -1,4 +1,4 @@
-// core/punctura/events: what happens at the membranes, and the depths and curves of their laws.
+// core/punctura/events: events at the membranes, and the characteristic depths and curves of their laws.
 #include "punctura/events/event_finder.hpp"
 
 #include <limits>
@@ -15,10 +15,10 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A column of a batch, with a number of doubles in each row. A batch without that column has NaN in it.
+/// A column of a batch with `width` doubles per row. NaN if the batch does not have the column.
 class Column {
  public:
-  /// width: doubles in a row. Throws ValueError for another shape.
+  /// width: doubles per row. Throws ValueError for another shape.
   Column(const nb::object& columns, const char* name, std::size_t rows, std::size_t width) : width_(width) {
     if (!nb::cast<bool>(columns.attr("__contains__")(name))) return;
     array_ = input(columns[name]);
@@ -40,10 +40,10 @@ class Column {
   std::size_t width_;
 };
 
-/// A finder that takes a run batch by batch.
+/// Finds the events of a run, batch by batch.
 struct BatchFinder : EventFinder, OneThread {
   BatchFinder(const Scene& scene, double given) : EventFinder(scene), rate(given) {}
-  double rate;  // ticks a second, for runs that do not tell the time
+  double rate;  // ticks per second, for runs without a time column
   std::uint64_t ticks = 0;
 };
 
@@ -66,12 +66,12 @@ nb::dict as_dict(const Found& event) {
   return d;
 }
 
-/// 255, which is no phase, for a number that is none.
+/// The phase of a code; 255, which is not a phase, for an invalid code.
 Phase phase_of(double number) noexcept {
   return static_cast<Phase>(number >= 0 && number < 255 ? static_cast<std::uint8_t>(number) : std::uint8_t{255});
 }
 
-/// Finds the events of a batch without Python's lock.
+/// Finds the events of a batch without holding the GIL.
 nb::list add(BatchFinder& finder, const nb::object& columns) {
   const Input depth = input(columns["depth"]);
   if (depth.ndim() != 2) throw nb::value_error("columns[\"depth\"] must be (n, m)");
@@ -96,7 +96,7 @@ nb::list add(BatchFinder& finder, const nb::object& columns) {
                       .direction = direction.triple(i, j),
                       .phase = phase_of(phase(i, j))};
       const auto number = tick ? static_cast<std::uint64_t>(tick(i)) : finder.ticks;
-      // A batch that does not tell its commands takes a new scene with its first tick.
+      // Without a commands column, the first tick of the batch takes the new scene.
       const auto asked = commands ? static_cast<std::uint32_t>(commands(i)) : i == 0 ? command_scene : 0u;
       const double at = time ? time(i) : static_cast<double>(number) / finder.rate;
       for (const Event& event : finder.step(EventTick{number, at, axis.triple(i), asked, records}))
@@ -154,7 +154,7 @@ nb::object obliquities(const Scene& scene, const nb::object& axis, const nb::obj
 
 void bind_events(nb::module_& m) {
   m.def("crossing", &crossing_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("cos_beta"),
-        "The numbers of punctura.events.Crossing. Raises IndexError.");
+        "The values of punctura.events.Crossing: cosine, depths (m) and force (N). Raises IndexError.");
 
   nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.")
       .def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
@@ -165,22 +165,21 @@ void bind_events(nb::module_& m) {
             finder.change(scene);
           },
           nb::arg("scene"))
-      .def(
-          "add", &add, nb::arg("columns"),
-          nb::sig(
-              "def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[dict[str, typing.Any]]"),
-          "Each event as the arguments of punctura.events.Event.");
+      .def("add", &add, nb::arg("columns"),
+           nb::sig("def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[dict[str, "
+                   "typing.Any]]"),
+           "Finds the events of the next ticks. Each is a dict of the arguments of punctura.events.Event.");
 
-  m.def(
-      "law_curve", &law_curve_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("obliquity"),
-      nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> dict[str, typing.Any]"),
-      "Phi_I and Phi_O of one membrane along the depth, m and N, with both sides of each break; and where the needle comes out.");
-  m.def(
-      "obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
-      nb::sig("def obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
-              "= None) -> numpy.typing.NDArray[numpy.float64]"),
-      "Angle of the needle to each membrane's inward normal, rad, at most 85 degrees, (m,). axis (3,): of the stylus. entered "
-      "(m, 3): the direction of each membrane that the needle is in, NaN in the others.");
+  m.def("law_curve", &law_curve_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("obliquity"),
+        nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> dict[str, typing.Any]"),
+        "Phi_I and Phi_O (N) of one membrane over the depth (m), with points on both sides of each break, and the\n"
+        "depth at which the needle comes out. obliquity: beta, rad.");
+  m.def("obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
+        nb::sig("def obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
+                "= None) -> numpy.typing.NDArray[numpy.float64]"),
+        "Angle between the needle and each membrane's inward normal, (m,), rad, at most 85 degrees.\n\n"
+        "axis (3,): direction of the stylus. entered (m, 3): the needle's direction at entry for each membrane that\n"
+        "it is in, NaN for the others.");
   m.def("tip_length", &tip_length<double>, nb::arg("needle"), "Length of the slanted face along the needle, m: X.");
   m.attr("grazing_cosine") = grazing_cosine<double>;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
-/// One Python class for experiments with any motion.
+/// One Python class for all kinds of motion.
 class AnyExperiment {
  public:
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
@@ -68,7 +68,7 @@ class AnyExperiment {
 void bind_experiment(nb::module_& m) {
   nb::class_<AnyExperiment>(
       m, "Experiment",
-      "A simulated operator at a simulated device, through the step that drives a real one. K06 section 4")
+      "A simulated operator at a simulated device, run through the servo step that drives a real device. K06 section 4")
       .def(
           "__init__",
           [](AnyExperiment* self, const Scene& scene, const AnyMotion& motion, const DeviceDynamics& plant,
@@ -79,15 +79,14 @@ void bind_experiment(nb::module_& m) {
           },
           nb::arg("scene"), nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("seed") = 0, nb::arg("axis") = nb::none(),
-          nb::sig(
-              "def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., hand: Hand = ..., "
-              "seed: int = 0, axis: Sequence[float] | None = None) -> None"),
-          "axis: where the stylus points; the first membrane's inward normal if not given. Raises ConfigurationError.")
+          nb::sig("def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., "
+                  "hand: Hand = ..., seed: int = 0, axis: Sequence[float] | None = None) -> None"),
+          "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
       .def(
           "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),
           nb::sig("def run(self, duration: float) -> Ticks"),
-          "Goes on for a time (s), and gives its ticks, with desired and true_position.")
-      .def_prop_ro("duration", &AnyExperiment::duration, "How long the motion takes, s; 0 for a Target")
+          "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.")
+      .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")
       .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m.");
 }
 

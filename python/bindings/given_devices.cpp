@@ -1,4 +1,4 @@
-// runtime/backends: devices whose readings Python brings, all at once or one by one.
+// runtime/backends: devices whose readings come from Python, all at once or one by one.
 #include <nanobind/stl/shared_ptr.h>
 
 #include "bindings.hpp"
@@ -18,7 +18,7 @@ void check_rate(double rate) {
   raise_if(problems);
 }
 
-/// A column that may be left out. Throws ValueError that names it.
+/// An optional column. Throws ValueError that names it.
 template <typename T>
 std::vector<T> column(const nb::object& given, const char* type, std::size_t n, const char* name) {
   if (given.is_none()) return {};
@@ -76,7 +76,7 @@ nb::tuple feed(FedDevice& device, const Triple& position, const Triple& axis, st
                double motor_temperature) {
   Triple force;
   {
-    const WithoutLock release;  // no tick holds it: others may run Python meanwhile
+    const WithoutLock release;  // a tick needs no GIL; other threads can run Python meanwhile
     force = device.feed({position, axis, buttons, healthy, motor_temperature});
   }
   return as_tuple(force);
@@ -98,46 +98,46 @@ void make_pacer(Pacer<>* self, double rate) {
 void bind_given_devices(nb::module_& m) {
   nb::class_<ReplayDevice, Device>(
       m, "ReplayDevice",
-      "A recorded motion as a device: ticks every sample as it was, ignores the force, and ends by itself.")
-      .def(
-          "__init__", &make_replay, nb::arg("position"), nb::arg("axis"), nb::arg("rate"), nb::kw_only(),
-          nb::arg("time").none() = nb::none(), nb::arg("sequence").none() = nb::none(),
-          nb::arg("buttons").none() = nb::none(), nb::arg("healthy").none() = nb::none(),
-          nb::arg("motor_temperature").none() = nb::none(), nb::arg("recorded") = DeviceInfo{},
-          nb::arg("real_time") = true, nb::arg("priority") = os::RealtimeSettings{}.priority,
-          nb::arg("processor") = os::RealtimeSettings{}.processor,
-          nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, rate: float, *, "
-                  "time: numpy.typing.ArrayLike | None = None, sequence: numpy.typing.ArrayLike | None = None, "
-                  "buttons: numpy.typing.ArrayLike | None = None, healthy: numpy.typing.ArrayLike | None = None, "
-                  "motor_temperature: numpy.typing.ArrayLike | None = None, recorded: DeviceInfo = ..., "
-                  "real_time: bool = True, priority: int = 80, processor: int = -1) -> None"),
-          "position (n, 3): m. axis (n, 3) or (3,). rate: Hz, one sample a period. time (n,): s, k / rate if not given; the\n"
-          "input gate judges these times, not how punctual the replay is. recorded: the device the samples are from, whose\n"
-          "ratings limit the force. real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks\n"
-          "for none. Raises ConfigurationError for the rate, ValueError for a column's shape.")
-      .def("__len__", &ReplayDevice::size, "Samples.")
-      .def_prop_ro("finished", &ReplayDevice::finished, "The last sample has been.")
-      .def_prop_ro("behind", &ReplayDevice::behind, "Periods by which it has been held up so far.");
+      "A device that plays a recorded motion: one tick per sample. It ignores the force and ends after the last\n"
+      "sample.")
+      .def("__init__", &make_replay, nb::arg("position"), nb::arg("axis"), nb::arg("rate"), nb::kw_only(),
+           nb::arg("time").none() = nb::none(), nb::arg("sequence").none() = nb::none(),
+           nb::arg("buttons").none() = nb::none(), nb::arg("healthy").none() = nb::none(),
+           nb::arg("motor_temperature").none() = nb::none(), nb::arg("recorded") = DeviceInfo{},
+           nb::arg("real_time") = true, nb::arg("priority") = os::RealtimeSettings{}.priority,
+           nb::arg("processor") = os::RealtimeSettings{}.processor,
+           nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, rate: float, *, "
+                   "time: numpy.typing.ArrayLike | None = None, sequence: numpy.typing.ArrayLike | None = None, "
+                   "buttons: numpy.typing.ArrayLike | None = None, healthy: numpy.typing.ArrayLike | None = None, "
+                   "motor_temperature: numpy.typing.ArrayLike | None = None, recorded: DeviceInfo = ..., "
+                   "real_time: bool = True, priority: int = 80, processor: int = -1) -> None"),
+           "position (n, 3): m. axis (n, 3) or (3,). rate: samples per second, Hz. time (n,): s, default k / rate;\n"
+           "the input gate checks these times, not the timing of the replay. recorded: info of the recorded device,\n"
+           "whose ratings limit the force. real_time: False runs as fast as possible. priority: real-time scheduling\n"
+           "priority, 0 for none. processor: CPU number, -1 for any. Raises ConfigurationError for the rate,\n"
+           "ValueError for a column's shape.")
+      .def("__len__", &ReplayDevice::size, "Number of samples.")
+      .def_prop_ro("finished", &ReplayDevice::finished, "Whether the last sample was played.")
+      .def_prop_ro("behind", &ReplayDevice::behind, "Delay of the replay, in periods.");
 
   const FedDevice::Reading reading{};
   nb::class_<FedDevice, Device>(
       m, "FedDevice", nb::is_weak_referenceable(),
-      "A device that a loop in Python drives: each reading that is fed is a tick, its force the reply.")
-      .def(
-          "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
-          nb::arg("real_time") = true,
-          nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
-          "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten the\n"
-          "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not bound\n"
-          "to the clock. Raises ConfigurationError.")
-      .def(
-          "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
-          nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
-          nb::sig(
-              "def feed(self, position: collections.abc.Sequence[float], axis: collections.abc.Sequence[float] = ..., "
-              "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
-          "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
-          "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
+      "A device driven by a loop in Python: each call of feed() is one tick and returns its force.")
+      .def("__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
+           nb::arg("real_time") = true,
+           nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
+           "rate: readings per second, Hz; T is 1 / rate. info: description of the device; its force ratings tighten\n"
+           "the limits. real_time: False gives reading k the time k / rate, for simulations that do not run in real\n"
+           "time. Raises ConfigurationError.")
+      .def("feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
+           nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
+           nb::sig(
+               "def feed(self, position: collections.abc.Sequence[float], axis: collections.abc.Sequence[float] = ..., "
+               "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
+           "Feeds one reading and returns the force for the device, N; zero while no loop runs.\n\n"
+           "position: m. axis: direction of the needle, a unit vector. buttons: bits. healthy: False reports a\n"
+           "device fault. motor_temperature: 0 to 1.")
       .def(
           "make_realtime",
           [](FedDevice& device, int priority, int processor) {
@@ -146,26 +146,28 @@ void bind_given_devices(nb::module_& m) {
           },
           nb::arg("priority") = os::RealtimeSettings{}.priority,
           nb::arg("processor") = os::RealtimeSettings{}.processor,
-          "Call it on the thread that feeds, before it begins: asks the system to wake that thread on time. priority: of\n"
-          "real-time scheduling, 1 to 99; 0 asks for none. processor: the one to stay on, -1 is any. Returns what was granted,\n"
-          "what was not and why, a line each, which statements() repeats.")
-      .def_prop_ro("fed", &FedDevice::fed, "Readings since the loop's start.");
+          "Requests real-time scheduling for the calling thread. Call it on the feeding thread, before the first\n"
+          "feed().\n\n"
+          "priority: 1 to 99; 0 for none. processor: CPU number to stay on, -1 for any. Returns one line for each\n"
+          "request: granted, or not and why. statements() repeats these lines.")
+      .def_prop_ro("fed", &FedDevice::fed, "Number of readings since the loop's start.");
 
   m.def(
       "make_realtime", &make_realtime, nb::arg("priority") = os::RealtimeSettings{}.priority,
       nb::arg("processor") = os::RealtimeSettings{}.processor, nb::call_guard<nb::gil_scoped_release>(),
-      "Asks the system to wake the calling thread on time; FedDevice.make_realtime() is for the thread that feeds. Other\n"
-      "threads that wait most of the time may ask for less, say 10: whoever holds Python's lock then need not wait for a\n"
-      "processor, and the thread that feeds need not wait for him. Returns what was granted and what not, a line each.");
+      "Requests real-time scheduling for the calling thread. For the feeding thread use FedDevice.make_realtime().\n\n"
+      "Threads that mostly wait can use a low priority, such as 10. Then a thread that holds the GIL does not wait\n"
+      "for a CPU, and the feeding thread does not wait for the GIL. Returns one line for each request: granted, or\n"
+      "not and why.");
 
-  nb::class_<Pacer<>>(
-      m, "Pacer", "Wakes one thread at a rate: at start, start + T, start + 2 T, ..., on a clock that never goes back.")
+  nb::class_<Pacer<>>(m, "Pacer",
+                      "Wakes one thread periodically: at start, start + T, start + 2 T, ..., by a monotonic clock.")
       .def("__init__", &make_pacer, nb::arg("rate"),
            "rate: Hz. The first period begins now. Raises ConfigurationError.")
-      .def(
-          "wait", &Pacer<>::wait, nb::call_guard<WithoutLock>(),
-          "Sleeps until the next period begins. Returns how many were left out since they had passed: a late one does not move\n"
-          "the later ones, and none is made up for in a burst.");
+      .def("wait", &Pacer<>::wait, nb::call_guard<WithoutLock>(),
+           "Sleeps until the next period begins. Returns the number of skipped periods.\n\n"
+           "A period is skipped if it has already passed. A late wake-up does not shift later ones, and skipped\n"
+           "periods are not made up for.");
 }
 
 }  // namespace punctura::bindings

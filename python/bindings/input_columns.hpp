@@ -1,4 +1,4 @@
-// What recorded ticks were given, by the table of a tick's fields.
+// The inputs of recorded ticks, read by the table of tick fields.
 #pragma once
 
 #include <stdexcept>
@@ -26,7 +26,7 @@ class InputColumns {
   }
   std::size_t rows() const noexcept { return rows_; }
 
-  /// Sets the sample and the commands of a snapshot.
+  /// Copies the sample and the commands of a row into a snapshot.
   void read(std::size_t row, Snapshot& into) const {
     each([&](const auto& field, const auto& values) {
       auto& value = field.get(into);

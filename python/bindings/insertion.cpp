@@ -1,4 +1,4 @@
-// core/punctura/proxy/insertion: the whole model of a scene, from positions to forces.
+// core/punctura/insertion: the complete model of a scene, from position to force.
 #include "punctura/insertion/insertion.hpp"
 
 #include "bindings.hpp"
@@ -11,7 +11,7 @@
 namespace punctura::bindings {
 namespace {
 
-/// An insertion that knows its scene.
+/// An insertion that keeps its scene.
 struct SceneInsertion : Insertion, OneThread {
   explicit SceneInsertion(Scene given) : Insertion(build_insertion(given)), scene(std::move(given)) {}
   Scene scene;
@@ -56,8 +56,9 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
 void bind_insertion(nb::module_& m) {
   auto insertion = nb::class_<SceneInsertion>(
       m, "Insertion", nb::is_final(),
-      "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
-      "The model's own force: no safety limits.");
+      "A needle through all membranes of a scene: position conditioning and the sum of one proxy per membrane. K06\n"
+      "(41), Fig. 8\n\n"
+      "Gives the model's force without safety limits.");
   def_state(insertion);
   insertion
       .def(
@@ -74,7 +75,7 @@ void bind_insertion(nb::module_& m) {
             self.must_rest();
             self.reset();
           },
-          "Forgets all motion.")
+          "Resets to the state before the first tick.")
       .def(
           "step",
           [](SceneInsertion& self, const Point& p, const Point& axis) {
@@ -82,7 +83,8 @@ void bind_insertion(nb::module_& m) {
             return step(self, p, axis);
           },
           nb::arg("p"), nb::arg("axis"),
-          "One tick: measured position (m) and direction of the needle give the force on the device (N).")
+          "Makes one tick. Returns the force on the device, N.\n\n"
+          "p: measured position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
       .def(
           "peek",
           [](const SceneInsertion& self, const Point& p, const Point& axis) {
@@ -90,13 +92,14 @@ void bind_insertion(nb::module_& m) {
             Insertion copy = self;
             return step(copy, p, axis);
           },
-          nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
+          nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
-           "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.")
+           "Makes n ticks from the present state on.\n\n"
+           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.")
       .def_prop_ro(
           "tip", [](const SceneInsertion& i) { return plain(i.tip()); }, "The conditioned position, m")
-      .def_prop_ro("force", [](const SceneInsertion& i) { return plain(i.force()); }, "N");
+      .def_prop_ro("force", [](const SceneInsertion& i) { return plain(i.force()); }, "The force of the last tick, N");
 }
 
 }  // namespace punctura::bindings

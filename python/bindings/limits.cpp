@@ -1,4 +1,4 @@
-// core/punctura/safety and device: what limits a force, why there is none, and what a device says of itself.
+// core/punctura/safety and device: force limits, faults, and the description of a device.
 #include "bindings.hpp"
 #include "punctura/device/device.hpp"
 #include "punctura/scene/check.hpp"
@@ -8,7 +8,7 @@
 namespace punctura::bindings {
 
 void bind_limits(nb::module_& m) {
-  nb::enum_<Fault>(m, "Fault", nb::is_arithmetic(), "Why a tick gave no force.")
+  nb::enum_<Fault>(m, "Fault", nb::is_arithmetic(), "The reason why a tick gave no force.")
       .value("none", Fault::none)
       .value("non_finite_input", Fault::non_finite_input)
       .value("bad_axis", Fault::bad_axis)
@@ -18,25 +18,24 @@ void bind_limits(nb::module_& m) {
       .value("clock", Fault::clock)
       .value("non_finite_force", Fault::non_finite_force)
       .value("device", Fault::device);
-  m.def("describe", &describe, nb::arg("fault"), "What a fault means, and what to do.");
+  m.def("describe", &describe, nb::arg("fault"), "The meaning of a fault, and the remedy.");
 
-  nb::enum_<ServoState>(m, "ServoState", nb::is_arithmetic(), "Whether the device is given force.")
+  nb::enum_<ServoState>(m, "ServoState", nb::is_arithmetic(), "Whether the device gets force.")
       .value("disarmed", ServoState::disarmed, "The model runs, the device gets no force.")
-      .value("waiting", ServoState::waiting, "Armed, but the tip is inside tissue, or the dead-man button is not held.")
-      .value("active", ServoState::active, "Forces go out, ramped in at first.")
-      .value("faulted", ServoState::faulted, "A fault is latched, the force is zero.");
+      .value("waiting", ServoState::waiting, "Armed, but the tip is in tissue or no dead-man button is held. No force.")
+      .value("active", ServoState::active, "The device gets force, ramped up after arming.")
+      .value("faulted", ServoState::faulted, "A fault is latched. The force is zero.");
 
-  nb::enum_<Limit>(m, "Limit", nb::is_arithmetic(),
-                   "The limit that makes the force of a tick smaller than the model's.")
-      .value("none", Limit::none, "The whole force goes out.")
-      .value("ramp", Limit::ramp, "The force still grows after arming.")
+  nb::enum_<Limit>(m, "Limit", nb::is_arithmetic(), "The limit that reduced the force of a tick.")
+      .value("none", Limit::none, "The model's full force is sent.")
+      .value("ramp", Limit::ramp, "The force is still ramping up after arming.")
       .value("peak", Limit::peak, "max_force.")
-      .value("continuous", Limit::continuous, "continuous_force: the budget is used up.")
+      .value("continuous", Limit::continuous, "The budget of continuous_force is used up.")
       .value("temperature", Limit::temperature, "The device reports warm motors.");
 
   const GateLimits gate;
   auto gate_class =
-      nb::class_<GateLimits>(m, "GateLimits", "What a sample must fulfil before the model sees it.")
+      nb::class_<GateLimits>(m, "GateLimits", "Limits that a device reading must meet before the model uses it.")
           .def(
               "__init__",
               [](GateLimits* self, double speed, double stale, double deadline, double axis, std::uint32_t dead_man) {
@@ -46,8 +45,9 @@ void bind_limits(nb::module_& m) {
               },
               nb::arg("max_speed") = gate.max_speed, nb::arg("stale") = gate.stale, nb::arg("deadline") = gate.deadline,
               nb::arg("axis_tolerance") = gate.axis_tolerance, nb::arg("dead_man") = gate.dead_man,
-              "max_speed: m/s from one reading to the next. stale: s without a new reading. deadline: s between ticks.\n"
-              "axis_tolerance: of the axis' length from 1. dead_man: buttons (bits) of which one must be held; 0 is none.")
+              "max_speed: m/s between two readings. stale: longest time without a new reading, s. deadline: longest\n"
+              "time between ticks, s. axis_tolerance: deviation of the axis' length from 1. dead_man: buttons\n"
+              "(bits), one of which must be held; 0 for none. Raises ConfigurationError.")
           .def_ro("max_speed", &GateLimits::max_speed, "m/s")
           .def_ro("stale", &GateLimits::stale, "s")
           .def_ro("deadline", &GateLimits::deadline, "s")
@@ -57,7 +57,7 @@ void bind_limits(nb::module_& m) {
 
   const ForceLimits limits;
   auto limits_class =
-      nb::class_<ForceLimits>(m, "ForceLimits", "What bounds the force that leaves for a device.")
+      nb::class_<ForceLimits>(m, "ForceLimits", "Limits on the force sent to a device.")
           .def(
               "__init__",
               [](ForceLimits* self, double max, double continuous, double time, double ramp, double warm) {
@@ -68,8 +68,9 @@ void bind_limits(nb::module_& m) {
               nb::arg("max_force") = limits.max_force, nb::arg("continuous_force") = limits.continuous_force,
               nb::arg("continuous_time") = limits.continuous_time, nb::arg("ramp_time") = limits.ramp_time,
               nb::arg("warm_motor") = limits.warm_motor,
-              "max_force: N, norm. continuous_force: N rms in any continuous_time (s). ramp_time: s from none to full force.\n"
-              "warm_motor: motor temperature (0 to 1) above which the force comes down, to none at 1.")
+              "max_force: norm, N. continuous_force: N rms over any continuous_time (s). ramp_time: time from zero\n"
+              "to full force after arming, s. warm_motor: motor temperature (0 to 1) above which the force\n"
+              "decreases, to zero at 1. Raises ConfigurationError.")
           .def_ro("max_force", &ForceLimits::max_force, "N")
           .def_ro("continuous_force", &ForceLimits::continuous_force, "N rms")
           .def_ro("continuous_time", &ForceLimits::continuous_time, "s")
@@ -81,7 +82,7 @@ void bind_limits(nb::module_& m) {
   auto placement =
       nb::class_<Placement>(
           m, "Placement",
-          "Where the device stands in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis.")
+          "The device's pose in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis.")
           .def(
               "__init__",
               [](Placement* self, const std::array<double, 4>& rotation, const Triple& offset, double scale,
@@ -92,8 +93,9 @@ void bind_limits(nb::module_& m) {
               },
               nb::arg("rotation") = nowhere.rotation, nb::arg("offset") = nowhere.offset,
               nb::arg("scale") = nowhere.scale, nb::arg("tip_offset") = nowhere.tip_offset,
-              "rotation: quaternion w, x, y, z, of any length but 0. offset: m. scale: scene metres for a metre of the device. tip_offset:\n"
-              "m along the stylus, from the device's point to the tip. Raises ConfigurationError.")
+              "rotation: quaternion w, x, y, z, of any length but 0. offset: m. scale: scene metres per device\n"
+              "metre. tip_offset: distance from the device's point to the tip along the stylus, m. Raises\n"
+              "ConfigurationError.")
           .def_prop_ro(
               "rotation",
               [](const Placement& p) {
@@ -107,7 +109,7 @@ void bind_limits(nb::module_& m) {
           .def_ro("tip_offset", &Placement::tip_offset, "m");
   def_value(placement, {"rotation", "offset", "scale", "tip_offset"});
 
-  nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.")
+  nb::class_<DeviceInfo>(m, "DeviceInfo", "Description of a device. Unknown numbers are NaN.")
       .def(
           "__init__",
           [](DeviceInfo* self, const std::string& backend, const std::string& model, const std::string& serial,
@@ -125,17 +127,17 @@ void bind_limits(nb::module_& m) {
                   "has_orientation: bool = False, button_count: int = 0, max_force: float = ..., "
                   "continuous_force: float = ..., max_stiffness: float = ..., encoder_step: float = ..., "
                   "rate: float = ...) -> None"),
-          "Forces in N, max_stiffness in N/m, encoder_step in m, rate in Hz; what is not given is not known.")
+          "Forces in N, max_stiffness in N/m, encoder_step in m, rate in Hz. An omitted value is unknown.")
       .def_ro("backend", &DeviceInfo::backend)
       .def_ro("model", &DeviceInfo::model)
       .def_ro("serial", &DeviceInfo::serial)
       .def_ro("has_orientation", &DeviceInfo::has_orientation)
       .def_ro("button_count", &DeviceInfo::button_count)
-      .def_ro("max_force", &DeviceInfo::max_force, "N, for a moment")
-      .def_ro("continuous_force", &DeviceInfo::continuous_force, "N, for ever")
+      .def_ro("max_force", &DeviceInfo::max_force, "Peak force, N")
+      .def_ro("continuous_force", &DeviceInfo::continuous_force, "Continuous force, N")
       .def_ro("max_stiffness", &DeviceInfo::max_stiffness, "N/m")
       .def_ro("encoder_step", &DeviceInfo::encoder_step, "m")
-      .def_ro("rate", &DeviceInfo::rate, "Ticks a second, Hz");
+      .def_ro("rate", &DeviceInfo::rate, "Servo rate, Hz");
 }
 
 }  // namespace punctura::bindings

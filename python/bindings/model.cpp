@@ -6,7 +6,7 @@
 namespace punctura::bindings {
 namespace {
 
-/// Lower and upper edge over an array of depths of any shape.
+/// Lower and upper edge of the band for an array of depths of any shape.
 template <typename L>
 nb::tuple bounds(const L& law, const nb::object& depths) {
   const Input depth = input(depths);
@@ -104,7 +104,8 @@ void bind_model(nb::module_& m) {
   auto needle = nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
                     .def_static(
                         "unchecked", [](double diameter, double tip_angle) { return Needle{diameter, tip_angle}; },
-                        nb::arg("diameter"), nb::arg("tip_angle"), "For a scene that is checked as a whole.")
+                        nb::arg("diameter"), nb::arg("tip_angle"),
+                        "Creates a needle without checks. The scene that uses it checks all values.")
                     .def_ro("diameter", &Needle::diameter, "w, m")
                     .def_ro("tip_angle", &Needle::tip_angle, "theta, rad");
   def_init(needle, {{"diameter", "float"}, {"tip_angle", "float"}}, &make_needle, "Raises ConfigurationError.");
@@ -118,11 +119,11 @@ void bind_model(nb::module_& m) {
                 return Membrane{stiffness, precompression, friction, thickness};
               },
               nb::arg("stiffness"), nb::arg("precompression"), nb::arg("friction"), nb::arg("thickness"),
-              "For a scene that is checked as a whole.")
+              "Creates a membrane without checks. The scene that uses it checks all values.")
           .def_ro("stiffness", &Membrane::stiffness, "kappa, N/m")
           .def_ro("precompression", &Membrane::precompression, "c, N")
           .def_ro("friction", &Membrane::friction, "mu, -")
-          .def_ro("thickness", &Membrane::thickness, "H, m; 0 is the thin law");
+          .def_ro("thickness", &Membrane::thickness, "H, m; 0 selects the thin law");
   def_init(membrane,
            {{"stiffness", "float"}, {"precompression", "float"}, {"friction", "float"}, {"thickness", "float"}},
            &make_membrane, "Raises ConfigurationError.");
@@ -131,13 +132,13 @@ void bind_model(nb::module_& m) {
   auto thin = bind_law<GivenThinLaw>(m, "ThinLaw",
                                      "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");
   def_init(thin, {{"needle", "Needle"}, {"membrane", "Membrane"}}, &make_thin_law,
-           "Raises ConfigurationError with every bound that is broken.");
+           "Raises ConfigurationError with all problems.");
   def_value(thin, {"needle", "membrane"});
 
   auto thick = bind_law<GivenThickLaw>(m, "ThickLaw",
                                        "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)");
   def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
-           &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with every bound that is broken.");
+           &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with all problems.");
   def_value(thick, {"needle", "membrane", "obliquity"});
   auto table = nb::class_<GivenTableLaw>(
       m, "TableLaw",

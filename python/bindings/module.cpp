@@ -5,13 +5,13 @@
 
 NB_MODULE(_core, m) {
   using namespace punctura::bindings;
-  nb::set_leak_warnings(false);  // a daemon thread may hold a device until the very end: nobody's fault
+  nb::set_leak_warnings(false);  // a daemon thread may legitimately hold a device until the interpreter exits
   m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
   m.def("version", [] { return PUNCTURA_VERSION; }, "Of Punctura.");
   const std::string base = nb::cast<std::string>(m.attr("__name__")) + ".PuncturaError";
   m.attr("PuncturaError") = nb::steal(PyErr_NewExceptionWithDoc(
-      base.c_str(), "The base of every exception of Punctura's own. An argument of a wrong type raises TypeError.",
-      nullptr, nullptr));
+      base.c_str(), "Base class of all exceptions of Punctura. An argument of a wrong type raises TypeError.", nullptr,
+      nullptr));
   bind_model(m);
   bind_proxy(m);
   bind_scene(m);

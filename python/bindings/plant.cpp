@@ -1,4 +1,4 @@
-// core/punctura/plant: a simulated device in a simulated hand, and what the hand wants.
+// core/punctura/plant: a simulated device in a simulated hand, and the desired motion of the hand.
 #include "punctura/plant/plant.hpp"
 
 #include "bindings.hpp"
@@ -30,7 +30,7 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
 void bind_plant(nb::module_& m) {
   const DeviceDynamics device;
   auto plant =
-      nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device; the defaults are a PHANTOM Omni's data sheet.")
+      nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device. Defaults: data sheet of the PHANTOM Omni.")
           .def(
               "__init__",
               [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
@@ -46,7 +46,8 @@ void bind_plant(nb::module_& m) {
               },
               nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
               nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
-              "mass: apparent, kg. friction: dry, N. encoder_step: m, 0 is ideal. max_force: saturation, N.")
+              "mass: apparent mass, kg. friction: dry friction, N. encoder_step: m, 0 for an ideal sensor.\n"
+              "max_force: saturation, N.")
           .def_ro("mass", &DeviceDynamics::mass, "kg")
           .def_ro("friction", &DeviceDynamics::friction, "N")
           .def_ro("encoder_step", &DeviceDynamics::encoder_step, "m")
@@ -57,7 +58,8 @@ void bind_plant(nb::module_& m) {
   auto hand_class =
       nb::class_<Hand>(
           m, "Hand",
-          "The hand that holds the stylus: mass, and spring and damper to the desired motion. Illustrative values")
+          "A simulated hand that holds the stylus: a mass, with spring and damper to the desired motion. Values are\n"
+          "illustrative.")
           .def(
               "__init__",
               [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
@@ -74,7 +76,8 @@ void bind_plant(nb::module_& m) {
               },
               nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
               nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
-              "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 is none. tremor_hz: its frequency.")
+              "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 for none. tremor_hz:\n"
+              "tremor frequency, Hz.")
           .def_ro("mass", &Hand::mass, "kg")
           .def_ro("damping", &Hand::damping, "N s/m")
           .def_ro("stiffness", &Hand::stiffness, "N/m")
@@ -103,13 +106,13 @@ void bind_plant(nb::module_& m) {
           },
           nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
           nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
-          "start, end: m. count: strokes to and fro. duration: one way, s. rest: s. variation: relative standard deviation of\n"
-          "depth and duration from stroke to stroke.")
+          "start, end: m. count: number of strokes there and back. duration: of one way, s. rest: at both ends, s.\n"
+          "variation: relative standard deviation of depth and duration between strokes. Raises ConfigurationError.")
       .def(
           "duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); },
-          nb::arg("seed") = 0, "How long all strokes take for a seed, s.");
+          nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.");
 
-  nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, linear between them.")
+  nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, with linear interpolation.")
       .def(
           "__init__",
           [](RecordedMotion* self, const nb::object& time, const nb::object& position) {
@@ -117,10 +120,10 @@ void bind_plant(nb::module_& m) {
           },
           nb::arg("time"), nb::arg("position"),
           nb::sig("def __init__(self, time: numpy.typing.ArrayLike, position: numpy.typing.ArrayLike) -> None"),
-          "time (n,): s, ascending. position (n, 3): m. Raises ValueError that names the sample.")
+          "time (n,): s, ascending. position (n, 3): m. Raises ValueError, which names the sample.")
       .def_prop_ro("duration", &RecordedMotion::duration, "s");
 
-  nb::class_<Target>(m, "Target", "A target that somebody moves in steps; the hand follows smoothly.")
+  nb::class_<Target>(m, "Target", "A target position that move_to() changes in steps. The hand follows smoothly.")
       .def(
           "__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); },
           nb::arg("position"), "position: m")

@@ -1,4 +1,4 @@
-// core/punctura/proxy: the discrete-time systems of K06 section 3, one membrane.
+// core/punctura/proxy: the discrete-time systems of K06 section 3, for one membrane.
 #include "punctura/proxy/proxy_3d.hpp"
 
 #include "arguments.hpp"
@@ -26,7 +26,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
 
 using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;
 
-/// One Python class for proxies on either law, which knows what it was made of.
+/// One Python class for proxies with either law. It keeps its constructor arguments.
 class LineProxy : public OneThread {
  public:
   LineProxy(GivenLaw law, const Coupling& coupling, double period, Solver solver)
@@ -95,7 +95,7 @@ class LineProxy : public OneThread {
   Proxies proxy_;
 };
 
-/// A proxy in space, which knows what it was made of.
+/// A proxy in space that keeps its constructor arguments.
 struct SpaceProxy : Proxy3d<ThickLaw>, OneThread {
   Needle needle;
   Membrane membrane;
@@ -170,19 +170,20 @@ nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::obje
 }  // namespace
 
 void bind_proxy(nb::module_& m) {
-  nb::enum_<Phase>(m, "Phase", nb::is_arithmetic(), "What the needle is doing in one membrane.")
+  nb::enum_<Phase>(m, "Phase", nb::is_arithmetic(), "The state of the needle in one membrane.")
       .value("outside", Phase::outside)
-      .value("sticking", Phase::sticking, "The proxy rests: the force is inside the band.")
+      .value("sticking", Phase::sticking, "The proxy rests. The force is inside the band.")
       .value("sliding_in", Phase::sliding_in, "The force is on the lower edge.")
       .value("sliding_out", Phase::sliding_out, "The force is on the upper edge.")
       .value("barred", Phase::barred,
-             "Inside, but not entered from the front: no force until the tip has been outside, in front.");
+             "Inside without having entered from the front. No force until the tip has been outside, in front.");
 
   auto coupling =
       nb::class_<Coupling>(m, "Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)")
           .def_static(
               "unchecked", [](double stiffness, double damping) { return Coupling{stiffness, damping}; },
-              nb::arg("stiffness"), nb::arg("damping"), "For a scene that is checked as a whole.")
+              nb::arg("stiffness"), nb::arg("damping"),
+              "Creates a coupling without checks. The scene that uses it checks all values.")
           .def_ro("stiffness", &Coupling::stiffness, "K, N/m")
           .def_ro("damping", &Coupling::damping, "B, N s/m");
   def_init(coupling, {{"stiffness", "float"}, {"damping", "float"}}, &make_coupling, "Raises ConfigurationError.");
@@ -203,14 +204,13 @@ void bind_proxy(nb::module_& m) {
             p.must_rest();
             p.visit([](auto& x) { x.reset(); });
           },
-          "Forgets all motion.")
+          "Resets to the state before the first tick.")
       .def("step", &LineProxy::step, nb::arg("p"),
-           "One tick: p, the device's depth (m), gives the force on the device (N).")
-      .def("peek", &LineProxy::peek, nb::arg("p"), "What step(p) would give, without that tick.")
-      .def(
-          "run", &LineProxy::run, nb::arg("p"), nb::sig("def run(self, p: numpy.typing.ArrayLike) -> Ticks"),
-          "Many ticks, from the present state on: p (n,), m. Gives position, force, depth, axial_force, lower, upper,\n"
-          "proxy and phase, each (n,).")
+           "Makes one tick. p: depth of the device, m. Returns the force on the device, N. Raises ValueError.")
+      .def("peek", &LineProxy::peek, nb::arg("p"), "The force of step(p), without changing the state.")
+      .def("run", &LineProxy::run, nb::arg("p"), nb::sig("def run(self, p: numpy.typing.ArrayLike) -> Ticks"),
+           "Makes n ticks from the present state on. p (n,): depths, m.\n\n"
+           "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.")
       .def_prop_ro(
           "force", [](LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
       .def_prop_ro(
@@ -219,22 +219,22 @@ void bind_proxy(nb::module_& m) {
           "position", [](LineProxy& p) { return p.visit([](auto& x) { return x.position(); }); }, "q(k), m")
       .def_prop_ro(
           "depth", [](LineProxy& p) { return p.visit([](auto& x) { return x.depth(); }); },
-          "Where the band was taken, m: q(k), or q*(k) with the paper's solver")
+          "The depth at which the band was evaluated, m: q(k), or q*(k) with the paper's solver")
       .def_prop_ro("phase", [](LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); });
 
   auto space =
       nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
-  def_init(
-      space,
-      {{"needle", "Needle"},
-       {"membrane", "Membrane"},
-       {"point", "Sequence[float]"},
-       {"inward_normal", "Sequence[float]"},
-       {"coupling", "Coupling"},
-       {"period", "float"},
-       {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
-      &make_space,
-      "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.");
+  def_init(space,
+           {{"needle", "Needle"},
+            {"membrane", "Membrane"},
+            {"point", "Sequence[float]"},
+            {"inward_normal", "Sequence[float]"},
+            {"coupling", "Coupling"},
+            {"period", "float"},
+            {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
+           &make_space,
+           "point: a, any point of the surface, m. inward_normal: direction of any length but 0. period: T, s. Raises\n"
+           "ConfigurationError.");
   def_state(space);
   space
       .def(
@@ -243,7 +243,7 @@ void bind_proxy(nb::module_& m) {
             p.must_rest();
             p.reset();
           },
-          "Forgets all motion. A start inside gives no force until the tip has been outside.")
+          "Resets to the state before the first tick. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
           [](SpaceProxy& proxy, const Point& p, const Point& axis) {
@@ -252,7 +252,8 @@ void bind_proxy(nb::module_& m) {
             return plain(proxy.step(p.vector(), direction(axis.numbers)));
           },
           nb::arg("p"), nb::arg("axis"),
-          "One tick: position p (m) and direction of the needle give the force on the device (N).")
+          "Makes one tick. Returns the force on the device, N.\n\n"
+          "p: position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
       .def(
           "peek",
           [](const SpaceProxy& proxy, const Point& p, const Point& axis) {
@@ -260,11 +261,12 @@ void bind_proxy(nb::module_& m) {
             check_places(p.numbers.data(), 3, "p");
             return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
           },
-          nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
+          nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),
            nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
-           "Many ticks, from the present state on: p (n, 3), m; axis (n, 3) or (3,), directions of any length but 0.\n"
-           "Gives position, axis, force, proxy, direction (n, 3), depth, axial_force, lower, upper, phase (n,).")
+           "Makes n ticks from the present state on.\n\n"
+           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
+           "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.")
       .def_prop_ro(
           "force", [](const SpaceProxy& p) { return plain(p.force()); }, "f(k), N")
       .def_prop_ro(
@@ -272,14 +274,14 @@ void bind_proxy(nb::module_& m) {
       .def_prop_ro(
           "position", [](const SpaceProxy& p) { return plain(p.position()); }, "q(k), m")
       .def_prop_ro(
-          "direction", [](const SpaceProxy& p) { return plain(p.direction()); }, "b, held from entry on")
+          "direction", [](const SpaceProxy& p) { return plain(p.direction()); },
+          "b, the direction at entry, kept while inside")
       .def_prop_ro("axial_force", &SpaceProxy::axial_force, "b.f(k), N")
-      .def_prop_ro(
-          "depth", &SpaceProxy::depth,
-          "Inside: along b, m, of q(k), or of q*(k) with the paper's solver. Else along the normal from the surface")
+      .def_prop_ro("depth", &SpaceProxy::depth,
+                   "Depth, m. Inside along b: of q(k), or of q*(k) with the paper's solver. Outside along the normal")
       .def_prop_ro(
           "bounds", [](const SpaceProxy& p) { return std::array<double, 2>{p.band().lower, p.band().upper}; },
-          "The band that bounds the axial force, (lower, upper), N; (0, 0) outside")
+          "The band of the axial force, (lower, upper), N; (0, 0) outside")
       .def_prop_ro("phase", &SpaceProxy::phase);
 }
 

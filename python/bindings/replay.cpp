@@ -1,4 +1,4 @@
-// Replay: the inputs of a recording through the servo step again.
+// Replays a recording: runs its inputs through the servo step again.
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -27,7 +27,7 @@ std::string compiler() {
   return name;
 }
 
-/// A servo step that is given what another one was given, in the order in which the loop gives it.
+/// A servo step that gets the recorded inputs in the order of the original loop.
 class Replay {
  public:
   Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent)
@@ -65,7 +65,7 @@ class Replay {
 
  private:
   std::unique_ptr<ServoStep> built(Scene scene) const {
-    scene.servo.rate = rate_;  // the device's, as in the loop
+    scene.servo.rate = rate_;  // the device's rate, as in the loop
     return std::make_unique<ServoStep>(build(scene, gate_, limits_));
   }
   void take(const Scene& scene) {
@@ -83,9 +83,9 @@ class Replay {
 }  // namespace
 
 void bind_replay(nb::module_& m) {
-  m.def("compiler", &compiler, "What the core was compiled with.");
+  m.def("compiler", &compiler, "Name and version of the compiler of the core.");
 
-  nb::class_<Replay>(m, "Replay", "The servo step of a loop, given again what it was given.")
+  nb::class_<Replay>(m, "Replay", "Runs recorded inputs through the servo step of a loop again.")
       .def(
           "__init__",
           [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent) {
@@ -93,13 +93,12 @@ void bind_replay(nb::module_& m) {
             new (self) Replay(scene, gate, limits, spent);
           },
           nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0,
-          "scene: at the device's rate. spent: what the motors had given before, N^2 s. Starts as a loop does before its\n"
-          "first tick.")
-      .def(
-          "run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
-          nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),
-          "The ticks that follow from these inputs. ticks: Ticks or a mapping with all fields that are inputs. scenes: for\n"
-          "every tick whose commands say that it took one, those taken, in their order.");
+          "Starts in the state of a loop before its first tick. scene: at the device's rate. spent: motor load\n"
+          "before the run, N^2 s.")
+      .def("run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
+           nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),
+           "Computes ticks from inputs. ticks: Ticks or a mapping with all input fields. scenes: a list of the taken\n"
+           "scenes, in order, for each tick whose commands say that it took a scene.");
 }
 
 }  // namespace punctura::bindings

@@ -1,4 +1,4 @@
-// runtime: devices and the live loop. No tick ever takes the GIL.
+// runtime: devices and the live loop. A tick never takes the GIL.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/variant.h>
@@ -22,7 +22,7 @@ SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
   return std::get<Target>(motion);
 }
 
-/// Snapshots of a running loop, for one reader.
+/// The snapshots of a running loop, for one reader.
 struct Listener {
   SnapshotRing* ring;
 
@@ -71,24 +71,25 @@ nb::object as_ticks(const std::vector<Snapshot>& snapshots) {
 void bind_runtime(nb::module_& m) {
   nb::exception<DeviceError>(m, "DeviceError", nb::make_tuple(m.attr("PuncturaError"), nb::borrow(PyExc_RuntimeError)));
 
-  nb::class_<Device>(m, "Device", "An open haptic device. It calls the tick from a thread of its own.")
+  nb::class_<Device>(m, "Device", "An open haptic device. It makes the ticks on its own thread.")
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_rw(
           "spent", [](const Device& d) { return d.motor_use.spent; },
           [](Device& d, double spent) { d.motor_use = {spent, unknown}; },
-          "What its motors had given at the end of the last run and not recovered from, N^2 s. The next run goes on with\n"
-          "it: the limit on continuous force holds across runs. What is set counts in full; no time counts as rest.")
+          "Motor load at the end of the last run that the motors have not recovered from, N^2 s.\n\n"
+          "The next run starts with it, so that the limit on continuous force holds across runs. A value that is\n"
+          "set counts in full: the time before the next run does not count as rest.")
       .def(
           "go_on_from", [](Device& d, const Device& previous) { d.motor_use = previous.motor_use; },
-          nb::arg("previous"),
-          "This object stands for the same motors as another one: its next run goes on with what they have given.")
+          nb::arg("previous"), "Takes over the motor load of `previous`, an object for the same physical device.")
       .def("trouble", &Device::trouble, nb::call_guard<nb::gil_scoped_release>(),
-           "What went wrong, in words; empty if nothing did.")
-      .def("statements", &Device::statements, "What its user should know of how it runs. After the loop's start.");
+           "Description of the problem; empty if there is none.")
+      .def("statements", &Device::statements,
+           "Notes for the user on how the device runs. Available after the loop's start.");
 
   const SimulatedOptions options;
   nb::class_<SimulatedDevice, Device>(m, "SimulatedDevice",
-                                      "The plant as a device: a PHANTOM Omni in a simulated hand.")
+                                      "A simulated device in a simulated hand; by default a PHANTOM Omni.")
       .def(
           "__init__",
           [](SimulatedDevice* self, const AnyMotion& motion, const DeviceDynamics& plant, const Hand& hand, double rate,
@@ -112,37 +113,39 @@ void bind_runtime(nb::module_& m) {
           nb::arg("rate") = options.rate, nb::arg("seed") = 0, nb::arg("real_time") = true, nb::arg("ticks") = 0,
           nb::arg("axis") = options.axis, nb::arg("priority") = options.realtime.priority,
           nb::arg("processor") = options.realtime.processor,
-          "motion: Strokes, RecordedMotion or Target. rate: Hz. real_time: False runs as fast as possible. ticks: how many; 0 is no\n"
-          "end. axis: where the stylus points. priority: of real-time scheduling, 0 asks for none. processor: the one to tick on,\n"
-          "-1 is any.")
-      .def("move_to", &SimulatedDevice::move_to, nb::arg("position"), "Of a Target: where the hand shall go, m.")
+          "motion: Strokes, RecordedMotion or Target. rate: Hz. real_time: False runs as fast as possible. ticks:\n"
+          "number of ticks, 0 for no end. axis: direction of the stylus. priority: real-time scheduling priority, 0\n"
+          "for none. processor: CPU number, -1 for any. Raises ConfigurationError.")
+      .def("move_to", &SimulatedDevice::move_to, nb::arg("position"),
+           "Moves the Target; the hand follows. position: m.")
       .def(
           "point",
           [](SimulatedDevice& d, const Triple& axis, std::uint32_t buttons) {
             d.point(plain(unit(axis, "axis")), buttons);
           },
-          nb::arg("axis"), nb::arg("buttons") = 0, "Where the stylus points, and the buttons that are held (bits).")
+          nb::arg("axis"), nb::arg("buttons") = 0, "Sets the direction of the stylus and the held buttons (bits).")
       .def(
           "trip",
           [](SimulatedDevice& d) {
             d.spoil([](DeviceSample& s) { s.position.fill(std::numeric_limits<double>::quiet_NaN()); });
           },
-          "The next reading's position is no number: what an encoder that fails looks like to the loop.")
-      .def_prop_ro("finished", &SimulatedDevice::finished, "All ticks asked for have been.")
-      .def_prop_ro("missed", &SimulatedDevice::missed, "Ticks left out since their time had passed.")
-      .def_prop_ro("last_force", &SimulatedDevice::last_force, "What the plant was given last, N.");
+          "Makes the position of the next reading NaN, which simulates an encoder failure.")
+      .def_prop_ro("finished", &SimulatedDevice::finished, "Whether all requested ticks were made.")
+      .def_prop_ro("missed", &SimulatedDevice::missed, "Number of ticks skipped because their time had passed.")
+      .def_prop_ro("last_force", &SimulatedDevice::last_force, "The last force on the plant, N.");
 
-  nb::class_<Listener>(m, "Listener", "Every tick's snapshot, for one reader.")
+  nb::class_<Listener>(m, "Listener", "A ring with the snapshot of every tick, for one reader.")
       .def("read", &Listener::read, nb::arg("limit") = nb::none(),
            nb::sig("def read(self, limit: int | None = None) -> Ticks"),
-           "Takes the oldest snapshots, `limit` at most; without it all that are there when it is called.")
+           "Removes and returns the oldest snapshots. limit: maximum number; None for all that are in the ring now.")
       .def_prop_ro(
-          "lost", [](const Listener& l) { return l.ring->lost(); }, "Snapshots that found no room.")
+          "lost", [](const Listener& l) { return l.ring->lost(); },
+          "Number of snapshots lost because the ring was full.")
       .def_prop_ro(
           "capacity", [](const Listener& l) { return l.ring->capacity(); },
-          "Snapshots of the first scene that it holds.");
+          "Number of snapshots that fit in the ring, counted for the first scene.");
 
-  nb::class_<ServoLoop>(m, "ServoLoop", "A scene on a device: the servo step, tick after tick, on the device's thread.")
+  nb::class_<ServoLoop>(m, "ServoLoop", "Runs a scene on a device: one servo step per tick, on the device's thread.")
       .def(
           "__init__",
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
@@ -155,11 +158,11 @@ void bind_runtime(nb::module_& m) {
           },
           nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},
           nb::arg("placement") = Placement{},
-          "A device runs in one loop at a time. The period is the device's own; its force ratings\n"
-          "tighten the limits.")
+          "A device can be in one running loop at a time. The period is the device's own. Its force ratings tighten\n"
+          "the limits.")
       .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),
-           "Ticks come, disarmed. Raises DeviceError.")
-      .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Zero force, then no tick any more.")
+           "Starts the ticks, disarmed. Raises DeviceError.")
+      .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Sets zero force, then ends the ticks.")
       .def(
           "__enter__", [](ServoLoop& loop) -> ServoLoop& { return loop; }, nb::rv_policy::reference)
       .def(
@@ -168,11 +171,10 @@ void bind_runtime(nb::module_& m) {
             nb::gil_scoped_release release;
             loop.stop();
           },
-          nb::sig("def __exit__(self, *how: object) -> None"),
-          "Zero force, then no tick any more, however the block has ended.")
-      .def("arm", &ServoLoop::arm, "Force, once the tip is outside tissue.")
-      .def("pause", &ServoLoop::pause, "No force; ticks go on.")
-      .def("reset", &ServoLoop::reset, "Leaves a fault; disarmed.")
+          nb::sig("def __exit__(self, *how: object) -> None"), "Calls stop(), also after an exception.")
+      .def("arm", &ServoLoop::arm, "Enables force as soon as the tip is outside tissue.")
+      .def("pause", &ServoLoop::pause, "Disables force. Ticks continue.")
+      .def("reset", &ServoLoop::reset, "Clears a latched fault. The loop is then disarmed.")
       .def(
           "exchange",
           [](ServoLoop& loop, const Scene& scene) {
@@ -181,7 +183,8 @@ void bind_runtime(nb::module_& m) {
             loop.exchange(scene);
           },
           nb::arg("scene"),
-          "Another scene, taken between two ticks and faded in. Raises ConfigurationError; then nothing has changed.")
+          "Replaces the scene between two ticks; the change of the force is faded in over 0.2 s. On\n"
+          "ConfigurationError nothing changes.")
       .def(
           "listen",
           [](ServoLoop& loop, std::optional<std::size_t> capacity) {
@@ -189,29 +192,33 @@ void bind_runtime(nb::module_& m) {
           },
           nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
           nb::sig("def listen(self, capacity: int | None = None) -> Listener"),
-          "Before start: every tick's snapshot from then on. capacity: how many of the present scene wait for a late reader;\n"
-          "without it `room`. A larger one than 32 MB hold is cut to that, without an error: the listener's `capacity` says\n"
-          "how many there are room for. Snapshots that find no room are lost, and counted in its `lost`.")
+          "Returns a Listener for the snapshots of all ticks. Call it before start().\n\n"
+          "capacity: number of snapshots of the present scene that the ring can hold; default `room`. It is reduced\n"
+          "to 32 MB without an error; the listener's `capacity` has the actual number. Snapshots that do not fit\n"
+          "are lost and counted in the listener's `lost`.")
       .def_prop_ro(
           "room", [](const ServoLoop& loop) { return loop.room(); },
-          "Snapshots of the present scene that a listener holds: 8 s of them, or as many as 32 MB hold.")
+          "Default capacity of a listener for the present scene: 8 s of snapshots, at most 32 MB.")
       .def_prop_ro("running", &ServoLoop::running)
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
-      .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "As it runs, at the device's rate.")
+      .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "The running scene, at the device's rate.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
-      .def_prop_ro("spent", &ServoLoop::spent, "What the device's motors have given before the next start, N^2 s.")
-      .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy, "As they act, with the device's ratings.")
-      .def(
-          "report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),
-          "ticks, late, and of period and compute the quantiles p50, p99, p99_9, the largest (s) and the counts by bin.")
+      .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
+      .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,
+                   "The force limits in effect, device ratings included.")
+      .def("report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),
+           "Timing statistics: ticks, late, and for period and compute the quantiles p50, p99, p99_9, the largest\n"
+           "(s) and the counts by bin.")
       .def(
           "latest", [](ServoLoop& loop) { return as_ticks({loop.latest()}); }, nb::sig("def latest(self) -> Ticks"),
           "The last tick, one row; all zeros before the first tick.")
       .def(
           "fault_history", [](ServoLoop& loop) { return as_ticks(loop.fault_history()); },
-          nb::sig("def fault_history(self) -> Ticks"), "The last ticks up to the latched fault; none without one.");
+          nb::sig("def fault_history(self) -> Ticks"),
+          "The last ticks up to the latched fault; empty if there is none.");
 
-  // A loop that a daemon thread or an interactive session still holds would leave its device with the last force.
+  // Without this, a loop still held by a daemon thread or an interactive session would leave the last force on its
+  // device.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] {
     {
       nb::gil_scoped_release release;

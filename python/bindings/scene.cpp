@@ -1,4 +1,4 @@
-// core/punctura/scene: what a run needs, and everything that can be wrong with it.
+// core/punctura/scene: the parameters of a run, and their checks.
 #include "punctura/scene/scene.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -53,7 +53,7 @@ Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector
 
 nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
 
-/// A number of one scene: what it is, and what it may be.
+/// A number of one scene, with its bounds.
 struct SceneField {
   std::string path;
   double value;
@@ -78,7 +78,7 @@ std::vector<SceneField> fields_of(const Scene& scene) {
   return all;
 }
 
-/// Throws TypeError that names the path, and what __float__ itself has thrown.
+/// Throws TypeError, which names the path, or the exception of __float__.
 double number_at(const std::string& path, nb::handle given) {
   if (PyBool_Check(given.ptr()) || nb::isinstance<nb::str>(given) || !PyNumber_Check(given.ptr()))
     throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
@@ -91,7 +91,7 @@ Scene with_values(Scene scene, const nb::dict& values) {
   std::map<std::string, double*> places;
   for_each_value(scene, [&](const std::string& path, const Field&, double& number) { places[path] = &number; });
   std::vector<Problem> problems;
-  for (nb::handle item : values.items()) {  // a list of its own, whatever __float__ does to the dict
+  for (nb::handle item : values.items()) {  // a copy, because __float__ could change the dict
     if (!nb::isinstance<nb::str>(item[0]))
       throw nb::type_error("with_values(): paths must be str: {\"membrane[0].friction\": 0.3}");
     const auto path =
@@ -115,15 +115,15 @@ Scene with_values(Scene scene, const nb::dict& values) {
 void bind_scene_field(nb::module_& m) {
   auto field =
       nb::class_<SceneField>(m, "SceneField", "A number of a scene: its path, its value and its bounds, in SI units.")
-          .def_ro("path", &SceneField::path, "As in problems: membrane[0].friction")
+          .def_ro("path", &SceneField::path, "Path, as in problems: membrane[0].friction")
           .def_ro("value", &SceneField::value)
           .def_ro("symbol", &SceneField::symbol, "K06's")
           .def_ro("unit", &SceneField::unit)
           .def_ro("min", &SceneField::min)
           .def_ro("max", &SceneField::max)
-          .def_ro("min_open", &SceneField::min_open, "The bound itself is not allowed")
-          .def_ro("max_open", &SceneField::max_open, "The bound itself is not allowed")
-          .def_ro("reason", &SceneField::reason, "Of the bounds");
+          .def_ro("min_open", &SceneField::min_open, "Whether the value must be greater than min")
+          .def_ro("max_open", &SceneField::max_open, "Whether the value must be less than max")
+          .def_ro("reason", &SceneField::reason, "The reason for the bounds");
   def_init(field,
            {{"path", "str"},
             {"value", "float"},
@@ -134,7 +134,7 @@ void bind_scene_field(nb::module_& m) {
             {"min_open", "bool"},
             {"max_open", "bool"},
             {"reason", "str"}},
-           &make_scene_field, "Made by Scene.fields().");
+           &make_scene_field, "Scene.fields() creates these objects.");
   def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
 }
 
@@ -158,7 +158,7 @@ void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fie
 
 void bind_scene(nb::module_& m) {
   auto placed =
-      nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane in its place.")
+      nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane and its place in the scene.")
           .def_ro("name", &PlacedMembrane::name)
           .def_ro("membrane", &PlacedMembrane::membrane)
           .def_prop_ro(
@@ -170,7 +170,7 @@ void bind_scene(nb::module_& m) {
           .def_prop_ro(
               "behind", [](const PlacedMembrane& p) { return p.behind == Behind::blood ? "blood" : "tissue"; },
               nb::sig("def behind(self) -> typing.Literal['tissue', 'blood']"),
-              "\"tissue\" or \"blood\": between this membrane and the next. No force depends on it");
+              "Content between this membrane and the next: \"tissue\" or \"blood\". It does not affect the force");
   def_init(
       placed,
       {{"name", "str"},
@@ -179,15 +179,15 @@ void bind_scene(nb::module_& m) {
        {"inward_normal", "Sequence[float]"},
        {"behind", "typing.Literal['tissue', 'blood']", nb::str("tissue")}},
       &make_placed,
-      "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: what is between this "
-      "membrane and the next.");
+      "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
+      "this membrane and the next.");
   def_value(placed, {"name", "membrane", "point", "inward_normal", "behind"});
 
   const ServoSettings defaults;
   auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
                                          "Rate of the servo loop, position conditioning and solver. K06 section 4")
                    .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
-                   .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff, Hz, for conditioning \"low_pass\"; 0 is off")
+                   .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff of conditioning \"low_pass\", Hz; 0 is off")
                    .def_prop_ro(
                        "solver", [](const ServoSettings& s) { return name_of(s.solver); },
                        nb::sig("def solver(self) -> typing.Literal['exact', 'paper']"), "\"exact\" or \"paper\"")
@@ -196,22 +196,21 @@ void bind_scene(nb::module_& m) {
                        nb::sig("def conditioning(self) -> typing.Literal['low_pass', 'line_fit']"),
                        "\"low_pass\" or \"line_fit\"")
                    .def_ro("encoder_step", &ServoSettings::encoder_step,
-                           "Step of the device's encoders, m, for conditioning \"line_fit\"; 0 is an ideal sensor");
-  def_init(
-      servo,
-      {{"rate", "float", nb::float_(defaults.rate)},
-       {"low_pass", "float", nb::float_(defaults.low_pass)},
-       {"solver", "typing.Literal['exact', 'paper']", nb::str(name_of(defaults.solver).c_str())},
-       {"conditioning", "typing.Literal['low_pass', 'line_fit']", nb::str(name_of(defaults.conditioning))},
-       {"encoder_step", "float", nb::float_(defaults.encoder_step)}},
-      &make_servo,
-      "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\", K06's filter, of cutoff low_pass (Hz; 0 is "
-      "off), or \"line_fit\", for a device whose encoders count in steps of encoder_step (m; 0 is off).");
+                           "Encoder step for conditioning \"line_fit\", m; 0 for an ideal sensor");
+  def_init(servo,
+           {{"rate", "float", nb::float_(defaults.rate)},
+            {"low_pass", "float", nb::float_(defaults.low_pass)},
+            {"solver", "typing.Literal['exact', 'paper']", nb::str(name_of(defaults.solver).c_str())},
+            {"conditioning", "typing.Literal['low_pass', 'line_fit']", nb::str(name_of(defaults.conditioning))},
+            {"encoder_step", "float", nb::float_(defaults.encoder_step)}},
+           &make_servo,
+           "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\" is K06's filter with cutoff\n"
+           "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).");
   def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
 
   bind_scene_field(m);
   auto scene =
-      nb::class_<Scene>(m, "Scene", "Everything a run needs, checked as a whole.")
+      nb::class_<Scene>(m, "Scene", "All parameters of a run, checked together.")
           .def_ro("name", &Scene::name)
           .def_ro("needle", &Scene::needle)
           .def_ro("coupling", &Scene::coupling)
@@ -224,23 +223,23 @@ void bind_scene(nb::module_& m) {
               nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
           .def_prop_ro(
               "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
-              "The two membranes between which blood is; None without")
+              "Indices of the two membranes with blood between them; None if there is no blood")
           .def("fields", &fields_of, nb::sig("def fields(self) -> list[SceneField]"),
-               "Every number of the scene with its path, unit and bounds.")
-          .def(
-              "with_values", &with_values, nb::arg("values"),
-              nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
-              "The same with other numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises ConfigurationError.");
-  def_init(
-      scene,
-      {{"name", "str"},
-       {"needle", "Needle"},
-       {"coupling", "Coupling"},
-       {"membranes", "Sequence[PlacedMembrane]"},
-       {"servo", "ServoSettings", nb::cast(defaults)},
-       {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")}},
-      &make_scene,
-      "direction: \"stylus\", as measured at entry, or \"motion\", as the tip has come. Raises ConfigurationError with all problems.");
+               "All numbers of the scene, each with its path, unit and bounds.")
+          .def("with_values", &with_values, nb::arg("values"),
+               nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
+               "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
+               "ConfigurationError.");
+  def_init(scene,
+           {{"name", "str"},
+            {"needle", "Needle"},
+            {"coupling", "Coupling"},
+            {"membranes", "Sequence[PlacedMembrane]"},
+            {"servo", "ServoSettings", nb::cast(defaults)},
+            {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")}},
+           &make_scene,
+           "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). Raises\n"
+           "ConfigurationError with all problems.");
   def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction"});
 
   m.def(
@@ -255,7 +254,7 @@ void bind_scene(nb::module_& m) {
       nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo"),
       nb::sig("def scene_problems(name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
               "servo: ServoSettings) -> list[tuple[str, float, str]]"),
-      "All problems of a scene that need not be sound: (path, value in SI, reason).");
+      "All problems of a scene that may be invalid: (path, value in SI, reason).");
 
   m.def(
       "fields",
@@ -268,7 +267,7 @@ void bind_scene(nb::module_& m) {
         return out;
       },
       nb::sig("def fields() -> list[dict[str, typing.Any]]"),
-      "Symbol, unit and bounds of every number in a scene, SI: the one place where bounds stand.");
+      "Symbol, unit (SI) and bounds of every number in a scene, from the core's table.");
 }
 
 }  // namespace punctura::bindings

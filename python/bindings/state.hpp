@@ -1,4 +1,4 @@
-// State of what goes on from tick to tick: kept as bytes, copied, pickled, tried without a tick.
+// State of a stepping object as bytes: get, set, copy, pickle and peek.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace punctura::bindings {
 
-/// What runs in one thread at a time. `run` lets Python's lock go; meanwhile nothing else may touch the object.
+/// An object for one thread at a time. While `run` has released the GIL, no other thread may use the object.
 class OneThread {
  public:
   OneThread() = default;
   OneThread(const OneThread&) noexcept {}  // a copy is another object
   OneThread& operator=(const OneThread&) noexcept { return *this; }
 
-  /// Throws RuntimeError while run() is at work.
+  /// Throws RuntimeError while run() is in progress.
   void must_rest() const {
     if (running_)
       throw std::runtime_error("run() is at work on this object: give each thread a copy of its own (copy.copy)");
@@ -37,7 +37,7 @@ class OneThread {
   };
 
  private:
-  bool running_ = false;  // changed and read under Python's lock
+  bool running_ = false;  // changed and read with the GIL held
 };
 
 inline nb::bytes as_bytes(const std::vector<std::byte>& state) { return nb::bytes(state.data(), state.size()); }
@@ -45,7 +45,7 @@ inline std::span<const std::byte> as_span(const nb::bytes& state) {
   return {static_cast<const std::byte*>(state.data()), state.size()};
 }
 
-/// T is OneThread, and has `save()`, `load(bytes)` and `arguments()`, a tuple of what its constructor was given.
+/// T derives from OneThread and has `save()`, `load(bytes)` and `arguments()`, the tuple of its constructor arguments.
 template <typename T>
 void def_state(nb::class_<T>& cls) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
@@ -56,7 +56,7 @@ void def_state(nb::class_<T>& cls) {
            self.must_rest();
            return T(self);
          },
-         "One that goes on to the same bits.")
+         "A copy with the same state. Both continue with identical results, bit for bit.")
       .def(
           "__deepcopy__",
           [](const T& self, const nb::dict&) {
@@ -88,7 +88,7 @@ void def_state(nb::class_<T>& cls) {
           },
           nb::for_getter(nb::sig("def state(self) -> bytes")),
           nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")),
-          "All that the next tick depends on. Given back, it goes on to the same bits.");
+          "The complete state as bytes. Setting it continues with identical results, bit for bit. Raises ValueError.");
 }
 
 }  // namespace punctura::bindings

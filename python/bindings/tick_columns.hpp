@@ -1,4 +1,4 @@
-// Snapshots as columns, by the table of a tick's fields.
+// Converts snapshots to columns, by the table of tick fields.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace punctura::bindings {
 
-/// A number of a field as NumPy keeps it.
+/// The NumPy type of a field's numbers.
 template <typename Value>
 struct Stored {
   using Type = std::conditional_t<std::is_enum_v<Value> || std::is_same_v<Value, bool>, std::uint8_t, Value>;
@@ -29,7 +29,7 @@ struct Stored<Triple> {
   static void put(double* at, const Triple& value) noexcept { std::copy(value.begin(), value.end(), at); }
 };
 
-/// Where a field comes from, and how it is kept.
+/// The struct that holds a field, and the stored type.
 template <typename Field, typename Extra = std::monostate>
 using PartOf =
     std::conditional_t<std::remove_cvref_t<Field>::part == TickPart::membrane, MembraneRecord,
@@ -39,7 +39,7 @@ struct FieldStore : Stored<typename std::remove_cvref_t<Field>::template Value<P
   using Value = typename std::remove_cvref_t<Field>::template Value<PartOf<Field, Extra>>;
 };
 
-/// One vector for each field of a table.
+/// One std::vector for each field of a table.
 template <typename Table, typename Extra>
 struct ColumnsOfTable;
 template <typename... Fields, typename Extra>
@@ -49,14 +49,14 @@ struct ColumnsOfTable<std::tuple<Fields...>, Extra> {
 template <typename Table, typename Extra = std::monostate>
 using ColumnsOf = typename ColumnsOfTable<std::remove_const_t<Table>, Extra>::Type;
 
-/// NumPy's name of a type.
+/// The NumPy name of a type.
 template <typename T>
 std::string dtype_name() {
   if constexpr (std::is_same_v<T, bool>) return "bool";
   return (std::is_floating_point_v<T> ? "float" : "uint") + std::to_string(8 * sizeof(T));
 }
 
-/// Stands in a membrane's column for ticks whose scene did not have that membrane.
+/// Value in a membrane's column for ticks whose scene does not have that membrane.
 template <typename T>
 constexpr T absent() noexcept {
   if constexpr (std::is_floating_point_v<T>)
@@ -65,11 +65,11 @@ constexpr T absent() noexcept {
     return std::numeric_limits<T>::max();
 }
 
-/// Takes snapshots without Python's lock, then gives a punctura.Ticks with one row a snapshot.
+/// Collects snapshots without the GIL, then returns a punctura.Ticks with one row per snapshot.
 template <typename Table, typename Extra = std::monostate>
 class TickColumns {
  public:
-  /// only: the names of the fields to keep; all if empty.
+  /// only: names of the fields to keep; empty for all.
   explicit TickColumns(const Table& table, std::initializer_list<std::string_view> only = {}) : table_(table) {
     for_each_field(table_, [&](const auto& field, auto i) {
       wanted_[i] = only.size() == 0 || std::find(only.begin(), only.end(), field.name) != only.end();
@@ -102,7 +102,7 @@ class TickColumns {
     ++rows_;
   }
 
-  /// components: of a vector, 3 or (on a line) 1. single: there is one membrane, and no axis of the arrays for it.
+  /// components: of a vector, 3, or 1 on a line. single: one membrane; the arrays have no axis for membranes.
   nb::object to_ticks(std::size_t components = 3, bool single = false) {
     nb::dict columns;
     each([&](const auto& field, auto& column) {
@@ -132,7 +132,7 @@ class TickColumns {
     });
   }
 
-  /// A scene with more membranes was taken: rows before get absent values for the new ones.
+  /// For a scene with more membranes: earlier rows get absent values for the new ones.
   void widen(std::size_t membranes) {
     each([&](const auto& field, auto& column) {
       using Put = FieldStore<decltype(field), Extra>;
@@ -152,7 +152,7 @@ class TickColumns {
   std::size_t rows_ = 0, most_ = 0;
 };
 
-/// Of the servo step.
+/// Columns of servo-step snapshots.
 class SnapshotColumns : public TickColumns<decltype(tick_table)> {
  public:
   explicit SnapshotColumns(std::initializer_list<std::string_view> only = {}) : TickColumns(tick_table, only) {}

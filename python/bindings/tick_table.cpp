@@ -1,4 +1,4 @@
-// The table of a tick's fields: as a list, and as the attributes of punctura.Ticks.
+// The table of tick fields: as a list, and as the attributes of punctura.Ticks.
 #include <nanobind/stl/optional.h>
 
 #include "bindings.hpp"
@@ -16,7 +16,7 @@ struct Field {
   bool per_membrane, input, on_page;
   std::optional<std::vector<std::string>> words;
 
-  /// As a docstring has it: "(n, 3), m. The needle's tip".
+  /// For a docstring: "(n, 3), m. The needle's tip".
   std::string doc() const {
     const std::string shape =
         std::string("(n,") + (per_membrane ? " m" : "") + (width == 3 ? (per_membrane ? ", 3)" : " 3)") : ")");
@@ -28,7 +28,7 @@ struct Field {
   }
 };
 
-/// The names of an enumeration by their number; none for plain numbers.
+/// The names of an enumeration's values, by number; None for plain numbers.
 template <typename Value>
 std::optional<std::vector<std::string>> words_of() {
   if constexpr (std::is_enum_v<Value>) {
@@ -52,7 +52,7 @@ std::vector<Field> fields() {
   return all;
 }
 
-/// The arrays of punctura.Ticks, which adds what needs no core.
+/// The arrays of punctura.Ticks. The Python class adds the methods that do not need the core.
 struct TickArrays {
   nb::dict columns;
 
@@ -67,31 +67,31 @@ struct TickArrays {
 }  // namespace
 
 void bind_tick_table(nb::module_& m) {
-  auto field = nb::class_<Field>(m, "TickField", "One field of a tick, from the table in core.");
-  field.def_ro("name", &Field::name, "Of the attribute of Ticks")
-      .def_ro("column", &Field::column, "In a file: {a} is x, y or z, {i} the membrane's number")
-      .def_ro("unit", &Field::unit, "Empty for numbers without one")
-      .def_ro("says", &Field::says, "What it is")
-      .def_ro("dtype", &Field::dtype, "NumPy's name of its type")
-      .def_ro("width", &Field::width, "1, or 3 for a vector")
-      .def_ro("per_membrane", &Field::per_membrane, "Whether each membrane has one")
-      .def_ro("input", &Field::input, "Whether a replay needs it")
-      .def_ro("on_page", &Field::on_page, "Whether the studio's page gets it")
-      .def_ro("words", &Field::words, "What its numbers stand for; None for plain numbers");
+  auto field = nb::class_<Field>(m, "TickField", "One field of a tick, from the core's table.");
+  field.def_ro("name", &Field::name, "Name of the attribute of Ticks")
+      .def_ro("column", &Field::column, "Column name in a file: {a} is x, y or z, {i} the membrane's number")
+      .def_ro("unit", &Field::unit, "Unit; empty for numbers without one")
+      .def_ro("says", &Field::says, "Description")
+      .def_ro("dtype", &Field::dtype, "NumPy name of the type")
+      .def_ro("width", &Field::width, "Number of components: 1, or 3 for a vector")
+      .def_ro("per_membrane", &Field::per_membrane, "Whether each membrane has its own value")
+      .def_ro("input", &Field::input, "Whether it is an input, which a replay needs")
+      .def_ro("on_page", &Field::on_page, "Whether the studio's page receives it")
+      .def_ro("words", &Field::words, "The words for its codes; None for plain numbers");
   def_value(field, {"name", "column", "unit", "says", "dtype", "width", "per_membrane", "input", "on_page", "words"});
 
   const auto table = fields();
-  m.def("tick_fields", &fields, "The table of a tick's fields, in the order of a file's columns.");
+  m.def("tick_fields", &fields, "All fields of a tick, in the order of a file's columns.");
 
   auto arrays = nb::class_<TickArrays>(
       m, "TickArrays",
-      "The columns of punctura.Ticks by name: n ticks, m membranes. A field that these ticks do not have raises AttributeError.");
+      "The columns of punctura.Ticks by name: n ticks, m membranes. A missing field raises AttributeError.");
   arrays
       .def(nb::init<nb::dict>(), nb::arg("columns"),
            nb::sig("def __init__(self, columns: dict[str, numpy.typing.NDArray[typing.Any]]) -> None"))
       .def_prop_ro(
           "columns", [](const TickArrays& self) { return self.columns; },
-          nb::sig("def columns(self) -> dict[str, numpy.typing.NDArray[typing.Any]]"), "By name.");
+          nb::sig("def columns(self) -> dict[str, numpy.typing.NDArray[typing.Any]]"), "The arrays by name.");
   for (const Field& f : table) {
     const std::string signature = f.signature(), doc = f.doc();
     arrays.def_prop_ro(

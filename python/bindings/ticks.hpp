@@ -1,4 +1,4 @@
-// Many ticks in one call: without Python's lock, with an ear for Ctrl-C; and what a tick may be given.
+// Many ticks in one call, without the GIL and interruptible by Ctrl-C; and checks of the inputs.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace punctura::bindings {
 
-/// Calls tick(i) for i = 0 ... n-1. Ctrl-C is heard between two chunks, and the ticks made until then stay made.
+/// Calls tick(i) for i = 0 ... n-1. Ctrl-C acts between two chunks; the ticks made so far are kept.
 template <typename Tick>
 void make_ticks(std::size_t n, Tick&& tick) {
   constexpr std::size_t chunk = 1 << 14;  // 64 membranes: about 0.1 s
@@ -22,7 +22,7 @@ void make_ticks(std::size_t n, Tick&& tick) {
   }
 }
 
-/// Throws ValueError that names the argument, its place in an array, the number and what to do, for the first number that is not good.
+/// Throws ValueError for the first bad number; the message has the argument, its index, the number and the remedy.
 template <typename Good>
 void check_numbers(const double* values, std::size_t n, const char* name, std::size_t row_length, Good&& good,
                    const char* says, const char* remedy) {
@@ -34,14 +34,14 @@ void check_numbers(const double* values, std::size_t n, const char* name, std::s
       (std::string(name) + place + says + std::to_string(*bad) + remedy + ". No tick was made").c_str());
 }
 
-/// Every number must be finite. row_length: of an array of rows; 0 is a single value.
+/// Requires finite numbers. row_length: numbers per row of an array; 0 for a single value.
 inline void check_finite(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
   check_numbers(
       values, n, name, row_length, [](double x) { return std::isfinite(x); }, " must be finite and holds ",
       ": leave such ticks out, or fill them in");
 }
 
-/// The same for positions, which cannot be farther away than 1000 km either.
+/// Requires finite positions within 1000 km.
 inline void check_places(const double* values, std::size_t n, const char* name, std::size_t row_length = 0) {
   check_finite(values, n, name, row_length);
   check_numbers(
@@ -49,13 +49,13 @@ inline void check_places(const double* values, std::size_t n, const char* name, 
       " m: positions must be within 1000 km");
 }
 
-/// Throws ValueError where a direction has no length.
+/// Throws ValueError for a direction of length 0.
 inline void check_direction(const Vector3d& axis, const std::string& name) {
   if (axis == Vector3d())
     throw nb::value_error((name + " must be a direction: at least one of its three numbers not 0").c_str());
 }
 
-/// The direction of the needle as a unit vector. Throws ValueError where it has no length.
+/// The needle's direction as a unit vector. Throws ValueError for length 0.
 inline Vector3d direction(const Triple& axis) {
   check_finite(axis.data(), 3, "axis");
   check_direction(vector(axis), "axis");

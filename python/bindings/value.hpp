@@ -1,4 +1,4 @@
-// What all parameter classes are in Python: values.
+// Makes the parameter classes immutable values in Python.
 #pragma once
 
 #include <string>
@@ -14,8 +14,9 @@ inline nb::tuple field_values(nb::handle self, const std::vector<const char*>& f
   return nb::tuple(list);
 }
 
-/// Shown by its fields, equal by them, hashable, and never changed but by `replace`, which makes a new one and checks it. A
-/// field that could be set on a copy (scene.membranes[0].membrane.friction = ...) would look changed and not be.
+/// Defines repr, equality and hash by the fields, and `replace`, which makes a changed, checked copy. Fields are
+/// read-only, because setting one on a temporary copy (scene.membranes[0].membrane.friction = ...) would have no
+/// effect.
 template <typename T>
 void def_value(nb::class_<T>& cls, std::vector<const char*> fields) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
@@ -46,7 +47,7 @@ void def_value(nb::class_<T>& cls, std::vector<const char*> fields) {
         arguments.update(changes);
         return self.type()(**arguments);
       },
-      nb::sig(replace_signature.c_str()), "The same with some fields changed, checked anew.");
+      nb::sig(replace_signature.c_str()), "A checked copy with some fields changed.");
 }
 
 inline nb::tuple as_tuple(const Triple& v) { return nb::make_tuple(v[0], v[1], v[2]); }

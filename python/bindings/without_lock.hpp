@@ -1,4 +1,4 @@
-// Waits of a thread that may still run when the program ends.
+// Releases the GIL for threads that may still run when the program ends.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -9,8 +9,9 @@
 
 namespace punctura::bindings {
 
-/// Lets Python's lock go until the end of the block, as nb::gil_scoped_release does. But a daemon thread that wants the lock back while the
-/// program ends waits here for ever: up to 3.13, Python ends such a thread by unwinding its C++ frames, which aborts the process.
+/// Releases the GIL until the end of the block, like nb::gil_scoped_release. But a daemon thread that wants the GIL
+/// back during program exit waits here forever: up to version 3.13, Python ends such a thread by unwinding its C++
+/// frames, which aborts the process.
 class WithoutLock {
  public:
   WithoutLock() noexcept : state_(PyEval_SaveThread()) {
@@ -22,13 +23,13 @@ class WithoutLock {
     PyEval_RestoreThread(state_);
   }
 
-  /// The program ends, in this thread: every other one stays away from Python's lock from now on. Registered with atexit.
+  /// Call in the thread that ends the program (registered with atexit). From then on no other thread takes the GIL.
   static void end_program() {
     last_ = std::this_thread::get_id();
     ends_.store(true);
     if (!others_.load(std::memory_order_relaxed)) return;
     PyThreadState* state = PyEval_SaveThread();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // who waits for the lock already gets it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // threads that already wait for the GIL get it
     PyEval_RestoreThread(state);
   }
 

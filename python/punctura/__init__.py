@@ -1,4 +1,4 @@
-"""Punctura: the force of a needle that goes through tissue membranes and comes out again."""
+"""Punctura: the force on a needle during insertion into and withdrawal from tissue membranes."""
 
 from punctura._core import (
     Coupling,

@@ -1,4 +1,4 @@
-"""What Punctura raises. A configuration error names everything that is wrong, at once."""
+"""The exceptions of Punctura. A ConfigurationError lists all problems at once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from punctura._core import PuncturaError
 
 
 class _Missing:
-    """Stands for the value of a field that is not there."""
+    """The value of a missing field."""
 
     def __repr__(self) -> str:
         return "MISSING"
@@ -19,7 +19,7 @@ MISSING: Final = _Missing()
 
 
 class Problem(NamedTuple):
-    """One thing that is wrong: the field, what was given, and the bound it breaks with the reason for that bound."""
+    """One problem: the field's path, the given value, and the reason (the violated bound)."""
 
     path: str
     value: object
@@ -31,12 +31,12 @@ class Problem(NamedTuple):
 
 
 def _brief(text: str) -> str:
-    """For a line of a message: whole lists of numbers would bury the reason."""
+    """Shortens a value for one line of a message."""
     return text if len(text) <= 200 else f"{text[:150]} ... ({len(text)} characters)"
 
 
 class ConfigurationError(PuncturaError, ValueError):
-    """A needle, membrane or scene that cannot be. `problems` holds every one of its faults."""
+    """A needle, membrane, scene or file is invalid. `problems` lists all problems."""
 
     def __init__(self, problems: Sequence[Problem], source: str = "") -> None:
         self.problems = tuple(problems)

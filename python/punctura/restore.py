@@ -1,4 +1,4 @@
-"""How pickle makes a proxy or an insertion again."""
+"""Restores pickled proxies and insertions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def restored(cls: Any, arguments: tuple[Any, ...], state: bytes) -> Any:
-    """An object of the class, made of what its constructor was given, that goes on from the state."""
+    """Creates an object from its constructor arguments and sets its state."""
     made = cls(*arguments)
     made.state = state
     return made

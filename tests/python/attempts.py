@@ -1,4 +1,4 @@
-"""Attempts by a simulated hand, and needles whose way is known to the micrometre."""
+"""Exercise attempts by a simulated hand, and needle motions known to the micrometre."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from punctura import Phase
 from punctura.exercise import Attempt, Exercise, Result, load_exercise
 from runs import Columns, cut, experiment, unit
 
-HERTZ = 60.0  # at which a page sends where the mouse is
+HERTZ = 60.0  # rate at which a page sends the mouse position
 
 
 def as_a_device_runs_it(scene: pn.Scene) -> pn.Scene:
-    """With positions conditioned for the encoders of the simulated device, as `punctura run` does."""
+    """The scene with conditioning for the encoders of the simulated device, as in `punctura run`."""
     return scene.replace(servo=scene.servo.replace(conditioning="line_fit", encoder_step=0.055e-3))
 
 
 def motion_of(exercise: Exercise, legs: list[tuple[float, float]], axis: np.ndarray) -> pn.RecordedMotion:
-    """A mouse's way along the needle: legs of (seconds, mm from the start), in steps of a page's frames."""
+    """A mouse motion along the needle: legs of (seconds, mm from the start), in steps of page frames."""
     times = np.cumsum([0.0, *[seconds for seconds, _ in legs]])
     frames = np.arange(0, times[-1], 1 / HERTZ)
     way = np.interp(frames, times, [0.0, *[mm * 1e-3 for _, mm in legs]])
@@ -45,14 +45,14 @@ def judged(exercise: Exercise, columns: Columns, cuts: int = 27, scene: pn.Scene
 
 
 def tried(name: str, *legs: tuple[float, float], upright: bool = False, seed: int = 0) -> Result:
-    """A hand's attempt, in batches as a page gets them."""
+    """An attempt by a simulated hand, in batches as a page gets them."""
     return judged(load_exercise(name), hand_run(name, legs, upright, seed)).finish()
 
 
 def ideal(scene: pn.Scene, *corners: tuple[float, float, float], speed: float = 10e-3, stops: float = 0.0) -> Columns:
-    """A needle that goes from corner to corner (mm) at one speed, at right angles to the membranes, without any lag.
+    """A needle that moves from corner to corner (mm) at constant speed, perpendicular to the membranes, without lag.
 
-    stops: s of rest at the end.
+    stops: rest at the end, s.
     """
     rate = scene.servo.rate
     parts = []

@@ -1,4 +1,4 @@
-"""Lets every test write `from oracles import ...`, and makes hypothesis draw the same cases every time."""
+"""Makes `from oracles import ...` work in every test, and makes hypothesis draw the same cases every time."""
 
 import sys
 from pathlib import Path

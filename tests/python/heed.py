@@ -1,9 +1,9 @@
-"""Signals as a program has them that was typed in a terminal, whatever has started the tests (nohup, a script's &)."""
+"""Resets signals to their state in a terminal, even if the tests were started by nohup or in the background."""
 
 import signal
 
 
 def heed_signals():
-    """In the new process, before its program: preexec_fn."""
+    """For preexec_fn: runs in the new process before its program."""
     for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP"):
         signal.signal(getattr(signal, name), signal.SIG_DFL)

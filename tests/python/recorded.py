@@ -6,7 +6,7 @@ from waiting import wait_until
 
 
 def run_to_end(loop):
-    """Armed, started, and stopped once its device has ended by itself."""
+    """Arms and starts the loop, and stops it after its device has ended by itself."""
     loop.arm()
     loop.start()
     wait_until(lambda: loop.device.finished)
@@ -14,7 +14,7 @@ def run_to_end(loop):
 
 
 def recorded(path, device, scene, ticks):
-    """Every tick of an armed loop, in `path`."""
+    """Records all ticks of an armed loop to `path`."""
     loop = ServoLoop(device, scene)
     with Recorder(loop, path, ticks) as recorder:
         assert recorder._listener.capacity >= ticks, "nothing slows this device down: the ring must hold all its ticks"

@@ -1,4 +1,4 @@
-"""Runs of a needle as the columns that a listener gives, for the tests of events and exercises."""
+"""Needle runs in the columns of a listener, for the tests of events and exercises."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ Columns = dict[str, np.ndarray]
 
 
 def along(scene: pn.Scene, path: Any, axis: Any = None) -> Columns:
-    """The tip goes along the first membrane's normal, or `axis`, to these depths (m) from its point, tick by tick."""
+    """Moves the tip along the first membrane's normal, or `axis`, through these depths (m) from its point, per tick."""
     normal = unit(scene.membranes[0].inward_normal if axis is None else axis)
     position = np.asarray(scene.membranes[0].point) + np.outer(path, normal)
     return moved(scene, position, normal)
 
 
 def moved(scene: pn.Scene, position: np.ndarray, axis: np.ndarray) -> Columns:
-    """The tip is at these positions, tick by tick: (n, 3), m."""
+    """Moves the tip through these positions, one per tick: (n, 3), m."""
     trace = pn.Insertion(scene).run(position, axis)
     return {**of_trace(trace), "model_force": trace.force, **_more(scene, position, axis)}
 
@@ -32,7 +32,7 @@ def ramp(scene: pn.Scene, *depths: float, speed: float = 5e-3) -> np.ndarray:
 
 
 def experiment(scene: pn.Scene, motion: Any, duration: float, axis: Any, seed: int = 0) -> Columns:
-    """A simulated hand at a simulated device."""
+    """Runs a simulated hand at a simulated device."""
     trace = pn.Experiment(scene, motion, seed=seed, axis=axis).run(duration)
     return {
         **of_trace(trace),
@@ -53,7 +53,7 @@ def _more(scene: pn.Scene, position: np.ndarray, axis: np.ndarray) -> Columns:
 
 
 def cut(columns: Columns, places: Any) -> list[Columns]:
-    """Batches: cut before each of these rows."""
+    """Splits the columns into batches, before each of the given rows."""
     n = len(columns["depth"])
     edges = [0, *sorted({int(p) for p in places} - {0, n}), n]
     return [{k: v[a:b] for k, v in columns.items()} for a, b in itertools.pairwise(edges)]

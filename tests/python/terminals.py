@@ -1,4 +1,4 @@
-"""Terminals and pipes whose reader does not read."""
+"""Terminals and pipes whose output nobody reads."""
 
 import os
 import pty
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def unread_pipe():
-    """The writing end of a pipe that is full."""
+    """The write end of a full pipe."""
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
     try:
@@ -26,7 +26,7 @@ def unread_pipe():
 
 @contextmanager
 def stopped_terminal():
-    """A terminal on which somebody has pressed Ctrl-S."""
+    """A terminal stopped by Ctrl-S."""
     with terminal() as (_, slave):
         stop(slave)
         yield slave
@@ -34,7 +34,7 @@ def stopped_terminal():
 
 @contextmanager
 def terminal():
-    """Both ends; who writes is at the second one."""
+    """Both ends of the terminal; programs write to the second one."""
     master, slave = pty.openpty()
     try:
         yield master, slave
@@ -54,7 +54,7 @@ def go_on(slave):
 
 
 def read_until(master, text, seconds=30):
-    """What came up to this text, with its line ends as a program writes them."""
+    """The output up to this text, with the program's line endings."""
     said = b""
     while text not in said.replace(b"\r\n", b"\n"):
         assert select.select([master], [], [], seconds)[0], said

@@ -1,4 +1,4 @@
-"""tools/bare_machine.sh, as far as it goes without making a system."""
+"""Checks the parts of tools/bare_machine.sh that need no new system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""pip's way into the build, tools/build_backend, with a PATH and a scikit-build-core of the test's."""
+"""The build back-end for pip, tools/build_backend, with an artificial PATH and scikit-build-core."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ HOOK = (
 
 
 class Pip:
-    """Calls a hook of the back-end in a tree of its own, as pip does; `native.txt` says that CMake has started."""
+    """Calls a hook of the back-end in a separate tree, like pip. `native.txt` exists if CMake was started."""
 
     def __init__(self, folder: Path) -> None:
         self.tree, self.path, self.stubs = folder / "tree", folder / "bin", folder / "stubs"
@@ -90,7 +90,7 @@ def test_a_compiler_too_old_for_cpp_20_is_told_in_its_own_words(pip: Pip) -> Non
     pip.script("c++", "#!/bin/sh\necho \"c++: error: unrecognized command line option '-std=c++20'\" >&2\nexit 1\n")
     said = pip.call()
     assert said.returncode == 1 and not pip.native_started
-    assert "no compiler that knows C++20 (c++: error: unrecognized" in said.stderr
+    assert "not a C++20 compiler (c++: error: unrecognized" in said.stderr
 
 
 def test_a_cxx_that_does_not_start_is_told_by_its_name(pip_with_compiler: Pip) -> None:
@@ -106,7 +106,7 @@ def test_a_compiler_that_is_named_to_cmake_is_left_to_cmake(pip: Pip, environmen
     assert pip.call(**environment).returncode == 0 and pip.native_started
 
 
-def test_python_headers_that_are_missing_are_told(pip_with_compiler: Pip, tmp_path: Path) -> None:
+def test_python_headers_that_are_missing_are_reported(pip_with_compiler: Pip, tmp_path: Path) -> None:
     code = "import sysconfig; sysconfig.get_path = lambda *_: '/nowhere'\n"
     (pip_with_compiler.stubs / "sitecustomize.py").write_text(code)
     said = pip_with_compiler.call()

@@ -1,4 +1,4 @@
-"""With which compilers a warning is an error."""
+"""The compilers for which a warning is an error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The examples keep what their first lines promise."""
+"""The examples do what their first lines say."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def test_a_device_of_your_own_takes_under_80_lines(name):
 
 @pytest.mark.parametrize("name", ["cpp/06_own_device.cpp", "python/06_own_device.py"])
 def test_a_device_of_your_own_asks_for_real_time_priority_and_is_paced_without_bursts(name):
-    """Without both an ordinary load of the computer is enough for `missed_deadline`."""
+    """Without both, ordinary load on the computer causes `missed_deadline`."""
     loop = (EXAMPLES / name).read_text().split("run(")[-1]
     assert loop.index("make_realtime(") < loop.index("pacer") < loop.index("pacer.wait()")
 

@@ -1,4 +1,4 @@
-"""A compiler that may assume that no number is NaN would remove the guards of the tick."""
+"""The core rejects fast-math, because a compiler that assumes no NaN would remove the guards of the tick."""
 
 import os
 import shutil

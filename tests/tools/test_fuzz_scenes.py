@@ -1,4 +1,4 @@
-"""A moment of tools/fuzz_scenes.py, from a fixed seed."""
+"""A short run of tools/fuzz_scenes.py with a fixed seed."""
 
 from __future__ import annotations
 

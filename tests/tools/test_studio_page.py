@@ -1,4 +1,4 @@
-"""tools/build_backend/studio_page.py with a Node that is a script of the test's."""
+"""tools/build_backend/studio_page.py with a script in place of Node."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def tree(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder that is first in PATH, with the system's tools but no Node behind it."""
+    """The first folder in PATH; behind it are the system's tools without Node."""
     tools = tmp_path / "bin"
     tools.mkdir()
     for name in ("sh", "mkdir", "echo"):

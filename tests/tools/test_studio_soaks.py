@@ -1,4 +1,4 @@
-"""The soak and the fuzz of the studio, for a few seconds each."""
+"""Runs the soak test and the fuzzer of the studio for a few seconds each."""
 
 import os
 import subprocess

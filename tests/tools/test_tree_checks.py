@@ -1,4 +1,4 @@
-"""Each check of the tree passes on a good tree and says what is wrong, and where, on a bad one."""
+"""Each check of the source tree passes on a good tree, and reports problem and place on a bad one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def check(monkeypatch):
 
 
 def plant(root: Path, **files: str) -> Path:
-    """A small tree; in the names `__` stands for a slash and `_dot_` for a dot."""
+    """Creates a small tree. In the names `__` stands for a slash and `_dot_` for a dot."""
     for name, text in files.items():
         path = root / name.replace("__", "/").replace("_dot_", ".")
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -70,7 +70,7 @@ def test_an_unknown_room_and_a_header_that_is_not_there_are_found(check, tmp_pat
         core__punctura__model__b_dot_hpp='#include "punctura/model/gone.hpp"\n',
     )
     assert said(check("rooms"), root) == [
-        "core/punctura/attic/a.hpp:1: lies in no room that tools/check_rooms.py knows",
+        "core/punctura/attic/a.hpp:1: is in no room that tools/check_rooms.py knows",
         "core/punctura/model/b.hpp:1: includes punctura/model/gone.hpp, which does not exist",
     ]
 
@@ -188,7 +188,7 @@ def test_python_and_page_files_outside_all_rooms_and_page_files_that_are_not_the
         web__src__attic__a_dot_ts='import "./gone.ts";\nimport "./style.css";\n',
         web__src__state__a_dot_ts='import "./gone.ts";\nimport "./style.css";\n',
     )
-    reason = "lies in no room that tools/check_rooms.py knows"
+    reason = "is in no room that tools/check_rooms.py knows"
     assert said(check("rooms"), root) == [
         f"python/punctura/attic/a.py:1: {reason}",
         f"web/src/attic/a.ts:1: {reason}",
@@ -200,12 +200,12 @@ def test_a_file_of_351_lines_is_found_and_one_of_350_is_not(check, tmp_path):
     root = plant(tmp_path, a_dot_py="x = 1\n" * 350, b_dot_cpp="\n", c_dot_hpp="\n", d_dot_sh="\n")
     assert said(check("sizes"), root) == []
     plant(tmp_path, a_dot_py="x = 1\n" * 351)
-    assert said(check("sizes"), root) == ["a.py:351: 351 lines; none may have over 350"]
+    assert said(check("sizes"), root) == ["a.py:351: 351 lines; the limit is 350"]
 
 
 def test_too_many_files_over_200_lines_are_found(check, tmp_path):
     root = plant(tmp_path, a_dot_py="\n" * 201, b_dot_py="\n" * 220, c_dot_py="\n")
-    assert said(check("sizes"), root) == ["b.py:220: one of 2 files over 200 lines, of 3: most must be shorter"]
+    assert said(check("sizes"), root) == ["b.py:220: one of 2 files over 200 lines; the limit is a quarter of 3"]
 
 
 GOOD = {

@@ -1,4 +1,4 @@
-"""The version stands in CMakeLists.txt; what cannot read it there has the same."""
+"""CMakeLists.txt defines the version; files that cannot read it from there have the same one."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""What pip cannot bring and CMake does not explain: a C++20 compiler and Python's headers."""
+"""Checks for a C++20 compiler and Python's headers, which pip cannot install and CMake reports unclearly."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import sys
 import sysconfig
 from pathlib import Path
 
-# What CMake tries when CXX is not set.
+# The compilers that CMake tries if CXX is not set.
 COMPILERS = ("c++", "CC", "g++", "clang++", "icpx", "icx")
 PROBE = "#include <concepts>\nint main() { return std::same_as<int, int> ? 0 : 1; }\n"
 OS_RELEASE = Path("/etc/os-release")
-# By the ID and ID_LIKE of os-release.
+# Keys: ID and ID_LIKE of os-release.
 INSTALL = {
     "debian": "sudo apt-get install g++ python3-dev",
     "fedora": "sudo dnf install gcc-c++ python3-devel",
@@ -33,23 +33,23 @@ ON_MACOS = "xcode-select --install"
 
 
 class ToolsError(Exception):
-    """What is missing, and how to install it."""
+    """A tool is missing. The message says how to install it."""
 
 
 def check() -> None:
-    """Raises ToolsError. On Windows, and where somebody names a compiler to CMake itself, CMake alone can tell."""
+    """Raises ToolsError. Checks nothing on Windows or if a compiler was given to CMake itself: only CMake can tell."""
     named = os.environ.get("CMAKE_ARGS", "") + " ".join(name for name in os.environ if name == "CMAKE_TOOLCHAIN_FILE")
     if sys.platform == "win32" or "CMAKE_CXX_COMPILER=" in named or "CMAKE_TOOLCHAIN_FILE" in named:
         return
     missing = [trouble for trouble in (_compiler(), _headers()) if trouble]
     if missing:
         raise ToolsError(
-            f"Punctura cannot be compiled: {'; '.join(missing)}. Install what is missing, then try again:\n{remedy()}"
+            f"Punctura cannot be compiled: {'; '.join(missing)}. Install the missing tools and try again:\n{remedy()}"
         )
 
 
 def remedy() -> str:
-    """The line to type on this system; the lines of all where it is none that we know."""
+    """The install command for this system, or those for all systems if this one is unknown."""
     if sys.platform == "darwin":
         return f"    {ON_MACOS}"
     ids = _ids()
@@ -61,13 +61,13 @@ def remedy() -> str:
         [
             *lines,
             f"    {'macOS:':<18}{ON_MACOS}",
-            "    elsewhere:        a compiler that knows C++20 (GCC 10, Clang 14 or newer), Python's headers",
+            "    elsewhere:        a C++20 compiler (GCC 10, Clang 14 or newer), Python's headers",
         ]
     )
 
 
 def _compiler() -> str:
-    """Why there is none; empty where there is one."""
+    """The reason why there is no usable compiler; empty if there is one."""
     asked = os.environ.get("CXX", "").strip()
     if asked:
         trouble = _trouble(shlex.split(asked), f"CXX={asked}")
@@ -85,7 +85,7 @@ def _trouble(command: list[str], name: str) -> str:
     if said.returncode == 0:
         return ""
     first = next(iter(said.stderr.strip().splitlines()), "no reason given")
-    return f"{name} is no compiler that knows C++20 ({first})"
+    return f"{name} is not a C++20 compiler ({first})"
 
 
 def _headers() -> str:
@@ -96,7 +96,7 @@ def _headers() -> str:
 
 
 def _ids() -> set[str]:
-    """debian, ubuntu, ...: what this system is, and what it is like."""
+    """The ids of this system and of similar ones: debian, ubuntu, ..."""
     ids: set[str] = set()
     if OS_RELEASE.is_file():
         for line in OS_RELEASE.read_text().splitlines():

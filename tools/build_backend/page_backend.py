@@ -1,6 +1,6 @@
-"""scikit-build-core's back-end with two things more (PEP 517, 660).
+"""Extends the build back-end of scikit-build-core (PEP 517, 660).
 
-A missing compiler is told with its remedy, and the studio's page is built before it is packed.
+It reports a missing compiler with its remedy, and builds the studio's page before packaging.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def build_editable(directory: str, settings: Settings = None, metadata: str | No
 
 
 def build_sdist(directory: str, settings: Settings = None) -> str:
-    _page()  # goes along, so that a wheel can be made of the sdist without Node
+    _page()  # included, so that a wheel can be built from the sdist without Node
     return native.build_sdist(directory, settings)
 
 
@@ -56,7 +56,7 @@ def _compiler() -> None:
 
 def _page() -> None:
     try:
-        # ./run and ./test keep what npm brings for their next build; pip leaves nothing in somebody's clone.
+        # ./run and ./test keep node_modules for their next build. A plain pip install must leave the clone unchanged.
         studio_page.build(Path.cwd(), keep_modules="PUNCTURA_KEEP_NODE_MODULES" in os.environ)
     except studio_page.PageError as error:
         _give_up(error)

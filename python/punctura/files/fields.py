@@ -26,7 +26,7 @@ def _number(value: object) -> Decimal:
 
 
 def _numbers(value: object, names: str) -> tuple[Decimal, ...]:
-    """names: of the numbers, "x, y, z"."""
+    """names: names of the numbers, such as "x, y, z"."""
     given = [_as_decimal(v) for v in value] if isinstance(value, (list, tuple)) else []
     numbers = tuple(n for n in given if n is not None)
     count = names.count(",") + 1
@@ -70,7 +70,7 @@ def _plain(value: Any) -> Any:
 
 _VECTOR_SCHEMA = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
 
-# Numbers are decimals, as they were written, until they are converted to SI (files/units.py).
+# Numbers stay decimals, exactly as written, until they are converted to SI (files/units.py).
 _AS_FLOAT = PlainSerializer(_plain, when_used="json")
 Number = Annotated[Decimal, PlainValidator(_number), _AS_FLOAT, WithJsonSchema({"type": "number"})]
 Vector = Annotated[tuple[Decimal, Decimal, Decimal], PlainValidator(_vector), _AS_FLOAT, WithJsonSchema(_VECTOR_SCHEMA)]

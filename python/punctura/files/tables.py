@@ -1,4 +1,4 @@
-"""What is wrong with the keys and the types of a TOML table, in plain words. The schema is a pydantic model."""
+"""Checks keys and types of TOML tables by a pydantic model and reports problems in plain words."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from pydantic_core import ErrorDetails
 from punctura.errors import MISSING, Problem
 from punctura.files.units import split_key
 
-Location = tuple[int | str, ...]  # of a value in the file: ("membrane", 1, "friction")
+Location = tuple[int | str, ...]  # place of a value in the file: ("membrane", 1, "friction")
 
 
 class Table(BaseModel):
-    """A table of a file: unknown keys and wrong types are refused."""
+    """A table of a file. It rejects unknown keys and wrong types."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
 class Schema:
-    """A file's schema: its root, and the tables in it by their keys."""
+    """A file's schema: the root model, and the tables by key."""
 
     def __init__(
         self,
@@ -38,7 +38,7 @@ class Schema:
         self.heads = {key: f"[{key}]" for key in tables or {}} | {key: f"[[{key}]]" for key in lists or {}}
 
     def problems(self, error: ValidationError) -> list[tuple[Location, Problem]]:
-        """Each problem with its place in the file."""
+        """The problems, each with its place in the file."""
         return [(e["loc"], self._problem(e)) for e in error.errors(include_url=False)]
 
     def _problem(self, error: ErrorDetails) -> Problem:
@@ -69,14 +69,14 @@ def missing(head: str | None) -> str:
 
 
 def unknown_key(key: str, table: type[BaseModel]) -> str:
-    """The reason for a key that the table does not have, with the key that was meant, if one is similar."""
+    """The reason for an unknown key, with a suggestion if a known key is similar."""
     known = list(table.model_fields)
     near = difflib.get_close_matches(key, known, n=1) or [k for k in known if split_key(k)[0] == key]
     return f"unknown key; did you mean {near[0]}?" if near else f"unknown key; known here: {', '.join(known)}"
 
 
 def path_of(location: Location) -> str:
-    """`membrane[1].friction`. A key that needs quotes in TOML has them here, because its dots are its own."""
+    """The path as text: `membrane[1].friction`. A key that needs quotes in TOML is quoted, since it may hold dots."""
     text = ""
     for part in location:
         if isinstance(part, int):
@@ -93,7 +93,7 @@ def location_of(path: str) -> Location:
 
 
 def shown(value: object) -> object:
-    """A value as a message shows it: tables and lists of tables are too long."""
+    """A value for a message. Tables and lists of tables are left out, because they are too long."""
     if isinstance(value, Decimal):
         return float(value)
     if isinstance(value, list) and not any(isinstance(v, (dict, list)) for v in value):

@@ -18,7 +18,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-Tables: TypeAlias = dict[str, object]  # of a TOML file
+Tables: TypeAlias = dict[str, object]  # tables of a TOML file
 
 
 def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
@@ -30,12 +30,12 @@ def _file_of(what: str) -> str:
 
 
 def read_text(path: Path, what: str) -> str:
-    """The text of a TOML file, without a byte-order mark. what: kind of file, for the messages.
+    """The text of a TOML file, without a byte-order mark. what: kind of file, for messages.
 
-    Raises ConfigurationError, also for a device, a pipe, and a file of more than MOST_BYTES.
+    Raises ConfigurationError, also for a device, a pipe, or a file larger than MOST_BYTES.
     """
     try:
-        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # before it is opened: a pipe could block
+        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # check first: opening a pipe could block
             raise _error(path, f"is a device or a pipe, not {_file_of(what)}; save its text in a file")
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
@@ -61,12 +61,12 @@ def read_tables(path: Path, what: str, parse_float: Callable[[str], object] | No
 def _decimal(text: str) -> Decimal:
     try:
         return Decimal(text)
-    except InvalidOperation:  # an exponent of 19 digits: no Decimal, but as a double 0 or infinite
+    except InvalidOperation:  # an exponent of 19 digits: too large for Decimal; as a double it is 0 or infinite
         return Decimal(float(text))
 
 
 def parse_toml(text: str, path: Path, parse_float: Callable[[str], object] | None = None) -> Tables:
-    """The tables of a TOML text. parse_float: converts fractions; without it they stay the decimals that were written.
+    """The tables of a TOML text. parse_float: converts numbers with a fraction; default: exact decimals.
 
     Raises ConfigurationError.
     """

@@ -1,6 +1,6 @@
-"""Bounds of what the reader of TOML files takes on: scenes, limits, placements, exercises.
+"""Size limits for TOML files: scenes, limits, placements, exercises.
 
-TOML itself has no bounds; beyond these a file could take a reader hours.
+TOML itself has no limits. A file beyond these could take hours to read.
 """
 
 from __future__ import annotations
@@ -8,12 +8,12 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-MOST_BYTES = 256 * 1024  # 64 membranes take a tenth of it
-_MOST_NESTED = 16  # lists and tables in each other; a scene has three
-_MOST_DOTS = 16  # in one key; a scene has one
-_LONGEST_WORD = 1000  # characters of a number or of a key without quotes
+MOST_BYTES = 256 * 1024  # a scene of 64 membranes takes a tenth of it
+_MOST_NESTED = 16  # nested lists and tables; a scene has three levels
+_MOST_DOTS = 16  # in one key; a scene needs one
+_LONGEST_WORD = 1000  # characters of a number or an unquoted key
 
-# Of each text that begins, the end counts as its end where it has no other: then none is looked at twice.
+# A string without an end quote counts up to the end of the file, so that no character is scanned twice.
 _TOKEN = re.compile(
     r'''"""(?:[^\\]|\\.)*?(?:"{3,5}|\\?\Z)'''
     r"""|\'\'\'.*?(?:'{3,5}|\Z)"""
@@ -24,14 +24,14 @@ _TOKEN = re.compile(
 
 
 class Excess(NamedTuple):
-    """Where a text goes beyond what is read, and how."""
+    """The first place that exceeds a limit: the line and the reason."""
 
     line: int
     reason: str
 
 
 def excess(text: str) -> Excess | None:
-    """The first place of a text, whether it is TOML or not, that the reader does not take on."""
+    """The first place of a text that exceeds a limit, None if there is none. The text need not be valid TOML."""
     line, nested, dots = 1, 0, 0
     for found in _TOKEN.finditer(text):
         token = found[0]
@@ -47,9 +47,9 @@ def excess(text: str) -> Excess | None:
         elif first == ".":
             dots += 1
         elif first != "#" and len(token) > _LONGEST_WORD:
-            return Excess(line, f"a number or a key has {len(token)} characters; {_LONGEST_WORD} are read at most")
+            return Excess(line, f"a number or a key has {len(token)} characters; the limit is {_LONGEST_WORD}")
         if nested > _MOST_NESTED:
-            return Excess(line, f"lists and tables stand more than {_MOST_NESTED} deep in each other")
+            return Excess(line, f"lists and tables are nested more than {_MOST_NESTED} deep")
         if dots > _MOST_DOTS:
             return Excess(line, f"a key has more than {_MOST_DOTS} dots")
     return None

@@ -1,19 +1,19 @@
-"""The units in the names of a file's keys, and the exact conversion to and from SI."""
+"""Units in the key names of a file, and the exact conversion to and from SI."""
 
 from __future__ import annotations
 
 from decimal import Context, Decimal
 from typing import NamedTuple
 
-# pi/180 to more digits than a double holds, so that an angle in degrees is rounded once only.
+# pi/180 with more digits than a double, so that an angle in degrees is rounded only once.
 _RAD_PER_DEG = Decimal("0.017453292519943295769236907684886127134428718885417")
 
-# Of products of what a file can hold no digit is lost; one beyond a Decimal's range is infinite, as a double is.
+# Precise enough that products of file values lose no digit. An overflow gives infinity, as with doubles.
 _EXACT = Context(prec=2000, traps=[])
 
 
 class Unit(NamedTuple):
-    """A unit as people write it: its name and how many SI units it is."""
+    """A unit in a file: its name and its size in SI units."""
 
     name: str
     si: Decimal
@@ -35,7 +35,7 @@ _NO_UNIT = Unit("", Decimal(1))
 
 
 def split_key(key: str) -> tuple[str, Unit]:
-    """Field name and unit of a key: `thickness_mm` is (`thickness`, mm); a key without a unit is its own name."""
+    """Splits a key into field name and unit: `thickness_mm` gives (`thickness`, mm). A key may have no unit."""
     for suffix in sorted(UNITS, key=len, reverse=True):
         if key.endswith("_" + suffix):
             return key[: -len(suffix) - 1], UNITS[suffix]
@@ -48,5 +48,5 @@ def to_si(value: Decimal, unit: Unit) -> float:
 
 
 def from_si(value: float, unit: Unit) -> Decimal:
-    """The decimal number in `unit` that `to_si` turns back into the very same double."""
+    """A decimal number in `unit` that `to_si` converts back to exactly `value`."""
     return Decimal(repr(value)) / unit.si

@@ -1,6 +1,6 @@
-"""Writes a file under a temporary name, and renames it when it is complete and on the disk.
+"""Writes a file under a temporary name and renames it when it is complete and on the disk.
 
-On every error (a full disk is one) nothing is left behind, and a file that was at the path before is unchanged.
+After any error, such as a full disk, no temporary file remains, and an existing file at the path is unchanged.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ _NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
 
 @contextmanager
 def whole_file(path: Path, replace: bool = True) -> Iterator[str]:
-    """Gives the place to write to; at the end the file gets the name `path`.
+    """Yields the path to write to. At the end of the block the file is renamed to `path`.
 
-    replace: whether another file at `path` may be replaced; its permissions are kept. If not, and there is one, raises
-    FileExistsError. Raises OSError with `path` as its filename. On systems with unnamed files, a killed process leaves
-    nothing; on others it leaves a hidden file.
+    replace: whether to replace an existing file, whose permissions are kept; if False, raises FileExistsError. Raises
+    OSError with `path` as its filename. A killed process leaves nothing on systems with unnamed files, and a hidden
+    file on others.
     """
     hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     place, descriptor = str(hidden), None
@@ -52,13 +52,13 @@ def whole_file(path: Path, replace: bool = True) -> Iterator[str]:
 
 
 def write_whole(path: Path, data: bytes, replace: bool = True) -> None:
-    """Writes all of a file at once. See whole_file."""
+    """Writes a complete file. See whole_file."""
     with whole_file(path, replace) as place, open(place, "wb") as file:
         file.write(data)
 
 
 def rename_new(file: Path, path: Path) -> None:
-    """Renames without overwriting, even if another program creates `path` at the same moment.
+    """Renames without overwriting, even if another program creates `path` at the same time.
 
     Raises FileExistsError.
     """
@@ -73,7 +73,7 @@ def rename_new(file: Path, path: Path) -> None:
 
 
 def unnamed_file(folder: Path) -> int | None:
-    """The descriptor of a file without a name, which is gone when it is closed; None if the system has none."""
+    """The descriptor of an unnamed file, which is deleted on close. None if the system has no unnamed files."""
     if not hasattr(os, "O_TMPFILE") or not os.path.isdir("/proc/self/fd"):
         return None
     try:
@@ -87,7 +87,7 @@ def unnamed_file(folder: Path) -> int | None:
 def give_name(descriptor: int, path: Path) -> bool:
     """Gives an unnamed file a name. False if the system cannot. Raises FileExistsError."""
     try:
-        # With src_dir_fd, though an absolute path has no use for it: only then Python follows the link in /proc.
+        # An absolute path does not need src_dir_fd, but only with it does Python follow the link in /proc.
         os.link(f"/proc/self/fd/{descriptor}", path, src_dir_fd=descriptor)
     except FileExistsError:
         raise

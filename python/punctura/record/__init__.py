@@ -1,4 +1,4 @@
-"""Recordings that lose nothing: made, read and run again (docs/recordings.md)."""
+"""Writes, reads and replays recordings of every tick (docs/recordings.md)."""
 
 from punctura.record.errors import RecordingError
 from punctura.record.recorder import Recorder

@@ -1,4 +1,4 @@
-"""A file that only grows, and is whole up to its last whole write."""
+"""An append-only file that stays valid up to its last complete write."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from punctura.record.new_file import make_file
 _OPEN_FILES = "/proc/self/fd"  # on Linux
 
 
-class Amiss(NamedTuple):
-    """What others did to the file.
+class FileChange(NamedTuple):
+    """A change that another program made to the file.
 
-    lost: what had been written to it is gone, in part or as a whole. place: where the file is now, None if not known.
+    lost: some or all of the written data is gone. place: the file's present path, None if unknown.
     """
 
     words: str
@@ -26,22 +26,22 @@ class Amiss(NamedTuple):
 
 
 class AppendFile:
-    """Made anew with its first bytes, and locked; what stands there already is never overwritten.
+    """Creates a new file with its first bytes and locks it. It never overwrites an existing file.
 
-    A write that fails can be tried again.
+    A failed write can be retried.
     """
 
     def __init__(self, path: Path, first: bytes = b"") -> None:
         """Raises FileExistsError, OSError."""
         self._path = path
-        self.size = 0  # of what was written in whole
-        self._name: int | None = None  # opened by its name: through this descriptor Linux tells the present name
-        # aside: where a damaged file is now that stood at this path
+        self.size = 0  # bytes in complete writes
+        self._name: int | None = None  # descriptor opened by path; Linux reports the file's present path through it
+        # aside: the new path of a damaged file that had this name
         self._descriptor, self.aside = make_file(path, lambda descriptor: self._begin(descriptor, first))
         try:
             self._counts_names = os.fstat(self._descriptor).st_nlink > 0
             if sys.platform == "linux" and os.path.isdir(_OPEN_FILES):
-                # Not self._descriptor: that was opened before the file had a name, and keeps saying so.
+                # self._descriptor was opened before the file had a name, so Linux reports no path for it.
                 self._name = os.open(path, os.O_PATH)
         except BaseException:
             self.discard()
@@ -52,31 +52,31 @@ class AppendFile:
         self.write(first)
 
     def write(self, data: bytes) -> None:
-        """All of it, or an OSError; what a failed write has left is overwritten by the next."""
+        """Appends all bytes or raises OSError. The next write overwrites the remains of a failed one."""
         os.lseek(self._descriptor, self.size, os.SEEK_SET)
         rest = memoryview(data)
         while rest:
             rest = rest[os.write(self._descriptor, rest) :]
         self.size += len(data)
 
-    def amiss(self) -> Amiss | None:
-        """Whether the file is still the one at its path, and as long as it was written."""
+    def change(self) -> FileChange | None:
+        """None if the file is still at its path and has its full length; else what has changed."""
         mine = os.fstat(self._descriptor)
         if self._counts_names and mine.st_nlink == 0:
-            return Amiss(f"{self._path} was removed or replaced by another program while it was being recorded", True)
+            return FileChange(f"{self._path} was removed or replaced by another program during the recording", True)
         if mine.st_size < self.size:
-            return Amiss(f"{self._path} was cut off by another program while it was being recorded", True)
+            return FileChange(f"{self._path} was truncated by another program during the recording", True)
         try:
             if os.path.samestat(mine, os.stat(self._path)):
                 return None
         except OSError:
             pass
         place = self.place()
-        where = f"it goes on in {place}" if place else "it goes on under another name; this system does not report it"
-        return Amiss(f"{self._path} was moved while it was being recorded; {where}", False, place)
+        where = f"recording continues in {place}" if place else "this system does not report the new path"
+        return FileChange(f"{self._path} was moved during the recording; {where}", False, place)
 
     def place(self) -> Path | None:
-        """Where the file is now, also after it was moved or renamed; None where the system does not tell that."""
+        """The file's present path, even after a move or rename. None if the system does not report it."""
         places = [self._path]
         if self._name is not None:
             with suppress(OSError):
@@ -88,7 +88,7 @@ class AppendFile:
         return None
 
     def source(self) -> Path:
-        """Where to read it from, also where its name is not known. Raises FileNotFoundError where it has none."""
+        """A path to read the file from, even if its name is unknown. Raises FileNotFoundError if it was deleted."""
         here = Path(f"{_OPEN_FILES}/{self._descriptor}")
         named = os.fstat(self._descriptor).st_nlink > 0 or not self._counts_names
         place = self.place() or (here if named and here.exists() else None)
@@ -97,22 +97,22 @@ class AppendFile:
         return place
 
     def settle(self) -> None:
-        """Cuts off what a failed write has left."""
+        """Truncates the remains of a failed write."""
         if os.fstat(self._descriptor).st_size > self.size:
             os.ftruncate(self._descriptor, self.size)
 
     def discard(self) -> None:
         """Closes the file and removes it."""
         try:
-            if os.name == "posix":  # while it is locked: nobody else can have begun a file of this name
+            if os.name == "posix":  # unlink under the lock: no other recorder can have created a file of this name
                 self._path.unlink(missing_ok=True)
         finally:
             self.close()
-        if os.name != "posix":  # Windows removes no file that is open
+        if os.name != "posix":  # Windows cannot remove an open file
             self._path.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Releases the lock, too."""
+        """Closes the file and releases its lock."""
         if self._descriptor >= 0:
             os.close(self._descriptor)
             if self._name is not None:

@@ -1,4 +1,4 @@
-"""What waits for the disk, in bounded memory."""
+"""A queue of data that waits for the disk, in bounded memory."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Piece(NamedTuple):
-    """Bytes to append, and how many ticks they hold."""
+    """Bytes to append, with the number of ticks in them."""
 
     data: bytes
     rows: int
@@ -16,7 +16,7 @@ class Piece(NamedTuple):
 
 
 class Backlog:
-    """Between the thread that reads a loop's ring and the one that writes: a slow disk does not fill the ring."""
+    """Connects the thread that reads a loop's ring with the one that writes, so a slow disk does not fill the ring."""
 
     def __init__(self, limit_bytes: int) -> None:
         self._limit = limit_bytes
@@ -30,7 +30,7 @@ class Backlog:
         return self._bytes
 
     def put(self, piece: Piece) -> bool:
-        """False: there is no room for these ticks. What holds none, the beginning of a stream, always finds room."""
+        """Returns False if these ticks do not fit. A piece without ticks (the start of a stream) always fits."""
         with self._changed:
             if piece.rows and self._bytes + len(piece.data) > self._limit:
                 return False
@@ -40,7 +40,7 @@ class Backlog:
             return True
 
     def close(self) -> None:
-        """Nothing comes any more."""
+        """Ends the input: no more pieces follow."""
         with self._changed:
             self._closing = True
             self._changed.notify_all()
@@ -50,23 +50,23 @@ class Backlog:
         return self._closing
 
     def first(self) -> Piece | None:
-        """Waits for the oldest piece and leaves it where it is; None when there is nothing and nothing will come."""
+        """Waits for the oldest piece and returns it without removing it. None once the queue is closed and empty."""
         with self._changed:
             while not self._pieces and not self._closing:
                 self._changed.wait()
             return self._pieces[0] if self._pieces else None
 
     def done(self) -> None:
-        """The oldest piece is on the disk."""
+        """Removes the oldest piece after it was written."""
         with self._changed:
             self._bytes -= len(self._pieces.popleft().data)
 
     def pause(self, seconds: float) -> None:
-        """Waits, but not for longer than until close()."""
+        """Waits for `seconds` or until close(), whichever comes first."""
         with self._changed:
             self._changed.wait_for(lambda: self._closing, seconds)
 
     def rows(self) -> int:
-        """Ticks that wait."""
+        """Number of ticks in the queue."""
         with self._changed:
             return sum(piece.rows for piece in self._pieces)

@@ -1,6 +1,6 @@
-"""A file in memory whose content is taken away piece by piece.
+"""An in-memory file whose content is read out piece by piece.
 
-It stands alone, without an import from this package: Arrow may hold it until after the interpreter's end.
+This module imports nothing from this package, because Arrow may hold the file until after the interpreter exits.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class Collected:
-    """A file that keeps what is written until it is asked for."""
+    """A write-only file that keeps its content until take()."""
 
     closed = False
 

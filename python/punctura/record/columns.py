@@ -1,4 +1,4 @@
-"""The columns of a recording: those of a tick (docs/tick.md), and two that only a recording has."""
+"""The columns of a recording: the fields of a tick (docs/tick.md) and two columns of its own."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from punctura.ticks import FIELDS
 
 Columns = dict[str, NDArray[Any]]
 
-LOST = "lost"  # ticks that are missing between the row before and this one
-NEW_SCENES = "new_scenes"  # the scenes taken before this tick's step, as TOML; null in most rows
+LOST = "lost"  # number of ticks missing between the previous row and this one
+NEW_SCENES = "new_scenes"  # the scenes taken before this tick's step, as TOML; null if none
 
-INPUTS = [field.name for field in FIELDS.values() if field.input]  # what a tick was given
+INPUTS = [field.name for field in FIELDS.values() if field.input]  # the inputs of a tick

@@ -1,7 +1,6 @@
-"""What the description of a recording must be. It is checked once, when a file is opened; no reader checks it again.
+"""Schema of a recording's description (its header), checked once when the file is opened.
 
-A new field of the header gets a line here. Keys that are not known here are kept and left alone, since another version
-may have written them.
+Each header field has a line here. Unknown keys are kept unchanged, because another version may have written them.
 """
 
 from __future__ import annotations
@@ -15,27 +14,27 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from punctura.record.errors import RecordingError
 
-# That this version reads; it writes the last. In 1 the gate limited the distance between two readings, and there
-# was no `spent_N2s`.
+# Formats that this version reads. It writes the last one. In format 1 the gate limited the distance between two
+# readings, and `spent_N2s` did not exist.
 FORMATS = (1, 2)
 _MOST_NESTED = 64
 _MOST_TOLD = 5  # problems in one message
 
 Count = Annotated[int, Field(ge=0, lt=2**63)]
-Tick = Annotated[int, Field(ge=-1, lt=2**63)]  # -1: there is none
+Tick = Annotated[int, Field(ge=-1, lt=2**63)]  # -1: no tick
 Positive = Annotated[float, Field(gt=0, le=1e9)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, Field(ge=-(2**63), lt=2**63)]
-Value = Whole | Number | Literal["nan", "inf", "-inf"]  # JSON has no number for these
+Value = Whole | Number | Literal["nan", "inf", "-inf"]  # words for values that JSON cannot represent as numbers
 
 
 class _Part(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
 
 
-class DeviceSaid(_Part):
-    """What the device said of itself before the run: DeviceInfo."""
+class DeviceBefore(_Part):
+    """The device's DeviceInfo from before the run."""
 
     backend: str = ""
     model: str = ""
@@ -50,7 +49,7 @@ class DeviceSaid(_Part):
 
 
 class DeviceAfter(_Part):
-    """What it said after the run."""
+    """The device's report after the run."""
 
     statements: list[str] = []
     trouble: str = ""
@@ -65,7 +64,7 @@ class FaultAt(_Part):
 
 
 class Summary(_Part):
-    """Of a finished recording."""
+    """Summary of a finished recording."""
 
     ticks: Count = 0
     first_tick: Tick = -1
@@ -88,7 +87,7 @@ class Description(_Part):
     began_ns: Count
     rate_hz: Positive
     period_s: Positive
-    device: DeviceSaid
+    device: DeviceBefore
     gate: dict[str, Value]
     limits: dict[str, Value]
     spent_N2s: NotNegative = 0.0
@@ -103,37 +102,40 @@ class Description(_Part):
 
 
 def read_description(text: bytes, path: Path) -> tuple[dict[str, Any], Description]:
-    """The JSON as it is, and checked. Raises RecordingError, which names the file and each field that is wrong."""
+    """The JSON object as stored, and the checked description.
+
+    Raises RecordingError, which names the file and each invalid field.
+    """
     data = _json(text, path)
     if data.get("format") not in FORMATS or isinstance(data["format"], bool):
         known = " and ".join(str(number) for number in FORMATS)
         raise RecordingError(
-            f"{path} has format {_brief(data.get('format'))}, and this Punctura reads format {known}; "
-            f"use the one that wrote it: {_brief(data.get('build', 'unknown'))}"
+            f"{path} has format {_brief(data.get('format'))}; this version of Punctura reads format {known}. "
+            f"Use the version that wrote it: {_brief(data.get('build', 'unknown'))}"
         )
     try:
         return data, Description.model_validate(data)
     except ValidationError as bad:
-        raise RecordingError(f"{path}: the description of the run cannot be used: {_told(bad)}") from None
+        raise RecordingError(f"{path}: the run description is invalid: {_told(bad)}") from None
 
 
 def _json(text: bytes, path: Path) -> dict[str, Any]:
     try:
         data = json.loads(text.decode(), parse_float=_finite, parse_constant=_finite)
-        json.dumps(data, ensure_ascii=False).encode()  # half a surrogate pair can be read, and not written again
+        json.dumps(data, ensure_ascii=False).encode()  # fails for a lone surrogate, which can be read but not written
     except (ValueError, RecursionError) as bad:
-        raise RecordingError(f"{path}: the description of the run cannot be used: it is no JSON ({bad})") from None
+        raise RecordingError(f"{path}: the run description is invalid: it is not JSON ({bad})") from None
     if not isinstance(data, dict):
-        raise RecordingError(f"{path}: the description of the run cannot be used: it is no JSON object")
+        raise RecordingError(f"{path}: the run description is invalid: it is not a JSON object")
     if _nested(data) > _MOST_NESTED:
-        raise RecordingError(f"{path}: the description of the run cannot be used: it is nested too deeply")
+        raise RecordingError(f"{path}: the run description is invalid: it is nested too deeply")
     return data
 
 
 def _finite(text: str) -> float:
     value = float(text)
     if not math.isfinite(value):
-        raise ValueError(f"{text} is no finite number")
+        raise ValueError(f"{text} is not a finite number")
     return value
 
 

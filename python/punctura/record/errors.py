@@ -1,4 +1,4 @@
-"""What goes wrong with recordings."""
+"""The exception for recordings."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from punctura._core import PuncturaError
 
 
 class RecordingError(PuncturaError, ValueError):
-    """A recording that cannot be begun, read or run again: which file, what is wrong, what to do."""
+    """A recording cannot be started, read or replayed. Names the file, the problem and the remedy."""

@@ -1,4 +1,4 @@
-"""From the file that grew to the one that stays."""
+"""Converts the growing .part file to the final Parquet file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from punctura.record.append_file import Amiss, AppendFile
+from punctura.record.append_file import AppendFile, FileChange
 from punctura.record.errors import RecordingError
 from punctura.record.parquet_file import parquet_output
 from punctura.record.part_file import PartFile
@@ -21,14 +21,14 @@ _SUFFIX = ".part"
 
 
 def part_path(path: Path) -> Path:
-    """Where a recording grows until it is finished."""
+    """Path of the file that an unfinished recording is written to."""
     return path.with_name(path.name + _SUFFIX)
 
 
 def save_finished(
     part: PartFile, path: Path, more: dict[str, Any], progress: Callable[[float], None] | None = None
 ) -> None:
-    """Parquet from what a growing file holds. Constant memory."""
+    """Writes the content of a .part file as Parquet, in constant memory."""
     summary = part.survey.to_dict()
     summary |= {"notes": [*part.notes, *more.pop("notes", [])], "damaged": part.damaged}
     summary["lost"] = max(summary["lost"], sum(more.get("lost", {}).values()))
@@ -40,53 +40,53 @@ def save_finished(
 def finish_recording(
     path: Path, file: AppendFile, made: int, status: RecorderStatus, after: dict[str, Any]
 ) -> RecorderStatus:
-    """Turns the file into Parquet and closes it; whatever fails, the ticks that are on the disk stay there.
+    """Converts the file to Parquet and closes it. If anything fails, the ticks on the disk are kept.
 
-    made: ticks of the loop since the recording began. Those that cannot be read in the end are lost, whatever the
-    reason is. after: what the header says besides.
+    made: number of ticks of the loop since the recording began. Ticks that cannot be read back count as lost.
+    after: further fields for the header.
     """
-    trouble, part, amiss, written = status.trouble, None, None, status.rows
+    trouble, part, change, written = status.trouble, None, None, status.rows
     try:
         file.settle()
-        amiss = file.amiss()
-        trouble = amiss.words if amiss else trouble
+        change = file.change()
+        trouble = change.words if change else trouble
         part = PartFile(file.source())
         rows = part.survey.rows
         status = replace(_counted(status, rows, part.survey.last_tick, made), file=file.place())
-        if rows < written and not trouble:  # no memory, perhaps: what was not read now must not be deleted
+        if rows < written and not trouble:  # out of memory? Keep the file: it holds unread ticks
             trouble = f"only {rows} of the {written} ticks in the file could be read"
         if not trouble:
             save_finished(part, path, after | {"lost": _causes(status), "notes": status.notes})
             file.close()
-            with suppress(OSError):  # it is finished all the same
+            with suppress(OSError):  # the Parquet file is complete in any case
                 part.path.unlink()
             return replace(status, file=path, finished=True, bytes=path.stat().st_size)
     except FileExistsError:
-        trouble = f"{path} has appeared meanwhile"
+        trouble = f"{path} was created by another program during the recording"
     except (OSError, ValueError, MemoryError, pa.ArrowException) as bad:
-        trouble = trouble or f"it could not be turned into Parquet: {str(bad) or type(bad).__name__}"
-        if not part and _is_spoiled(bad, amiss):
+        trouble = trouble or f"conversion to Parquet failed: {str(bad) or type(bad).__name__}"
+        if not part and _is_spoiled(bad, change):
             status = _counted(status, 0, -1, made)
-        elif not part:  # the ticks are on the disk, whatever kept us from reading them
+        elif not part:  # the ticks are still on the disk, even if reading them failed
             status = replace(_counted(status, written, status.last_tick, made), file=file.place())
     finally:
         file.close()
     if not status.rows:
-        return replace(status, trouble=f"{trouble}; nothing of it can be read")
-    place = status.file or "the file that was moved; this system does not report its present name"
+        return replace(status, trouble=f"{trouble}; no tick of the recording can be read")
+    place = status.file or "the moved file; this system does not report its new path"
     stays = f"the recording is in {place}" + (f", readable up to tick {status.last_tick}" if part else "")
     source = shlex.quote(str(status.file)) if status.file else "MOVED_FILE"
-    how = f"punctura export {source} --out FILE.parquet finishes it"
+    how = f"to finish it, run: punctura export {source} --out FILE.parquet"
     return replace(status, trouble=f"{trouble}; {stays}; {how}")
 
 
-def _is_spoiled(bad: BaseException, amiss: Amiss | None) -> bool:
-    """Whether the reason is the file itself, and not a lack of memory or of open files."""
-    return isinstance(bad, (RecordingError, FileNotFoundError)) or (amiss is not None and amiss.lost)
+def _is_spoiled(bad: BaseException, change: FileChange | None) -> bool:
+    """Whether the file itself is the cause, rather than a lack of memory or of file descriptors."""
+    return isinstance(bad, (RecordingError, FileNotFoundError)) or (change is not None and change.lost)
 
 
 def _counted(status: RecorderStatus, rows: int, last_tick: int, made: int) -> RecorderStatus:
-    """With what the file really holds, all that is lost of so many ticks, and a note that says why."""
+    """The status with the true number of ticks in the file, the number lost of `made`, and a note with the causes."""
     lost = max(0, made - rows)
     otherwise = max(0, lost - status.lost_in_ring - status.lost_in_backlog)
     status = replace(status, rows=rows, last_tick=last_tick, lost=lost, lost_otherwise=otherwise)
@@ -94,15 +94,15 @@ def _counted(status: RecorderStatus, rows: int, last_tick: int, made: int) -> Re
 
 
 def _causes(status: RecorderStatus) -> dict[str, int]:
-    """What is lost, for the header."""
+    """Number of lost ticks by cause, for the header."""
     return {"ring": status.lost_in_ring, "backlog": status.lost_in_backlog, "other": status.lost_otherwise}
 
 
 def _in_words(status: RecorderStatus, made: int) -> str:
     reasons = (
-        (status.lost_in_ring, "came faster than they could be taken"),
+        (status.lost_in_ring, "came faster than they could be read"),
         *((count, f"could not be written: {cause}") for cause, count in status.unwritten.items()),
-        (status.lost_otherwise, "were lost otherwise"),
+        (status.lost_otherwise, "were lost for another reason"),
     )
     why = ", ".join(f"{count} {reason}" for count, reason in reasons if count)
     return f"{status.lost} of {made} ticks are lost: {why}"

@@ -1,4 +1,4 @@
-"""What a recording says of its run: JSON in the file's metadata, completed when it is finished."""
+"""The description of a run: JSON in the file's metadata, completed when the recording is finished."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
 def describe_run(loop: ServoLoop) -> dict[str, Any]:
-    """What is known when a recording begins."""
+    """The description as known when a recording begins."""
     rate = loop.scene.servo.rate
     now_ns = time.time_ns()
     return {
@@ -49,12 +49,12 @@ def describe_run(loop: ServoLoop) -> dict[str, Any]:
 
 
 def describe_device(device: Device) -> dict[str, Any]:
-    """What a device has to say after a run."""
+    """The device's report after a run."""
     return {"statements": list(device.statements()), "trouble": device.trouble()}
 
 
 def _fields(struct: object) -> dict[str, Any]:
-    """The values of a plain struct. What JSON has no number for is written as a word: "nan", "inf"."""
+    """The values of a plain struct. Values that are not JSON numbers become words: "nan", "inf"."""
     names = [name for name in dir(struct) if not name.startswith("_") and not callable(getattr(struct, name))]
     return {name: _plain(getattr(struct, name)) for name in names}
 
@@ -64,7 +64,7 @@ def _plain(value: Any) -> Any:
 
 
 class RecordingInfo:
-    """The description of a recorded run. `data` is all of it as JSON has it; `said` the same, checked and typed."""
+    """The description of a recorded run. `data` is the JSON object; `said` holds the same fields, checked and typed."""
 
     def __init__(self, data: dict[str, Any], said: Description, path: Path) -> None:
         self.data, self.said = data, said
@@ -72,25 +72,25 @@ class RecordingInfo:
 
     @property
     def scene(self) -> Scene:
-        """The one that the run began with, at the device's rate. Raises RecordingError."""
+        """The scene at the start of the run, at the device's rate. Raises RecordingError."""
         return from_text(self.said.scene, self._path)
 
     @property
     def gate(self) -> GateLimits:
-        """Raises RecordingError."""
+        """The limits of the input gate. Raises RecordingError."""
         values = dict(self.said.gate)
-        if "position_jump" in values:  # format 1: m from one reading to the next
+        if "position_jump" in values:  # format 1: m between two readings
             values["max_speed"] = _number(values.pop("position_jump")) * self.said.rate_hz
         return self._struct(GateLimits, "gate", values)
 
     @property
     def limits(self) -> ForceLimits:
-        """As they acted, with the device's ratings. Raises RecordingError."""
+        """The force limits in effect, device ratings included. Raises RecordingError."""
         return self._struct(ForceLimits, "limits", self.said.limits)
 
     @property
     def spent(self) -> float:
-        """What the device's motors had given before the run, N^2 s: with it the limits act again as they did."""
+        """Motor load at the start of the run, N^2 s. A replay needs it to limit the force as the run did."""
         return self.said.spent_N2s
 
     @property
@@ -99,60 +99,60 @@ class RecordingInfo:
 
     @property
     def about(self) -> dict[str, Any]:
-        """What else its maker had to say; empty if nothing."""
+        """Further data from the caller of Recorder; empty if none."""
         return self.said.about
 
     @property
     def began_ns(self) -> int:
-        """Of the clock on the wall, ns since 1970."""
+        """Start of the recording, ns since 1970 by the wall clock."""
         return self.said.began_ns
 
     def _struct(self, kind: Callable[..., T], name: str, values: dict[str, Any]) -> T:
         try:
             return kind(**{key: _number(value) for key, value in values.items()})
         except TypeError:
-            reason = f"it holds {', '.join(values)}, not all of which this version knows, or with another type"
+            reason = f"it holds {', '.join(values)}; this version lacks some of these keys, or a value has a wrong type"
         except ValueError as bad:
             reason = " ".join(str(bad).split())
-        raise RecordingError(f"{self._path}: {name} in the description of the run cannot be used: {reason}")
+        raise RecordingError(f"{self._path}: {name} in the run description is invalid: {reason}")
 
 
 def _number(value: Any) -> Any:
-    """The number that a word stands for; see _plain."""
+    """The inverse of _plain: a number from its word."""
     return float(value) if isinstance(value, str) else value
 
 
 def to_metadata(data: dict[str, Any], schema: pa.Schema) -> dict[bytes, bytes]:
-    """For a schema's metadata, with a check sum over description and columns."""
+    """Schema metadata with a checksum over description and columns."""
     return with_check_sum(json.dumps(data, ensure_ascii=False).encode(), schema)
 
 
 def with_check_sum(text: bytes, schema: pa.Schema) -> dict[bytes, bytes]:
-    """The metadata of a schema whose description is this text."""
+    """Schema metadata for this description text."""
     return {KEY: text, CHECK: str(_check(text, schema)).encode()}
 
 
 def from_metadata(schema: pa.Schema, path: Path) -> RecordingInfo:
-    """Raises RecordingError where a file is no recording, or its description is damaged."""
+    """Reads the description. Raises RecordingError if the file is not a recording or its description is damaged."""
     text = (schema.metadata or {}).get(KEY)
     if text is None:
         raise RecordingError(f"{path} is not a recording of Punctura")
     if not is_sound(schema):
-        raise RecordingError(f"{path} is damaged: the description of the run is not as it was written")
+        raise RecordingError(f"{path} is damaged: the checksum of the run description is wrong")
     check_columns(schema, path)
     return RecordingInfo(*read_description(text, path), path)
 
 
 def is_sound(schema: pa.Schema) -> bool:
-    """Whether description and columns are as they were written."""
+    """Whether the checksum of description and columns is right."""
     metadata = schema.metadata or {}
     try:
         return KEY in metadata and metadata.get(CHECK) == str(_check(metadata[KEY], schema)).encode()
-    except UnicodeDecodeError:  # a column's name
+    except UnicodeDecodeError:  # in a column name
         return False
 
 
 def _check(text: bytes, schema: pa.Schema) -> int:
-    # Parquet has another name for what is in a list.
+    # Arrow and Parquet name the element type of a list differently.
     columns = "\n".join(f"{f.name} {f.type}".replace("<element:", "<item:") for f in schema)
     return zlib.crc32(columns.encode(), zlib.crc32(text))

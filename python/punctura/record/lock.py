@@ -1,4 +1,4 @@
-"""Whether a process still writes a file: it holds a lock on it, which the system releases when the process ends."""
+"""Locks that show whether a process still writes a file. The system releases the lock when the process ends."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 if sys.platform == "win32":
     import msvcrt
 
-    _AT = 1 << 40  # beyond every recording: Windows keeps others from reading a locked byte
+    _AT = 1 << 40  # beyond the end of any recording, because Windows blocks reads of a locked byte
 
     def _lock(descriptor: int) -> None:
         os.lseek(descriptor, _AT, os.SEEK_SET)
@@ -22,9 +22,9 @@ else:
 
 
 def lock(descriptor: int) -> bool | None:
-    """Locks an open file until it is closed. False: another process, or an open file of this one, holds it.
+    """Locks an open file until it is closed; returns True on success.
 
-    None: this file system has no locks.
+    False: another process, or another descriptor of this process, holds the lock. None: this file system has no locks.
     """
     try:
         _lock(descriptor)
@@ -36,7 +36,7 @@ def lock(descriptor: int) -> bool | None:
 
 
 def in_use(path: Path) -> bool:
-    """Whether a recorder holds this file. False where that cannot be known."""
+    """Whether a recorder holds this file. False if that cannot be determined."""
     try:
         descriptor = os.open(path, os.O_RDWR)
     except OSError:

@@ -1,4 +1,4 @@
-"""MCAP, for viewers of robot data: a JSON message a tick, with its JSON Schema. Needs the package `mcap`."""
+"""Exports to MCAP for robotics viewers: one JSON message per tick, with a JSON Schema. Needs the package `mcap`."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _SCENE_SCHEMA = {
 
 
 def mcap_steps(recording: Recording, out: Any, progress: Callable[[float], None] | None = None) -> Iterator[None]:
-    """All ticks on the topic punctura/tick, scenes on punctura/scene, step by step to an open file.
+    """Writes ticks to topic punctura/tick and scenes to punctura/scene, batch by batch, to an open file.
 
-    Raises ModuleNotFoundError without the package.
+    Raises ModuleNotFoundError if the package is missing.
     """
     yield from _Messages(_writer_class()(out), recording).steps(progress)
 
@@ -66,7 +66,7 @@ class _Messages:
         return int(self._writer.register_channel(topic=topic, message_encoding="json", schema_id=made))
 
     def _advance(self, time_s: float) -> None:
-        """The clock on the wall when the tick was; a tick whose time is no number keeps the last one's."""
+        """Sets the wall-clock time stamp of the tick. If time_s is not finite, keeps the previous stamp."""
         if self._first_time is None and math.isfinite(time_s):
             self._first_time = time_s
         stamp = self._began + (time_s - (self._first_time or 0.0)) * 1e9

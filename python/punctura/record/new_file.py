@@ -1,4 +1,4 @@
-"""Creates growing recordings that get their name once their beginning is written: a kill leaves no empty file."""
+"""Creates .part files. A file gets its name only after its first bytes are written, so a kill leaves no empty file."""
 
 from __future__ import annotations
 
@@ -13,17 +13,16 @@ from punctura.record.errors import RecordingError
 from punctura.record.lock import in_use, lock
 from punctura.record.part_file import PartFile
 
-_MOST_WITHOUT_TICK = 1 << 20  # bytes of a header, and of a first batch whose write was cut short by a kill
+_MOST_WITHOUT_TICK = 1 << 20  # bytes: a header and an incomplete first batch are smaller
 _TRIES = 100
 _Left = Literal["no tick", "damaged", "other"]
 
 
 def make_file(path: Path, begin: Callable[[int], None]) -> tuple[int, Path | None]:
-    """The descriptor of a new, locked file, and where a damaged file is now that stood in its place, if one did.
+    """The descriptor of a new, locked file, and the new path of a damaged file that had its name (None if none had).
 
-    `begin` writes the beginning. What a killed process left at `path` makes room where it holds no tick that can be
-    read and no process holds it: it is removed, or renamed if it is damaged inside. Raises FileExistsError for
-    anything else that is there, OSError.
+    `begin` writes the first bytes. A file of a killed process at `path` without a readable tick gives way: it is
+    removed, or renamed if it is damaged inside. Raises FileExistsError for any other existing file, and OSError.
     """
     aside = None
     for _ in range(_TRIES):
@@ -63,7 +62,10 @@ def _make_named(path: Path, begin: Callable[[int], None]) -> int:
 
 
 def _remove_abandoned(path: Path) -> Path | None:
-    """A damaged file's new name. Raises FileExistsError where a process holds it, it holds ticks, or is not ours."""
+    """Removes an abandoned file, or renames a damaged one and returns its new path.
+
+    Raises FileExistsError if a process holds it, if it has readable ticks, or if it is not a recording.
+    """
     if path.is_symlink() or not path.is_file():
         raise FileExistsError(path)
     try:
@@ -75,7 +77,7 @@ def _remove_abandoned(path: Path) -> Path | None:
     try:
         if lock(descriptor) is not True:
             raise FileExistsError(path)
-        # Another process may have removed it, and begun its own, before this one had the lock.
+        # Before this process got the lock, another one may have replaced the file.
         if not _is_at(descriptor, path):
             return None
         left = _left(path)
@@ -85,11 +87,11 @@ def _remove_abandoned(path: Path) -> Path | None:
             return _clear(path, left)
     finally:
         os.close(descriptor)
-    return _clear(path, left)  # Windows removes no file that is open
+    return _clear(path, left)  # Windows cannot remove an open file
 
 
 def _clear(path: Path, left: _Left) -> Path | None:
-    """Removes the file; a damaged one gets another name, which is returned."""
+    """Removes the file. Renames a damaged one instead and returns its new path."""
     aside = None
     if left == "damaged":
         aside = path.with_name(f"{path.name}.{secrets.token_hex(4)}.damaged")
@@ -106,15 +108,15 @@ def _is_at(descriptor: int, path: Path) -> bool:
 
 
 def is_abandoned(path: Path) -> bool:
-    """Whether a growing recording blocks no name: no process holds it, and no tick of it can be read."""
+    """Whether a .part file can be replaced: no process holds it, and it has no readable tick."""
     return path.is_file() and not path.is_symlink() and not in_use(path) and _left(path) != "other"
 
 
 def _left(path: Path) -> _Left:
-    """What a killed process left.
+    """Classifies the file of a killed process.
 
-    no tick: an empty file, or a recording whose first tick was not yet whole on the disk. damaged: no tick of it can be
-    read, but it holds more than one batch that was cut off.
+    no tick: an empty file, or a recording whose first batch is incomplete. damaged: no readable tick, but more data
+    than one incomplete batch.
     """
     try:
         size = path.stat().st_size

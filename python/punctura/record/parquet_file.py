@@ -1,4 +1,4 @@
-"""Finished recordings: Parquet, with the description of the run in the file's metadata."""
+"""Finished recordings: Parquet files with the run description in their metadata."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from punctura.record.stream import BROKEN
 
 Progress = Callable[[float], None]
 
-_ROWS_A_GROUP = 1 << 15  # at most
-_GROUP_BYTES = 32 << 20  # about; a tick of 64 membranes takes 6 kB
+_ROWS_A_GROUP = 1 << 15  # maximum
+_GROUP_BYTES = 32 << 20  # approximate; a tick of 64 membranes takes 6 kB
 
 
 class ParquetRecording:
-    """A finished recording's reader."""
+    """Reads a finished recording."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -53,12 +53,12 @@ class ParquetRecording:
 
 
 def rows_a_group(schema: pa.Schema) -> int:
-    """How many rows are in memory together."""
+    """Number of rows per row group, which are in memory together."""
     return max(256, min(_ROWS_A_GROUP, _GROUP_BYTES // (8 * len(schema))))
 
 
 class _Groups:
-    """Gathers batches to row groups."""
+    """Collects batches into row groups."""
 
     def __init__(self, writer: pq.ParquetWriter, schema: pa.Schema) -> None:
         self._writer, self._schema = writer, schema
@@ -81,10 +81,9 @@ class _Groups:
 
 @contextmanager
 def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace: bool = True) -> Iterator[_Groups]:
-    """A finished recording that has its name only when it is whole and on the disk; after an error there is nothing.
+    """Writes a finished recording. The file gets its name only when it is complete; an error leaves no file.
 
-    Numbers keep their bits: no dictionary between them and the file, which would take one NaN for another. replace:
-    see whole_file.
+    Dictionary encoding is off, because it merges different NaNs; numbers keep their bits. replace: see whole_file.
     """
     schema = schema.with_metadata(to_metadata(data, schema))
     with whole_file(path, replace) as place, _writer(place, schema) as writer:
@@ -96,7 +95,7 @@ def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace:
 def parquet_steps(
     batches: Iterable[pa.RecordBatch], out: Any, schema: pa.Schema, data: dict[str, Any]
 ) -> Iterator[None]:
-    """Writes a finished recording to an open file, step by step."""
+    """Writes a finished recording to an open file, batch by batch."""
     schema = schema.with_metadata(to_metadata(data, schema))
     with _writer(out, schema) as writer:
         groups = _Groups(writer, schema)

@@ -1,4 +1,4 @@
-"""Reads a recording that was not finished: its process was killed, or still runs."""
+"""Reads an unfinished recording: its process was killed or is still running."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ Progress = Callable[[float], None]
 
 
 class PartFile:
-    """Read once when it is opened, so that everything about it is known; what is not whole is left out and noted."""
+    """Scans the whole file when it is opened. Incomplete data is left out and noted."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self._size = path.stat().st_size
         self.survey = Survey()
         self.notes: list[str] = []
-        self.damaged = False  # ticks are missing that were on the disk
+        self.damaged = False  # whether ticks that had been written are missing
         with pa.OSFile(str(path), "rb") as file:
             decoder = Decoder(file, self._size)
             checked = 0
             for batch in decoder:
-                if checked < len(decoder.schemas):  # a stream begins
+                if checked < len(decoder.schemas):  # a new stream
                     checked = len(decoder.schemas)
                     self.info = from_metadata(decoder.schemas[0], path)
                     check_columns(decoder.schemas[-1], path)
                 self._check_order(batch)
                 self.survey.add(batch)
         if not decoder.schemas:
-            raise RecordingError(f"{path} is not a recording of Punctura, or is damaged at its beginning")
+            raise RecordingError(f"{path} is not a recording of Punctura, or its beginning is damaged")
         if not checked:
             self.info = from_metadata(decoder.schemas[0], path)
         self.damaged_parts = decoder.damaged
@@ -44,7 +44,7 @@ class PartFile:
         self._note(decoder)
 
     def batches(self, progress: Progress | None = None) -> Iterator[pa.RecordBatch]:
-        """The ticks there were when it was opened."""
+        """The ticks that were in the file when it was opened."""
         left = self.survey.rows
         with pa.OSFile(str(self.path), "rb") as file:
             for batch in Decoder(file, self._size):
@@ -59,7 +59,7 @@ class PartFile:
         try:
             return worded(batch, self.schema)
         except BROKEN as bad:
-            raise RecordingError(f"{self.path} is damaged: a state, fault or phase cannot be: {bad}") from None
+            raise RecordingError(f"{self.path} is damaged: invalid code of a state, fault or phase: {bad}") from None
 
     def _check_order(self, batch: pa.RecordBatch) -> None:
         try:
@@ -76,14 +76,14 @@ class PartFile:
             return file.read(len(END)) == END
 
     def _note(self, decoder: Decoder) -> None:
-        whole = f"whole up to tick {self.survey.last_tick}" if self.survey.rows else "without a tick"
+        whole = f"complete up to tick {self.survey.last_tick}" if self.survey.rows else "without a tick"
         self.damaged = decoder.broken_inside or decoder.damaged > 0
         if decoder.broken_inside:
             self.notes.append(
-                f"the file is damaged inside, and what comes after was left out; the recording is {whole}"
+                f"the file is damaged inside; data after the damage was left out; the recording is {whole}"
             )
         elif decoder.broken:
-            self.notes.append(f"the end of the file is cut off or damaged and was left out; the recording is {whole}")
+            self.notes.append(f"the end of the file is truncated or damaged and was left out; the recording is {whole}")
         elif not self._ended():
             self.notes.append(f"the recording was not finished; it is {whole}")
         if decoder.damaged:

@@ -1,4 +1,4 @@
-"""A recording in another format, step by step: as bytes to send on, or into a file that is open."""
+"""Exports a recording piece by piece, as bytes or to an open file."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ Progress = Callable[[float], None]
 
 
 def export_pieces(recording: Recording, kind: str) -> Iterator[bytes]:
-    """The bytes of a file, of which nothing is kept on the disk or as a whole in memory. See export_steps."""
+    """Yields the bytes of the exported file. Never holds the whole file, neither on disk nor in memory."""
     out = Collected()
-    for _ in itertools.chain(export_steps(recording, kind, out), (None,)):  # once more for what the end has written
+    for _ in itertools.chain(export_steps(recording, kind, out), (None,)):  # one more turn for the last bytes
         data = out.take()
         for at in range(0, len(data), PIECE_BYTES):
             yield data[at : at + PIECE_BYTES]
 
 
 def export_steps(recording: Recording, kind: str, out: Any, progress: Progress | None = None) -> Iterator[None]:
-    """Writes to the open file `out`, a little each step. kind: csv, parquet or mcap.
+    """Writes to the open file `out`, one piece per step. kind: csv, parquet or mcap.
 
-    Raises RecordingError, ModuleNotFoundError without the mcap package.
+    Raises RecordingError, and ModuleNotFoundError if the mcap package is missing.
     """
     return _STEPS[kind](recording, out, progress)
 

@@ -26,20 +26,20 @@ from punctura.record.stream import Encoder
 from punctura.record.writer import Writer
 from punctura.ticks import Ticks
 
-INTERVAL_S = 0.1  # from one batch to the next
+INTERVAL_S = 0.1  # between two batches
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
-_ROWS_AT_ONCE = 4096  # at most
-_BATCH_BYTES = 8 << 20  # about
-_ROWS_AT_LEAST = 64  # where memory is short
-_MOST_FAILURES = 20  # in a row, before the ring is left until the next turn
+_ROWS_AT_ONCE = 4096  # maximum
+_BATCH_BYTES = 8 << 20  # approximate
+_ROWS_AT_LEAST = 64  # minimum, when memory is short
+_MOST_FAILURES = 20  # in a row; then the thread waits until the next interval
 _COMMAND_SCENE = 8
 
 
 class Recorder:
-    """From before a loop's start until `finish`: `path`.part while it runs, then `path`, a Parquet file.
+    """Records from before the loop starts until `finish`. Writes `path`.part, then converts it to `path`, Parquet.
 
-    The tick pays a copy into a ring. One thread empties the ring ten times a second, another one writes: neither a slow
-    nor a full disk reaches the loop. What cannot be kept is counted, and the count is in the file.
+    A tick only copies its snapshot into a ring. One thread empties the ring ten times a second, another one writes to
+    the disk, so a slow or full disk cannot delay the loop. Lost ticks are counted, and the file holds the count.
 
         with Recorder(loop, "run.parquet") as recorder:
             loop.start()
@@ -51,25 +51,25 @@ class Recorder:
     def __init__(
         self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: dict[str, Any] | None = None
     ) -> None:
-        """Before loop.start(). capacity: snapshots in the ring, 32 MB at most: a note tells where it is
-        less than was asked for. about: what else the file shall say, as JSON.
+        """Call before loop.start(). capacity: number of snapshots in the ring; 32 MB at most, and a note in the file
+        says if it was reduced. about: further JSON data for the file's description.
 
-        Raises RecordingError where nothing can be written.
+        Raises RecordingError if the file cannot be written.
         """
         self.path = Path(path)
         self._part = part_path(self.path)
         if loop.running:
-            raise RecordingError("a recording begins before its loop does: make the Recorder before loop.start()")
+            raise RecordingError("the loop is already running: create the Recorder before loop.start()")
         self._loop = loop
         self._header = describe_run(loop) | ({"about": about} if about else {})
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
         self._listener = loop.listen(capacity)
         self._backlog = Backlog(_BACKLOG_BYTES)
-        self._began = self._next_tick = int(loop.report()["ticks"])  # that none is missing before
-        self._width = len(loop.scene.membranes)  # that the present stream has columns for
-        self._kept = 0  # ticks that went to the backlog
-        self._carried: list[str] = []  # scenes taken in ticks that were lost
+        self._began = self._next_tick = int(loop.report()["ticks"])  # the next tick to come, if none is missing
+        self._width = len(loop.scene.membranes)  # number of membranes in the columns of the present stream
+        self._kept = 0  # ticks put into the backlog
+        self._carried: list[str] = []  # scenes of lost ticks, written with the next kept tick
         self._unwritten: dict[str, int] = {}  # ticks that could not be written, by cause
         self._defect = ""
         self._final: RecorderStatus | None = None
@@ -79,30 +79,30 @@ class Recorder:
         try:
             self._writer = Writer(self._file, self._backlog, self._part)
             if self._file.aside:
-                self._writer.note(f"a damaged file had this name; it holds no readable tick and is {self._file.aside}")
+                self._writer.note(f"a damaged file without readable ticks was renamed to {self._file.aside}")
             if capacity is not None and self._listener.capacity < capacity:
                 self._writer.note(
-                    f"of the {capacity} snapshots that were asked for, {self._listener.capacity} can wait in the ring: "
-                    "it takes 32 MB at most. Ticks that come while it is full are lost and counted"
+                    f"the ring was reduced from {capacity} to {self._listener.capacity} snapshots: it takes 32 MB at "
+                    "most. Ticks that come while it is full are lost and counted"
                 )
             if note := room_note(loop):
                 self._writer.note(note)
             self._reader.start()
-        except BaseException:  # a signal among them: a file without a tick would only be in the way
+        except BaseException:  # also for KeyboardInterrupt: leave no file without ticks behind
             self._file.discard()
             raise
 
     def exchange(self, scene: Scene) -> None:
-        """loop.exchange(scene), remembered: the recording holds the scene from the tick that takes it."""
+        """Calls loop.exchange(scene), and records the scene with the tick that takes it."""
         self._scenes.exchange(scene)
 
     def status(self) -> RecorderStatus:
-        """How it is doing; from any thread."""
+        """The present status. Any thread may call it."""
         if self._final is not None:
             return self._final
         in_ring, unwritten = int(self._listener.lost), dict(self._unwritten)
         dropped = sum(unwritten.values())
-        missing = self._next_tick - self._began - self._kept  # before the last tick that went to the backlog
+        missing = self._next_tick - self._began - self._kept  # ticks missing before the last one in the backlog
         return RecorderStatus(
             file=self._writer.place,
             rows=self._writer.rows,
@@ -119,9 +119,10 @@ class Recorder:
         )
 
     def finish(self) -> RecorderStatus:
-        """After loop.stop(): writes what there is, and makes it Parquet. A failing disk is in `trouble`, not raised.
+        """Call after loop.stop(). Writes the remaining ticks and converts the file to Parquet.
 
-        In the end every tick of the loop since the recording began is a row, or is counted as lost.
+        Reports a failing disk in `trouble` instead of raising. Afterwards each tick of the loop since the recording
+        began is a row or is counted as lost.
         """
         if self._final is None:
             made = int(self._loop.report()["ticks"]) - self._began
@@ -148,17 +149,17 @@ class Recorder:
         self.finish()
 
     def _open(self) -> AppendFile:
-        """Description and columns are in the file when it gets its name: one that is killed at once opens, too."""
+        """Writes description and columns before the file gets its name, so it opens even after an immediate kill."""
         if self.path.suffix.lower() != ".parquet":
-            raise RecordingError(f"{self.path}: a recording's name must end in .parquet")
+            raise RecordingError(f"{self.path}: the name of a recording must end in .parquet")
         if self.path.exists():
-            raise RecordingError(f"{self.path} is there already; a recording overwrites nothing")
+            raise RecordingError(f"{self.path} already exists, and a recording overwrites no file. Choose another name")
         first = self._encoder.begin(self._batch(self._listener.read(0)).schema)
         try:
             return AppendFile(self._part, first)
         except FileExistsError:
             raise RecordingError(
-                f"{self._part} is there already: a recording that was not finished, or still runs. "
+                f"{self._part} already exists: a recording that was not finished or is still running. "
                 f"Save it with `punctura export {self._part} --out FILE.parquet`, or delete it"
             ) from None
         except OSError as bad:
@@ -171,7 +172,7 @@ class Recorder:
         self._empty_ring()
 
     def _empty_ring(self) -> None:
-        """Takes what the ring holds. Whatever fails on the way costs ticks, which are counted, and never the rest."""
+        """Reads all snapshots from the ring. A failure loses only the ticks of its batch, and they are counted."""
         limit, failures = self._rows_at_once(), 0
         while failures < _MOST_FAILURES:
             try:
@@ -182,12 +183,12 @@ class Recorder:
                 limit, failures = max(_ROWS_AT_LEAST, limit // 2), failures + 1
 
     def _rows_at_once(self) -> int:
-        """In bounded memory, however many membranes there are."""
+        """Rows per batch, bounded in memory for any number of membranes."""
         columns = len(self._encoder.schema or ())
         return max(_ROWS_AT_LEAST, min(_ROWS_AT_ONCE, _BATCH_BYTES // (8 * max(1, columns))))
 
     def _take(self, limit: int) -> int:
-        """One batch from the ring to the backlog. How many ticks it had."""
+        """Moves one batch from the ring to the backlog and returns its number of ticks."""
         snapshots = self._listener.read(limit)
         n = len(snapshots["tick"])
         if n:
@@ -195,7 +196,7 @@ class Recorder:
             kept = False
             try:
                 kept = self._keep(snapshots, scenes)
-            finally:  # the next batch that is kept says by the gap before it that this one is lost
+            finally:  # if this batch is lost, the next kept batch records the gap before it
                 self._carried = [] if kept else [scene for row in scenes if row for scene in row]
             if kept:
                 self._next_tick = int(snapshots["tick"][-1]) + 1
@@ -209,12 +210,12 @@ class Recorder:
         self._unwritten[cause] = self._unwritten.get(cause, 0) + rows
 
     def _keep(self, snapshots: Ticks, scenes: list[list[str] | None]) -> bool:
-        """One batch to the backlog. False: there is no room."""
+        """Puts one batch into the backlog. Returns False if it does not fit."""
         batch = self._batch(snapshots, scenes)
         return self._backlog.put(Piece(self._encoder.batch(batch), len(batch), int(snapshots["tick"][-1])))
 
     def _batch(self, snapshots: Ticks, scenes: list[list[str] | None] | None = None) -> pa.RecordBatch:
-        """As the file has it. Where it has more columns than the stream, a new stream begins."""
+        """The batch in the file's columns. Starts a new stream if it has more columns than the present one."""
         self._width = max(self._width, snapshots.membrane_count)
         gap = np.diff(snapshots["tick"].astype(np.int64), prepend=self._next_tick - 1) - 1
         batch = raw_batch(snapshots, self._width, gap.astype(np.uint32), scenes or [])
@@ -223,7 +224,7 @@ class Recorder:
         return batch
 
     def _taken(self, snapshots: Ticks) -> list[list[str] | None]:
-        """The scenes of each tick that took one."""
+        """For each tick the scenes that it took, None if it took none."""
         scenes: list[list[str] | None] = [None] * len(snapshots["tick"])
         for k in np.flatnonzero(snapshots["commands"] & _COMMAND_SCENE):
             scenes[k] = self._scenes.taken(int(snapshots["tick"][k]))

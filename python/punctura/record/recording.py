@@ -1,4 +1,4 @@
-"""A recording, finished or not, for those who read it."""
+"""Reads a recording, finished or not."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _PARQUET = b"PAR1"
 
 
 class Recording:
-    """Every tick of a run. `notes` says what of the file could not be read."""
+    """All ticks of a run. `notes` names the parts of the file that could not be read."""
 
     def __init__(self, path: Path, source: PartFile | ParquetRecording) -> None:
         self.path = path
@@ -39,26 +39,26 @@ class Recording:
 
     @property
     def rows(self) -> int:
-        """Ticks in the file."""
+        """Number of ticks in the file."""
         return self._source.survey.rows if isinstance(self._source, PartFile) else self._source.rows
 
     @property
     def lost(self) -> int:
-        """Ticks that are known to be missing."""
+        """Number of ticks known to be missing."""
         return int(self.summary["lost"])
 
     @property
     def damaged(self) -> bool:
-        """Ticks are missing that had been written: the file is not as it was."""
+        """Whether ticks that had been written are missing from the file."""
         return self._source.damaged if isinstance(self._source, PartFile) else bool(self.summary["damaged"])
 
     @property
     def faults(self) -> list[dict[str, Any]]:
-        """The first thousand, each with its tick, name and meaning."""
+        """The first 1000 faults, each with its tick, name and meaning."""
         return list(self.summary["faults"])
 
     def batches(self, progress: Callable[[float], None] | None = None) -> Iterator[pa.RecordBatch]:
-        """All ticks in turn, in constant memory. progress is told the share done."""
+        """Yields all ticks in order, in constant memory. progress is called with the completed share, 0 to 1."""
         return self._source.batches(progress)
 
     def ticks(self) -> Ticks:
@@ -67,31 +67,31 @@ class Recording:
         return Ticks(dict(ticks_of(self.table().combine_chunks()).items()), names)
 
     def table(self) -> pa.Table:
-        """All ticks at once, as Arrow has them, with the scenes that were taken."""
+        """All ticks at once as an Arrow table, with the scenes taken during the run."""
         return pa.Table.from_batches(list(self.batches()), self.schema)
 
     def column(self, name: str) -> NDArray[Any]:
-        """One column as numbers: null is NaN; a state, fault or phase is its code, 255 for none."""
+        """One column as numbers. null becomes NaN; a state, fault or phase becomes its code, 255 if absent."""
         if name not in self.schema.names:
             raise RecordingError(f"{self.path} has no column {name!r}; it has {', '.join(self.schema.names)}")
         parts = [numbers(batch, name) for batch in self.batches()]
         return np.concatenate(parts) if parts else np.empty(0)
 
     def _earlier_notes(self) -> list[str]:
-        """What was noted when an unfinished file was turned into this one."""
+        """Notes from the conversion of the unfinished file to this one."""
         return list(self.summary["notes"]) if self.finished else []
 
 
 def open_recording(path: str | os.PathLike[str]) -> Recording:
-    """A finished recording, or one whose process was killed or still runs. Raises RecordingError.
+    """Opens a recording: finished, still running, or left by a killed process. Raises RecordingError.
 
-    Where there is no `path` but a `path`.part, that is opened.
+    Opens `path`.part if `path` does not exist.
     """
     file = Path(path)
     if not file.exists() and part_path(file).exists():
         file = part_path(file)
     try:
-        if not stat.S_ISREG(kind := file.stat().st_mode) and not stat.S_ISDIR(kind):  # a pipe would block
+        if not stat.S_ISREG(kind := file.stat().st_mode) and not stat.S_ISDIR(kind):  # opening a pipe would block
             raise RecordingError(f"{file} is a pipe or a device, not a recording")
         with file.open("rb") as head:
             finished = head.read(len(_PARQUET)) == _PARQUET

@@ -1,4 +1,4 @@
-"""A recorded motion as a device, for another scene or in front of a view."""
+"""A device that plays a recorded motion, for another scene or for a viewer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from punctura.record.recording import Recording, open_recording
 from punctura.record.schema import input_ticks
 from punctura.ticks import Ticks
 
-# What a replay says of the device that was recorded. JSON has words where a number is not known.
+# Fields of the recorded device that the replay reports. An unknown number is a word in JSON ("nan").
 _WORDS = ("backend", "model", "serial", "has_orientation", "button_count")
 _NUMBERS = ("max_force", "continuous_force", "max_stiffness", "encoder_step")
 
@@ -22,12 +22,12 @@ _NUMBERS = ("max_force", "continuous_force", "max_stiffness", "encoder_step")
 def replay_device(
     path: str | os.PathLike[str], real_time: bool = True, priority: int = 80, processor: int = -1
 ) -> ReplayDevice:
-    """Ticks what the device of a recording, finished or not, reported: every sample, at the recorded rate.
+    """A device that plays every sample of a recording, finished or not, at the recorded rate.
 
-    In a loop with the recording's scene and limits, armed before its start, that gives the recorded forces to the last
-    bit. What was asked of the recorded loop meanwhile (another scene, a pause) is not asked again: `replay` does that.
-    real_time: False runs as fast as possible. priority: of real-time scheduling, 0 asks for none. processor: the one
-    to tick on, -1 is any. Holds all samples in memory, 80 bytes each. Raises RecordingError.
+    A loop with the recording's scene and limits, armed before its start, computes the recorded forces bit for bit.
+    Commands to the recorded loop (another scene, a pause) are not repeated; `replay` repeats them.
+    real_time: False runs as fast as possible. priority: real-time scheduling priority, 0 for none. processor: CPU
+    number, -1 for any. Holds all samples in memory, 80 bytes each. Raises RecordingError.
     """
     recording = open_recording(path)
     samples = _samples(recording)
@@ -52,11 +52,11 @@ def replay_device(
         device.spent = recording.info.spent
         return device
     except (TypeError, ValueError) as bad:
-        raise RecordingError(f"{recording.path}: its motion cannot be played as a device: {bad}") from None
+        raise RecordingError(f"{recording.path}: its motion cannot be replayed as a device: {bad}") from None
 
 
 def _samples(recording: Recording) -> Ticks:
-    """All inputs; batch by batch, so that the other columns are not in memory at once."""
+    """All inputs, read batch by batch so that the other columns do not fill the memory."""
     parts = [input_ticks(batch) for batch in recording.batches()]
     if sum(map(len, parts)) == 0:
         raise RecordingError(f"{recording.path} holds no tick to replay")

@@ -1,20 +1,20 @@
-"""How long the ticks of a run may wait for a late reader, and a note where that is not long."""
+"""Warns if the ring holds less than a second of ticks."""
 
 from __future__ import annotations
 
 from punctura._core import ServoLoop
 
-SHORT_S = 1.0  # a reader that is late by less must not lose a tick
+SHORT_S = 1.0  # a reader with a shorter delay must lose no tick
 
 
 def room_note(loop: ServoLoop) -> str:
-    """What a user should know of a run whose ticks fill the memory of a listener in less than a second; else empty."""
+    """A warning if a run fills a listener's ring in less than SHORT_S; else empty."""
     rate, count = loop.device.info.rate, len(loop.scene.membranes)
     seconds = loop.room / rate
     if seconds >= SHORT_S:
         return ""
     return (
-        f"{count} membrane{'s' if count != 1 else ''} at {rate:g} Hz are a lot of data: memory is kept for "
-        f"{seconds:.2g} s of ticks. Ticks that cannot be taken in time are missing in recordings and views, and are "
-        "counted; the force is not touched. Fewer membranes or a lower rate lose none"
+        f"{count} membrane{'s' if count != 1 else ''} at {rate:g} Hz produce a lot of data: the buffer holds "
+        f"{seconds:.2g} s of ticks. Ticks that are not read in time are counted as lost in recordings and views; the "
+        "force is not affected. Use fewer membranes or a lower rate to lose none"
     )

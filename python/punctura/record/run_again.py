@@ -1,4 +1,4 @@
-"""Runs a recording again: the same inputs through the same servo step must give the same forces, to the last bit."""
+"""Replays a recording. The same inputs through the same servo step must give the same forces, bit for bit."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _COMMAND_SCENE = 8
 
 @dataclass
 class ReplayResult:
-    """How many ticks were computed again, and where they differ first, if they do."""
+    """The number of replayed ticks, and the first difference if there is one."""
 
     file: str
     ticks: int = 0
-    identical: bool = True  # of the ticks that were computed
-    complete: bool = True  # all ticks of the recording were; False also where it has none
+    identical: bool = True  # whether all replayed ticks agree with the recording
+    complete: bool = True  # whether all ticks were replayed; False for an empty recording
     first_difference: dict[str, Any] | None = None  # tick, column, recorded, computed
     same_build: bool = True
     notes: list[str] = field(default_factory=list)
@@ -48,10 +48,10 @@ def replay(
     out: str | os.PathLike[str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> ReplayResult:
-    """Computes every tick of a recording again from its inputs, and compares all columns bit for bit.
+    """Recomputes every tick of a recording from its inputs and compares all columns bit for bit.
 
-    A replay ends where ticks are missing: the state after them cannot be known. out: where the computed ticks go, a
-    recording themselves. Raises RecordingError, ConfigurationError for an `out` that cannot be.
+    The replay stops at the first gap, because the state after missing ticks is unknown. out: file for the computed
+    ticks, a recording too. Raises RecordingError, and ConfigurationError for an invalid `out`.
     """
     if out is not None:
         check_target(Path(path), Path(out), (".parquet",))
@@ -60,7 +60,7 @@ def replay(
     if recording.info.build != build_id():
         result.same_build = False
         result.notes.append(f"recorded by another build ({recording.info.build}) than this one ({build_id()})")
-    again = _Again(recording, result)
+    again = _Replayer(recording, result)
     with ExitStack() as stack:
         output = None
         if out is not None:
@@ -74,7 +74,7 @@ def replay(
                 break
     if recording.rows == 0:
         result.complete = False
-        result.notes.append("the recording holds no tick: there is nothing to replay")
+        result.notes.append("the recording holds no ticks; nothing to replay")
     if recording.damaged:
         result.complete = False
     if result.complete and recording.lost:
@@ -82,8 +82,8 @@ def replay(
     return result
 
 
-class _Again:
-    """The servo step of a recording, and what it has to be compared with."""
+class _Replayer:
+    """Runs the servo step of a recording and compares the results."""
 
     def __init__(self, recording: Recording, result: ReplayResult) -> None:
         info = recording.info
@@ -94,7 +94,7 @@ class _Again:
 
     def run(self, batch: pa.RecordBatch) -> pa.RecordBatch | None:
         """Replays up to the first gap; None if there is nothing to replay."""
-        n, why = self._knowable(batch)
+        n, why = self._replayable(batch)
         if n < len(batch):
             self._result.complete = False
             self._result.notes.append(why)
@@ -112,8 +112,8 @@ class _Again:
     def _scenes(self, texts: list[str]) -> list[Scene]:
         return [from_text(text, self._path) for text in texts]
 
-    def _knowable(self, batch: pa.RecordBatch) -> tuple[int, str]:
-        """How many ticks from the batch's beginning can be computed, and why not the next."""
+    def _replayable(self, batch: pa.RecordBatch) -> tuple[int, str]:
+        """The number of ticks at the start of the batch that can be replayed, and the reason if more cannot."""
         tick = numbers(batch, "tick").astype(np.int64)
         gaps = np.flatnonzero(tick != self._result.ticks + np.arange(len(tick)))
         n, why = len(tick), ""
@@ -121,9 +121,9 @@ class _Again:
             n = int(gaps[0])
             missing = int(tick[n]) - self._result.ticks - n
             if self._result.ticks + n == 0:
-                why = f"the recording begins at tick {tick[n]}; without what was before, nothing can be run again"
+                why = f"the recording begins at tick {tick[n]}; a replay needs the ticks before it"
             else:
-                why = f"{missing} ticks are missing before tick {tick[n]}; what comes after them cannot be run again"
+                why = f"{missing} ticks are missing before tick {tick[n]}; later ticks cannot be replayed"
         unknown = [
             k
             for k in np.flatnonzero(numbers(batch, "commands") & _COMMAND_SCENE)
@@ -131,7 +131,7 @@ class _Again:
         ]
         if unknown and unknown[0] < n:
             n = int(unknown[0])
-            why = f"tick {tick[n]} took a scene that did not come through Recorder.exchange and is not in the recording"
+            why = f"tick {tick[n]} took a scene that is not in the recording; change scenes through Recorder.exchange"
         return n, why
 
     def _compare(self, recorded: Columns, computed: Columns) -> None:
@@ -155,7 +155,7 @@ class _Again:
 
 
 def _bits(column: NDArray[Any]) -> NDArray[Any]:
-    """Numbers as bits: 0 and -0 differ, and one NaN is like another."""
+    """Numbers as bits: 0 and -0 differ, all NaNs are equal."""
     if column.dtype != np.float64:
         return column
     return np.where(np.isnan(column), np.float64(np.nan), column).view(np.uint64)

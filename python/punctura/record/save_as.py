@@ -1,4 +1,4 @@
-"""A recording, finished or not, as CSV, Parquet or MCAP."""
+"""Exports a recording, finished or not, to CSV, Parquet or MCAP."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Progress = Callable[[float], None]
 
 @dataclass
 class ExportResult:
-    """What went out, and what its reader should know."""
+    """The exported file, the number of ticks, and notes for the reader."""
 
     file: str
     out: str
@@ -33,9 +33,9 @@ class ExportResult:
 
 
 def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: Progress | None = None) -> ExportResult:
-    """Writes all ticks to `out`; a file there, unless it is a recording, is replaced when the new one is whole.
+    """Writes all ticks to `out`. Replaces an existing file, unless it is a recording, once the new one is complete.
 
-    Raises RecordingError, ConfigurationError for an `out` that cannot be, ModuleNotFoundError without the mcap package.
+    Raises RecordingError, ConfigurationError for an invalid `out`, ModuleNotFoundError if the mcap package is missing.
     """
     target = Path(out)
     check_target(Path(path), target, SUFFIXES)
@@ -43,7 +43,7 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     result = ExportResult(str(recording.path), str(target), recording.rows, recording.lost, list(recording.notes))
     kind = target.suffix.lower()[1:]
     if kind == "csv" and recording.summary["new_scenes"]:
-        result.notes.append("a CSV has no place for the scenes; commands has bit 8 where a new one was taken")
+        result.notes.append("CSV cannot hold the scenes; bit 8 of commands marks the ticks that took a new one")
     with whole_file(target, replace=True) as place, open(place, "wb") as file:
         for _ in export_steps(recording, kind, file, progress):
             pass

@@ -1,4 +1,4 @@
-"""Types of a recording's columns: as numbers while it is written, with words in place of codes when it is read."""
+"""Column types of a recording. Codes are numbers while it is written and words when it is read."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from punctura.ticks.flat import flatten, gather
 
 SCENES_TYPE = pa.list_(pa.string())
 _ROWS_A_PIECE = 2048
-# Without these fields nothing can be read from a recording; earlier versions have not recorded all others.
+# Required fields. Earlier versions did not record all of the others.
 _REQUIRED = (*INPUTS, "tick", "ceiling", "force", "state", "fault", "depth", "axial_force", "lower", "upper", "phase")
 
 
 def raw_batch(ticks: Ticks, membranes: int, lost: NDArray[np.uint32], scenes: list[list[str] | None]) -> pa.RecordBatch:
-    """A batch as it is written while a loop runs, with columns for so many membranes. What is absent is null."""
+    """A batch for the .part file, with columns for `membranes` membranes. Absent values are null."""
     arrays = {name: array(name, column) for name, column in flatten(ticks, membranes).items()}
     arrays[LOST] = pa.array(lost)
     arrays[NEW_SCENES] = pa.array(scenes, type=SCENES_TYPE)
@@ -32,20 +32,20 @@ def raw_batch(ticks: Ticks, membranes: int, lost: NDArray[np.uint32], scenes: li
 
 
 def membranes_in(schema: pa.Schema) -> int:
-    """How many membranes the columns are for."""
+    """Number of membranes in the columns."""
     numbers_of = [column.membrane for name in schema.names if (column := file_column(name))]
     return max((i + 1 for i in numbers_of if i is not None), default=0)
 
 
 def check_columns(schema: pa.Schema, path: Path) -> None:
-    """Raises RecordingError where columns of a recording are missing or hold something else than they should."""
+    """Raises RecordingError if columns are missing or have a wrong type."""
     fields = [FIELDS[name] for name in _REQUIRED]
     required = [column.name for column in file_columns(fields, membranes_in(schema))] + [LOST, NEW_SCENES]
     missing = [name for name in required if schema.names.count(name) != 1]
     wrong = [f"{field.name} ({field.type})" for field in schema if not _fits(field)]
     if missing or wrong:
         reasons = [f"without {', '.join(missing)}"] * bool(missing) + [f"with {', '.join(wrong)}"] * bool(wrong)
-        raise RecordingError(f"{path}: the columns are not those of a recording: {' and '.join(reasons)}")
+        raise RecordingError(f"{path}: wrong columns for a recording: {' and '.join(reasons)}")
 
 
 def _fits(field: pa.Field) -> bool:
@@ -63,19 +63,19 @@ def _fits(field: pa.Field) -> bool:
 
 
 def in_pieces(batches: Iterable[pa.RecordBatch]) -> Iterator[pa.RecordBatch]:
-    """The same ticks, few at once: as text they take many times the memory."""
+    """Splits batches into small pieces, because text needs many times the memory."""
     for batch in batches:
         for at in range(0, len(batch), _ROWS_A_PIECE):
             yield batch.slice(at, _ROWS_A_PIECE)
 
 
 def read_schema(raw: pa.Schema) -> pa.Schema:
-    """The columns as a reader sees them."""
+    """The schema with words in place of codes."""
     return pa.schema([pa.field(f.name, WORD if words_of(f.name) else f.type) for f in raw])
 
 
 def worded(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:
-    """A raw batch under a reader's schema: words for codes; a column that it does not have is null."""
+    """Converts a raw batch to a reader's schema: codes become words, missing columns become null."""
     arrays = []
     for field in schema:
         index = batch.schema.get_field_index(field.name)
@@ -89,7 +89,7 @@ def worded(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:
 
 
 def numbers(batch: pa.RecordBatch, name: str) -> NDArray[Any]:
-    """A column as numbers for a computation: null is NaN, or ABSENT for a word's code."""
+    """A column as numbers. null becomes NaN, or ABSENT for a code."""
     column = batch.column(name)
     words = words_of(name)
     if words is not None and not pa.types.is_integer(column.type):
@@ -103,14 +103,14 @@ def numbers(batch: pa.RecordBatch, name: str) -> NDArray[Any]:
 
 
 def input_ticks(batch: pa.RecordBatch) -> Ticks:
-    """What the ticks of a batch were given."""
+    """The inputs of the ticks in a batch."""
     wanted = [column.name for column in file_columns([FIELDS[name] for name in ("tick", *INPUTS)], 0)]
     return Ticks(gather({name: numbers(batch, name) for name in wanted}))
 
 
 def ticks_of(batch: pa.RecordBatch) -> Ticks:
-    """A batch of a recording. Of membranes that a tick did not have: NaN, phase ABSENT."""
+    """The ticks of a batch. A membrane that a tick did not have is NaN, its phase ABSENT."""
     ticks = Ticks(gather({f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}))
     if "limit" in ticks:
         return ticks
-    return ticks.replace(limit=np.full(len(batch), ABSENT, np.uint8))  # recordings of format 1 do not say
+    return ticks.replace(limit=np.full(len(batch), ABSENT, np.uint8))  # format 1 has no `limit`

@@ -1,6 +1,6 @@
-"""The form of a recording while it is written: Arrow IPC streams, one after the other, each batch with a check sum.
+"""Format of a .part file: Arrow IPC streams, one after the other, with a checksum for each batch.
 
-Any Arrow library reads the first stream of such a file. A second one begins only where a new scene has more membranes.
+Any Arrow library reads the first stream. A further stream begins when a new scene has more membranes.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from punctura.record.collected import Collected
 from punctura.record.header import is_sound, to_metadata
 
 CHECK = b"crc32"
-END = b"\xff\xff\xff\xff\0\0\0\0"  # of a stream that was ended in order
-# What pyarrow raises for bytes that are no stream.
+END = b"\xff\xff\xff\xff\0\0\0\0"  # end mark of a complete stream
+# Exceptions of pyarrow for bytes that are not a stream.
 BROKEN = (pa.ArrowException, OSError, ValueError, KeyError, MemoryError, OverflowError)
 
 
 def check_sum(batch: pa.RecordBatch) -> bytes:
-    """Over the bytes of the batch as they stand in the file."""
+    """Checksum of the batch's bytes in the file."""
     return str(zlib.crc32(batch.serialize())).encode()
 
 
 class Encoder:
-    """Turns batches into bytes to append."""
+    """Encodes batches as bytes."""
 
     def __init__(self, header: dict[str, Any]) -> None:
         self._header = header
@@ -36,12 +36,12 @@ class Encoder:
         self.schema: pa.Schema | None = None
 
     def begin(self, schema: pa.Schema) -> bytes:
-        """A stream for these columns; the one before, if any, is ended."""
+        """Starts a stream with these columns and ends the previous one."""
         if self._writer is not None:
             self._writer.close()
         self.schema = schema.with_metadata(to_metadata(self._header, schema))
         self._writer = pa.ipc.new_stream(self._out, self.schema)
-        return self.batch(pa.RecordBatch.from_pylist([], self.schema))  # without a batch, nothing would be written yet
+        return self.batch(pa.RecordBatch.from_pylist([], self.schema))  # Arrow writes the schema with the first batch
 
     def batch(self, batch: pa.RecordBatch) -> bytes:
         assert self._writer is not None and self.schema is not None
@@ -49,12 +49,12 @@ class Encoder:
         try:
             self._writer.write_batch(batch, custom_metadata={CHECK: check_sum(batch)})
         except BaseException:
-            self._out.take()  # half a batch must not stand before the next one
+            self._out.take()  # discard the incomplete batch
             raise
         return self._out.take()
 
     def end(self) -> bytes:
-        """The mark that the recording was ended in order."""
+        """The end mark of a complete recording."""
         if self._writer is not None:
             self._writer.close()
             self._writer = None
@@ -62,13 +62,13 @@ class Encoder:
 
 
 class Decoder:
-    """The batches of a file in turn. `damaged` counts those whose check sum is wrong; `broken`: what ended it."""
+    """Yields the batches of a file. `damaged` counts wrong checksums; `broken` is the error that ended the reading."""
 
     def __init__(self, file: pa.NativeFile, size: int) -> None:
         self._file, self._size = file, size
         self.damaged = 0
         self.broken = ""
-        self._sound_to = self._largest = 0  # bytes: where the last part that could be read ends, and the largest
+        self._sound_to = self._largest = 0  # bytes: end of the last readable part, and size of the largest part
         self.schemas: list[pa.Schema] = []
 
     def __iter__(self) -> Iterator[pa.RecordBatch]:
@@ -80,13 +80,13 @@ class Decoder:
 
     @property
     def broken_inside(self) -> bool:
-        """More is left than one part that was being written when the process ended."""
+        """Whether more data follows the last readable part than one incomplete write."""
         return bool(self.broken) and self._size - self._sound_to > 2 * self._largest
 
     def _stream(self) -> Iterator[pa.RecordBatch]:
         reader = pa.ipc.open_stream(self._file)
         if self.schemas and not is_sound(reader.schema):
-            raise ValueError("the columns are not as they were written")
+            raise ValueError("the checksum of the columns is wrong")
         self.schemas.append(reader.schema)
         while True:
             try:

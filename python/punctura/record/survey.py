@@ -1,4 +1,4 @@
-"""Goes through a recording once: how many ticks, which are missing, which faults."""
+"""Counts ticks, missing ticks and faults of a recording in one pass."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import pyarrow as pa
 from punctura._core import Fault, describe
 from punctura.record.schema import numbers
 
-_MOST_FAULTS = 1000  # that are listed; all are counted
+_MOST_FAULTS = 1000  # in the list; all faults are counted
 
 
 class Survey:
-    """Takes the batches in their order."""
+    """Counts over batches, given in order."""
 
     def __init__(self) -> None:
         self.rows = 0
         self.first_tick = self.last_tick = -1
-        self.missing = 0  # ticks between those that are there, and before the first
+        self.missing = 0  # missing ticks, including those before the first row
         self.scenes = 0  # ticks that took a new scene
         self.fault_count = 0
         self.faults: list[dict[str, Any]] = []
@@ -50,7 +50,7 @@ class Survey:
                 self.faults.append({"tick": int(tick[k])} | _named(int(fault[k])))
 
     def to_dict(self) -> dict[str, Any]:
-        """For a finished recording's description."""
+        """The summary for the run description."""
         return {
             "ticks": self.rows,
             "first_tick": self.first_tick,

@@ -1,4 +1,4 @@
-"""Where something made from a recording may go."""
+"""Checks the output path of an export or replay."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from punctura.record.recording import open_recording
 
 
 def check_target(source: Path, target: Path, suffixes: Sequence[str]) -> None:
-    """Raises ConfigurationError for a name that cannot be, or that is a recording already: nothing overwrites one."""
+    """Raises ConfigurationError for an invalid path or an existing recording. Recordings are never overwritten."""
     problems = []
     if target.suffix.lower() not in suffixes:
         problems.append(f"must end in {', '.join(suffixes)}")
@@ -22,7 +22,7 @@ def check_target(source: Path, target: Path, suffixes: Sequence[str]) -> None:
     elif source.exists() and target.exists() and source.samefile(target):
         problems.append("is the recording itself")
     elif _is_recording(target):
-        problems.append("is a recording already, and nothing overwrites one: delete it, or choose another name")
+        problems.append("is already a recording, which is never overwritten: delete it, or choose another name")
     if problems:
         raise ConfigurationError([Problem(f"out {target}", MISSING, problem) for problem in problems])
 

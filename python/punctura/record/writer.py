@@ -1,4 +1,4 @@
-"""The thread that appends to the file. It alone waits for the disk."""
+"""The writer thread. Only this thread waits for the disk."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from punctura.record.errors import RecordingError
 from punctura.record.part_file import PartFile
 
 RETRY_S = 0.5
-LAST_TRIES_S = 2.0  # for a disk that fails when the recording is to be finished
+LAST_TRIES_S = 2.0  # retry this long if the disk fails at the end of the recording
 _MOST_NOTES = 100
 
 
 class Writer:
-    """Takes pieces from the backlog. A write that fails is told, and tried again until the recording ends.
+    """Writes pieces from the backlog. Reports a failed write and retries it until the recording ends.
 
-    Before each write it looks whether the file is still there as it was written.
+    Before each write it checks that the file is still at its path and complete.
     """
 
     def __init__(self, file: AppendFile, backlog: Backlog, path: Path) -> None:
         self._file, self._backlog, self._path = file, backlog, path
-        self.place: Path | None = path  # of the file, as AppendFile.place has it
+        self.place: Path | None = path  # see AppendFile.place
         self.rows = 0
         self.last_tick = -1
-        self.ruined = 0  # ticks that were on the disk, and are not any more
+        self.ruined = 0  # ticks that were written and are now gone
         self.slowest_s = 0.0
         self.trouble = ""
-        self.why_unwritten = ""  # why nothing can be written now; empty while it can
+        self.why_unwritten = ""  # reason of the last write error; empty while writing works
         self.notes: list[str] = []
         self._trouble_began = 0.0
-        self._lost = False  # what had been written is gone, and nothing more can be added to it
+        self._lost = False  # the written data is gone; writing has ended
         self._thread = threading.Thread(target=self._run, name="punctura-recorder-writer", daemon=True)
         self._thread.start()
 
@@ -43,7 +43,7 @@ class Writer:
         return self._file.size
 
     def join(self) -> None:
-        """After the backlog is closed: waits until all is written, or cannot be."""
+        """Call after the backlog is closed. Waits until all pieces are written or have failed."""
         self._thread.join()
 
     def note(self, text: str) -> None:
@@ -57,7 +57,7 @@ class Writer:
             try:
                 moved = self._check()
                 self._file.write(piece.data)
-            except Exception as bad:  # whatever it is, it is told, and the next piece is tried
+            except Exception as bad:  # report any error, then try the next piece
                 self._fail(bad, began)
                 if self._backlog.closing:
                     give_up = give_up or began + LAST_TRIES_S
@@ -75,23 +75,23 @@ class Writer:
             self._tell(moved, now)
 
     def _check(self) -> str:
-        """Words for a file that was moved. Raises _Lost for one that is gone or was cut off."""
-        amiss = self._file.amiss()
-        if amiss is None:
+        """A message if the file was moved, else empty. Raises _Lost if it was deleted or truncated."""
+        change = self._file.change()
+        if change is None:
             self.place = self._path
             return ""
-        if not amiss.lost:
-            self.place = amiss.place
-            return amiss.words
+        if not change.lost:
+            self.place = change.place
+            return change.words
         if not self._lost:
             self._lost = True
             before = self.rows
             self.rows, self.last_tick = self._readable()
             self.ruined = max(0, before - self.rows)
-        raise _Lost(amiss.words)
+        raise _Lost(change.words)
 
     def _readable(self) -> tuple[int, int]:
-        """How many ticks can still be read, and the last of them; (0, -1) where there is none."""
+        """Number of readable ticks and the last tick; (0, -1) if none."""
         try:
             survey = PartFile(self._file.source()).survey
         except (RecordingError, OSError):
@@ -99,13 +99,13 @@ class Writer:
         return survey.rows, survey.last_tick
 
     def _tell(self, moved: str, now: float) -> None:
-        """After a write: what is wrong with the file's place, or what was wrong and is over."""
+        """After a write: reports that the file was moved, or notes that a problem has ended."""
         self.why_unwritten = ""
         if moved:
             self._trouble_began = self._trouble_began if self.trouble else now
             self.trouble = moved
         elif self.trouble:
-            self.note(f"{self.trouble}; that was over after {now - self._trouble_began:.1f} s")
+            self.note(f"{self.trouble}; resolved after {now - self._trouble_began:.1f} s")
             self.trouble = ""
 
     def _fail(self, bad: Exception, now: float) -> None:
@@ -119,4 +119,4 @@ class Writer:
 
 
 class _Lost(Exception):
-    """What had been written is gone."""
+    """The written data is gone."""

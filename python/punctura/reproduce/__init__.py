@@ -1,4 +1,4 @@
-"""K06's figures, from the code that drives the device (docs/reproduce.md)."""
+"""Reproduces K06's figures with the code that drives a device (docs/reproduce.md)."""
 
 from punctura.reproduce.drawing import Measured
 from punctura.reproduce.run import Reproduction, reproduce

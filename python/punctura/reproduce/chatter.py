@@ -1,4 +1,4 @@
-"""How often the force turns back while a needle enters: the data behind the close-up."""
+"""Counts the sign changes of the force slope during entry: the data of the close-up figure."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ SOLVERS: tuple[Solver, Solver] = ("exact", "paper")
 
 @dataclass(frozen=True)
 class SteadyEntry:
-    """A needle that goes in at a constant speed and an ideal sensor, through filter and model."""
+    """An insertion at constant speed with an ideal sensor, through filter and model."""
 
-    time: Floats  # s, from the tick of first contact on
+    time: Floats  # s, from the tick of first contact
     p_y: Floats  # m
     force: Floats  # f_y, N
-    ticks_in_entry: int  # until the near part of the tip has crossed the membrane: q = H
+    ticks_in_entry: int  # ticks until the point of the tip reaches the far face: q = H
     pop: tuple[float, float]  # N, before and after
 
     @property
     def turns(self) -> int:
-        """Alternations from contact to the end of the way in."""
+        """Number of alternations from contact to the end of the insertion."""
         return alternations(self.force)
 
 
 def steady_entry(thickness: float, solver: Solver, speed: float = SPEED) -> SteadyEntry:
-    """The way in, well past the pop."""
+    """Simulates the insertion, well past the pop."""
     law = ThickLaw(NEEDLE, k06_membrane(thickness))
     deepest = law.X + law.U + 3e-3
     scene = one_membrane(thickness, solver)
@@ -59,16 +59,16 @@ def period() -> float:
 
 
 def swing(paper: SteadyEntry, exact: SteadyEntry) -> float:
-    """By how much the paper's force shakes about the exact one while it enters, from tick to tick: the median, N."""
+    """Median tick-to-tick change of the difference between paper's and exact force during entry, N."""
     ticks = slice(0, exact.ticks_in_entry)
     return float(np.median(np.abs(np.diff(paper.force[ticks] - exact.force[ticks]))))
 
 
 def onset() -> float:
-    """The thickness (m) below which the substitution (31) does not settle at contact.
+    """The thickness (m) below which the substitution (31) does not converge at contact.
 
-    An error that alternates in f comes back through (31) times |dPhi_I/dq| / g, and through the memory of the offset
-    (25) times (1 + 2a) / (1 + a) of that, a = B/D. At contact |dPhi_I/dq| = A_I Q / H: the product is 1 at this H.
+    An alternating error of f is multiplied per tick by |dPhi_I/dq| / g through (31), and by (1 + 2a) / (1 + a) through
+    the offset (25), with a = B/D. At contact |dPhi_I/dq| = A_I Q / H. The total factor is 1 at this H.
     """
     law = ThickLaw(NEEDLE, k06_membrane(THIN))
     d = COUPLING.stiffness * period() + COUPLING.damping

@@ -1,4 +1,4 @@
-"""What a figure is made of: the picture, its data, the words beside it, the numbers measured from it."""
+"""The parts of a figure: picture, data, text, and numbers measured from the run."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 from punctura.reproduce.words import Words
 
 Table = Mapping[str, Sequence[Any] | NDArray[Any]]
-"""Columns by name, the unit in the name, all of one length."""
+"""Columns by name, with the unit in the name. All have the same length."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A number read off a run, beside the one that the law gives; not a number where it gives none."""
+    """A number measured in a run, and the expected number from the law (NaN if the law gives none)."""
 
     figure: str
     quantity: str
     unit: str
     expected: float
     measured: float
-    source: str  # where the expected number comes from
+    source: str  # source of the expected number
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """One figure. `tables` are written as CSV files: what is drawn, and nothing else."""
+    """One figure. `tables` hold exactly the drawn data and are written as CSV files."""
 
-    name: str  # of its files, without ending
+    name: str  # name of its files, without suffix
     words: Words
     figure: Figure
-    tables: Mapping[str, Table]  # file name without ending -> columns
+    tables: Mapping[str, Table]  # file name without suffix -> columns
     measured: tuple[Measured, ...] = ()

@@ -13,7 +13,7 @@ from punctura.reproduce.words import read_words
 
 
 def figure_12(run: Operation) -> Drawing:
-    """H = 1.0 mm and 0.5 mm, three millimetres apart."""
+    """H = 1.0 mm and 0.5 mm, 3 mm apart."""
     figure, axes, table = draw_experiment(run)
     arrow(axes, (-6.9, 0.96), (-8.1, 1.05), INSERTION)
     arrow(axes, (-1.2, 0.36), (-2.2, 0.5), INSERTION)

@@ -1,4 +1,4 @@
-"""The close-up: what the paper's substitution (31) does to the force at entry, and that the exact solution does not."""
+"""The close-up: the force at entry chatters with the paper's substitution (31), and not with the exact solution."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from punctura.reproduce.style import new_figure
 
 
 def draw_experiment(run: Operation) -> tuple[Figure, Axes, Table]:
-    """The figure of a run, yet without words, and its data."""
+    """The figure of a run, without annotations, and its data."""
     y, ideal = steady(run.scene, float(-run.p_y_mm.min()) * 1e-3)
     guide: tuple[Floats, Floats] = (y * 1e3, np.asarray(ideal.force[:, 1]))
     figure = new_figure(4.4)
@@ -33,7 +33,7 @@ def _legend() -> list[Line2D]:
 
 
 def measured(figure: str, run: Operation) -> tuple[Measured, ...]:
-    """Peak, plateau, drop and withdrawal of each membrane, beside those of the law."""
+    """Peak, plateau, drop and withdrawal of each membrane, with the values of the law."""
     scene, rows = run.scene, list[Measured]()
     for i, placed in enumerate(scene.membranes):
         law = of_law(scene.needle, placed.membrane)

@@ -1,4 +1,4 @@
-"""K06 Figs. 3 and 5: the laws themselves."""
+"""K06 Figs. 3 and 5: the friction laws."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ THICKNESSES_MM = (5.0, 3.0, 1.0, 0.5, 0.1)
 
 
 def depths(deepest: float, breaks: list[float]) -> Floats:
-    """Depths (m) from just outside on; at each break one on either side, so that a jump is drawn as a jump."""
+    """Depths (m), starting just outside. Each break has a depth on either side, so that a step is drawn as a step."""
     edges = [x for b in (0.0, *breaks) for x in (math.nextafter(b, -math.inf), b, math.nextafter(b, math.inf))]
     return np.unique(np.concatenate([np.linspace(-1e-3, deepest, 1101), edges]))
 
 
 def figure_3() -> Drawing:
-    """The thin law for three frictions."""
+    """The thin law for three coefficients of friction."""
     needle = Needle(diameter=1e-3, tip_angle=math.pi / 12)
     laws = [ThinLaw(needle, Membrane(600.0, 0.4, mu, 0.0)) for mu in FRICTIONS]
     q = depths(6e-3, [laws[0].X])

@@ -1,4 +1,4 @@
-"""One insertion and withdrawal, force against depth with the band behind it: the picture of the whole idea."""
+"""One insertion and withdrawal: force over depth with the band behind it. An overview of the model."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STROKE = Strokes((0.0, 1e-3, 0.0), (0.0, -9.6e-3, 0.0), count=1, duration=2.0, r
 
 
 def figure_pop() -> Drawing:
-    """The stroke goes through the same step as in Figs. 10 to 12. Depth is that of the virtual needle, the proxy."""
+    """The stroke uses the same servo step as Figs. 10 to 12. The depth is that of the proxy, the virtual needle."""
     experiment = Experiment(one_membrane(THICKNESS), STROKE, Plant(encoder_step=0.0), Hand(tremor_rms=0.0))
     trace = experiment.run(experiment.duration)
     depth, force = trace.depth[:, 0] * 1e3, trace.force[:, 1]

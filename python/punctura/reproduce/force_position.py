@@ -1,4 +1,4 @@
-"""f_y against p_y, as K06 draws Figs. 10 to 12."""
+"""Draws f_y over p_y as in K06 Figs. 10 to 12."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from punctura.reproduce.drawing import Table
 from punctura.reproduce.operator import Floats, Operation, paper_on_same_motion
 from punctura.reproduce.palette import Colour
 
-APART_N = 1e-3  # from here on the two solvers are drawn apart
+APART_N = 1e-3  # draw both solvers where they differ by more than this
 STAGE_COLOURS: dict[str, Colour] = {
     stages.OUTSIDE: palette.MUTED,
     stages.INSERTION: palette.INSERTION,
@@ -24,7 +24,7 @@ _WIDTHS = {stages.REVERSAL: 0.45}
 def draw_by_stage(axes: Axes, x: Floats, y: Floats, stage: NDArray[np.str_], width: float = 0.8) -> None:
     """One line through all points, coloured by stage."""
     for name, colour in STAGE_COLOURS.items():
-        # A way from point to point has the stage of its end, but the last one, out of the membrane, that of its start.
+        # A segment has the stage of its end point. The last segment, out of the membrane, has that of its start.
         way = np.where(stage[1:] == stages.OUTSIDE, stage[:-1], stage[1:]) == name
         drawn = np.zeros(stage.shape, dtype=bool)
         drawn[1:] |= way
@@ -39,13 +39,13 @@ def draw_by_stage(axes: Axes, x: Floats, y: Floats, stage: NDArray[np.str_], wid
 
 
 def paper_differs(operation: Operation) -> tuple[Floats, NDArray[np.bool_]]:
-    """The force of the paper's form on the motion of an exact run (N), and the ticks at which the two lie apart."""
+    """The force of the paper's form for the motion of an exact run (N), and the ticks at which the two differ."""
     force = paper_on_same_motion(operation)
     return force, np.abs(force - operation.f_y_N) > APART_N
 
 
 def draw_operation(axes: Axes, exact: Operation, steady: tuple[Floats, Floats]) -> None:
-    """The experiment, the paper's form under it where the two differ, and a steady ideal pass behind both."""
+    """Draws the experiment, the paper's form below it where the two differ, and a steady ideal pass behind both."""
     axes.plot(*steady, color=palette.GUIDE.light, lw=5, zorder=1)
     force, apart = paper_differs(exact)
     apart = _widen(apart)
@@ -63,7 +63,7 @@ def draw_operation(axes: Axes, exact: Operation, steady: tuple[Floats, Floats]) 
 
 
 def operation_table(exact: Operation, steady: tuple[Floats, Floats]) -> Table:
-    """The run tick by tick, and below it the steady pass."""
+    """The ticks of the run, followed by those of the steady pass."""
     force, apart = paper_differs(exact)
     rest = np.full(steady[0].size, np.nan)
     return {
@@ -77,7 +77,7 @@ def operation_table(exact: Operation, steady: tuple[Floats, Floats]) -> Table:
 
 
 def _widen(marked: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """One tick more on either side, so that a line which leaves another starts on it."""
+    """Extends the marks by one tick on either side, so that the second line starts on the first."""
     wide = marked.copy()
     wide[1:] |= marked[:-1]
     wide[:-1] |= marked[1:]

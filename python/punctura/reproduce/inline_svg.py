@@ -1,4 +1,4 @@
-"""An SVG file as a part of a page: no header, no clash of names with its neighbours, colours that follow the page."""
+"""Converts an SVG file to a page element: no header, unique ids, and colours from the page's style sheet."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from punctura.reproduce import palette
 
 
 def inline_svg(svg: str, name: str, alt: str) -> str:
-    """The <svg> element for a page whose style sheet has `--colour-…` for every colour of the palette."""
+    """The <svg> element. The page's style sheet must define `--colour-…` for every colour of the palette."""
     body = svg[svg.index("<svg") :]
     body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
     body = re.sub(r'<style type="text/css">.*?</style>', "", body, flags=re.DOTALL)
@@ -17,7 +17,7 @@ def inline_svg(svg: str, name: str, alt: str) -> str:
     body = re.sub(r'href="#([^"]+)"', rf'href="#{name}-\1"', body)
     for colour in palette.ALL:
         body = body.replace(colour.light, f"var(--colour-{colour.name})")
-    # The page gives the size; the view box keeps the proportions.
+    # The page sets the size. The view box keeps the aspect ratio.
     body = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", body, count=1)
     body = re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", body, count=1)
     return body.replace("<svg", f'<svg class="figure" role="img" aria-label="{alt}"', 1)

@@ -1,4 +1,4 @@
-"""Numbers read off a run, and the ones that the law gives for them."""
+"""Characteristic numbers of a run, and their values by the law."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from punctura.reproduce.operator import Floats
 
 @dataclass(frozen=True)
 class Landmarks:
-    """A pass through one membrane. Resistance counts positive against insertion."""
+    """Characteristic numbers of a pass through one membrane. Resistance is positive against insertion."""
 
     peak: float  # N
-    pop_depth: float  # m, of the tip in the membrane at the peak
+    pop_depth: float  # m, depth of the tip in the membrane at the peak
     plateau: float  # N, with the shaft through the membrane
-    withdrawal: float  # N, the strongest pull on the way out
+    withdrawal: float  # N, largest resistance against withdrawal
 
     @property
     def drop(self) -> float:
-        """What the resistance loses at the pop, N."""
+        """Decrease of the resistance at the pop, N."""
         return self.peak - self.plateau
 
 
@@ -36,7 +36,7 @@ def of_law(needle: Needle, membrane: Membrane) -> Landmarks:
 
 
 def of_trace(trace: Ticks, membrane: int, needle: Needle, properties: Membrane) -> Landmarks:
-    """The landmarks of a run, in one membrane. The plateau is the median of the ticks that slide in on the shaft."""
+    """The landmarks of a run for one membrane. The plateau is the median over ticks that slide in on the shaft."""
     law = ThickLaw(needle, properties)
     resistance: Floats = -trace.axial_force[:, membrane]
     depth: Floats = trace.depth[:, membrane]
@@ -48,7 +48,7 @@ def of_trace(trace: Ticks, membrane: int, needle: Needle, properties: Membrane) 
 
 
 def alternations(force: Floats, smallest: float = 1e-6) -> int:
-    """Ticks at which the force turns back: a step (N) of other sign than the one before, both above `smallest`."""
+    """Number of ticks at which the force step (N) changes its sign. Both steps must be larger than `smallest`."""
     step = np.diff(force)
     turned = (step[1:] * step[:-1] < 0) & (np.minimum(np.abs(step[1:]), np.abs(step[:-1])) > smallest)
     return int(np.count_nonzero(turned))

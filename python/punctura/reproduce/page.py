@@ -1,4 +1,4 @@
-"""The page that shows the figures: one file that needs no network, light and dark."""
+"""The page of figures: one file, usable offline, light and dark."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from punctura.reproduce.words import read_words
 
 
 def write_page(drawings: Sequence[Drawing], folder: Path, name: str) -> None:
-    """Writes the page for drawings whose files already lie in `folder`."""
+    """Writes the page. The files of the drawings must already be in `folder`."""
     words = read_words("page")
     sections = "\n".join(_section(drawing, folder) for drawing in drawings)
     links = [(d.name, d.words.title.split(":")[0]) for d in drawings] + [
@@ -80,8 +80,8 @@ def _numbers(measured: Sequence[Measured]) -> str:
     )
     return f"""<section id="numbers">
 <h2>Measured in this run, and expected</h2>
-<p>Expected is what the law gives for a needle that moves infinitely slowly. A run visits the law in steps of one tick,
-so that its peaks lie a little below.</p>
+<p>The expected value is the law's value for an infinitely slow needle. A run samples the law once per tick, so its
+peaks are slightly lower.</p>
 <div class="wide"><table>
 <thead><tr><th>figure</th><th>quantity</th><th class="number">expected</th><th class="number">measured</th>
 <th>expected from</th></tr></thead>
@@ -106,7 +106,7 @@ def _parameters() -> str:
     return f"""<section id="parameters">
 <h2>Parameters</h2>
 <div class="wide"><table>
-<thead><tr><th>of</th><th>parameter</th><th class="number">value</th><th>source</th></tr></thead>
+<thead><tr><th>group</th><th>parameter</th><th class="number">value</th><th>source</th></tr></thead>
 <tbody>
 {rows}
 </tbody></table></div>

@@ -1,4 +1,4 @@
-"""The colours of figures and page, from Okabe and Ito (2008) so that everybody can tell them apart, with dark twins."""
+"""The colours of figures and page: the colour-blind-safe palette of Okabe and Ito (2008), with a dark variant."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Colour(NamedTuple):
-    """A colour with a name. Light stands in the image files; the page shows dark where the reader prefers it."""
+    """A named colour. Image files use the light variant. The page uses the dark one if the reader prefers dark mode."""
 
     name: str
     light: str
@@ -25,7 +25,7 @@ WITHDRAWAL = Colour("withdrawal", "#d55e00", "#f0883e")
 STICKING = Colour("sticking", "#70757d", "#9aa1ab")
 PAPER_FORM = Colour("paper-form", "#cc79a7", "#e292bf")
 
-# The three frictions of Fig. 3, and the five thicknesses of Fig. 5 from the thinnest on: dark to bright, dusk to dawn.
+# The three coefficients of friction of Fig. 3, and the five thicknesses of Fig. 5, thinnest first, dark to bright.
 FRICTIONS = (
     Colour("friction-1", "#009e73", "#2fc79b"),
     Colour("friction-2", "#0072b3", "#56b4ea"),

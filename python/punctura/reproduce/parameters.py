@@ -1,4 +1,4 @@
-"""What the experiments were run with, read from the objects that ran."""
+"""The parameters of the experiments, read from the objects that ran."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Parameter(NamedTuple):
 
 
 def parameters() -> list[Parameter]:
-    """Of Figs. 5 and 10 to 12."""
+    """The parameters of Figs. 5 and 10 to 12."""
     scene, plant, hand = k06_scene("k06-fig10"), Plant(), Hand()
     depths = " / ".join(f"{depth:g}" for depth in STROKE_DEPTH_MM.values()) + " mm"
     membrane = scene.membranes[0].membrane
@@ -46,8 +46,8 @@ def parameters() -> list[Parameter]:
         Parameter("hand", "damping", f"{hand.damping * 1e-3:g} N s/mm", "illustrative"),
         Parameter("hand", "tremor", f"{hand.tremor_rms * 1e3:g} mm rms at {hand.tremor_hz:g} Hz", "illustrative"),
         Parameter("strokes", "count, one way, rest", f"{COUNT}, {DURATION_S:g} s, {REST_S:g} s", _CHOICE),
-        Parameter("strokes", "start above the membrane", f"{START_MM:g} mm", _CHOICE),
-        Parameter("strokes", "wanted depth, Figs. 10 / 11 / 12", depths, _CHOICE),
-        Parameter("strokes", "spread of depth and time", f"{VARIATION * 100:g} %", _CHOICE),
+        Parameter("strokes", "start, distance from the membrane", f"{START_MM:g} mm", _CHOICE),
+        Parameter("strokes", "desired depth, Figs. 10 / 11 / 12", depths, _CHOICE),
+        Parameter("strokes", "standard deviation of depth and time", f"{VARIATION * 100:g} %", _CHOICE),
         Parameter("strokes", "seed", f"{SEED}", _CHOICE),
     ]

@@ -28,19 +28,19 @@ PAGE = "index.html"
 
 @dataclass(frozen=True)
 class Reproduction:
-    """What was made, and what was measured on the way."""
+    """The written files and the measured numbers."""
 
     folder: Path
-    files: tuple[str, ...]  # in the folder, the page first
+    files: tuple[str, ...]  # names in the folder, the page first
     measured: tuple[Measured, ...]
 
     @property
     def page(self) -> Path:
-        """The page that shows everything."""
+        """Path of the page with all figures."""
         return self.folder / PAGE
 
     def to_dict(self) -> dict[str, object]:
-        """For JSON. An expected value that there is not is null."""
+        """Data for JSON. A missing expected value is null."""
         return {
             "page": str(self.page),
             "folder": str(self.folder),
@@ -53,9 +53,10 @@ class Reproduction:
 
 
 def reproduce(folder: str | os.PathLike[str], tell: Callable[[float], None] = lambda share: None) -> Reproduction:
-    """Writes K06 Figs. 3, 5, 10, 11, 12, the close-up and the pop as PNG, SVG and CSV, and a page that shows them.
+    """Writes K06 Figs. 3, 5, 10, 11, 12, the close-up and the pop as PNG, SVG and CSV, and a page with all of them.
 
-    `tell` hears the share done, 0 to 1. Everything is made aside first: a failure (OSError) leaves no file.
+    `tell` is called with the completed share, 0 to 1. All files are first written to a temporary folder, so that a
+    failure (OSError) leaves no file.
     """
     target = Path(folder).absolute()
     try:
@@ -79,7 +80,7 @@ def _reproduce(target: Path, tell: Callable[[float], None]) -> Reproduction:
         write_page(drawings, workshop, PAGE)
         made = sorted(file.name for file in workshop.iterdir())
         files = [PAGE, *(name for name in made if name != PAGE)]
-        for name in reversed(files):  # the page last: it never shows what is not there
+        for name in reversed(files):  # the page last, so that it never refers to missing files
             shutil.move(workshop / name, target / name)
     tell(1.0)
     return Reproduction(target, tuple(files), tuple(m for drawing in drawings for m in drawing.measured))
@@ -99,7 +100,7 @@ def _recipes() -> list[Callable[[], Drawing]]:
 
 
 def _save(drawing: Drawing, folder: Path) -> None:
-    # No date and no version of the drawing library, so that a second run gives the same files.
+    # Without date and library version, so that a second run writes identical files.
     drawing.figure.savefig(folder / f"{drawing.name}.png", dpi=DPI, metadata={"Software": None})
     drawing.figure.savefig(folder / f"{drawing.name}.svg", metadata={"Date": None, "Creator": None})
     for name, table in drawing.tables.items():

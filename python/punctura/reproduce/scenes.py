@@ -1,4 +1,4 @@
-"""The scenes of the figures: the package's own scene files, so that the numbers of K06 section 4 stand in one place."""
+"""The scenes of the figures. They come from the package's scene files, the only place with K06's section 4 values."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ INWARD = _FIG_10.membranes[0].inward_normal  # y points up, the needle goes down
 
 
 def k06_membrane(thickness: float) -> Membrane:
-    """The membrane of K06 Fig. 5 and section 4 in a thickness (m)."""
+    """The membrane of K06 Fig. 5 and section 4 with the given thickness (m)."""
     return _FIG_10.membranes[0].membrane.replace(thickness=thickness)
 
 
 def one_membrane(thickness: float, solver: Solver = "exact") -> Scene:
-    """The scene of Fig. 10 with a membrane of another thickness (m)."""
+    """The scene of Fig. 10 with another membrane thickness (m)."""
     scene = k06_scene("k06-fig10", solver)
     placed = scene.membranes[0]
     return scene.replace(membranes=[placed.replace(membrane=k06_membrane(thickness))])

@@ -1,4 +1,4 @@
-"""What the needle is about, read from the phases that the core reports tick by tick."""
+"""Determines the stage of each tick of a run from the phases of the core."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ OUTSIDE, INSERTION, REVERSAL, WITHDRAWAL = "outside", "insertion", "reversal", "
 
 
 def stages(phase: NDArray[np.uint8]) -> NDArray[np.str_]:
-    """The stage of each tick, from phases (n ticks, m membranes). The needle slides where it slides in every membrane.
+    """The stage of each tick, from phases (n ticks, m membranes). The needle slides if it slides in all membranes.
 
-    An encoder moves in counts, so that a proxy which slides in sticks between two of them. A stretch of sticking
-    belongs to the slide on both of its sides where they agree, and is a reversal where they do not.
+    Encoder positions are quantized, so a sliding proxy sticks between two counts. A sticking interval belongs to the
+    slide around it if both sides slide in the same direction; otherwise it is a reversal.
     """
     out_of = phase == int(Phase.outside)
     slides_in = ((phase == int(Phase.sliding_in)) | out_of).all(axis=1)
@@ -22,7 +22,7 @@ def stages(phase: NDArray[np.uint8]) -> NDArray[np.str_]:
     outside = out_of.all(axis=1)
     marks = np.where(outside, 2, slides_in * 1 - slides_out * 1)
     before, after = _last_mark(marks), _last_mark(marks[::-1])[::-1]
-    # A tick at rest between outside and a slide belongs to the slide.
+    # A sticking tick between outside and a slide belongs to the slide.
     before = np.where(before == 2, after, before)
     after = np.where(after == 2, before, after)
     result = np.full(marks.shape, REVERSAL, dtype="<U10")
@@ -33,6 +33,6 @@ def stages(phase: NDArray[np.uint8]) -> NDArray[np.str_]:
 
 
 def _last_mark(marks: NDArray[np.int64]) -> NDArray[np.int64]:
-    """At each place the last mark that is not 0, itself included; 0 before the first."""
+    """For each index the last nonzero mark up to and including it; 0 before the first."""
     places = np.maximum.accumulate(np.where(marks != 0, np.arange(marks.size), 0))
     return np.asarray(marks[places])

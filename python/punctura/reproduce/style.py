@@ -1,4 +1,4 @@
-"""How every figure looks: for print at 300 dpi, with matplotlib's own font, whatever the user's settings are."""
+"""The style of all figures: 300 dpi for print, matplotlib's own font, independent of the user's settings."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from matplotlib.text import Annotation
 
 from punctura.reproduce import palette
 
-WIDTH_IN = 7.0  # two columns of a journal page
+WIDTH_IN = 7.0  # width of two journal columns
 DPI = 300
 
 _SETTINGS: dict[str, Any] = {
@@ -50,14 +50,14 @@ _SETTINGS: dict[str, Any] = {
     "savefig.facecolor": palette.PAGE.light,
     "lines.solid_capstyle": "round",
     "lines.solid_joinstyle": "round",
-    "svg.fonttype": "path",  # a figure looks the same where the font is missing
-    "svg.hashsalt": "punctura",  # and is the same file every time
+    "svg.fonttype": "path",  # text as paths, so that a missing font changes nothing
+    "svg.hashsalt": "punctura",  # fixed ids, so that a second run writes an identical file
 }
 
 
 @contextmanager
 def figure_style() -> Iterator[None]:
-    """matplotlib's defaults and the settings above, until the block ends; a user's matplotlibrc plays no part."""
+    """Within the block, uses matplotlib's defaults and the settings above. Ignores the user's matplotlibrc."""
     own_font = Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"
     font_manager.fontManager.addfont(own_font)
     with matplotlib.rc_context():
@@ -68,14 +68,14 @@ def figure_style() -> Iterator[None]:
 
 
 def new_figure(height_in: float, width_in: float = WIDTH_IN) -> Figure:
-    """A figure that needs no window and no pyplot."""
+    """A figure without a window and without pyplot."""
     figure = Figure(figsize=(width_in, height_in), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 
 
 def halo(width: float = 2.5) -> list[patheffects.AbstractPathEffect]:
-    """An edge in the colour of the page, so that text stays readable where it meets a line."""
+    """An outline in the page's colour, so that text on a line stays readable."""
     return [patheffects.withStroke(linewidth=width, foreground=palette.PAGE.light)]
 
 
@@ -87,7 +87,7 @@ def note(
     colour: palette.Colour = palette.INK,
     **more: Any,
 ) -> Annotation:
-    """A word at `place` with a thin leader to `at`, both in data units."""
+    """Text at `place` with a thin leader line to `at`, both in data units."""
     return axes.annotate(
         text,
         xy=at,
@@ -106,7 +106,7 @@ def arrow(
     colour: palette.Colour = palette.INK,
     size: float = 9,
 ) -> None:
-    """A direction: a small filled head at `end`."""
+    """A small filled arrow head at `end` that shows a direction."""
     axes.annotate(
         "",
         xy=end,

@@ -1,4 +1,4 @@
-"""Writes the data of a figure as CSV."""
+"""Writes figure data as CSV."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from punctura.reproduce.drawing import Table
 
 
 def write_csv(table: Table, path: Path) -> None:
-    """One row a sample, numbers in the shortest form that reads back the same; not a number is an empty cell."""
+    """One row per sample. Numbers have the shortest form that reads back identically. NaN is an empty cell."""
     columns = [_cells(column) for column in table.values()]
     lines = [",".join(table), *map(",".join, zip(*columns, strict=True))]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")

@@ -1,4 +1,4 @@
-"""What made the figures."""
+"""The software versions behind the figures."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from punctura import __version__
 
 
 def versions() -> dict[str, str]:
-    """Name and version of what the numbers and pictures depend on."""
+    """Name and version of the software that affects numbers and pictures."""
     return {
         "punctura": __version__,
         "python": platform.python_version(),

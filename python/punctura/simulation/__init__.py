@@ -1,4 +1,4 @@
-"""The model's force for a recorded motion, from file to file (docs/simulate.md)."""
+"""Computes the model's force for a given motion, from file to file or in memory (docs/simulate.md)."""
 
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.run import simulate

@@ -1,4 +1,4 @@
-"""The simulation of a motion in memory."""
+"""Simulates a motion in memory."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def simulate_arrays(
     if p.ndim == 1:  # depths below the first membrane's surface
         p = np.asarray(scene.membranes[0].point) + p[:, None] * normal
     if p.ndim != 2 or p.shape[1] != 3:
-        raise ValueError(f"position must be (n, 3), m, or (n,), depths in m, not {p.shape}")
+        raise ValueError(f"position must have shape (n, 3), m, or (n,), depths in m, not {p.shape}")
     b = normal if axis is None else np.asarray(axis, dtype=np.float64)
     stamps = np.arange(len(p)) / scene.servo.rate
     if time is not None:
@@ -38,9 +38,9 @@ def simulate_arrays(
 
 
 def _resampled(scene: Scene, time: Array, position: Array, axis: Array) -> tuple[Array, Array, Array]:
-    """Time, position and axis at the servo rate. Raises ValueError where the time cannot be used."""
+    """Time, position and axis at the servo rate. Raises ValueError for an invalid time."""
     if time.shape != (len(position),):
-        raise ValueError(f"time must be ({len(position)},), one stamp a position, not {time.shape}")
+        raise ValueError(f"time must have shape ({len(position)},), one for each position, not {time.shape}")
     if not np.isfinite(time).all():
         raise ValueError(f"time[{int(np.flatnonzero(~np.isfinite(time))[0])}] is not a finite number")
     if not len(time):

@@ -1,4 +1,4 @@
-"""Names of the columns of a motion file."""
+"""Column names of a motion file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _WANTED = f"the columns must be {','.join(TIME_AND_POSITION)} or {','.join(TIME_
 
 
 def read_header(line: bytes, file: Path) -> list[str]:
-    """The column names of a motion file's first line, or an error that says what is wrong with them."""
+    """The column names in a motion file's first line. Raises MotionError for wrong names."""
     try:
         text = line.decode("utf-8-sig").strip()
     except UnicodeDecodeError:
@@ -24,7 +24,7 @@ def read_header(line: bytes, file: Path) -> list[str]:
         raise MotionError(file, 1, f"is empty; {_WANTED}")
     if ";" in text or "\t" in text:
         sign = "semicolons" if ";" in text else "tabs"
-        raise MotionError(file, 1, f"the columns are separated by {sign}; use commas, and points in the numbers")
+        raise MotionError(file, 1, f"the columns are separated by {sign}; use commas, and decimal points in numbers")
     names = split_line(text, 1, file)
     if names in (TIME_AND_POSITION, TIME_AND_POSITION + AXIS):
         return names
@@ -49,7 +49,7 @@ def _difference(names: list[str]) -> str:
     missing = [name for name in wanted if name not in names]
     unknown = [name for name in names if name not in known]
     if twice:
-        parts.append(f"column {', '.join(twice)} is there twice")
+        parts.append(f"column {', '.join(twice)} appears twice")
     if missing:
         parts.append(f"column {', '.join(missing)} is missing")
     for name in unknown:

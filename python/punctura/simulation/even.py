@@ -1,9 +1,9 @@
-"""Is a motion sampled evenly, and how often?
+"""Checks that a motion is sampled evenly, and determines its rate.
 
-Time stamps are often rounded (0.0006, 0.0013, 0.0019 for 1600 Hz), so none is held against its neighbour alone. A
-motion counts as even where, within every block, each stamp lies within a quarter of a step of an even grid, and the
-step of every block is that of the first to one part in a thousand. A quarter of a step lets four decimals pass at
-1600 Hz (an error of at most 0.16 steps), and no missing sample, which is an error of a whole step.
+Time stamps are often rounded (0.0006, 0.0013, 0.0019 for 1600 Hz), so comparing neighbours is not enough. A motion is
+even if, within each block, each stamp is within a quarter of a step of an even grid, and if the step of each block
+differs from that of the first by less than 0.1 %. A quarter of a step accepts four decimals at 1600 Hz (an error of at
+most 0.16 steps) and rejects a missing sample (an error of a whole step).
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ _ADVICE = "resample the motion evenly first (numpy.interp does it)"
 
 
 class Evenness:
-    """Takes the time stamps block by block; afterwards knows how many there are and their step."""
+    """Checks time stamps block by block, and determines their number and step."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
         self.count = 0
         self.first = self.last = 0.0
-        self._step: float | None = None  # of the first block
-        self._gap: MotionError | None = None  # a gap, unless a later row turns out to lie in it
+        self._step: float | None = None  # step of the first block
+        self._gap: MotionError | None = None  # a gap; not an error if a later row lies in it
 
     @property
     def step(self) -> float | None:
@@ -37,7 +37,7 @@ class Evenness:
         return (self.last - self.first) / (self.count - 1) if self.count > 1 else None
 
     def add(self, first_line: int, time: NDArray[np.float64]) -> None:
-        """Checks a block; raises MotionError at the line where the motion stops being even."""
+        """Checks a block. Raises MotionError with the first line that is not even."""
         if self.count:
             time, first_line = np.concatenate(([self.last], time)), first_line - 1
         else:
@@ -50,14 +50,14 @@ class Evenness:
             self._check(first_line, time)
 
     def finish(self) -> None:
-        """After the last block. Raises MotionError for a gap near the end."""
+        """Call after the last block. Raises MotionError for a gap near the end."""
         if self._gap:
             raise self._gap
 
     def _check(self, first_line: int, time: NDArray[np.float64]) -> None:
         steps = np.diff(time)
         usual = float(np.median(steps)) if self._step is None else self._step
-        if usual <= 0:  # most stamps repeat: the first that does is told
+        if usual <= 0:  # most stamps repeat: report the first one
             usual = float(np.max(steps)) if np.max(steps) > 0 else 1.0
         bad = np.flatnonzero(~((steps > usual / 2) & (steps < 1.5 * usual)))
         if len(bad):
@@ -76,8 +76,8 @@ class Evenness:
             raise MotionError(
                 self.file,
                 first_line + worst,
-                f"time_s is uneven here: {time[worst]:.9g} s lies {off[worst] / mean:.2g} steps off even sampling "
-                f"every {mean:.6g} s; {_ADVICE}",
+                f"time_s is uneven here: {time[worst]:.9g} s is {off[worst] / mean:.2g} steps off a regular grid of "
+                f"{mean:.6g} s; {_ADVICE}",
             )
         if self._step is None:
             self._step = mean
@@ -89,7 +89,10 @@ class Evenness:
             )
 
     def _raise_gap(self, first_line: int, time: NDArray[np.float64], wait: bool = False) -> None:
-        """Where time goes back after a gap, rows are exchanged and none is missing. wait: for the next block, too."""
+        """Raises the gap. If time goes back later, raises that instead: rows are out of order, and none is missing.
+
+        wait: do not raise the gap before the next block was checked.
+        """
         back = np.flatnonzero(np.diff(time) < 0)
         if len(back):
             i = int(back[0]) + 1
@@ -111,4 +114,4 @@ def _step_problem(before: float, now: float, usual: float) -> str:
             f"a gap from {before:.9g} s to {now:.9g} s ({samples} at {usual:.6g} s a step); "
             "fill it in, or cut the motion there"
         )
-    return f"time_s is uneven here: a step of {step:.6g} s where {usual:.6g} s is usual; {_ADVICE}"
+    return f"time_s is uneven here: a step of {step:.6g} s instead of the usual {usual:.6g} s; {_ADVICE}"

@@ -1,4 +1,4 @@
-"""Reads lines of numbers one by one: slow, but it can say which line is wrong and why."""
+"""Reads lines of numbers one by one. This is slow, but it finds the wrong line and the reason."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 
 
 def read_lines(block: bytes, first_line: int, columns: list[str], file: Path) -> NDArray[np.float64]:
-    """The numbers of a block of lines, one row a line; raises MotionError at the first line that is not sound."""
+    """The numbers of a block of lines, one row per line. Raises MotionError for the first invalid line."""
     rows = []
     for i, raw in enumerate(block.removesuffix(b"\n").split(b"\n")):
         line = first_line + i
@@ -36,9 +36,9 @@ def _read_line(text: str, line: int, columns: list[str], file: Path) -> list[flo
         count = f"{len(fields)} value{'s' if len(fields) != 1 else ''} for {len(columns)} columns"
         hint = f"write one each for {','.join(columns)}"
         if ";" in text:
-            hint = "separate the columns by commas, and write numbers with points"
+            hint = "use commas, and decimal points in numbers"
         elif len(fields) == 2 * len(columns):
-            hint = "where the numbers are written with decimal commas, write points"
+            hint = "replace decimal commas by points"
         raise MotionError(file, line, f"holds {count}; {hint}")
     return [_read_number(field, name, line, file) for field, name in zip(fields, columns, strict=True)]
 
@@ -47,7 +47,7 @@ def _read_number(field: str, name: str, line: int, file: Path) -> float:
     if _NUMBER.fullmatch(field):
         value = float(field)
         if value in (float("inf"), float("-inf")):
-            raise MotionError(file, line, f"{name} is {field}, more than a number can hold")
+            raise MotionError(file, line, f"{name} is {field}, which is too large for a number")
         return value
     if not field:
         raise MotionError(file, line, f"{name} is empty; fill the sample in, or cut the motion there")

@@ -1,4 +1,4 @@
-"""What is raised where a motion file cannot be used."""
+"""The exception for invalid motion files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from punctura._core import PuncturaError
 
 
 class MotionError(PuncturaError, ValueError):
-    """A motion file that cannot be used: which file, which line (0 for the file as a whole), what, and what to do."""
+    """An invalid motion file. Names the file, the line (0 for the whole file), the problem and the remedy."""
 
     def __init__(self, file: str | Path, line: int, what: str) -> None:
         self.file = str(file)

@@ -1,4 +1,4 @@
-"""A motion file in blocks of rows, so that its length does not matter."""
+"""Reads a motion file in blocks of rows, so that a file of any length fits in memory."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ Array = NDArray[np.float64]
 
 
 class Block(NamedTuple):
-    """Some rows of a motion, in SI units."""
+    """A block of rows of a motion, in SI units."""
 
     first_line: int
-    bytes_read: int  # of the file, up to the end of this block
+    bytes_read: int  # bytes of the file up to the end of this block
     time: Array  # (n,)
     position: Array  # (n, 3)
-    axis: Array | None  # (n, 3), as given in the file
+    axis: Array | None  # (n, 3), as in the file
 
 
 class MotionFile:
-    """The rows of a motion file. Can be read more than once."""
+    """The rows of a motion file. They can be read more than once."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -48,7 +48,7 @@ class MotionFile:
         return set(AXIS) <= set(self.columns)
 
     def blocks(self) -> Iterator[Block]:
-        """The motion from its start, about 2 MB of text at a time."""
+        """Yields the motion from its start, about 2 MB of text at a time."""
         line = 2
         with self.path.open("rb") as file:
             file.seek(self._data_start)
@@ -64,11 +64,11 @@ class MotionFile:
 
 
 def _whole_lines(file: IO[bytes]) -> Iterator[bytes]:
-    """Blocks that end where a line ends. Blank lines at the end of the file are left out."""
+    """Yields blocks of complete lines, without blank lines at the end of the file."""
     rest = b""
     while read := file.read(BLOCK_BYTES):
         text = rest + read
-        filled = len(text.rstrip())  # blank lines wait: they are wrong only if another line follows
+        filled = len(text.rstrip())  # keep blank lines for later: they are an error only if another line follows
         cut = (text.find(b"\n", filled) + 1 or text.rfind(b"\n", 0, filled) + 1) if filled else 0
         if cut:
             yield text[:cut]
@@ -78,7 +78,7 @@ def _whole_lines(file: IO[bytes]) -> Iterator[bytes]:
 
 
 def _fast_numbers(text: bytes, columns: int) -> Array | None:
-    """All numbers at once, or None where something in the block needs a closer look."""
+    """Parses a whole block at once. None if the block needs the slow reader."""
     names = [str(i) for i in range(columns)]
     try:
         table = pyarrow.csv.read_csv(

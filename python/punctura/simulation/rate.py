@@ -1,4 +1,4 @@
-"""From the rate of a motion to that of the servo."""
+"""Converts the rate of a motion to the servo rate."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from punctura.simulation.even import DRIFT, TOLERANCE, Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.resample import Resampler
 
-SLOWEST_STEP = 0.1  # s between rows; the resampling would make up what lies between rows further apart
+SLOWEST_STEP = 0.1  # s between rows; with larger steps the resampled motion would be mostly invented
 FASTEST_STEP = 1e-7  # s
 
 
 def resampler_for(even: Evenness, rate: float) -> Resampler | None:
-    """None where the motion is sampled at the servo rate: then every row is one tick. Raises MotionError."""
+    """The resampler, or None if the motion is at the servo rate and each row is one tick. Raises MotionError."""
     period = 1 / rate
     if even.step is None:
         return None

@@ -1,4 +1,4 @@
-"""Linear interpolation of an evenly sampled motion at another rate, block by block."""
+"""Resamples an evenly sampled motion at another rate by linear interpolation, block by block."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-ROWS_AT_ONCE = 1 << 14  # what is computed together, however much the rate goes up
+ROWS_AT_ONCE = 1 << 14  # rows computed at once, for any increase of the rate
 
 
 class Resampler:
-    """Turns rows every `step` seconds into rows every `period` seconds, from `start` to the last row."""
+    """Resamples from one row every `step` seconds to one every `period` seconds, from `start` to the last row."""
 
     def __init__(self, start: float, step: float, period: float, rows: int) -> None:
         self._start, self._period, self._ratio = start, period, period / step
-        self._rows = self._rows_within(rows)  # all there will be
-        self._taken = 0  # rows taken in
-        self._given = 0  # rows given out
-        self._last: Array | None = None  # the row before the block
+        self._rows = self._rows_within(rows)  # total number of output rows
+        self._taken = 0  # input rows so far
+        self._given = 0  # output rows so far
+        self._last: Array | None = None  # last row of the previous block
 
     def _rows_within(self, rows: int) -> int:
-        """How many new rows lie within so many old ones. A rounding error must not lose the last one."""
+        """Number of output rows within `rows` input rows. A rounding error must not lose the last one."""
         return math.floor((rows - 1) / self._ratio + 1e-6) + 1
 
     def add(self, rows: Array) -> Iterator[tuple[Array, Array]]:
-        """(time, values) of the new rows up to the last one taken in, a limited number at once."""
+        """Yields (time, values) of the output rows up to the last input row, ROWS_AT_ONCE at a time."""
         start = self._taken
         if self._last is not None:
             rows, start = np.concatenate((self._last[None], rows)), start - 1
@@ -39,7 +39,7 @@ class Resampler:
         while self._given < end:
             index = np.arange(self._given, min(self._given + ROWS_AT_ONCE, end))
             self._given += len(index)
-            place = np.clip(index * self._ratio - start, 0, len(rows) - 1)  # in rows of this block
+            place = np.clip(index * self._ratio - start, 0, len(rows) - 1)  # position in rows of this block
             below = np.minimum(place.astype(np.int64), max(len(rows) - 2, 0))
             above = np.minimum(below + 1, len(rows) - 1)
             weight = (place - below)[:, None]
@@ -49,12 +49,12 @@ class Resampler:
 
 
 def with_axis(position: Array, axis: Array) -> Array:
-    """Position and direction side by side, to be interpolated together."""
+    """Position and direction in one array, for joint interpolation."""
     return np.concatenate((position, unit(axis)), axis=1)
 
 
 def unit(axis: Array) -> Array:
-    """Directions of length 1. Scaled first: the square of a tiny or huge component is no number."""
+    """Normalizes directions. Scales first, because the square of a tiny or huge component under- or overflows."""
     scaled: Array = axis / np.abs(axis).max(axis=1, keepdims=True)
     length: Array = np.linalg.norm(scaled, axis=1, keepdims=True)
     return scaled / length

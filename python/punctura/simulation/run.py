@@ -1,4 +1,4 @@
-"""The simulation itself: read a block, run the model over it, write a block."""
+"""The simulation: reads a block, runs the model over it, writes a block."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from punctura.ticks.files import SUFFIXES, open_output
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
-FARTHEST = 1e6  # m: farther away no position is taken
-_SURVEY_SHARE = 0.2  # of the progress is the first reading
+FARTHEST = 1e6  # m: positions farther away are rejected
+_SURVEY_SHARE = 0.2  # share of the progress for the first pass
 
 
 @overload
@@ -57,23 +57,25 @@ def simulate(
     time: npt.ArrayLike | None = None,
     axis: npt.ArrayLike | None = None,
 ) -> SimulationSummary | Ticks:
-    """The model's own force, without safety limits, for a motion. scene: a Scene, a scene file or a ready scene's name.
+    """Computes the model's force for a motion, without safety limits.
 
-    From a file to a file: motion is a CSV file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path a .csv or
-    .parquet. progress is told the share that is done. Files of any length take the same memory. Raises
-    ConfigurationError, MotionError or OSError; there is then no output file.
+    scene: a Scene, a scene file, or the name of a ready scene.
 
-    In memory: motion is an array of positions (n, 3), m, or of depths (n,) below the first membrane's surface, m,
-    along its inward normal. time (n,), s, evenly sampled: where its rate is not the servo's, the motion is resampled
-    linearly; without it each row is one tick. axis (n, 3) or (3,): the needle's direction; the first membrane's inward
-    normal if not given. Raises ConfigurationError or ValueError.
+    From file to file: motion is a CSV file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path a .csv or .parquet
+    file. progress is called with the completed share, 0 to 1. Files of any length take the same memory. Raises
+    ConfigurationError, MotionError or OSError; then no output file is left.
+
+    In memory: motion is an array of positions (n, 3), m, or of depths (n,), m, below the first membrane's surface along
+    its inward normal. time (n,), s, evenly sampled: the motion is resampled linearly if its rate is not the servo rate.
+    Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
+    inward normal. Raises ConfigurationError or ValueError.
     """
     if not isinstance(motion, (str, os.PathLike)):
         if out_path is not None or progress is not None:
-            raise TypeError("a motion in memory has no out_path and no progress; save() of the result writes a file")
+            raise TypeError("out_path and progress are for motion files; save a result in memory with its save()")
         return simulate_arrays(scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis)
     if time is not None or axis is not None:
-        raise TypeError("time and axis belong to a motion in memory; a motion file has columns for them")
+        raise TypeError("time and axis are for a motion in memory only; a motion file has columns for them")
     if out_path is None:
         raise TypeError("a motion file needs out_path, a .csv or .parquet file for the result")
     return _simulate_file(scene, Path(motion), Path(out_path), progress)
@@ -109,7 +111,7 @@ def _simulate_file(
 
 
 class _Part(NamedTuple):
-    """Rows that go through the model together."""
+    """Rows that the model processes together."""
 
     time: Array
     position: Array
@@ -128,13 +130,13 @@ def _check_target(source: Path, target: Path) -> None:
     elif not target.parent.is_dir():
         problems.append(Problem(f"out {target}", MISSING, f"there is no folder {target.parent}"))
     elif source.exists() and target.exists() and source.samefile(target):
-        problems.append(Problem(f"out {target}", MISSING, "is the motion itself"))
+        problems.append(Problem(f"out {target}", MISSING, "is the motion file itself; choose another name"))
     if problems:
         raise ConfigurationError(problems)
 
 
 def _survey(motion: MotionFile, tell: Progress) -> Evenness:
-    """Reads the motion once, so that what is wrong with it is known before anything is computed."""
+    """Reads the whole motion once, so that errors are found before the computation."""
     even = Evenness(motion.path)
     for block in motion.blocks():
         even.add(block.first_line, block.time)
@@ -155,7 +157,7 @@ def _survey(motion: MotionFile, tell: Progress) -> Evenness:
 
 
 def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resampler | None:
-    """Says in the summary what it does."""
+    """The resampler if one is needed. Adds a note to the summary."""
     resampler = resampler_for(even, scene.servo.rate)
     if even.step is None:
         return None

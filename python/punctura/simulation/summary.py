@@ -1,4 +1,4 @@
-"""What a simulation reports when it is done."""
+"""The summary of a finished simulation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 @dataclass
 class MembraneSummary:
-    """One membrane: how deep the needle went (m, along the needle) and its strongest force along the needle (N)."""
+    """One membrane: largest depth (m) and largest force (N), both along the needle."""
 
     name: str
     deepest_m: float = 0.0
@@ -17,7 +17,7 @@ class MembraneSummary:
 
 @dataclass
 class SimulationSummary:
-    """What went in, what came out, and what the reader of the result should know (`notes`)."""
+    """Input and output of a simulation, and notes for the user."""
 
     scene: str
     motion: str

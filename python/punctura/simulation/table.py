@@ -1,4 +1,4 @@
-"""The ticks of a simulation as its result file has them."""
+"""Converts the ticks of a simulation to the table of its result file."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _none(name: str, membranes: int) -> NDArray[np.generic]:
 
 
 def output_table(schema: pa.Schema, time: Floats, position: Floats, axis: Floats | None, ticks: Ticks) -> pa.Table:
-    """One block of the result. position and axis are written as they were given."""
+    """One block of the result. position and axis are written unchanged."""
     given = {"time": time, "position": position} | ({} if axis is None else {"axis": axis})
     written = {name: given[name] if name in given else ticks[name] for name in WRITTEN if name != "axis"}
     table = Ticks(written | given).to_arrow()

@@ -1,4 +1,4 @@
-"""The ticks of a run as arrays: what a proxy, a simulation, a live loop and a recording all give."""
+"""The ticks of a run as arrays, as returned by proxies, simulations, live loops and recordings."""
 
 from punctura.ticks.columns import Columns
 from punctura.ticks.fields import ABSENT, FIELDS

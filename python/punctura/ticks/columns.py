@@ -1,4 +1,4 @@
-"""Arrays by the names of fields: what Ticks and a plain dict have in common."""
+"""The common interface of Ticks and a plain dict: arrays by field name."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Array = npt.NDArray[Any]
 
 
 class Columns(Protocol):
-    """One row a tick. Ticks is one, and so is a dict."""
+    """Columns with one row per tick: Ticks or a dict."""
 
     def __getitem__(self, name: str, /) -> Array: ...
     def __contains__(self, name: object, /) -> bool: ...
@@ -23,7 +23,7 @@ class Columns(Protocol):
 
 
 def membrane_count(columns: Columns) -> int:
-    """m; 1 for a single proxy, 0 for columns without a membrane."""
+    """Number of membranes m: 1 for a single proxy, 0 without membrane columns."""
     for name, column in columns.items():
         if (field := FIELDS.get(name)) and field.per_membrane:
             return int(column.shape[1]) if column.ndim > (1 if field.width == 1 else 2) else 1

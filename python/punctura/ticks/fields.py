@@ -1,4 +1,4 @@
-"""The table of a tick's fields (core/punctura/servo/tick_table.hpp), and the names of its columns in a file."""
+"""The table of tick fields (core/punctura/servo/tick_table.hpp), and their column names in files."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from typing import NamedTuple
 from punctura._core import TickField, tick_fields
 
 AXES = ("x", "y", "z")
-ABSENT = 255  # the phase of a membrane that a tick's scene does not have; its numbers are NaN
+ABSENT = 255  # phase of a membrane that a tick's scene does not have; its numbers are NaN
 
 FIELDS: Mapping[str, TickField] = {field.name: field for field in tick_fields()}
 
 
 class FileColumn(NamedTuple):
-    """A column of a file: one component of a field, of one membrane where each has one."""
+    """A column of a file: one component of a field, for one membrane if the field is per membrane."""
 
     name: str
     field: TickField
     membrane: int | None
-    component: int | None  # None where the field is one number
+    component: int | None  # None if the field is a single number
 
 
 def file_columns(fields: Iterator[TickField] | list[TickField], membranes: int) -> Iterator[FileColumn]:
-    """In a file's order: the fields of the first membrane, then those of the next, where the table has membranes."""
+    """The columns in file order. Fields of the first membrane come first, then those of the next."""
     done = False
     fields = list(fields)
     each = [field for field in fields if field.per_membrane]
@@ -49,7 +49,7 @@ def _columns(field: TickField, membrane: int | None) -> Iterator[FileColumn]:
 
 @cache
 def _patterns() -> tuple[tuple[re.Pattern[str], TickField], ...]:
-    """What the columns of each field look like."""
+    """A pattern for the column names of each field."""
 
     def pattern(field: TickField) -> re.Pattern[str]:
         text = re.escape(field.column).replace(r"\{a\}", "(?P<a>[xyz])").replace(r"\{i\}", r"(?P<i>\d+)")
@@ -60,7 +60,7 @@ def _patterns() -> tuple[tuple[re.Pattern[str], TickField], ...]:
 
 @cache
 def file_column(name: str) -> FileColumn | None:
-    """What a column of a file is; None for a name that the table does not give."""
+    """The field of a file's column; None for an unknown name."""
     for pattern, field in _patterns():
         if match := pattern.fullmatch(name):
             parts = match.groupdict()

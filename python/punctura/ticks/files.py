@@ -1,4 +1,4 @@
-"""Result files, CSV and Parquet. A file appears under its name only when it is whole."""
+"""Writes result files, CSV and Parquet. A file gets its name only when it is complete."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _ROWS_A_GROUP = 1 << 16
 
 
 class Output(Protocol):
-    """Takes the result block by block."""
+    """Writes a result block by block."""
 
     def write(self, table: pa.Table) -> None: ...
 
 
 class CsvOutput:
-    """Numbers are written with as many digits as it takes to read the same double again, 17 at most."""
+    """Writes CSV. Numbers have as many digits as needed to read the same double again, 17 at most."""
 
     def __init__(self, file: Any, schema: pa.Schema) -> None:
         self._file = file
@@ -72,7 +72,7 @@ def save(table: pa.Table, path: str | os.PathLike[str]) -> None:
 
 @contextmanager
 def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
-    """A result file that gets its name when it is complete; after an error there is none."""
+    """Opens a result file. It gets its name when it is complete; an error leaves no file."""
     with whole_file(path) as place:
         if path.suffix.lower() == ".parquet":
             with pyarrow.parquet.ParquetWriter(place, schema) as writer:

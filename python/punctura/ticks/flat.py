@@ -1,4 +1,4 @@
-"""Ticks as the columns of a file, and back."""
+"""Converts ticks to the columns of a file and back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from punctura.ticks.fields import ABSENT, FIELDS, FileColumn, file_column, file_
 
 
 def flatten(ticks: Columns, membranes: int | None = None) -> dict[str, Array]:
-    """One array (n,) for each column of a file, in its order, for so many membranes; as many as there are if None."""
+    """One array (n,) for each file column, in file order. membranes: number of membranes, default: those of `ticks`."""
     membranes = membrane_count(ticks) if membranes is None else membranes
     fields = [field for field in FIELDS.values() if field.name in ticks]
     flat = {}
@@ -24,7 +24,7 @@ def flatten(ticks: Columns, membranes: int | None = None) -> dict[str, Array]:
 
 
 def _values(ticks: Columns, column: FileColumn) -> Array | None:
-    """The numbers of a file's column; None for a component that a proxy on a line does not have."""
+    """The numbers of a file's column; None for a component that the ticks of a Proxy1d do not have."""
     values = ticks[column.field.name]
     line = column.component is not None and (values.ndim == 1 or values.shape[-1] != 3)
     if column.component is not None:
@@ -39,7 +39,7 @@ def _values(ticks: Columns, column: FileColumn) -> Array | None:
 
 
 def gather(flat: Mapping[str, Array]) -> dict[str, Array]:
-    """The fields of a file's columns, by their names; other columns keep theirs."""
+    """Collects file columns into fields. Other columns keep their names."""
     parts: dict[str, dict[tuple[int | None, int | None], Array]] = {}
     others = {}
     for name, values in flat.items():
@@ -58,7 +58,7 @@ def _field(name: str, parts: dict[tuple[int | None, int | None], Array]) -> Arra
     def one(membrane: int | None) -> Array:
         if field.width == 1:
             return parts[membrane, None]
-        if (membrane, 1) not in parts:  # of a proxy on a line
+        if (membrane, 1) not in parts:  # ticks of a Proxy1d have one component
             return parts[membrane, 0]
         return np.stack([parts[membrane, k] for k in range(field.width)], axis=-1)
 

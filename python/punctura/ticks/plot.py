@@ -1,4 +1,4 @@
-"""The plot of Ticks."""
+"""Plots Ticks."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def plot(ticks: Columns, names: Sequence[str], x: str | None, axes: Axes | None)
     x = x or ("time" if "time" in ticks else "depth")
     for name in (x, "axial_force", "lower", "upper"):
         if name not in ticks:
-            raise KeyError(f"these ticks have no {name}, which the plot needs; they have {', '.join(ticks)}")
+            raise KeyError(f"the plot needs the field {name}; these ticks have {', '.join(ticks)}")
     axes = _new_axes() if axes is None else axes
     along = ticks[x]
     if along.ndim > (2 if FIELDS[x].per_membrane else 1):
-        raise ValueError(f"{x} is a vector; x must be a field of one number, such as time or depth")
+        raise ValueError(f"x = {x!r} is a vector; x must be a scalar field, such as 'time' or 'depth'")
     for i in range(membrane_count(ticks)):
         at = _of(along, i)
         name = names[i] if i < len(names) else f"membrane {i}"

@@ -1,4 +1,4 @@
-"""The modules of benchmarks/ are no package: they are found by their folder."""
+"""Adds benchmarks/ to the path, because its modules are not a package."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What ./bench concludes from its measurements, prints and writes."""
+"""The results of ./bench: verdicts, printed text and files."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""What benchmarks/conditioning.py concludes from its measurements, prints and writes."""
+"""The results of benchmarks/conditioning.py: verdicts, printed text and files."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What ./bench makes of the wake-ups that it measures. The two programs are stood in for."""
+"""The evaluation of measured wake-ups in ./bench. Scripts replace the two measured programs."""
 
 import json
 import re
@@ -35,7 +35,7 @@ for k in range(n):
 
 
 def script(path, text):
-    """A program in Python, by way of a shell: the path of this Python may have a space in it."""
+    """A Python program started by a shell script, because the path of this Python may contain a space."""
     code = path.with_suffix(".py")
     code.write_text(text)
     path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S -E "{code}" "$@"\n')
@@ -45,7 +45,7 @@ def script(path, text):
 
 @pytest.fixture
 def stand_ins(tmp_path, monkeypatch):
-    """A loop that wakes 6 us late, a cyclictest 5 us, once warmed up; both with the right to a priority, or without."""
+    """A loop with 6 us and a cyclictest with 5 us latency after the warm-up, both with or without a priority."""
 
     def make(granted=True, cyclictest=True):
         loop = script(tmp_path / "loop", LOOP.format(granted=granted))
@@ -67,10 +67,10 @@ def test_both_are_measured_at_once_with_and_without_a_busy_core(stand_ins):
         assert (row["cyclictest"]["p99_9_us"], row["cyclictest"]["wake_ups"]) == (5.0, 16000)
         assert row["over_cyclictest"] == {"pooled": 1.2, "lower_quartile": 1.2, "upper_quartile": 1.2}
     assert all(r.passes and r.value == 1.2 for r in over_cyclictest(result))
-    assert "   2 left out of 16000" in "\n".join(wakeup_table(result))
+    assert "   2 of 16000 skipped" in "\n".join(wakeup_table(result))
 
 
-def test_where_no_priority_is_granted_neither_gets_one(stand_ins):
+def test_without_a_granted_priority_both_run_without_it(stand_ins):
     result = measure_wakeups(stand_ins(granted=False), 0.5)
     assert result["priority"] == 0 and "no real-time priority" in next(wakeup_table(result))
 
@@ -101,7 +101,7 @@ def test_a_program_that_fails_ends_the_measurement(stand_ins, tmp_path):
         measure_wakeups(script(tmp_path / "loop", "import sys; sys.exit(3)"), 0.1)
 
 
-def test_a_cyclictest_that_says_something_else_is_not_believed(stand_ins, tmp_path):
+def test_unexpected_output_of_cyclictest_is_an_error(stand_ins, tmp_path):
     loop = stand_ins()
     script(tmp_path / "cyclictest", "print('T: 0 (1234) P:80 Min: 5')")
     with pytest.raises(ProgramError, match="reported 0 of 480 wake-ups; it began: T: 0"):

@@ -69,7 +69,7 @@ def test_a_warning_of_the_exercise_is_printed_beside_the_score(punctura, recordi
     assert done.stderr.startswith(f"punctura: warning: {file}: goal[0]: is met before the front vein wall pops")
 
 
-def test_what_cannot_be_scored_is_told(punctura, recording, tmp_path):
+def test_what_cannot_be_scored_is_reported(punctura, recording, tmp_path):
     done = punctura("exercise", "score", recording, "--exercise", "epidural")
     assert (done.returncode, done.stdout) == (2, "")
     assert f"{recording}: 1 problem" in done.stderr

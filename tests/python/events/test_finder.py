@@ -1,4 +1,4 @@
-"""The finder: nothing twice, nothing missed, however the ticks come."""
+"""The event finder finds each event once, for any split of the ticks into batches."""
 
 import itertools
 
@@ -22,7 +22,7 @@ def brief(events):
 
 
 def restless(scene, seed):
-    """In and out by random ways, with a tremor, at an angle."""
+    """Random insertions and withdrawals with a tremor, at an angle."""
     random = np.random.default_rng(seed)
     depths = np.concatenate([[-2e-3], random.uniform(-1e-3, 20e-3, 14), [-3e-3]])
     path = ramp(scene, *depths, speed=40e-3)
@@ -33,7 +33,7 @@ def restless(scene, seed):
 
 @pytest.mark.parametrize("name", ["k06-fig12", "k06-fig10", "venipuncture"])
 @pytest.mark.parametrize("solver", ["exact", "paper"])
-def test_events_are_the_same_however_the_batches_are_cut(name, solver):
+def test_events_do_not_depend_on_the_batches(name, solver):
     scene = pn.load_scene(name)
     scene = scene.replace(servo=scene.servo.replace(solver=solver))
     random = np.random.default_rng(2)
@@ -52,8 +52,8 @@ def test_events_are_the_same_however_the_batches_are_cut(name, solver):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_events_of_a_membrane_come_in_an_order_that_can_be(seed):
-    """touch, then pops with a return between them, then out."""
+def test_events_of_a_membrane_come_in_a_possible_order(seed):
+    """First touch, then pops with a return between them, then out."""
     scene = STILL
     columns = restless(scene, 10 + seed)
     for i in range(len(scene.membranes)):
@@ -90,7 +90,7 @@ def test_a_pop_counts_again_once_the_tip_has_come_back_before_the_peak(back, pop
     scene = pn.load_scene("k06-fig11").replace(servo=pn.ServoSettings(low_pass=0))
     turns = crossing(scene, 0, 1.0)
     assert turns.through - turns.again > 2e-3
-    deep = turns.through + 2e-3  # of the tip; the proxy lags by what the coupling stretches
+    deep = turns.through + 2e-3  # depth of the tip; the proxy lags by the stretch of the coupling
     columns = along(scene, ramp(scene, -1e-3, deep, turns.through - back, deep, turns.through - back, deep))
     shallowest = columns["depth"][len(columns["tick"]) // 2 :, 0].min()
     events = found(scene, columns)
@@ -141,7 +141,7 @@ def test_ticks_without_numbers_are_passed_over():
     assert found(STILL, nothing) == []
 
 
-def test_a_membrane_that_is_barred_in_between_is_left_once_and_pops_not():
+def test_a_membrane_that_becomes_barred_is_left_once_and_does_not_pop():
     columns = along(STILL, ramp(STILL, -2e-3, 15e-3, -2e-3))
     whole = found(STILL, columns)
     barred = columns["phase"].copy()
@@ -159,7 +159,7 @@ def test_columns_of_more_or_fewer_membranes_than_the_scene_has_do_no_harm():
     assert EventFinder(STILL).add({k: v[:0] for k, v in columns.items()}) == []
 
 
-def test_without_ticks_and_times_the_rate_tells_them():
+def test_without_columns_tick_and_time_the_rate_gives_them():
     columns = along(STILL, ramp(STILL, -2e-3, 15e-3))
     bare = {name: columns[name] for name in ("depth", "axial_force", "phase")}
     assert [e.model_copy(update={"force_after": 0, "drop": 0}) for e in found(STILL, bare)] == [
@@ -167,7 +167,7 @@ def test_without_ticks_and_times_the_rate_tells_them():
     ]
 
 
-def test_ticks_are_counted_from_batch_to_batch_where_they_tell_no_number():
+def test_without_a_column_tick_the_ticks_are_counted_over_all_batches():
     columns = along(STILL, ramp(STILL, -2e-3, 15e-3))
     bare = {name: columns[name] for name in ("depth", "axial_force", "phase", "lower")}
     finder = EventFinder(STILL)

@@ -1,4 +1,4 @@
-"""Events against the offline law: what a slow needle meets is what Phi_I says."""
+"""Events against the law: a slow needle meets the forces of Phi_I."""
 
 import math
 
@@ -8,7 +8,7 @@ import pytest
 from punctura.events import EventFinder, crossing
 from runs import along, ramp, unit
 
-# Of the peak: a tick of 3 um passes it by that much at most.
+# Tolerance of the peak: a tick of 3 um misses it by at most this much.
 TOLERANCE = 2e-3
 
 NEEDLE, COUPLING = pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1)
@@ -24,7 +24,7 @@ def scene_of(membrane, solver="exact"):
 
 
 def offline(scene, index, obliquity):
-    """The law's largest resistance and its shaft friction, N."""
+    """Largest resistance and shaft friction of the law, N."""
     law = pn.ThickLaw(scene.needle, scene.membranes[index].membrane, obliquity)
     lower, _ = law.bounds(np.linspace(0, law.X + law.U, 200_001))
     return -float(lower.min()), -float(law.bounds(law.X + law.U + 1e-3)[0])

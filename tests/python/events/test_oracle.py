@@ -1,4 +1,4 @@
-"""The finder against a plain loop over the ticks, on random scenes and runs, cut anywhere."""
+"""Compares the event finder with a plain loop over the ticks, on random scenes, runs and batches."""
 
 import itertools
 import math
@@ -28,7 +28,7 @@ def random_scene(random):
 
 
 def random_run(random, scene, way):
-    """Strokes with a tremor, at an angle that may graze; some numbers missing, some ticks barred."""
+    """Strokes with a tremor at an angle that may be grazing, with some missing numbers and some barred ticks."""
     tip = scene.needle.diameter / math.tan(scene.needle.tip_angle)
     depths = [-2e-3]
     for _ in range(random.integers(2, 5)):

@@ -1,4 +1,4 @@
-"""Events live and from the recording of the same run."""
+"""Compares the events of a live run with those of its recording."""
 
 import numpy as np
 import punctura as pn
@@ -13,7 +13,7 @@ STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=
 
 
 def record(path, scene, ticks, exchange=None):
-    """Runs, and gives what a listener read in batches."""
+    """Runs a loop and returns the batches that a listener read."""
     device = SimulatedDevice(STROKES, real_time=False, ticks=ticks)
     loop = ServoLoop(device, scene)
     listener = loop.listen(ticks)

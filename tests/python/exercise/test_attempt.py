@@ -1,4 +1,4 @@
-"""An attempt is judged the same however its ticks come, and whatever is in them."""
+"""The score of an attempt does not depend on how its ticks are split into batches, nor on invalid values in them."""
 
 import time
 
@@ -161,7 +161,7 @@ def test_columns_without_numbers_do_no_harm():
     assert judged(exercise, few).finish().passed is False
 
 
-def test_a_fault_ends_the_attempt_and_is_told():
+def test_a_fault_ends_the_attempt_and_is_reported():
     columns = ideal(SCENE, (0, 5, 0), (0, -6, 0))
     columns["fault"][1000:] = Fault.position_jump.value
     attempt = judged(load_exercise("venipuncture"), columns, scene=SCENE)

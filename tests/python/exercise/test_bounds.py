@@ -1,4 +1,4 @@
-"""An exercise file whose numbers nobody can mean is refused, with path, value and bound."""
+"""An exercise file with unreasonable numbers is rejected, with path, value and bound."""
 
 import json
 
@@ -33,7 +33,7 @@ def problem(path):
         (goal("entries", at_most=1001), "at_most", 1001, "must be at most 1000"),
     ],
 )
-def test_a_limit_that_nobody_can_mean_is_refused(write, goals, path, value, bound):
+def test_an_unreasonable_limit_is_rejected(write, goals, path, value, bound):
     assert problem(write(goals, goal("reach"), head=DEPTHS)) == (f"goal[0].{path}", value, bound)
 
 

@@ -1,4 +1,4 @@
-"""A depth behind a membrane as what is to be reached, without another membrane behind it."""
+"""Goals at a depth behind a membrane, without another membrane behind it."""
 
 import json
 import math
@@ -107,7 +107,7 @@ def test_without_an_end_the_space_goes_on(write):
         ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4 mm: there the space ends, by space.deepest_mm"),
     ],
 )
-def test_a_depth_that_nobody_can_come_to_is_told(write, space, where, why):
+def test_a_depth_that_nobody_can_come_to_is_reported(write, space, where, why):
     head = HEAD.replace("[space]", f"[space]\n{space}")
     assert why in problems(write(goal("reach", depth_mm=0.5), head=head))[where]
 

@@ -1,4 +1,4 @@
-"""Exercise files: what is in them, and everything that is wrong with one at once."""
+"""Exercise files: their content, and the report of all problems at once."""
 
 import json
 import math
@@ -120,7 +120,7 @@ def test_a_space_between_a_membrane_and_itself_is_none(write):
     assert "another membrane" in problems(write(goal("reach"), head=head))["space.in_front_of"]
 
 
-def test_a_scene_that_is_not_there_or_is_wrong_is_told(write, tmp_path):
+def test_a_scene_that_is_not_there_or_is_wrong_is_reported(write, tmp_path):
     assert "no such file" in problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
     (tmp_path / "mine.toml").write_text("name = 'x'\n")
     told = problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
@@ -134,7 +134,7 @@ def test_a_scene_may_lie_beside_the_exercise(write, tmp_path):
     assert exercise.scene_name == os.fspath(tmp_path / "mine.toml")
 
 
-def test_files_that_are_none_are_told(tmp_path):
+def test_files_that_are_none_are_reported(tmp_path):
     with pytest.raises(ConfigurationError, match="ready exercises: epidural, venipuncture"):
         load_exercise("lumbar")
     with pytest.raises(ConfigurationError, match="no such file"):
@@ -147,7 +147,7 @@ def test_files_that_are_none_are_told(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["goal = 3\n", "goal = [3]\n", "[goal]\nkind = 'reach'\n", "[[goal]]\nkind = 3\n"])
-def test_goals_that_are_no_tables_are_told(tmp_path, text):
+def test_goals_that_are_no_tables_are_reported(tmp_path, text):
     (tmp_path / "odd.toml").write_text(text)
     found = problems(tmp_path / "odd.toml")
     words = "must be a list of one or more tables", "must be a table, [[goal]]", "must be one of reach, stay"

@@ -1,4 +1,4 @@
-"""Metrics against values worked out by hand, for a needle that moves without lag."""
+"""Compares metrics with values calculated by hand, for a needle that moves without lag."""
 
 import math
 
@@ -135,7 +135,7 @@ def test_the_angle_of_entry_is_that_to_the_skin(write):
     assert measured(write, columns, NEVER).metrics.entry_angle == pytest.approx(0.6)
 
 
-def test_ticks_that_never_came_are_told(write):
+def test_ticks_that_never_came_are_reported(write):
     columns = ideal(SCENE, (0, 5, 0), (0, -2, 0))
     keep = np.ones(len(columns["tick"]), dtype=bool)
     keep[500:523] = False

@@ -1,4 +1,4 @@
-"""A person with a mouse: sees, takes their time to react, and leads the simulated hand by a target."""
+"""A simulated person with a mouse, who sees, reacts with a delay, and moves the target of the simulated hand."""
 
 import numpy as np
 import punctura as pn

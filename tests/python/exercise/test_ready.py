@@ -1,4 +1,4 @@
-"""The ready exercises, by a simulated hand that a mouse leads: each success, each failure."""
+"""Each success and each failure in the ready exercises, with a simulated hand that follows a mouse."""
 
 import pytest
 from attempts import hand_run, judged, tried

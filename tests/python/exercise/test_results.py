@@ -1,4 +1,4 @@
-"""Kept results: found again, by person, and nothing outside their folder."""
+"""Saved results are found again by person, and nothing outside their folder is read or written."""
 
 import csv
 import io

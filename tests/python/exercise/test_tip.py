@@ -1,4 +1,4 @@
-"""A goal that does not go together with the length of the tip gives a warning."""
+"""A goal that conflicts with the length of the tip gives a warning."""
 
 import pytest
 from attempts import HEAD, goal

@@ -1,4 +1,4 @@
-"""A file that is written as a whole has its name only when it is complete."""
+"""A file written by whole_file gets its name only when it is complete."""
 
 import errno
 import os
@@ -10,7 +10,7 @@ from punctura.files.whole_file import whole_file, write_whole
 
 @pytest.fixture(params=["unnamed", "hidden"])
 def system(request, monkeypatch):
-    """With files without a name, as Linux has them, and without."""
+    """A system with unnamed files, like Linux, and one without."""
     if request.param == "hidden":
         monkeypatch.setattr("punctura.files.whole_file.unnamed_file", lambda folder: None)
     elif not hasattr(os, "O_TMPFILE"):

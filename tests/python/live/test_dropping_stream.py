@@ -1,4 +1,4 @@
-"""A stream that drops rather than wait."""
+"""A stream that drops lines instead of waiting."""
 
 import io
 import os

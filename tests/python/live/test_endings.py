@@ -1,4 +1,4 @@
-"""Every way out of a run: the force ends, and its recording is whole."""
+"""However a run ends, the force is switched off and the recording is complete."""
 
 import json
 import os
@@ -24,7 +24,7 @@ RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "s
 
 
 def running(path, *options, **more):
-    """A run that records, once ticks are on the disk."""
+    """A recording run, after the first ticks are on the disk."""
     command = [*RUN, "--record", str(path), *options]
     process = subprocess.Popen(
         command,
@@ -105,7 +105,7 @@ def test_a_recording_that_lost_ticks_fails_the_command_and_is_in_its_summary(tmp
 
 
 class Silent:
-    """A loop on hardware of which the test says how many ticks there were."""
+    """A hardware loop whose number of ticks the test sets."""
 
     def __init__(self, deadline=0.02):
         self.ticks, self.gate = 0, pn.live.GateLimits(deadline=deadline)
@@ -118,7 +118,7 @@ class Silent:
         raise AssertionError("the driver is asked before the stop")
 
 
-def test_ticks_that_cease_are_noticed_and_told(monkeypatch):
+def test_ticks_that_cease_are_noticed_and_reported(monkeypatch):
     now = [0.0]
     monkeypatch.setattr("punctura.live.silence.time.monotonic", lambda: now[0])
     for deadline, longest in ((0.02, 0.1), (0.1, 0.5)):
@@ -139,7 +139,7 @@ def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
     told, blamed = threading.Event(), []
 
     class LateStop(Supervisor):
-        """Stops only when the run's own thread has told of the fault."""
+        """Stops only after the run's thread has reported the fault."""
 
         def __init__(self, signals, begin, over, end, duration):
             super().__init__(signals, begin, over, lambda: told.wait(60) and end(), duration)

@@ -78,7 +78,7 @@ def test_a_pause_of_the_feeder_is_a_fault_at_its_next_reading():
     assert loop.latest()["fault"][0]
 
 
-def test_a_feeder_that_does_not_keep_to_its_rate_is_told():
+def test_a_feeder_that_does_not_keep_to_its_rate_is_reported():
     _, loop = fed_forces(FedDevice(100), PATH[:100])
     assert "not at the rate that it was opened with" in loop.device.statements()[0]
 
@@ -127,7 +127,7 @@ def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given
     assert device.statements()[: len(said)] == said and "fed at" in device.statements()[-1]
 
 
-def test_a_feeder_that_has_not_asked_for_priority_is_told():
+def test_a_feeder_that_has_not_asked_for_priority_is_reported():
     _, loop = fed_forces(FedDevice(1600), PATH[:10])
     assert "make_realtime()" in loop.device.statements()[-1]
 

@@ -1,4 +1,4 @@
-"""Limits files, and what the command line makes of them."""
+"""Limits files, and their use by the command line."""
 
 import json
 import os

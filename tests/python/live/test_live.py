@@ -54,7 +54,7 @@ def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
     assert live["commands"][0] == 1 and not live["commands"][1:].any()
 
 
-def test_a_limit_that_acts_is_counted_and_told():
+def test_a_limit_that_acts_is_counted_and_reported():
     summary = run_live(simulated(), SCENE, limits=ForceLimits(max_force=0.5))
     assert summary.strongest_N == pytest.approx(0.5)
     assert summary.limited_ticks == summary.limited_by["peak"] > 100

@@ -1,4 +1,4 @@
-"""A handler that the caller installs during a run: the signal is the caller's, and the run goes on."""
+"""If the caller installs a signal handler during a run, that handler gets the signal, and the run continues."""
 
 import signal
 

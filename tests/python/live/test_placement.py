@@ -80,7 +80,7 @@ def test_a_run_with_a_placement_meets_the_membrane_where_the_placement_puts_it()
 
 
 class LoopWhoseTicksCome:
-    """A loop of which nothing is known before so many waits."""
+    """A loop whose state is unknown until the given number of waits."""
 
     def __init__(self, waits, axis=(0.0, -1.0, 0.0)):
         self.waits = waits
@@ -116,7 +116,7 @@ def test_a_device_that_never_ticks_is_told_with_its_reason():
         present_pose(loop, sleep=loop.sleep)
 
 
-def test_a_device_that_points_nowhere_is_told():
+def test_a_device_that_points_nowhere_is_reported():
     loop = LoopWhoseTicksCome(waits=0, axis=(0.0, 0.0, 0.0))
     with pytest.raises(DeviceError, match="no place at all"):
         present_pose(loop, sleep=loop.sleep)

@@ -1,4 +1,4 @@
-"""A package of its own brings a device: it is listed, runs by its name, and hides nothing where it fails."""
+"""A separate package adds a device: it is listed, runs by its name, and a failure in it hides no other device."""
 
 import json
 import os
@@ -23,7 +23,7 @@ def write(force):
 
 
 def package(folder, module, text, name="mine"):
-    """As pip installs one."""
+    """Makes the package's files as pip installs them."""
     (folder / f"{module}.py").write_text(text)
     about = folder / f"{module}-1.0.dist-info"
     about.mkdir()
@@ -39,7 +39,7 @@ def punctura(folder, *arguments):
 
 @pytest.fixture
 def of_the_docs(tmp_path):
-    """The package that docs/devices.md shows, with hardware that swings."""
+    """The package in docs/devices.md, with simulated swinging hardware."""
     text = re.search(r"the whole of `punctura_mine.py`:\n\n```python\n(.*?)```", DOCS, re.S)[1]
     package(tmp_path, "punctura_mine", HARDWARE + text)
     return tmp_path

@@ -1,4 +1,4 @@
-"""The loop's thread on the processor that was asked for."""
+"""The loop's thread runs on the requested CPU."""
 
 import os
 import subprocess
@@ -16,7 +16,7 @@ LAST = sorted(os.sched_getaffinity(0))[-1]
 
 
 def processors_of_threads():
-    """Of each thread of this process: where it may run."""
+    """The CPUs on which each thread of this process may run."""
     return [os.sched_getaffinity(int(task.name)) for task in Path("/proc/self/task").iterdir()]
 
 

@@ -1,4 +1,4 @@
-"""Ticks that are too many: bounded memory, every loss counted, and said where it matters."""
+"""Too many ticks for the buffer: memory stays bounded, and each loss is counted and reported."""
 
 import json
 import subprocess
@@ -17,7 +17,7 @@ SCENE = load_scene("k06-fig10")
 
 
 def many(count=64, rate=100_000.0):
-    """A sound scene of so many membranes."""
+    """A valid scene with the given number of membranes."""
     first = SCENE.membranes[0]
     placed = [first.replace(name=f"membrane {i}", point=(0.0, -1e-4 * i, 0.0)) for i in range(count)]
     return Scene(SCENE.name, SCENE.needle, SCENE.coupling, placed, SCENE.servo.replace(rate=rate))
@@ -53,12 +53,12 @@ def test_a_summary_counts_every_tick_also_those_lost_after_the_last_that_was_rea
     assert loops[0].report()["ticks"] == 300_000 == summary.ticks + summary.gaps and summary.gaps > 0
 
 
-def test_a_scene_that_a_computer_may_not_keep_up_with_is_told(tmp_path):
+def test_a_scene_that_a_computer_may_not_keep_up_with_is_reported(tmp_path):
     assert room_note(ServoLoop(device_for(SCENE, 1), SCENE)) == ""
     scene = many()
     summary = run_live(device_for(scene, 100), scene)
     (told,) = [text for text in summary.statements if "64 membranes at 100000 Hz" in text]
-    assert "Fewer membranes or a lower rate" in told
+    assert "Use fewer membranes or a lower rate" in told
     loop = ServoLoop(device_for(scene, 100), scene)
     with Recorder(loop, tmp_path / "run.parquet"):
         pass
@@ -74,4 +74,4 @@ def test_the_command_line_says_it_before_the_run_and_in_the_summary(tmp_path, as
     )
     assert "punctura: note: 64 membranes at 100000 Hz" in done.stderr
     said = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
-    assert "64 membranes at 100000 Hz are a lot of data" in said
+    assert "64 membranes at 100000 Hz produce a lot of data" in said

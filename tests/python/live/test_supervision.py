@@ -1,4 +1,4 @@
-"""What ends a run does so whatever the terminal and the caller's own code do meanwhile."""
+"""A run ends on request, whatever the terminal and the caller's code do at that time."""
 
 import contextlib
 import json
@@ -165,7 +165,7 @@ def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):
 
 
 class Interrupts:
-    """Sends this process a signal before the n-th line that the main thread runs in these files."""
+    """Sends a signal to this process before the n-th line that the main thread executes in these files."""
 
     FILES = ("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/wake_socket.py", "/contextlib.py")
 
@@ -183,7 +183,7 @@ class Interrupts:
 
 
 def interrupted_run(n):
-    """A short run with a signal before the n-th line: what happened, and whether there were as many lines."""
+    """A short run with a signal before the n-th line. Returns the result, and whether n lines were executed."""
     device = SimulatedDevice(pn.Target([0, 5e-3, 0]), real_time=False, ticks=20)
     happened, loops = [], []
 

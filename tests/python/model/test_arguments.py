@@ -1,4 +1,4 @@
-"""What a constructor says of arguments that cannot be, the moment they are given."""
+"""Constructors reject invalid arguments at once, with a clear message."""
 
 import warnings
 
@@ -25,13 +25,13 @@ WALL = {"stiffness": 570, "precompression": 0.41, "friction": 0.2, "thickness": 
         ),
     ],
 )
-def test_a_value_that_cannot_be_is_refused_at_once(make, path):
+def test_an_invalid_value_is_rejected_at_once(make, path):
     with pytest.raises(pn.ConfigurationError) as error:
         make()
     assert path in [problem.path for problem in error.value.problems]
 
 
-def test_all_values_that_cannot_be_are_told_together():
+def test_all_invalid_values_are_reported_together():
     with pytest.raises(pn.ConfigurationError) as error:
         pn.Needle(-1, 5)
     assert [problem.path for problem in error.value.problems] == ["needle.diameter", "needle.tip_angle"]
@@ -56,7 +56,7 @@ def test_all_values_that_cannot_be_are_told_together():
         (lambda: pn.Needle(**NEEDLE).replace(angle=0.3), "no argument angle; did you mean tip_angle?"),
     ],
 )
-def test_an_argument_that_does_not_fit_is_named(make, says):
+def test_a_wrong_argument_is_named(make, says):
     with pytest.raises(TypeError) as error:
         make()
     assert says in str(error.value)

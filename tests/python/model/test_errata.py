@@ -1,4 +1,4 @@
-"""The slips of K06 section 2, each with a counterexample to what is printed. docs/errata.md names these tests."""
+"""The errors in K06 section 2, each with a counterexample to the printed text. docs/errata.md names these tests."""
 
 import numpy as np
 import punctura
@@ -10,7 +10,7 @@ SECTION_4 = dict(w=1.08e-3, theta=0.28, kappa=570.0, c=0.41, mu=0.2)
 
 
 def both(H):
-    """(law, quadrature's law) of section 4's needle and membrane with thickness H."""
+    """(law, law by quadrature) of section 4's needle and membrane with thickness H."""
     return printed.law(**SECTION_4, H=H), printed.law(**SECTION_4, H=H, dtype=np.longdouble)
 
 

@@ -1,4 +1,4 @@
-"""One base of all exceptions, and what they also are."""
+"""All exceptions have one base class, and each also has a standard base."""
 
 import pickle
 
@@ -30,7 +30,7 @@ def test_each_exception_has_the_base_and_a_usual_one(own, usual):
     ],
     ids=lambda error: type(error).__name__,
 )  # fmt: skip
-def test_each_comes_whole_through_pickle(error):
+def test_each_survives_pickle_unchanged(error):
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error)
 
@@ -44,6 +44,6 @@ def test_each_comes_whole_through_pickle(error):
         lambda: open_recording("/no/such/file.parquet"),
     ],
 )
-def test_what_goes_wrong_is_caught_by_the_base(fails):
+def test_the_base_class_catches_every_error(fails):
     with pytest.raises(PuncturaError):
         fails()

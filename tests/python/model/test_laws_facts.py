@@ -1,4 +1,4 @@
-"""What K06 after (15) and after (20) says of every admissible law, and the reference numbers of its section 4."""
+"""K06's statements after (15) and (20) on every admissible law, and the reference numbers of its section 4."""
 
 import math
 

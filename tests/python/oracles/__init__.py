@@ -1,4 +1,4 @@
-"""Second opinions on the model, written from the paper (K06) and its mended slips alone.
+"""Independent implementations of the model, written only from the paper (K06) and its errata.
 
 Nothing here calls or copies the code under test. Everything is vectorised over *lanes* (one lane is one law, or one
 membrane of one scene), so that a million random cases are a matter of minutes, and works in whatever float type it

@@ -1,7 +1,7 @@
 """How many random cases a test draws: its own number, or PUNCTURA_CASES if that is set.
 
-PUNCTURA_CASES=1000000 pytest tests/python        a long night
-PUNCTURA_CASES=20 pytest tests/python             a first look
+PUNCTURA_CASES=1000000 pytest tests/python        takes hours
+PUNCTURA_CASES=20 pytest tests/python             a quick check
 
 The comparisons with the oracles go on batch by batch to any number; a test that holds all its cases at once stops
 at MOST.

@@ -21,7 +21,7 @@ def turns(needle, membrane, cos_beta):
 
 
 def cosine(normal, *directions):
-    """Of the first direction that is one, to the normal; from 80 degrees on that of 80 degrees."""
+    """Cosine between the normal and the first valid direction. Angles are limited to 80 degrees."""
     for b in directions:
         length = math.sqrt(sum(x * x for x in b))
         if math.isfinite(length) and length > 0:

@@ -1,4 +1,4 @@
-"""How far a given tick is from solving (21)-(23) exactly, in newtons. It judges a solution; it does not find one.
+"""The residual of (21)-(23) for a given tick, in newtons. It checks a solution, and does not compute one.
 
 A depth is only known to rounding, so a force is compared with the band over the depths that the double q could stand
 for (a few units in its last place). That matters only where Phi is nearly vertical: at a jump of the thin law, which is

@@ -1,4 +1,4 @@
-"""K06 (13)-(15), (17) and the six printed cases of (18), (19), as they stand in the paper, slips mended (E3, E4)."""
+"""K06 (13)-(15), (17) and the six printed cases of (18), (19), as in the paper with errata E3 and E4 corrected."""
 
 from dataclasses import dataclass, fields, replace
 

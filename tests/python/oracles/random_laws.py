@@ -1,4 +1,4 @@
-"""Random admissible needles and membranes, from tame to cruel, with forces a hand would meet (0.01 to 20 N)."""
+"""Random admissible needles and membranes, from ordinary to extreme, with realistic forces (0.01 to 20 N)."""
 
 from dataclasses import dataclass
 
@@ -48,7 +48,7 @@ def membranes(rng, diameter, tip_angle, thinnest=1e-5, thickest=2e-2):
     n, t = len(diameter), np.tan(tip_angle)
     near = (1 - log_uniform(rng, 5e-3, 0.9, n)) / t
     friction = np.minimum(np.where(rng.random(n) < 0.3, near, log_uniform(rng, 0.005, 1.5, n)), near)
-    share = np.where(rng.random(n) < 0.2, 0, rng.uniform(0, 0.95, n))  # of the grip that is precompression
+    share = np.where(rng.random(n) < 0.2, 0, rng.uniform(0, 0.95, n))  # share of precompression in the grip
     peak = log_uniform(rng, 0.01, 20, n)
     grip = peak * (1 - friction * t) / (2 * friction + (1 - friction**2) * t)  # kappa w + c; A_I (X + Q) = peak
     thickness = log_uniform(rng, thinnest, thickest, n)

@@ -33,7 +33,7 @@ def runs(seed, n, ticks) -> Runs:
 
 @dataclass(frozen=True)
 class Ticks:
-    """Every tick of every run as a lane of its own: the state before it, and what was found."""
+    """Every tick of every run as a separate lane: the state before it, and the result."""
 
     law: Law
     coupling: Coupling

@@ -1,4 +1,4 @@
-"""Random 3-D scenes: 1 to 4 tilted membranes, a needle that works through them, and what E6 asks about."""
+"""Random 3-D scenes: 1 to 4 tilted membranes, a needle that moves through them, and the cases of E6."""
 
 from dataclasses import dataclass, fields, replace
 
@@ -12,7 +12,7 @@ from oracles.proxy_3d import Plane
 
 @dataclass(frozen=True)
 class Scenes:
-    """Lanes are membranes, in scene order; `scene` says whose. Motions are per scene, couplings per lane."""
+    """Lanes are membranes, in scene order; `scene` is the scene of each. Motions are per scene, couplings per lane."""
 
     parameters: random_laws.Parameters
     law: Law  # normal insertion; entry sets the obliquity
@@ -88,7 +88,7 @@ def turned(s: Scenes, R) -> Scenes:
 
 
 def lane_motions(s: Scenes):
-    """(p, axis) as every lane sees them: (ticks, lanes, 3)."""
+    """(p, axis) for every lane: (ticks, lanes, 3)."""
     return s.p[:, s.scene], s.axis[:, s.scene]
 
 

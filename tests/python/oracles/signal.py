@@ -1,4 +1,4 @@
-"""What comes before the model: the low-pass of K06 section 4 (E5), the line fit, the direction from the motion."""
+"""Processing before the model: the low-pass of K06 section 4 (E5), the line fit, the direction from the motion."""
 
 import numpy as np
 
@@ -17,8 +17,8 @@ def low_pass(p, rate, cut_off):
 def line_fit(p, rate, step):
     """(ticks,) one axis: a line over the last 10 ms or half, a quarter ... of it, within two steps, then 150 Hz.
 
-    Both times are shorter for steps below 0.055 mm, with the root of the step. The line is followed beyond the newest
-    sample by as many ticks as the low-pass is behind a steady motion.
+    Below a step of 0.055 mm both times shrink with the square root of the step. The line is extrapolated beyond the
+    newest sample by the delay of the low-pass for a steady motion.
     """
     share = min(1.0, step / 0.055e-3) ** 0.5
     lag = 1 / (1 - np.exp(-2 * np.pi * 150 / share / rate)) - 1

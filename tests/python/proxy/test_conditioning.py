@@ -1,4 +1,4 @@
-"""The positions that the model is given, against an independent line fit; and what is asked of ServoSettings."""
+"""Compares conditioned positions with an independent line fit, and checks ServoSettings."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ def test_the_line_fit_is_the_end_of_the_longest_line_that_fits(rate, finer):
         assert abs(found[:, i] - signal.line_fit(p[:, i], rate, step)).max() <= 1e-12
 
 
-def test_the_low_pass_takes_no_notice_of_the_encoder_s_step():
+def test_the_low_pass_does_not_depend_on_the_encoder_step():
     p = wander(np.random.default_rng(8), 400, 1600.0)
     assert (tips(insertion(encoder_step=0.0), p) == tips(insertion(encoder_step=1e-3), p)).all()
     assert abs(tips(insertion(), p) - signal.low_pass(p, 1600.0, 300.0)).max() <= 1e-15
 
 
-def test_the_line_fit_takes_no_notice_of_the_low_pass():
+def test_the_line_fit_does_not_depend_on_the_low_pass():
     p = wander(np.random.default_rng(9), 400, 1600.0)
     a, b = (insertion(conditioning="line_fit", low_pass=hz) for hz in (0.0, 50.0))
     assert (tips(a, p) == tips(b, p)).all()

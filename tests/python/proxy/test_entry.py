@@ -1,4 +1,4 @@
-"""Entry: what model.md answers where K06 (41) is silent (E6), and the direction from the motion."""
+"""Entry: the cases that K06 (41) leaves open and model.md decides (E6), and the direction from the motion."""
 
 import itertools
 
@@ -64,7 +64,7 @@ def test_an_entry_within_80_degrees_holds_its_direction_until_the_tip_leaves(sol
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_barred_tip_that_comes_out_never_makes_a_force_jump(solver):
-    """From behind through the surface, and back: not a newton before the tip has been in front."""
+    """From behind through the surface, and back: no force before the tip has been in front."""
     p = proxy(solver)
     assert not p.run(along_z(20e-3, -2e-3), -Z).force.any()
     first = np.linalg.norm(p.run(along_z(-2e-3, 2e-3), Z).force, axis=1)
@@ -102,7 +102,7 @@ def test_the_direction_from_the_motion_is_that_of_the_last_10_ms_or_the_last_ten
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("rest", [0, 20_000])
-def test_a_slow_hand_enters_in_the_direction_of_its_last_tenths_of_a_millimetre_however_long_it_takes(solver, rest):
+def test_a_slow_hand_enters_in_the_direction_of_its_last_tenths_of_a_millimetre_at_any_speed(solver, rest):
     """0.05 mm/s: 10 ms are half a micrometre. The path bends 0.25 mm before the membrane, and may rest on the way."""
     b = tilted(30)
     straight = np.linspace(-0.25e-3, 1e-3, 40_000)[:, None] * b
@@ -122,7 +122,7 @@ def test_a_slow_hand_enters_in_the_direction_of_its_last_tenths_of_a_millimetre_
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_motion_that_does_not_point_into_the_membrane_does_not_enter(solver):
-    """Sliding along the surface and dipping below it by a trifle is a grazing entry."""
+    """Sliding along the surface and slightly below it is a grazing entry."""
     x = np.linspace(-20e-3, 20e-3, 1600)
     p = np.stack([x, 0 * x, 0.01 * x], axis=1)  # 89.4 degrees
     scene = punctura.Scene(

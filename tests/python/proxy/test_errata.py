@@ -1,4 +1,4 @@
-"""The slips of K06 section 3 and 4, each with a counterexample to what is printed. docs/errata.md names these tests."""
+"""The errors in K06 sections 3 and 4, each with a counterexample to the printed text. docs/errata.md names them."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ DOWN = np.array([0.0, -1.0, 0.0])
 
 
 def as_printed(n, depths, H=1e-3):
-    """b.f of (41) to the letter, but for L (read as H) and its missing middle case, on a stroke straight down (-y)."""
+    """b.f of (41) as printed, except L (read as H) and the missing middle case, for a stroke straight down (-y)."""
     L, c = law.law(**SECTION_4, H=H), COUPLING
     e, f, p_prev, along = np.zeros(3), np.zeros(3), depths[0] * DOWN, []
     for p in depths[:, None] * DOWN:

@@ -7,7 +7,7 @@ import punctura
 import pytest
 from oracles import cases, core, exact_residual, proxy_1d, random_laws, random_runs
 
-pytestmark = pytest.mark.xdist_group("exact_1d")  # in one worker: what they share takes seconds to make
+pytestmark = pytest.mark.xdist_group("exact_1d")  # in one worker: their shared fixture takes seconds
 
 
 TICKS = 200
@@ -15,7 +15,7 @@ TICKS = 200
 
 @pytest.fixture(scope="module", params=list(cases.batches(1000, 500)))
 def ticks(request):
-    """Every tick of random runs, as the core found them."""
+    """Every tick of random runs, computed by the core."""
     seed, n = request.param
     r = random_runs.runs(seed, n, TICKS)
     return random_runs.ticks(r, *core.walk_1d(r, "exact"))

@@ -1,4 +1,4 @@
-"""The force while the needle slides in at a constant speed: exact turns once, at the pop; the paper's form rattles."""
+"""The force at a constant insertion speed: the exact one turns once, at the pop; the paper's form chatters."""
 
 import numpy as np
 import punctura

@@ -1,4 +1,4 @@
-"""A number that is not finite is refused where it is given, and leaves no trace in the state."""
+"""A number that is not finite is rejected at the call and does not change the state."""
 
 import copy
 import signal
@@ -69,7 +69,7 @@ def test_on_a_line_the_argument_is_named_and_the_state_stays(bad):
 
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
-def test_a_copy_goes_on_to_the_same_bits_and_alone(copied):
+def test_a_copy_continues_independently_with_the_same_bits(copied):
     first = line()
     first.run(depths()[:1200])
     second = copied(first)

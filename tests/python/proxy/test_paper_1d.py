@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from oracles import cases, core, proxy_1d, random_runs
 
-pytestmark = pytest.mark.xdist_group("paper_1d")  # in one worker: what they share takes seconds to make
+pytestmark = pytest.mark.xdist_group("paper_1d")  # in one worker: their shared fixture takes seconds
 
 
 TICKS = 200
@@ -19,7 +19,7 @@ def walked(request):
 
 
 def test_every_tick_from_the_same_state_gives_the_force_of_33(walked):
-    """q* is known to rounding only; at a jump of a membrane of thickness 0 either side of it is an answer."""
+    """q* is only known up to rounding. At a jump of a membrane of thickness 0, either side is a correct result."""
     r, found = walked
     t = random_runs.ticks(r, *found)
     assert abs(proxy_1d.paper_alternatives(t.law, t.coupling, t.before, t.p) - t.f).min(axis=0).max() <= 1e-10

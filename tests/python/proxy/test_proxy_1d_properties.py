@@ -1,4 +1,4 @@
-"""What holds for every law, coupling and motion in one dimension, whichever the solver."""
+"""Properties of every law, coupling and motion in one dimension, for both solvers."""
 
 import numpy as np
 import punctura
@@ -41,8 +41,8 @@ def test_a_needle_pulled_out_leaves_no_force_behind(solver):
         assert proxy.run(out).force[-1] == 0
 
 
-def test_a_device_at_rest_comes_to_hold_a_constant_force_and_an_unmoving_proxy():
-    """The coupling's damper lets the last motion die away by B/D a tick; from then on nothing moves. Exact solver."""
+def test_a_device_at_rest_reaches_a_constant_force_and_a_constant_proxy():
+    """The coupling's damper reduces the remaining motion by B/D per tick; then nothing moves. Exact solver."""
     r = random_runs.runs(34, cases.count(200), 100)
     for lane in range(r.p.shape[1]):
         proxy = core.proxy_1d(r, lane, "exact")

@@ -8,7 +8,7 @@ import pytest
 from oracles import cases, core, exact_residual, proxy_1d, proxy_3d, random_runs, random_scenes
 from oracles.proxy_3d import dot
 
-pytestmark = pytest.mark.xdist_group("proxy_3d")  # in one worker: what they share takes seconds to make
+pytestmark = pytest.mark.xdist_group("proxy_3d")  # in one worker: their shared fixture takes seconds
 
 
 TICKS = 120
@@ -23,7 +23,7 @@ def scenes(request):
 
 @pytest.fixture(scope="module", params=["paper", "exact"])
 def walked(request, scenes):
-    """(scenes, solver, what the core found, the states before and after each tick as the oracle keeps the books)."""
+    """(scenes, solver, results of the core, states before and after each tick by the oracle)."""
     solver = request.param
     found = core.walk_3d(scenes, solver)
     tick = partial(getattr(proxy_3d, solver), scenes.plane, scenes.law, scenes.coupling)

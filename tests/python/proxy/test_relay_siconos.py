@@ -1,4 +1,4 @@
-"""The clamp of K06 (33) against solvers of others: Siconos' relay, SciPy's bounded least squares."""
+"""Compares the clamp of K06 (33) with external solvers: Siconos' relay, SciPy's bounded least squares."""
 
 import subprocess
 from pathlib import Path
@@ -29,7 +29,7 @@ def relays():
 
 
 def test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay(relays, tmp_path: Path):
-    """Needs the Debian package python3-siconos; ./test brings it, and leaves this out only where no archive has it."""
+    """Needs the Debian package python3-siconos. ./test installs it, and skips this test only if no archive has it."""
     rows, forces = relays
     np.save(tmp_path / "cases.npy", rows)
     command = [SYSTEM_PYTHON, siconos_relay_path, tmp_path / "cases.npy", tmp_path / "answers.npy"]

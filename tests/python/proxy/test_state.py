@@ -1,4 +1,4 @@
-"""State of proxies and insertions: kept as bytes, pickled, tried without a tick."""
+"""State of proxies and insertions: bytes, pickle, and peek."""
 
 import copy
 import pickle
@@ -54,7 +54,7 @@ def model(request):
 
 
 @pytest.mark.parametrize("at", [0, 1, 1300, 2600])
-def test_a_pickled_one_goes_on_to_the_same_bits(model, at):
+def test_a_pickled_object_continues_with_the_same_bits(model, at):
     run(model, slice(0, at))
     other = pickle.loads(pickle.dumps(model))
     assert type(other) is type(model) and other.state == model.state
@@ -63,7 +63,7 @@ def test_a_pickled_one_goes_on_to_the_same_bits(model, at):
     assert run(model, slice(0, None)).any(), "the motion meets the membrane"
 
 
-def test_a_state_that_was_kept_brings_back_its_tick(model):
+def test_a_saved_state_restores_its_tick(model):
     run(model, slice(0, 1300))
     kept = model.state
     assert isinstance(kept, bytes)
@@ -106,7 +106,7 @@ def test_a_state_of_another_membrane_is_refused(change):
         model.state = other.state
 
 
-def test_while_run_is_at_work_nothing_else_touches_the_object(model):
+def test_during_run_no_other_thread_can_use_the_object(model):
     run(model, slice(0, 1300))
     kept, copied = model.state, copy.copy(model)
     long = np.repeat(depths(), 500)

@@ -27,11 +27,11 @@ class Run:
         self.loop = ServoLoop(self.device, load_scene(scene) if isinstance(scene, str) else scene, gate, limits)
         self.witness: Listener = self.loop.listen(ticks)
         self.recorder = Recorder(self.loop, path, capacity or ticks)
-        if capacity is None:  # nothing slows this device down: what the ring does not hold may be lost
+        if capacity is None:  # the device runs without a clock, so a full ring can lose ticks
             assert self.recorder._listener.capacity >= ticks
 
     def go(self) -> None:
-        """All ticks, armed."""
+        """Runs all ticks, armed."""
         self.loop.arm()
         total = self.loop.report()["ticks"] + self.ticks
         self.loop.start()
@@ -39,7 +39,7 @@ class Run:
         self.loop.stop()
 
     def overflow(self) -> Run:
-        """Ticks that find the ring full, and more when it is empty again: there is a gap in the middle."""
+        """Makes ticks while the ring is full, and more after it was emptied, so that there is a gap in the middle."""
         self.go()
         self.wait(lambda: self.recorder.status().rows > 0)
         self.go()
@@ -52,7 +52,7 @@ class Run:
         return self
 
     def killed(self, kept: Path) -> Path:
-        """The file as a process that is killed after the last tick leaves it, copied to `kept`."""
+        """Copies the file of a process that is killed after the last tick to `kept`."""
         self.go()
         self.wait(lambda: self.recorder.status().rows == self.ticks)
         shutil.copy(self.recorder.status().file, kept)
@@ -67,7 +67,7 @@ Start = Callable[..., Run]
 
 @pytest.fixture
 def start(tmp_path: Path) -> Start:
-    """Makes a run that is ready to go."""
+    """Creates a run that is ready to start."""
 
     def make(ticks: int = 3000, scene: str | Scene = "k06-fig12", capacity: int | None = None, **more: Any) -> Run:
         return Run(tmp_path / more.pop("name", "run.parquet"), ticks, scene, capacity, **more)

@@ -1,4 +1,4 @@
-"""A description that is wrong under a right check sum is refused by file and field, and hides nothing else."""
+"""A wrong description with a right checksum is rejected, with file and field, and does not affect other recordings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def tool(monkeypatch):
 
 @pytest.fixture
 def recorded(start, tmp_path):
-    """A finished recording and the same as it was growing."""
+    """A finished recording, and the same one unfinished."""
     run = start(ticks=200)
     return {".part": run.killed(tmp_path / "killed.parquet.part"), ".parquet": run.path}
 
@@ -55,7 +55,7 @@ def test_a_value_of_the_wrong_type_is_told_by_file_and_field(tool, recorded, tmp
 
 @pytest.mark.parametrize("form", [".part", ".parquet"])
 @pytest.mark.parametrize("field", REQUIRED)
-def test_a_field_that_is_missing_is_told(tool, recorded, tmp_path, field, form):
+def test_a_field_that_is_missing_is_reported(tool, recorded, tmp_path, field, form):
     data = tool.description_of(recorded[form])
     del data[field]
     tool.rewrite(recorded[form], tmp_path / f"bad{form}", data)
@@ -64,17 +64,17 @@ def test_a_field_that_is_missing_is_told(tool, recorded, tmp_path, field, form):
 
 
 @pytest.mark.parametrize("value", [None, 3, "text", [], [1]])
-def test_a_description_that_is_no_object_is_told(tool, recorded, tmp_path, value):
+def test_a_description_that_is_no_object_is_reported(tool, recorded, tmp_path, value):
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", value)
-    with pytest.raises(RecordingError, match="no JSON object"):
+    with pytest.raises(RecordingError, match="not a JSON object"):
         open_recording(tmp_path / "bad.parquet")
 
 
 @pytest.mark.parametrize("value", ["\ud800", 1e999, json.loads("[" * 200 + "]" * 200)])
-def test_what_could_not_be_written_as_json_again_is_told(tool, recorded, tmp_path, value):
+def test_what_could_not_be_written_as_json_again_is_reported(tool, recorded, tmp_path, value):
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", data | {"about": {"title": value}})
-    with pytest.raises(RecordingError, match=r"bad\.parquet: the description of the run cannot be used"):
+    with pytest.raises(RecordingError, match=r"bad\.parquet: the run description is invalid"):
         open_recording(tmp_path / "bad.parquet")
 
 
@@ -94,7 +94,7 @@ def test_limits_that_cannot_be_are_told_where_they_are_needed(tool, recorded, tm
         _ = recording.info.gate
 
 
-def test_columns_that_are_none_of_a_recording_are_told(tool, recorded, tmp_path):
+def test_columns_that_are_none_of_a_recording_are_reported(tool, recorded, tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
     from punctura.record.header import to_metadata

@@ -34,7 +34,7 @@ def test_csv_reads_back_as_the_very_same_numbers(killed, tmp_path):
         assert [float(row[name]) for row in rows] == table[name].to_pylist()
     assert [row["phase_0"] for row in rows] == table["phase_0"].to_pylist()
     assert [int(row["tick"]) for row in rows] == list(range(3000))
-    assert any("no place for the scenes" in note for note in result.notes)
+    assert any("CSV cannot hold the scenes" in note for note in result.notes)
 
 
 def test_parquet_of_a_killed_recording_is_a_finished_one(killed, tmp_path):
@@ -77,7 +77,7 @@ def test_the_command_tells_what_it_wrote(killed, tmp_path, capsys):
         main(["export", str(killed), "--out", str(tmp_path / "out.csv"), "--json"])
     said = capsys.readouterr()
     assert end.value.code == 0 and json.loads(said.out)["ticks"] == 3000
-    assert "was not finished; it is whole up to tick 2999" in said.err
+    assert "was not finished; it is complete up to tick 2999" in said.err
 
 
 def test_places_that_cannot_be_are_told_all_at_once(killed, tmp_path):

@@ -33,7 +33,7 @@ def test_a_file_that_is_cut_off_has_what_was_whole(growing, share):
     data, all_ticks = growing.read_bytes(), open_recording(growing).rows
     growing.write_bytes(data[: int(share * len(data))])
     if share < 0.1:
-        with pytest.raises(RecordingError, match="not a recording of Punctura, or is damaged at its beginning"):
+        with pytest.raises(RecordingError, match="not a recording of Punctura, or its beginning is damaged"):
             open_recording(growing)
         return
     recording = open_recording(growing)
@@ -41,7 +41,7 @@ def test_a_file_that_is_cut_off_has_what_was_whole(growing, share):
     assert len(recording.notes) == 1
 
 
-def test_a_flipped_bit_costs_its_batch_and_is_told(start, tmp_path, monkeypatch):
+def test_a_flipped_bit_costs_its_batch_and_is_reported(start, tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
     run = start()
     run.go()
@@ -50,7 +50,7 @@ def test_a_flipped_bit_costs_its_batch_and_is_told(start, tmp_path, monkeypatch)
     data = bytearray(run.recorder.status().file.read_bytes())
     run.recorder.finish()
     value = open_recording(run.path).table()["x_m"][1234].as_py()
-    data[data.index(np.float64(value).tobytes())] ^= 1
+    data[data.index(np.float64(value).tobytes(), len(data) // 2)] ^= 1  # not in the first batch
     kept.write_bytes(data)
     recording = open_recording(kept)
     assert recording.lost == 500 and recording.rows == 2500

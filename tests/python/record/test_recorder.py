@@ -77,7 +77,7 @@ def test_a_recording_opens_while_it_grows(tmp_path):
         Run.wait(lambda: recorder.status().rows >= 400)
         growing = open_recording(tmp_path / "run.parquet")
         assert growing.rows >= 400 and not growing.finished and len(growing.table()) == growing.rows
-        assert growing.notes == (f"the recording was not finished; it is whole up to tick {growing.rows - 1}",)
+        assert growing.notes == (f"the recording was not finished; it is complete up to tick {growing.rows - 1}",)
         loop.stop()
     assert recorder.status().finished and recorder.status().lost == 0
     assert sorted(p.name for p in tmp_path.iterdir()) == ["run.parquet"]
@@ -110,7 +110,7 @@ def test_a_ring_that_overflows_is_told_of_tick_by_tick(start):
 
 def test_nothing_is_overwritten(start, tmp_path):
     run = start().record()
-    with pytest.raises(RecordingError, match="overwrites nothing"):
+    with pytest.raises(RecordingError, match="overwrites no file"):
         start()
     run.path.rename(tmp_path / "run.parquet.part")
     with pytest.raises(RecordingError, match=r"punctura export .*run\.parquet\.part --out"):

@@ -1,4 +1,4 @@
-"""What a full, a slow or a failing disk does to a recording: little, and it is said. To the loop it does nothing."""
+"""A full, slow or failing disk has little effect on a recording, which is reported, and none on the loop."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ whole_write = AppendFile.write
 
 @pytest.fixture
 def disk(monkeypatch):
-    """Puts a function in the place of the file's write; quick to try again."""
+    """Replaces the file's write by a function, with a short retry interval."""
 
     def behave(write):
         monkeypatch.setattr(AppendFile, "write", write)
@@ -31,7 +31,7 @@ def disk(monkeypatch):
 
 
 def torn(self, data):
-    """Half of the bytes reach the disk, then it is full."""
+    """Writes half of the bytes, then the disk is full."""
     os.lseek(self._descriptor, self.size, os.SEEK_SET)
     os.write(self._descriptor, data[: len(data) // 2])
     raise FULL
@@ -51,7 +51,7 @@ def test_a_disk_that_is_full_for_a_while_costs_no_tick(start, disk):
     run.go()
     status = run.recorder.finish()
     assert len(failures) >= 1 and status.finished and status.lost == 0
-    assert any("No space left" in note and "that was over after" in note for note in status.notes)
+    assert any("No space left" in note and "resolved after" in note for note in status.notes)
     assert open_recording(run.path).rows == run.ticks
 
 
@@ -75,7 +75,7 @@ def test_on_a_disk_that_stays_full_the_file_is_readable_up_to_there_and_the_rest
     assert recording.rows == status.rows and recording.column("tick")[-1] == status.last_tick
 
 
-def test_what_finds_no_room_in_memory_is_missing_in_the_file_by_number(start, disk, monkeypatch):
+def test_ticks_that_do_not_fit_in_memory_are_counted_as_missing(start, disk, monkeypatch):
     monkeypatch.setattr("punctura.record.recorder._BACKLOG_BYTES", 2_000_000)
     monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
     gate = []
@@ -138,7 +138,7 @@ def test_a_parquet_file_that_cannot_be_written_leaves_the_recording_where_it_is(
     run = start()
     run.go()
     status = run.recorder.finish()
-    assert not status.finished and "could not be turned into Parquet" in status.trouble
+    assert not status.finished and "conversion to Parquet failed" in status.trouble
     assert open_recording(run.path).rows == run.ticks
     assert str(status.file) in status.trouble and status.file.name == "run.parquet.part"
 

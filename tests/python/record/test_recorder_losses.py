@@ -1,4 +1,4 @@
-"""Whatever goes wrong with a recording: in the end every tick is a row or is counted as lost, and it is told."""
+"""After any failure of a recording, every tick is a row or is counted as lost, and the failure is reported."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from punctura.record.stream import Decoder, Encoder
 
 
 def all_told(run, status):
-    """Rows and losses together are the ticks, in the status and in the file."""
+    """Rows plus losses equal the number of ticks, in the status and in the file."""
     made = run.loop.report()["ticks"]
     assert status.rows + status.lost == made and f"{status.lost} of {made} ticks are lost" in status.notes[-1]
     if status.rows:
@@ -27,7 +27,7 @@ def all_told(run, status):
 
 
 class Failing:
-    """In place of a function: fails at the calls with these numbers."""
+    """Replaces a function. Fails at the calls with the given numbers."""
 
     def __init__(self, function, error, calls):
         self.function, self.error, self.calls, self.count = function, error, calls, 0
@@ -63,7 +63,7 @@ def test_an_error_in_the_reading_thread_costs_ticks_that_are_counted(start, monk
 
 
 class Reader:
-    """A listener whose ticks are taken, and lost where its read fails."""
+    """A listener that loses the ticks of a failed read."""
 
     def __init__(self, listener, failing):
         self._listener, self._failing = listener, failing
@@ -115,7 +115,7 @@ def empty(run):
 
 @pytest.fixture
 def begun(start, monkeypatch):
-    """A recording with ticks on the disk, and what somebody does to its file before more ticks come."""
+    """A recording with ticks on the disk, whose file another program changes before more ticks come."""
     monkeypatch.setattr("punctura.record.recorder._ROWS_AT_ONCE", 500)
 
     def go(meddle, **more):
@@ -136,7 +136,7 @@ on_posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows lets nobo
 @on_posix
 @pytest.mark.parametrize(
     ("meddle", "words"),
-    [(remove, "removed or replaced"), (replace, "removed or replaced"), (cut, "cut off"), (empty, "cut off")],
+    [(remove, "removed or replaced"), (replace, "removed or replaced"), (cut, "truncated"), (empty, "truncated")],
 )
 def test_a_file_that_is_removed_or_changed_is_told_while_it_runs(begun, meddle, words):
     run = begun(meddle)
@@ -148,14 +148,16 @@ def test_a_file_that_is_removed_or_changed_is_told_while_it_runs(begun, meddle, 
     if meddle is cut:
         assert 0 < status.rows < 2000 and f"readable up to tick {status.rows - 1}" in status.trouble
     else:
-        assert status.rows == 0 and status.lost == 4000 and status.trouble.endswith("nothing of it can be read")
+        assert (
+            status.rows == 0 and status.lost == 4000 and status.trouble.endswith("no tick of the recording can be read")
+        )
     assert "memory" not in status.notes[-1]
     (cause,) = status.unwritten
     assert words in cause and status.unwritten[cause] == 2000
 
 
 @on_posix
-@pytest.mark.parametrize(("meddle", "words"), [(remove, "removed or replaced"), (cut, "cut off")])
+@pytest.mark.parametrize(("meddle", "words"), [(remove, "removed or replaced"), (cut, "truncated")])
 def test_a_file_that_is_removed_after_the_last_tick_is_not_called_whole(start, meddle, words):
     run = start(ticks=2000)
     run.part = run.recorder.status().file
@@ -170,7 +172,7 @@ def test_a_file_that_is_removed_after_the_last_tick_is_not_called_whole(start, m
 def test_a_folder_that_is_moved_is_told_while_it_runs_and_its_file_is_whole(begun, tmp_path):
     (tmp_path / "here").mkdir()
     run = begun(lambda _: (tmp_path / "here").rename(tmp_path / "there"), name="here/run.parquet")
-    run.wait(lambda: "was moved while it was being recorded" in run.recorder.status().trouble)
+    run.wait(lambda: "was moved during the recording" in run.recorder.status().trouble)
     status = run.recorder.finish()
     assert "was moved" in status.trouble and not status.finished
     there = tmp_path / "there" / "run.parquet.part"
@@ -186,12 +188,12 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells 
 def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works(begun):
     run = begun(lambda run: run.part.rename(run.part.with_name("first")))
     aside = run.part.with_name("put aside.parquet.part")
-    run.wait(lambda: f"it goes on in {run.part.with_name('first')}" in run.recorder.status().trouble)
+    run.wait(lambda: f"recording continues in {run.part.with_name('first')}" in run.recorder.status().trouble)
     assert run.recorder.status().file == run.part.with_name("first")
     run.part.with_name("first").rename(aside)  # and a second time
     status = run.recorder.finish()
     assert not status.finished and (status.rows, status.lost) == (4000, 0) and status.file == aside
-    remedy = re.search(r"punctura (export .+) --out FILE.parquet finishes it", status.trouble)
+    remedy = re.search(r"run: punctura (export .+) --out FILE.parquet", status.trouble)
     assert remedy and str(run.part) not in remedy[0]
     with pytest.raises(SystemExit, match="0"):
         main([*shlex.split(remedy[1]), "--out", str(run.path)])
@@ -205,15 +207,15 @@ def test_where_the_present_name_is_not_known_no_path_is_given(begun):
     def move(run):
         aside.append(run.part.rename(run.part.with_name("aside")))
         os.close(run.recorder._file._name)
-        run.recorder._file._name = None  # as on a system that does not tell it
+        run.recorder._file._name = None  # as on a system that does not report it
 
     run = begun(move)
-    run.wait(lambda: "this system does not report it" in run.recorder.status().trouble)
+    run.wait(lambda: "this system does not report the new path" in run.recorder.status().trouble)
     assert run.recorder.status().file is None
     status = run.recorder.finish()
     assert status.file is None and status.to_dict()["file"] is None and (status.rows, status.lost) == (4000, 0)
-    assert "this system does not report its present name" in status.trouble
-    assert "punctura export MOVED_FILE --out FILE.parquet finishes it" in status.trouble
+    assert "this system does not report its new path" in status.trouble
+    assert "to finish it, run: punctura export MOVED_FILE --out FILE.parquet" in status.trouble
     assert open_recording(aside[0]).rows == 4000
 
 
@@ -231,15 +233,15 @@ def test_a_file_that_comes_back_is_finished_and_the_note_says_so(begun):
     run.go()
     status = run.recorder.finish()
     assert status.finished and (status.rows, status.lost) == (6000, 0)
-    assert any("was moved" in note and "that was over after" in note for note in status.notes)
+    assert any("was moved" in note and "resolved after" in note for note in status.notes)
 
 
-def test_a_recording_does_not_take_the_place_of_one_that_has_appeared_meanwhile(start):
+def test_a_recording_does_not_replace_a_file_created_during_the_run(start):
     run = start(ticks=500)
     run.go()
     run.path.write_bytes(b"another")
     status = run.recorder.finish()
-    assert run.path.read_bytes() == b"another" and "has appeared meanwhile" in status.trouble
+    assert run.path.read_bytes() == b"another" and "was created by another program" in status.trouble
     assert open_recording(status.file).rows == status.rows == 500
 
 
@@ -261,7 +263,9 @@ def test_a_whole_file_that_cannot_be_opened_at_the_end_is_not_called_lost(start,
     monkeypatch.setattr(finish, "PartFile", Failing(finish.PartFile, error, [1]))
     status = run.recorder.finish()
     assert not status.finished and (status.rows, status.last_tick, status.lost, status.notes) == (2000, 1999, 0, [])
-    assert f"the recording is in {status.file}; punctura export {status.file} --out" in status.trouble
+    assert (
+        f"the recording is in {status.file}; to finish it, run: punctura export {status.file} --out" in status.trouble
+    )
     assert open_recording(status.file).rows == 2000
 
 
@@ -282,11 +286,13 @@ def test_a_file_that_is_spoiled_is_not_called_readable(start, monkeypatch):
     run.go()
     monkeypatch.setattr(finish, "PartFile", Failing(finish.PartFile, RecordingError("damaged"), [1]))
     status = run.recorder.finish()
-    assert (status.rows, status.lost) == (0, 2000) and status.trouble.endswith("damaged; nothing of it can be read")
+    assert (status.rows, status.lost) == (0, 2000) and status.trouble.endswith(
+        "damaged; no tick of the recording can be read"
+    )
 
 
-def test_a_ring_that_is_smaller_than_was_asked_for_is_told(start):
+def test_a_ring_that_is_smaller_than_was_asked_for_is_reported(start):
     run = start(ticks=300, capacity=1 << 40)
     (note,) = run.record().recorder.status().notes
-    assert f"{1 << 40} snapshots" in note and f"{run.recorder._listener.capacity} can wait" in note
+    assert f"{1 << 40} to {run.recorder._listener.capacity} snapshots" in note
     assert list(open_recording(run.path).notes) == [note]

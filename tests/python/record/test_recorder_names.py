@@ -1,4 +1,4 @@
-"""What a killed process left without a tick blocks no name; what holds ticks, or is still written, does."""
+"""The file of a killed process blocks its name only if it holds ticks or is still being written."""
 
 from __future__ import annotations
 
@@ -63,21 +63,21 @@ def test_a_batch_that_was_being_written_when_the_process_was_killed_blocks_no_na
 def test_one_that_is_being_written_blocks_its_name_until_it_is_closed(start):
     run = start()
     assert in_use(run.recorder.status().file)
-    with pytest.raises(RecordingError, match="still runs"):
+    with pytest.raises(RecordingError, match="still running"):
         start()
     run.record()
     assert not in_use(run.path)
 
 
 @pytest.mark.parametrize("content", [b"somebody else's", b"\xff\xff\xff\xff", bytes(100)])
-def test_what_is_none_of_ours_is_left_alone(start, tmp_path, content):
+def test_a_file_that_is_not_a_recording_is_left_alone(start, tmp_path, content):
     (tmp_path / "run.parquet.part").write_bytes(content)
-    with pytest.raises(RecordingError, match="is there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         start()
     assert (tmp_path / "run.parquet.part").read_bytes() == content
 
 
-def test_what_holds_a_tick_blocks_its_name(start, tmp_path):
+def test_a_file_with_a_tick_blocks_its_name(start, tmp_path):
     run = start(ticks=200)
     run.killed(tmp_path / "kept")
     run.path.unlink()
@@ -92,7 +92,7 @@ def test_a_link_to_an_empty_file_is_not_followed(start, tmp_path):
         (tmp_path / "run.parquet.part").symlink_to(tmp_path / "empty")
     except OSError:
         pytest.skip("this system makes no links")
-    with pytest.raises(RecordingError, match="is there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         start()
     assert (tmp_path / "empty").exists()
 
@@ -105,7 +105,7 @@ def contend(path, turns, won):
             continue
         with won.get_lock():
             won.value += 1
-        assert file.amiss() is None, "two processes had the same name"
+        assert file.change() is None, "two processes had the same name"
         file.close()
 
 
@@ -139,7 +139,7 @@ def test_a_file_that_cannot_be_opened_by_its_name_is_closed_and_removed(tmp_path
     AppendFile(path).close()
 
 
-def test_a_damaged_file_without_a_readable_tick_is_renamed_and_told(start, tmp_path):
+def test_a_damaged_file_without_a_readable_tick_is_renamed_and_reported(start, tmp_path):
     run = start(ticks=300)
     header = run.recorder.status().file.read_bytes()
     damaged = bytearray(run.killed(tmp_path / "killed").read_bytes())

@@ -1,4 +1,4 @@
-"""A recording's forces come out again to the last bit."""
+"""A replay gives the recorded forces, bit for bit."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_a_replay_ends_where_ticks_are_missing(start):
     run = start(ticks=30_000, capacity=64).overflow()
     result = replay(run.path)
     assert result.identical and not result.complete and 0 < result.ticks < run.ticks
-    assert "came faster than they could be taken" in result.notes[0] and "are missing before tick" in result.notes[1]
+    assert "came faster than they could be read" in result.notes[0] and "are missing before tick" in result.notes[1]
 
 
 def test_ticks_that_are_missing_at_the_end_are_noted(start, monkeypatch):
@@ -114,12 +114,12 @@ def test_ticks_that_are_missing_at_the_end_are_noted(start, monkeypatch):
     assert result.identical and "ticks are missing at the end" in result.notes[-1]
 
 
-def test_a_scene_that_came_past_the_recorder_is_told(start):
+def test_a_scene_that_came_past_the_recorder_is_reported(start):
     run = start()
     run.loop.exchange(load_scene("k06-fig10"))
     run.record()
     result = replay(run.path)
-    assert not result.complete and "did not come through Recorder.exchange" in result.notes[0]
+    assert not result.complete and "change scenes through Recorder.exchange" in result.notes[0]
 
 
 def test_the_second_run_of_a_loop_begins_in_a_state_that_is_not_known(start, tmp_path):
@@ -173,16 +173,16 @@ def test_a_recording_without_a_tick_is_not_called_identical(start, capsys):
     run = start(ticks=0, capacity=64)
     assert run.recorder.finish().finished
     result = replay(run.path)
-    assert result.ticks == 0 and not result.complete and "there is nothing to replay" in result.notes[-1]
+    assert result.ticks == 0 and not result.complete and "nothing to replay" in result.notes[-1]
     with pytest.raises(SystemExit, match="1"):
         main(["replay", str(run.path)])
     said = capsys.readouterr()
     assert "nothing was compared" in said.out and "identical" not in said.out
-    assert "holds no tick: there is nothing to replay" in said.err
+    assert "holds no ticks; nothing to replay" in said.err
 
 
 def test_a_file_that_is_damaged_inside_is_not_called_identical(start, tmp_path):
-    """One bit of a part's length: what comes after cannot be found, and it is most of the file."""
+    """A flipped bit in the length of a part: the rest of the file, which is most of it, cannot be found."""
     kept = tmp_path / "kept.parquet.part"
     start(ticks=20_000).killed(kept)
     data = bytearray(kept.read_bytes())
@@ -207,12 +207,12 @@ def test_the_computed_ticks_overwrite_no_recording(start, tmp_path):
     before = other.read_bytes()
     for out, words in (
         (run.path, "is the recording itself"),
-        (other, "is a recording already"),
+        (other, "is already a recording"),
         (tmp_path / "x.csv", "must end in .parquet"),
         (tmp_path / "no" / "x.parquet", "there is no folder"),
     ):
         with pytest.raises(ConfigurationError, match=words):
             replay(run.path, out)
-    with pytest.raises(ConfigurationError, match="is a recording already"):
+    with pytest.raises(ConfigurationError, match="is already a recording"):
         export(run.path, other)
     assert other.read_bytes() == before

@@ -1,4 +1,4 @@
-"""A recorded motion as a device: the forces of its own scene again, and those of another."""
+"""A recorded motion as a device, with its own scene and with another one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from recorded import run_to_end
 
 
 def snapshots(device, scene, gate=None):
-    """Every tick of an armed loop on a device that ends by itself."""
+    """All ticks of an armed loop on a device that ends by itself."""
     loop = ServoLoop(device, scene, gate or GateLimits())
     listener = loop.listen(len(device))
     run_to_end(loop)
@@ -88,7 +88,7 @@ def test_the_command_line_runs_a_recorded_motion_and_records_the_same_forces(sta
     assert np.array_equal(forces(open_recording(again)), forces(open_recording(run.path)))
 
 
-def test_what_cannot_be_replayed_is_told(start, tmp_path, capsys):
+def test_what_cannot_be_replayed_is_reported(start, tmp_path, capsys):
     with pytest.raises(DeviceError, match=r"replay:FILE\.parquet"):
         open_for(load_scene("k06-fig10"), "replay")
     with pytest.raises(SystemExit) as end:

@@ -1,4 +1,4 @@
-"""The figures are made once for all tests that look at them."""
+"""Makes the figures once for all tests."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from punctura.reproduce import Reproduction, reproduce
 
 @pytest.fixture(scope="session")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Reproduction:
-    """Everything that `punctura reproduce` makes."""
+    """The output of `punctura reproduce`."""
     return reproduce(tmp_path_factory.mktemp("reproduction"))
 
 

@@ -1,4 +1,4 @@
-"""The command itself: from any folder, twice the same, and what it says when it cannot."""
+"""The command reproduce: works from any folder, is repeatable, and reports failures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `punctura reproduce` leaves in its folder."""
+"""The files that `punctura reproduce` writes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the figures show, read from the CSV files beside them, against the law."""
+"""Compares the numbers in the figures' CSV files with the law."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_fig_11_has_no_step_but_the_same_friction(column: Column) -> None:
 def test_fig_12_pops_twice_where_the_law_and_the_coupling_say(column: Column) -> None:
     p, f, _ = run(column, "fig12")
     (first, first_peak), (second, second_peak) = pop_of(1e-3), pop_of(0.5e-3)
-    second += 4.0  # one millimetre of membrane and three of free way
+    second += 4.0  # 1 mm of membrane and a gap of 3 mm
     for depth in (first, second):
         near = np.abs(-p - depth) < 0.8
         assert -p[near][np.argmax(f[near])] == pytest.approx(depth, abs=2 * COUNT_MM)
@@ -129,7 +129,8 @@ def test_the_experiment_is_the_model_on_the_measured_positions_with_no_limit_act
     again = Insertion(experiment.scene).run(experiment.trace.position, INWARD)
     np.testing.assert_array_equal(again.force, experiment.trace.model_force)
     np.testing.assert_array_equal(experiment.trace.force, experiment.trace.model_force)
-    assert experiment.trace.peak_limited[-1] == experiment.trace.continuous_limited[-1] == 0
+    trace = experiment.trace
+    assert trace.peak_limited[-1] == trace.continuous_limited[-1] == trace.temperature_limited[-1] == 0
 
 
 def test_the_pop_picture_lies_on_the_band_it_is_drawn_over(column: Column) -> None:

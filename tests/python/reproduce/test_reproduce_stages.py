@@ -1,4 +1,4 @@
-"""How phases of ticks become stages of a stroke."""
+"""The conversion of tick phases to stages of a stroke."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def letters(*membranes: str) -> str:
         ("oo", "OO"),
     ],
 )
-def test_sticking_belongs_to_the_slides_on_both_sides_and_else_is_a_reversal(phases: str, expected: str) -> None:
+def test_sticking_between_equal_slides_belongs_to_them_and_otherwise_is_a_reversal(phases: str, expected: str) -> None:
     assert letters(phases) == expected
 
 

@@ -1,4 +1,4 @@
-"""A scene file that is sound, for tests that spoil it."""
+"""A valid scene file for tests that change it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ Write = Callable[..., Path]
 
 @pytest.fixture
 def write(tmp_path: Path) -> Write:
-    """Writes the sound scene with some texts replaced: write(("friction = 0.2", "friction = 3.6"), ...)."""
+    """Writes the valid scene with some text replaced: write(("friction = 0.2", "friction = 3.6"), ...)."""
 
     def write_scene(*changes: tuple[str, str], text: str = SOUND) -> Path:
         for old, new in changes:

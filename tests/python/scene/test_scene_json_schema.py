@@ -1,4 +1,4 @@
-"""The scene file as JSON Schema: the core's bounds in the file's units, and all that a form needs."""
+"""The JSON Schema of scene files has the core's bounds in the file's units, and all data for a form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`behind = "blood"`: where a scene's lumen is."""
+"""`behind = "blood"`: the position of the lumen in a scene."""
 
 import punctura as pn
 import pytest
@@ -9,7 +9,7 @@ from punctura.studio.view import scene_view
 
 
 def tables(*behind):
-    """Membranes 2 mm after one another, the last first in the file."""
+    """Membranes 2 mm apart, in reverse order in the file."""
     scene = from_name("k06-fig12").tables()
     one = scene["membrane"][0]
     scene["membrane"] = [

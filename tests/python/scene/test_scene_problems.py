@@ -1,4 +1,4 @@
-"""Every problem of a scene file is told, all at once, in the file's own keys and units."""
+"""All problems of a scene file are reported at once, in the file's keys and units."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ def test_one_membrane_table_must_be_a_list_of_one(write):
     assert lines(path) == ["membrane: must be a list of tables; begin each with [[membrane]]"]
 
 
-def test_a_number_where_a_table_belongs_is_told(write):
+def test_a_number_where_a_table_belongs_is_reported(write):
     text = write().read_text().replace("[coupling]\nstiffness_N_per_mm = 0.4\ndamping_Ns_per_mm = 0.001\n", "")
     assert lines(write(text="coupling = 3\n" + text)) == ["coupling = 3: must be a table, [coupling]"]
 
@@ -193,7 +193,7 @@ def test_a_file_that_is_not_utf_8_is_told_with_its_line(tmp_path):
     assert lines(path) == ["line 2: is not UTF-8 text; save it as UTF-8"]
 
 
-def test_a_missing_file_and_a_folder_are_told(tmp_path):
+def test_a_missing_file_and_a_folder_are_reported(tmp_path):
     assert lines(tmp_path / "none.toml") == ["there is no such file"]
     assert lines(tmp_path) == ["is a folder, not a scene file"]
 

@@ -1,4 +1,4 @@
-"""What a scene file says arrives in the core, in SI."""
+"""The values of a scene file arrive in the core, in SI."""
 
 from __future__ import annotations
 

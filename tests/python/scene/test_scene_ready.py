@@ -1,4 +1,4 @@
-"""The ready scenes hold the paper's values, and feel as they should."""
+"""The ready scenes have the paper's values and the expected forces."""
 
 from __future__ import annotations
 

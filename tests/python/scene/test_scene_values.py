@@ -1,4 +1,4 @@
-"""Every number of a scene by its path: listed with unit and bounds, changed with a check."""
+"""All numbers of a scene by path: fields() lists them with unit and bounds, with_values() changes and checks them."""
 
 import math
 import pickle

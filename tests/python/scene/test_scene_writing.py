@@ -1,4 +1,4 @@
-"""What is saved is what is loaded again, to the last bit."""
+"""A saved scene is loaded again unchanged, bit for bit."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from punctura.scene.write import _number as toml_number
 
 
 def plain(scene):
-    """Everything that a scene holds, to be compared."""
+    """All values of a scene, for a comparison."""
     laws = [(m.stiffness, m.precompression, m.friction, m.thickness) for m in (p.membrane for p in scene.membranes)]
     places = [(p.name, tuple(p.point), tuple(p.inward_normal)) for p in scene.membranes]
     needle = (scene.needle.diameter, scene.needle.tip_angle, scene.direction)

@@ -1,4 +1,4 @@
-"""examples/measured_insertion.py runs on a trace of the form that it expects; the measured data are not needed."""
+"""Runs examples/measured_insertion.py on an artificial trace; the measured data are not needed."""
 
 from __future__ import annotations
 
@@ -26,6 +26,6 @@ def test_an_irregular_trace_with_repeated_instants_becomes_a_picture(tmp_path):
     assert (tmp_path / "picture.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_folder_without_the_trace_is_told(tmp_path):
+def test_a_folder_without_the_trace_is_reported(tmp_path):
     done = run(tmp_path)
     assert done.returncode == 2 and f"there is no Data1_merged_t_x_F.csv in {tmp_path}" in done.stderr

@@ -41,8 +41,14 @@ def test_depths_go_along_the_normal_of_the_first_membrane():
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ({"motion": np.zeros((5, 2))}, r"position must be \(n, 3\), m, or \(n,\), depths in m, not \(5, 2\)"),
-        ({"motion": np.zeros(5), "time": np.arange(4)}, r"time must be \(5,\), one stamp a position, not \(4,\)"),
+        (
+            {"motion": np.zeros((5, 2))},
+            r"position must have shape \(n, 3\), m, or \(n,\), depths in m, not \(5, 2\)",
+        ),
+        (
+            {"motion": np.zeros(5), "time": np.arange(4)},
+            r"time must have shape \(5,\), one for each position, not \(4,\)",
+        ),
         ({"motion": np.zeros(5), "time": [0, 0.001, 0.002, 0.002, 0.004]}, r"time\[3\]: .*stays at 0.002"),
         ({"motion": np.zeros(3), "time": [0, np.nan, 1]}, r"time\[1\] is not a finite number"),
         ({"motion": np.zeros(3), "time": [0, 1000, 2000]}, "grows by 1000 s from row to row"),

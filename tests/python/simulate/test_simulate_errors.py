@@ -1,4 +1,4 @@
-"""A motion that cannot be used is refused with file, line, what was found and what to do; nothing is left behind."""
+"""An invalid motion is rejected with file, line, problem and remedy, and leaves no output file."""
 
 from __future__ import annotations
 
@@ -42,20 +42,20 @@ def with_field(line, column, text):
 
 HEADERS = {
     "": f"line 1: is empty; {WANTED}",
-    "time_s;x_m;y_m;z_m": "line 1: the columns are separated by semicolons; use commas, and points in the numbers",
-    "time_s\tx_m\ty_m\tz_m": "line 1: the columns are separated by tabs; use commas, and points in the numbers",
+    "time_s;x_m;y_m;z_m": "line 1: the columns are separated by semicolons; use commas, and decimal points in numbers",
+    "time_s\tx_m\ty_m\tz_m": "line 1: the columns are separated by tabs; use commas, and decimal points in numbers",
     "time_s,x_m,y_m": f"line 1: column z_m is missing; {WANTED}",
     "time_s,x_m,y_m,z_m,axis_x": f"line 1: column axis_y, axis_z is missing; {WANTED}",
     "time_s,x_m,y_m,z_m,note": f"line 1: column 'note' is unknown; {WANTED}",
     "time_s,x_mm,y_m,z_m": f"line 1: column x_m is missing, column 'x_mm' is unknown (did you mean x_m?); {WANTED}",
     "time_s,x_m,z_m,y_m": f"line 1: the columns are in another order, time_s,x_m,z_m,y_m; {WANTED}",
-    "time_s,x_m,y_m,z_m,z_m": f"line 1: column z_m is there twice; {WANTED}",
+    "time_s,x_m,y_m,z_m,z_m": f"line 1: column z_m appears twice; {WANTED}",
     "0,0,0.001,0": f"line 1: the first line holds numbers, not the names of the columns; {WANTED}",
 }
 
 
 @pytest.mark.parametrize("header", HEADERS)
-def test_wrong_columns_are_told(tmp_path, header):
+def test_wrong_columns_are_reported(tmp_path, header):
     assert error_of(tmp_path, [header, *LINES]) == HEADERS[header]
 
 
@@ -67,7 +67,7 @@ FIELDS = {
     "1_0": "y_m is '1_0', which is not a number",
     "0x1p3": "y_m is '0x1p3', which is not a number",
     "NULL": "y_m is 'NULL', which is not a number",
-    "1e999": "y_m is 1e999, more than a number can hold",
+    "1e999": "y_m is 1e999, which is too large for a number",
     '"0,001"': "y_m is '0,001', with a decimal comma; write 0.001",
 }
 
@@ -79,43 +79,43 @@ def test_a_value_that_is_no_finite_number_is_told_with_its_line(tmp_path, monkey
     assert error_of(tmp_path, with_field(57, 2, text)) == f"line 57: {FIELDS[text]}"
 
 
-def test_lines_of_another_length_are_told(tmp_path):
+def test_lines_of_another_length_are_reported(tmp_path):
     each = "write one each for time_s,x_m,y_m,z_m"
     assert error_of(tmp_path, spoilt(9, lambda row: "0.1,0.2,0.3")) == f"line 9: holds 3 values for 4 columns; {each}"
     assert error_of(tmp_path, spoilt(9, lambda row: "0.1")) == f"line 9: holds 1 value for 4 columns; {each}"
     assert error_of(tmp_path, spoilt(9, lambda row: row + ",7")) == f"line 9: holds 5 values for 4 columns; {each}"
     assert error_of(tmp_path, spoilt(9, lambda row: "0,1,0,2,0,3,0,4")) == (
-        "line 9: holds 8 values for 4 columns; where the numbers are written with decimal commas, write points"
+        "line 9: holds 8 values for 4 columns; replace decimal commas by points"
     )
     assert error_of(tmp_path, spoilt(9, lambda row: "0,1;0,2;0,3;0,4")) == (
-        "line 9: holds 5 values for 4 columns; separate the columns by commas, and write numbers with points"
+        "line 9: holds 5 values for 4 columns; use commas, and decimal points in numbers"
     )
 
 
-def test_a_blank_line_in_the_middle_is_told(tmp_path):
+def test_a_blank_line_in_the_middle_is_reported(tmp_path):
     assert error_of(tmp_path, spoilt(30, lambda row: "")) == "line 30: is empty; remove the line, or fill it in"
 
 
-def test_an_empty_file_and_one_without_motion_are_told(tmp_path):
+def test_an_empty_file_and_one_without_motion_are_reported(tmp_path):
     empty = ": is empty; it must hold a line of column names and the motion below it"
     assert error_of(tmp_path, [], raw=b"") == empty
     assert error_of(tmp_path, [HEADER]) == "line 2: there is no motion below the column names"
     assert error_of(tmp_path, [HEADER, "", ""]) == "line 2: there is no motion below the column names"
 
 
-def test_a_file_that_is_no_text_is_told(tmp_path):
+def test_a_file_that_is_no_text_is_reported(tmp_path):
     save = "is not UTF-8 text; save the file as CSV, UTF-8"
     assert error_of(tmp_path, [], raw="\ufefftime_s".encode("utf-16-le")) == f"line 1: {save}"
     assert error_of(tmp_path, [], raw=HEADER.encode() + b"\n0,0,\xff,0\n") == f"line 2: {save}"
 
 
-def test_a_line_that_is_no_csv_is_told(tmp_path):
+def test_a_line_that_is_no_csv_is_reported(tmp_path):
     assert error_of(tmp_path, spoilt(9, lambda row: "7" * 200_000)) == (
         "line 9: is not CSV (field larger than field limit (131072))"
     )
 
 
-def test_a_direction_of_no_length_is_told(tmp_path):
+def test_a_direction_of_no_length_is_reported(tmp_path):
     lines = [f"{line},0,-1,0" for line in LINES]
     lines[40] = f"{LINES[40]},0,0,0"
     assert error_of(tmp_path, [AXIS_HEADER, *lines]) == (
@@ -123,7 +123,7 @@ def test_a_direction_of_no_length_is_told(tmp_path):
     )
 
 
-def test_a_direction_that_is_not_finite_is_told(tmp_path):
+def test_a_direction_that_is_not_finite_is_reported(tmp_path):
     lines = [f"{line},0,-1,0" for line in LINES]
     lines[40] = f"{LINES[40]},0,inf,0"
     assert error_of(tmp_path, [AXIS_HEADER, *lines]) == (
@@ -173,7 +173,7 @@ def test_stamps_in_another_unit_are_refused_not_filled_up_with_made_up_rows(tmp_
     )
 
 
-def test_time_that_goes_back_or_stands_is_told(tmp_path):
+def test_time_that_goes_back_or_stands_is_reported(tmp_path):
     assert error_of(tmp_path, [HEADER, *LINES[:60], *LINES[50:]]) == (
         "line 62: time_s goes back, from 0.036875 s to 0.03125 s; sort the rows, or cut the motion there"
     )
@@ -182,24 +182,24 @@ def test_time_that_goes_back_or_stands_is_told(tmp_path):
     )
 
 
-def test_stamps_too_coarse_to_tell_the_samples_apart_are_told(tmp_path):
+def test_stamps_too_coarse_to_tell_the_samples_apart_are_reported(tmp_path):
     assert error_of(tmp_path, [HEADER, *rows_of(TIME, POSITION, stamp="%.2f")]) == (
         "line 3: time_s stays at 0 s; write the time with more digits, or remove the repeated sample"
     )
 
 
-def test_one_uneven_step_is_told(tmp_path):
+def test_one_uneven_step_is_reported(tmp_path):
     assert error_of(tmp_path, with_field(50, 0, "0.0303")) == (
-        "line 50: time_s is uneven here: 0.0303 s lies 0.48 steps off even sampling every 0.000625 s; "
+        "line 50: time_s is uneven here: 0.0303 s is 0.48 steps off a regular grid of 0.000625 s; "
         "resample the motion evenly first (numpy.interp does it)"
     )
     assert error_of(tmp_path, [HEADER, *LINES[:60], "0.0371,0,0,0", *LINES[60:]]) == (
-        "line 62: time_s is uneven here: a step of 0.000225 s where 0.000625 s is usual; "
+        "line 62: time_s is uneven here: a step of 0.000225 s instead of the usual 0.000625 s; "
         "resample the motion evenly first (numpy.interp does it)"
     )
 
 
-def test_irregular_sampling_is_told(tmp_path):
+def test_irregular_sampling_is_reported(tmp_path):
     time = np.cumsum(np.random.default_rng(1).uniform(1e-4, 3e-3, 100))
     message = error_of(tmp_path, [HEADER, *rows_of(time, POSITION)])
     assert "time_s is uneven here" in message or "a gap from" in message
@@ -234,7 +234,7 @@ def test_paths_that_cannot_serve_are_told_all_at_once(tmp_path):
 def test_the_motion_is_never_written_over(write):
     path = write([HEADER, *LINES])
     before = path.read_bytes()
-    assert problems_of("k06-fig10", path, path) == [f"out {path}: is the motion itself"]
+    assert problems_of("k06-fig10", path, path) == [f"out {path}: is the motion file itself; choose another name"]
     assert path.read_bytes() == before
 
 

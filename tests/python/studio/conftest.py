@@ -1,4 +1,4 @@
-"""A studio on the simulated device, with a folder of its own and a page that is only a word."""
+"""A studio with the simulated device, its own folder and a minimal page."""
 
 import pytest
 from punctura.studio.client import StudioClient
@@ -33,7 +33,7 @@ def page(served):
 
 @pytest.fixture(scope="module")
 def guarded(tmp_path_factory):
-    """For many requests that must not get far."""
+    """A studio for many requests that must be rejected early."""
     server = serve(tmp_path_factory.mktemp("studio"))
     yield server
     server.stop()

@@ -1,4 +1,4 @@
-"""What a session does for an activity of any kind: an exercise is one, a class of a few lines is another."""
+"""A session runs any kind of activity: an exercise, or a class of a few lines."""
 
 import errno
 import threading
@@ -11,7 +11,7 @@ from punctura.studio.wire.messages import Notice
 
 
 class CountTicks:
-    """Ends the run after so many ticks."""
+    """Ends the run after the given number of ticks."""
 
     what = "count"
 

@@ -1,4 +1,4 @@
-"""A studio whose worker waits for a file: "pause" takes the force away all the same."""
+"""While the studio's worker waits for a file, "pause" still switches the force off."""
 
 import threading
 from contextlib import contextmanager
@@ -11,7 +11,7 @@ UNARMED = 0  # a snapshot's state
 
 @contextmanager
 def busy(session):
-    """The worker waits until the block is over."""
+    """Makes the worker wait until the end of the block."""
     waits, over = threading.Event(), threading.Event()
     session.call(lambda: (waits.set(), over.wait(60)))
     assert waits.wait(60)
@@ -69,7 +69,7 @@ def test_what_was_asked_for_before_a_pause_and_is_done_after_it_does_not_arm(ser
 
 
 def watch_arming(session):
-    """Whether the session was armed after each time that it was to be."""
+    """Whether the session was armed after each request to arm it."""
     seen, arm = [], session.arm
 
     def watched():

@@ -1,4 +1,4 @@
-"""How many connections there are, and when one is ended: the rules alone, with a clock that the test turns."""
+"""The rules for the number of connections and for closing them, with a simulated clock."""
 
 import importlib
 import re
@@ -15,7 +15,7 @@ DOCS = Path(__file__).parents[3] / "docs" / "studio.md"
 
 
 class Transport:
-    """Of a connection whose other end does nothing."""
+    """A connection whose other end does nothing."""
 
     def __init__(self):
         self.written, self.aborted, self.closing = b"", False, False

@@ -1,4 +1,4 @@
-"""The wire format, on the files of tests/contract, which web/tests/wire/contract.test.ts reads, too."""
+"""Checks the wire format on the files of tests/contract, which web/tests/wire/contract.test.ts also reads."""
 
 import base64
 import importlib.util

@@ -1,4 +1,4 @@
-"""The studio on a device that is not simulated by us: an Inverse3, whose service stands in; a recorded motion."""
+"""The studio on other devices: an Inverse3 with a simulated service, and a recorded motion."""
 
 import importlib.util
 import sys
@@ -30,7 +30,7 @@ def fake_service():
 
 @pytest.fixture
 def haply(monkeypatch, tmp_path):
-    """Its service, and the page of a studio that runs on it."""
+    """The simulated service of an Inverse3, and the page of a studio on it."""
     fake = fake_service()
     service = fake.InverseService()
     with fake.Running(service) as url:

@@ -1,4 +1,4 @@
-"""Downloads that nobody reads hold neither a file nor a place for long, and a kill leaves nothing of them."""
+"""Unread downloads soon release their file and their slot, and a kill leaves no file of them."""
 
 import csv
 import io
@@ -61,7 +61,7 @@ def test_what_is_sent_is_what_an_export_writes(tmp_path, kind):
 
 
 class Unread:
-    """A download whose answer begins, and is never read on."""
+    """A download whose response is never read beyond its beginning."""
 
     def __init__(self, served, path, kind="csv"):
         self.socket = socket.create_connection(("127.0.0.1", served.address.port))
@@ -101,7 +101,7 @@ def test_a_finished_file_that_nobody_reads_is_closed_after_the_same_time(served,
 
 
 def opened(file):
-    """How often this process has it open."""
+    """How many times this process has the file open."""
     count = 0
     for number in os.listdir("/proc/self/fd"):
         with suppress(OSError):
@@ -119,7 +119,7 @@ def test_a_download_that_is_broken_off_gives_its_place_back_at_once(served, page
     assert os.listdir(folder) == ["run.parquet"]
 
 
-def test_too_many_downloads_at_once_are_told(served, page):
+def test_too_many_downloads_at_once_are_reported(served, page):
     make(served.session.shelf.folder / "run.parquet", TICKS)
     address = "/api/recordings/run/download"
     unread = [Unread(served, address) for _ in range(MOST_EXPORTS)]

@@ -1,4 +1,4 @@
-"""Exercises of one's own in the studio: files that the command line names, and nothing that a page could name."""
+"""User exercises in the studio: only files from the command line, never a file named by a page."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def own_file(folder, text=None, name="mine"):
 
 @pytest.fixture
 def own(tmp_path):
-    """An exercise with a scene of its own beside it."""
+    """An exercise with its own scene file in the same folder."""
     save_scene(load_exercise("venipuncture").scene.replace(name="Somebody"), tmp_path / "somebody.toml")
     return own_file(tmp_path, HEAD.replace('scene = "venipuncture"', 'scene = "somebody.toml"') + "".join(GOALS))
 
@@ -105,7 +105,7 @@ def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(t
     assert "goal[0].depth_mm" in said and "-3" in said and "must be at least 0.1 mm" in said
     bad.write_text("a = " + 500 * "[" + 500 * "]", encoding="utf-8")
     code, said = told(capsys, "--exercise", str(bad))
-    assert code == 2 and "deep in each other" in said
+    assert code == 2 and "nested more than" in said
     code, said = told(capsys, "--exercise", str(tmp_path / "none.toml"))
     assert code == 2 and "no such file" in said
     code, said = told(capsys, "--headless", "--exercise", str(bad))

@@ -9,7 +9,7 @@ SCENE = pn.load_scene("k06-fig12")
 
 
 class Watched:
-    """In place of a simulated device: where it was told to go."""
+    """Replaces the simulated device and stores the positions that it gets."""
 
     def __init__(self):
         self.places, self.axes = [], []

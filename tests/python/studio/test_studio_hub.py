@@ -1,4 +1,4 @@
-"""Viewers: each with a queue of its own."""
+"""Viewers, each with its own queue."""
 
 import asyncio
 import json
@@ -27,7 +27,7 @@ def hello(viewer):
 
 
 def run(test):
-    """On a loop of its own, where `post` runs at once."""
+    """A viewer on its own event loop, where `post` runs at once."""
 
     async def on_loop():
         hub = Hub()

@@ -1,4 +1,4 @@
-"""From snapshots to frames: nothing is lost, and what is missing is counted."""
+"""Conversion of snapshots to frames: no tick is lost, and missing ticks are counted."""
 
 from itertools import pairwise
 
@@ -31,7 +31,7 @@ class Out:
 
 
 class Run:
-    """A run that is over: its ticks are handed out in batches."""
+    """A finished run whose ticks are returned in batches."""
 
     def __init__(self, ticks=5000):
         self.number, self.rate = 3, 1600.0

@@ -27,7 +27,7 @@ def frames_of(body):
 
 
 def record(page, name=None, edit=True):
-    """A short recording with a pop, and an edit on the way. Gives what stop_recording says."""
+    """A short recording with a pop and a scene edit. Returns the answer of stop_recording."""
     assert page.ask(do="start_recording", name=name)["ok"]
     seen = len(page.of("event"))
     assert page.ask(do="strokes", period=1.0)["ok"]
@@ -119,7 +119,7 @@ def test_the_end_of_the_studio_finishes_a_recording(served, page):
     assert recording.finished and recording.lost == 0 and recording.rows >= 400
 
 
-def test_a_folder_that_cannot_be_written_is_told(served, page):
+def test_a_folder_that_cannot_be_written_is_reported(served, page):
     served.session.shelf.folder.write_text("a file stands in the way")
     answer = page.ask(do="start_recording", name="x")
     assert not answer["ok"] and answer["text"]

@@ -1,4 +1,4 @@
-"""What a page asks of a running studio, over a real socket."""
+"""Requests of a page to a running studio, over a real socket."""
 
 import numpy as np
 import punctura as pn

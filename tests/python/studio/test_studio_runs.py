@@ -1,4 +1,4 @@
-"""What a page must know of runs: which one a target belongs to, and where the hand is when it joins."""
+"""Data of runs for a page: the run to which a target belongs, and the hand's position when a page connects."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Whoever is not this run's page is refused, with a status and a sentence, and the loop does not notice."""
+"""Any client except this run's page is rejected with a status and a message, without an effect on the loop."""
 
 import contextlib
 import http.client
@@ -16,7 +16,7 @@ from websockets.sync.client import connect
 
 
 def get(server, path="/", method="GET", host=None, body=None, **headers):
-    """A request exactly as it is written here: status, headers, body."""
+    """Sends a request unchanged. Returns status, headers, body."""
     port, token = server.address.port, server.address.token
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
     connection.putrequest(method, path.replace("TOKEN", token), skip_host=True)

@@ -1,4 +1,4 @@
-"""The studio as a program: what it prints, how it ends, and that the force is off then."""
+"""The studio as a program: its output, its exit, and that the force is off afterwards."""
 
 import asyncio
 import gc
@@ -78,7 +78,7 @@ def test_a_token_that_could_be_guessed_is_refused(monkeypatch):
             token_from_environment()
 
 
-def test_a_port_that_is_taken_is_told(tmp_path):
+def test_a_port_that_is_taken_is_reported(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -129,7 +129,7 @@ def test_recordings_are_kept_where_a_person_s_data_is():
 
 
 def test_no_frame_is_held_back_for_an_acknowledgement(page, served):
-    """A connection with Nagle's delay gives each frame after a message 40 ms late, and then three at once."""
+    """With Nagle's algorithm, a frame after a message would come 40 ms late, and then three at once."""
     transports = [one for one in gc.get_objects() if issubclass(type(one), asyncio.Transport)]
     sockets = [transport.get_extra_info("socket") for transport in transports]
     own = [one for one in sockets if one and one.fileno() >= 0 and one.getsockname()[1] == served.address.port]

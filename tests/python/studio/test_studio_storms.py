@@ -1,4 +1,4 @@
-"""Another user of the same computer, who has no token, and a program that has one and does not read."""
+"""Attacks by another user of the same computer without a token, and by a program with a token that does not read."""
 
 import base64
 import contextlib
@@ -25,7 +25,7 @@ FRAGMENT, BEGINNING = b"\x00\x80\0\0\0\0", b"\x01\x80\0\0\0\0"
 
 @pytest.fixture
 def guarded(guarded):
-    """With nothing used up by the test before."""
+    """A studio with no limits used up by the previous test."""
     for bucket in (guarded.guard.bucket, guarded.guard.free, guarded.guard.refusals):
         bucket.fill()
     return guarded
@@ -36,7 +36,7 @@ def tcp(server):
 
 
 def reads_little(server):
-    """A connection whose end holds little that is not read."""
+    """A connection with a small receive buffer."""
     raw = socket.socket()
     raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     raw.connect(("127.0.0.1", server.address.port))
@@ -63,7 +63,7 @@ def upgrade(server, token="TOKEN"):
 
 
 def everything(raw):
-    """All that comes until the other end closes, however it does."""
+    """All data until the other end closes the connection in any way."""
     data, patience = b"", Patience()
     with contextlib.suppress(ConnectionResetError):
         while part := raw.recv(1 << 16):
@@ -73,7 +73,7 @@ def everything(raw):
 
 
 class Patience:
-    """Ends a test that would wait for ever."""
+    """Ends a test that would wait forever."""
 
     def __init__(self):
         self._end = time.monotonic() + 20

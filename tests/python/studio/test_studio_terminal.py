@@ -1,4 +1,4 @@
-"""A studio whose terminal is stopped, or whose messages nobody reads."""
+"""A studio with a stopped terminal, or with output that nobody reads."""
 
 import os
 import re

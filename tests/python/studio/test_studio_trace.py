@@ -1,4 +1,4 @@
-"""The thinned trace that a result's drawing fetches: small, with every peak and every pop."""
+"""The decimated trace for the drawing of a result: small, with all peaks and pops."""
 
 import json
 from types import SimpleNamespace
@@ -21,7 +21,7 @@ SECONDS = 40  # 64,000 ticks: all fit into the ring, however late its reader is
 
 @pytest.fixture(scope="module")
 def minute(tmp_path_factory):
-    """In and out of the vein, and in again; then still: 40 s at 1600 Hz."""
+    """Into the vein, out and in again, then at rest: 40 s at 1600 Hz."""
     exercise = load_exercise("venipuncture")
     axis = np.asarray(exercise.start_axis)
     legs = [(2.0, 0.0), (4.0, 27.8), (2.0, 0.0), (4.0, 27.8), (SECONDS - 12.0, 27.8)]
@@ -88,7 +88,7 @@ def test_the_drawing_may_begin_later_and_has_then_more_of_the_rest(minute):
 
 
 def of_columns(monkeypatch, columns, **asked):
-    """The trace of these columns in place of a recording's."""
+    """The trace of these columns instead of those of a recording."""
     monkeypatch.setattr(trace, "recorded_ticks", lambda recording: [(columns, None)])
     summary = {"first_tick": int(columns["tick"][0])}
     info = SimpleNamespace(scene=pn.load_scene("k06-fig10"))
@@ -105,7 +105,7 @@ def columns_of(tick, tip, force):
 
 @pytest.mark.parametrize("points", [2400, MOST])
 def test_the_worst_minute_takes_less_than_100_kb_too(monkeypatch, points):
-    """Noise, hours into a run: every row that may be kept is, with all its digits."""
+    """Noise after hours of a run: the largest possible trace, with all digits."""
     random, n = np.random.default_rng(1), SECONDS * 1600
     tick = 1600 * 36_000 + np.arange(n)
     told = of_columns(

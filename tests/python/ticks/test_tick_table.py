@@ -1,4 +1,4 @@
-"""One table in core names the fields of a tick; whatever reads ticks has those fields and no list of its own."""
+"""The core's table defines the fields of a tick; all readers of ticks use it and have no list of their own."""
 
 import importlib.util
 import re

@@ -1,4 +1,4 @@
-"""Ticks: what every run gives."""
+"""Ticks, the result of every run."""
 
 import pickle
 import sys
@@ -127,7 +127,7 @@ def test_pandas_gets_numbers_and_words():
 
 
 def test_polars_gets_the_arrow_table(monkeypatch):
-    """The package is large, and the call is one line: a module in its place keeps what it is given."""
+    """Replaces the package, which is large, by a module that stores its arguments. The tested call is one line."""
     polars = types.ModuleType("polars")
     polars.DataFrame = type("DataFrame", (), {})
     given = []
@@ -157,9 +157,9 @@ def test_a_plot_has_each_membranes_force_and_band():
     assert np.array_equal(axes.lines[3].get_ydata(), ticks.axial_force[:, 1])
     assert [text.get_text() for text in axes.get_legend().get_texts()] == list(ticks.membranes)
     assert on_a_line().plot().get_xlabel() == "depth (m)"
-    with pytest.raises(ValueError, match="position is a vector"):
+    with pytest.raises(ValueError, match="x = 'position' is a vector"):
         ticks.plot("position")
-    with pytest.raises(KeyError, match="no ceiling"):
+    with pytest.raises(KeyError, match="needs the field ceiling"):
         ticks.plot("ceiling")
 
 

@@ -1,4 +1,4 @@
-"""A user's type checker accepts right programs and finds mistakes. pyright gives the same, but needs a download."""
+"""mypy accepts correct user programs and finds mistakes. pyright finds the same, but needs a download."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HERE = Path(__file__).parent
 
 @pytest.fixture(scope="module")
 def refused():
-    """The lines that mypy refuses, by file."""
+    """The lines with mypy errors, by file."""
     files = ["tests/python/typing/user_program.py", "tests/python/typing/user_mistakes.py"]
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", "build/mypy", *files]
     done = subprocess.run(command, cwd=HERE.parents[2], capture_output=True, text=True, timeout=300)

@@ -1,4 +1,4 @@
-"""What a user must not write: type checkers refuse each line that ends in `# wrong`, and no other."""
+"""Mistakes of users: type checkers report each line that ends in `# wrong`, and no other."""
 
 import punctura as pn
 from punctura.exercise import ResultStore, load_exercise

@@ -1,4 +1,4 @@
-"""What a user may write: type checkers accept all of it. test_user_program.py runs them; nobody runs this file."""
+"""Correct user code: type checkers accept all of it. test_user_program.py checks this file; nothing runs it."""
 
 from pathlib import Path
 
