@@ -1,4 +1,4 @@
-"""What pip installs: the C++ headers with the CMake package for other people's projects."""
+"""What pip installs: the compiled core, and the C++ headers with the CMake package for other people's projects."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
-from punctura import cmake_dir, include_dir, paths
+from punctura import _core, cmake_dir, include_dir, paths
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -43,3 +43,9 @@ def test_a_copy_that_pip_did_not_install_says_what_to_do(tmp_path: Path, monkeyp
     for folder in (include_dir, cmake_dir):
         with pytest.raises(FileNotFoundError, match=r"Run `pip install \.` in its source folder"):
             folder()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="nm reads ELF files")
+def test_the_compiled_core_exports_its_entry_point_only() -> None:
+    listed = subprocess.run(["nm", "-D", "--defined-only", _core.__file__], capture_output=True, text=True, check=True)
+    assert [line.split()[-1] for line in listed.stdout.splitlines()] == ["PyInit__core"]
