@@ -45,12 +45,7 @@ Input input(const nb::object& array_like);
 Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);
 using Triple = std::array<double, 3>;
-
-/// Three numbers of one call. A NumPy vector is read at once, not element by element.
-struct Point {
-  Triple numbers;
-  Vector3d vector() const noexcept { return Vector3d(numbers); }
-};
+bool is_numpy_array(nb::handle object) noexcept;  ///< not of a subclass of numpy.ndarray
 
 /// Hands a buffer to NumPy without a copy, in the shape given.
 template <typename T>
@@ -104,18 +99,16 @@ Vector3d unit(const Triple& direction, const std::string& path);
 }  // namespace punctura::bindings
 
 template <>
-struct nanobind::detail::type_caster<punctura::bindings::Point> {
-  NB_TYPE_CASTER(punctura::bindings::Point,
-                 const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating | numpy.integer]"))
+struct nanobind::detail::type_caster<punctura::bindings::Triple>
+    : nanobind::detail::array_caster<punctura::bindings::Triple, double, 3> {
+  static constexpr auto Name = io_name("_Vector", "list[float]");
 
-  bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
+  bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
+/// Three numbers. A NumPy vector is read at once, not element by element; stub_patterns.txt says what _Vector is.
     // Of other types, as a masked array, only the elements say what they are.
-    if (std::strcmp(Py_TYPE(from.ptr())->tp_name, "numpy.ndarray") == 0 && read_buffer(from.ptr())) return true;
+    if (punctura::bindings::is_numpy_array(from) && read_buffer(from.ptr())) return true;
     if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;
-    make_caster<punctura::bindings::Triple> triple;
-    if (!triple.from_python(from, flags, cleanup)) return false;
-    value.numbers = triple.value;
-    return true;
+    return array_caster::from_python(from, flags, cleanup);
   }
 
  private:
@@ -130,8 +123,7 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
         view.ndim == 1 && view.shape[0] == 3 && view.format != nullptr && view.format[0] == 'd' && view.format[1] == 0;
     if (fits)
       for (std::size_t i = 0; i < 3; ++i)
-        std::memcpy(&value.numbers[i],
-                    static_cast<const char*>(view.buf) + static_cast<std::ptrdiff_t>(i) * view.strides[0],
+        std::memcpy(&value[i], static_cast<const char*>(view.buf) + static_cast<std::ptrdiff_t>(i) * view.strides[0],
                     sizeof(double));
     PyBuffer_Release(&view);
     return fits;

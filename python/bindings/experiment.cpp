@@ -81,7 +81,7 @@ void bind_experiment(nb::module_& m) {
           nb::arg("seed") = 0, nb::arg("axis") = nb::none(),
           nb::sig(
               "def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., hand: Hand = ..., "
-              "seed: int = 0, axis: Sequence[float] | None = None) -> None"),
+              "seed: int = 0, axis: _Vector | None = None) -> None"),
           "axis: where the stylus points; the first membrane's inward normal if not given. Raises ConfigurationError.")
       .def(
           "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),

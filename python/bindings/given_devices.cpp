@@ -134,8 +134,7 @@ void bind_given_devices(nb::module_& m) {
           "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
           nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
           nb::sig(
-              "def feed(self, position: collections.abc.Sequence[float], axis: collections.abc.Sequence[float] = ..., "
-              "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
+              "def feed(self, position: _Vector, axis: _Vector = ..., buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
           "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
           "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
       .def(

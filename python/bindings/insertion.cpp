@@ -21,9 +21,9 @@ struct SceneInsertion : Insertion, OneThread {
   nb::tuple arguments() const { return nb::make_tuple(scene); }
 };
 
-std::array<double, 3> step(Insertion& insertion, const Point& p, const Point& axis) {
-  check_places(p.numbers.data(), 3, "p");
-  return plain(insertion.step(p.vector(), insertion.uses_axis() ? direction(axis.numbers) : Vector3d()));
+std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& axis) {
+  check_places(p.data(), 3, "p");
+  return plain(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
 }
 
 nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
@@ -77,7 +77,7 @@ void bind_insertion(nb::module_& m) {
           "Forgets all motion.")
       .def(
           "step",
-          [](SceneInsertion& self, const Point& p, const Point& axis) {
+          [](SceneInsertion& self, const Triple& p, const Triple& axis) {
             self.must_rest();
             return step(self, p, axis);
           },
@@ -85,7 +85,7 @@ void bind_insertion(nb::module_& m) {
           "One tick: measured position (m) and direction of the needle give the force on the device (N).")
       .def(
           "peek",
-          [](const SceneInsertion& self, const Point& p, const Point& axis) {
+          [](const SceneInsertion& self, const Triple& p, const Triple& axis) {
             self.must_rest();
             Insertion copy = self;
             return step(copy, p, axis);

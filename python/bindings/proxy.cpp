@@ -226,8 +226,8 @@ void bind_proxy(nb::module_& m) {
       space,
       {{"needle", "Needle"},
        {"membrane", "Membrane"},
-       {"point", "Sequence[float]"},
-       {"inward_normal", "Sequence[float]"},
+       {"point", three_numbers},
+       {"inward_normal", three_numbers},
        {"coupling", "Coupling"},
        {"period", "float"},
        {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
@@ -244,7 +244,7 @@ void bind_proxy(nb::module_& m) {
           "Forgets all motion. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
-          [](SpaceProxy& proxy, const Point& p, const Point& axis) {
+          [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
             check_places(p.numbers.data(), 3, "p");
             return plain(proxy.step(p.vector(), direction(axis.numbers)));
@@ -253,7 +253,7 @@ void bind_proxy(nb::module_& m) {
           "One tick: position p (m) and direction of the needle give the force on the device (N).")
       .def(
           "peek",
-          [](const SpaceProxy& proxy, const Point& p, const Point& axis) {
+          [](const SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
             check_places(p.numbers.data(), 3, "p");
             return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
