@@ -82,6 +82,12 @@ struct GivenThickLaw : ThickLaw {
   double obliquity;
 };
 
+/// format: of Python's str.format, with the object as {0}: "<{0.__class__.__name__} of {0.scene.name!r}>".
+template <typename T, typename... Options>
+void def_repr(nb::class_<T, Options...>& cls, const char* format) {
+  cls.def("__repr__", [format](nb::handle self) { return nb::str(nb::str(format).attr("format")(self)); });
+}
+
 /// Every bound that a needle, a membrane or the pair of them breaks.
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
 /// Throws punctura.ConfigurationError that carries every problem, if there is one.
@@ -98,13 +104,13 @@ Vector3d unit(const Triple& direction, const std::string& path);
 
 }  // namespace punctura::bindings
 
+/// Three numbers. A NumPy vector is read at once, not element by element; stub_patterns.txt says what _Vector is.
 template <>
 struct nanobind::detail::type_caster<punctura::bindings::Triple>
     : nanobind::detail::array_caster<punctura::bindings::Triple, double, 3> {
   static constexpr auto Name = io_name("_Vector", "list[float]");
 
   bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
-/// Three numbers. A NumPy vector is read at once, not element by element; stub_patterns.txt says what _Vector is.
     // Of other types, as a masked array, only the elements say what they are.
     if (punctura::bindings::is_numpy_array(from) && read_buffer(from.ptr())) return true;
     if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;

@@ -157,8 +157,11 @@ void bind_given_devices(nb::module_& m) {
       "threads that wait most of the time may ask for less, say 10: whoever holds Python's lock then need not wait for a\n"
       "processor, and the thread that feeds need not wait for him. Returns what was granted and what not, a line each.");
 
-  nb::class_<Pacer<>>(
-      m, "Pacer", "Wakes one thread at a rate: at start, start + T, start + 2 T, ..., on a clock that never goes back.")
+  auto pacer = nb::class_<Pacer<>>(
+      m, "Pacer",
+      "Wakes one thread at a rate: at start, start + T, start + 2 T, ..., on a clock that never goes back.");
+  def_repr(pacer, "<Pacer at {0.rate:g} Hz>");
+  pacer.def_prop_ro("rate", &Pacer<>::rate, "Hz")
       .def("__init__", &make_pacer, nb::arg("rate"),
            "rate: Hz. The first period begins now. Raises ConfigurationError.")
       .def(

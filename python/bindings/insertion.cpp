@@ -59,6 +59,7 @@ void bind_insertion(nb::module_& m) {
       "A needle through all membranes of a scene: position conditioning, one proxy a membrane, their sum. K06 (41), Fig. 8\n\n"
       "The model's own force: no safety limits.");
   def_state(insertion);
+  def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
   insertion
       .def(
           "__init__",

@@ -195,6 +195,7 @@ void bind_proxy(nb::module_& m) {
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
            &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
   def_state(line);
+  def_repr(line, "<Proxy1d {0.phase.name}: depth {0.depth:g} m, force {0.force:g} N>");
   line.def(
           "reset",
           [](LineProxy& p) {
@@ -234,6 +235,7 @@ void bind_proxy(nb::module_& m) {
       &make_space,
       "point: a, any point of the surface, m. inward_normal: a direction of any length. period: T, s. Raises ConfigurationError.");
   def_state(space);
+  def_repr(space, "<Proxy3d {0.phase.name}: depth {0.depth:g} m, force {0.force} N>");
   space
       .def(
           "reset",
@@ -246,8 +248,8 @@ void bind_proxy(nb::module_& m) {
           "step",
           [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
-            check_places(p.numbers.data(), 3, "p");
-            return plain(proxy.step(p.vector(), direction(axis.numbers)));
+            check_places(p.data(), 3, "p");
+            return plain(proxy.step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"),
           "One tick: position p (m) and direction of the needle give the force on the device (N).")
@@ -255,8 +257,8 @@ void bind_proxy(nb::module_& m) {
           "peek",
           [](const SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
-            check_places(p.numbers.data(), 3, "p");
-            return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
+            check_places(p.data(), 3, "p");
+            return plain(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"), "What step(p, axis) would give, without that tick.")
       .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),

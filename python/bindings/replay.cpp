@@ -63,6 +63,8 @@ class Replay {
     return columns.to_ticks();
   }
 
+  double rate() const noexcept { return rate_; }
+
  private:
   std::unique_ptr<ServoStep> built(Scene scene) const {
     scene.servo.rate = rate_;  // the device's, as in the loop
@@ -85,7 +87,9 @@ class Replay {
 void bind_replay(nb::module_& m) {
   m.def("compiler", &compiler, "What the core was compiled with.");
 
-  nb::class_<Replay>(m, "Replay", "The servo step of a loop, given again what it was given.")
+  auto replay = nb::class_<Replay>(m, "Replay", "The servo step of a loop, given again what it was given.");
+  def_repr(replay, "<Replay at {0.rate:g} Hz>");
+  replay
       .def(
           "__init__",
           [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent) {
@@ -95,6 +99,7 @@ void bind_replay(nb::module_& m) {
           nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0,
           "scene: at the device's rate. spent: what the motors had given before, N^2 s. Starts as a loop does before its\n"
           "first tick.")
+      .def_prop_ro("rate", &Replay::rate, "Hz")
       .def(
           "run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
           nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),

@@ -22,6 +22,9 @@ class EventFinder:
         """rate: ticks a second, for runs that do not tell the time; the scene's own if not given."""
         self._finder = _core.EventFinder(scene, rate or scene.servo.rate)
 
+    def __repr__(self) -> str:
+        return repr(self._finder)
+
     def change(self, scene: Scene) -> None:
         """The run goes on in another scene, from the next tick on that says that it has taken one."""
         self._finder.change(scene)

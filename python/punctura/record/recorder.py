@@ -92,6 +92,9 @@ class Recorder:
             self._file.discard()
             raise
 
+    def __repr__(self) -> str:
+        return f"<Recorder of {str(self.path)!r}: {self.status()}>"
+
     def exchange(self, scene: Scene) -> None:
         """loop.exchange(scene), remembered: the recording holds the scene from the tick that takes it."""
         self._scenes.exchange(scene)

@@ -34,6 +34,7 @@ class Pacer {
     return missed;
   }
 
+  double rate() const noexcept { return rate_; }  ///< Hz
   /// When the present tick was due, ns.
   std::int64_t due() const noexcept { return due(count_); }
 
