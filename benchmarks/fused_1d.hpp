@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "punctura/model/thin_law.hpp"
+#include "punctura/model/law_constants.hpp"
 #include "punctura/proxy/coupling.hpp"
 
 namespace bench {

@@ -1,104 +1,106 @@
-"""An include or import may point to its own room or to one above it; docs/architecture.md draws the rooms."""
+"""A file may include or import only files of its own room and of higher rooms. docs/architecture.md lists the rooms."""
 
 from __future__ import annotations
 
-import ast
-import re
 import sys
 from collections.abc import Iterator
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
+from imports import PACKAGE, PAGE, Import, circles, cpp_imports, page_imports, python_imports
 from sources import CPP_SUFFIXES, Finding, report, sources
 
-# From the top down. A folder of core, then what stands on core.
+# From the top down: core, what stands on core, the Python package, the page.
 ROOMS = (
     "core/punctura/model",
     "core/punctura/state",
     "core/punctura/signal",
     "core/punctura/proxy",
+    "core/punctura/insertion",
     "core/punctura/device",
     "core/punctura/safety",
-    "core/punctura/plant",
     "core/punctura/servo",
     "core/punctura/scene",
     "core/punctura/events",
-    "core/punctura/experiment",
-    "core/punctura/punctura.hpp",  # all of them in one include
+    "core/punctura/plant",
+    "core/punctura/punctura.hpp",  # includes all of core
     "runtime/punctura_runtime",
     "python/bindings",
-    "python/punctura",
+    "python/punctura/restore.py",
+    "python/punctura/errors.py",
+    "python/punctura/files",
+    "python/punctura/ticks",
+    "python/punctura/scene",
+    "python/punctura/simulation",
+    "python/punctura/__init__.py",
+    "python/punctura/record",
+    "python/punctura/events",
+    "python/punctura/live",
+    "python/punctura/exercise",
+    "python/punctura/reproduce",
+    "python/punctura/studio/wire",
+    "python/punctura/studio",
+    "python/punctura/cli",
+    "web/src/format.ts",
+    "web/src/wire",
+    "web/src/engine",
+    "web/src/state",
+    "web/src/panel.ts",
+    "web/src/hand",
+    "web/src/plots",
+    "web/src/scene",
+    "web/src/controls",
+    "web/src/layout.ts",
+    "web/src/main.ts",
 )
-INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+WITH_ROOMS = ("core/", "runtime/", PACKAGE, PAGE)  # every source file in these folders belongs to a room
+OUTSIDE = {"tests", "benchmarks", "tools", "examples", "oracles"}  # the package does without these
 
 
 def room_of(path: str) -> str | None:
-    return next((room for room in ROOMS if path == room or path.startswith(room + "/")), None)
+    """The room of a file: the longest that matches, because `studio/wire` is a room of its own inside `studio`."""
+    return max((room for room in ROOMS if path == room or path.startswith(room + "/")), key=len, default=None)
 
 
-def includes(text: str) -> Iterator[tuple[int, str]]:
-    for number, line in enumerate(text.splitlines(), 1):
-        if match := INCLUDE.match(line):
-            yield number, match[1]
-
-
-def target_of(include: str, path: str, tree: set[str]) -> str | None:
-    """The file of this tree that an include names, or None for a foreign one."""
-    beside = PurePosixPath(path).parent / include
-    parts: list[str] = []
-    for part in beside.parts:
-        parts = parts[:-1] if part == ".." else [*parts, part]
-    candidates = ["/".join(parts), f"core/{include}", f"runtime/{include}"]
-    return next((candidate for candidate in candidates if candidate in tree), None)
-
-
-def cpp_findings(root: Path) -> Iterator[Finding]:
-    files = sources(root, CPP_SUFFIXES)
-    tree = set(files)
-    for path in files:
-        room = room_of(path)
-        if path.startswith(("core/", "runtime/")) and room is None:
+def unknown_rooms(root: Path) -> Iterator[Finding]:
+    for path in sources(root, (*CPP_SUFFIXES, ".py", ".ts"), generated=True):
+        if path.startswith(WITH_ROOMS) and room_of(path) is None:
             yield Finding(path, 1, "lies in no room that tools/check_rooms.py knows")
+
+
+def order_findings(imports: list[Import]) -> Iterator[Finding]:
+    for path, line, name, target in imports:
+        room = room_of(path)
         if room is None:
             continue
-        for line, include in includes((root / path).read_text(encoding="utf-8")):
-            target = target_of(include, path, tree)
-            if target is None:
-                if include.startswith("punctura"):
-                    yield Finding(path, line, f"includes {include}, which does not exist")
-                continue
-            there = room_of(target)
-            if there is None or ROOMS.index(there) > ROOMS.index(room):
-                yield Finding(path, line, f"{room} may not include {target}: it lies below")
-
-
-def imported(text: str, path: str) -> Iterator[tuple[int, str]]:
-    package = list(PurePosixPath(path).with_suffix("").parts)[:-1]
-    for node in ast.walk(ast.parse(text, path)):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield node.lineno, alias.name
-        elif isinstance(node, ast.ImportFrom):
-            base = package[: len(package) - node.level + 1] if node.level else []
-            yield node.lineno, ".".join([*base, *(node.module or "").split(".")]).strip(".")
-
-
-def python_findings(root: Path) -> Iterator[Finding]:
-    """The package imports nothing of tests, tools and the like; its command line and studio stand lowest."""
-    outside = {"tests", "benchmarks", "tools", "examples", "oracles"}
-    lowest = ("punctura.cli", "punctura.studio")
-    for path in sources(root, (".py",)):
-        if not path.startswith("python/punctura/"):
+        verb = "include" if path.endswith(CPP_SUFFIXES) else "import"
+        if target is None:
+            missing = name.startswith("punctura" if verb == "include" else ".") and not name.endswith(".css")
+            if missing:
+                yield Finding(path, line, f"{verb}s {name}, which does not exist")
+            elif path.startswith(PACKAGE) and name.split(".")[0] in OUTSIDE:
+                yield Finding(path, line, f"the package may not import {name}")
             continue
-        inner = path.removeprefix("python/")
-        for line, module in imported((root / path).read_text(encoding="utf-8"), inner):
-            if module.split(".")[0] in outside:
-                yield Finding(path, line, f"the package may not import {module}")
-            elif module.startswith(lowest) and not inner.startswith(tuple(name.replace(".", "/") for name in lowest)):
-                yield Finding(path, line, f"only the command line and the studio may import {module}")
+        there = room_of(target)
+        if there is None or ROOMS.index(there) > ROOMS.index(room):
+            yield Finding(path, line, f"{room} may not {verb} {target}, which is in a lower room")
+
+
+def circle_findings(imports: list[Import]) -> Iterator[Finding]:
+    """A package's own __init__.py is left out: it imports its modules, and they may import its siblings."""
+    targets: dict[str, set[str]] = {}
+    for found in imports:
+        if found.target is not None and not found.path.endswith("/__init__.py"):
+            targets.setdefault(found.path, set()).add(found.target)
+    for group in circles(targets):
+        line = next(found.line for found in imports if found.path == group[0] and found.target in group)
+        yield Finding(group[0], line, f"import circle: {', '.join(group)}")
 
 
 def findings(root: Path) -> list[Finding]:
-    return [*cpp_findings(root), *python_findings(root)]
+    found = list(unknown_rooms(root))
+    for imports in (list(cpp_imports(root)), list(python_imports(root)), list(page_imports(root))):
+        found += [*order_findings(imports), *circle_findings(imports)]
+    return found
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ from punctura.record import Recorder, RecordingError, export, open_recording, re
 from punctura.studio.recorded import overview
 from punctura.studio.shelf import entry_of
 from spoil_recording import description_of, rewrite, spoil_description
+from waiting import wait_until
 
 HANG_S = 30
 MOST_GROWTH_MB = 100.0
@@ -41,8 +42,7 @@ def originals(folder: Path) -> list[Path]:
     recorder.exchange(load_scene(WIDER))
     loop.arm()
     loop.start()
-    while recorder.status().rows < 1500:
-        time.sleep(0.01)
+    wait_until(lambda: recorder.status().rows >= 1500)
     loop.stop()
     shutil.copy(recorder.status().file, kept)
     status = recorder.finish()

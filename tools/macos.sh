@@ -34,7 +34,7 @@ objects() {
 }
 
 mapfile -t runtime < <(find runtime/punctura_runtime/loop runtime/punctura_runtime/backends -name '*.cpp' | sort)
-objects runtime/punctura_runtime/os/{library,macos,posix_library,posix_socket}.cpp "${runtime[@]}"
+objects runtime/punctura_runtime/os/{macos,posix_library,socket}.cpp "${runtime[@]}"
 library=("${made[@]}")
 for fake in drd hd; do
   objects tests/fakes/$fake/*.cpp
@@ -47,6 +47,6 @@ program() {
   echo "compiled and linked for $machine-macos, not run: $out/$1"
 }
 mapfile -t tests < <(find tests/runtime -name '*_test.cpp' | sort)
-program runtime_tests tests/runtime/support/inverse_fake.cpp "${tests[@]}"
+program runtime_tests tests/runtime/support/{haply_fake,listener}.cpp "${tests[@]}"
 mapfile -t tests < <(find tests/core -name '*_test.cpp' | sort)
 program core_tests "${tests[@]}"

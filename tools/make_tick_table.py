@@ -22,11 +22,14 @@ recordings, exports, the studio's page and this page follow it. SI units through
 [conventions.md](conventions.md) has axes and signs.
 
 ```python
+import numpy
+import punctura
+
 ticks = punctura.simulate("k06-fig12", numpy.linspace(-1e-3, 9e-3, 3200))
-ticks.force, ticks["depth"][:, 0], ticks[100:200]                     # arrays; a slice gives Ticks
-ticks.to_pandas(), ticks.to_polars(), ticks.to_arrow()                # with the columns of a file
-ticks.save("run.parquet")                                             # or .csv
-ticks.plot("depth").figure.savefig("run.png")                         # each membrane's force and its band
+print(ticks.force[-1], ticks["depth"][:, 0].max(), ticks[100:200])  # arrays; a slice gives Ticks
+table, frame = ticks.to_arrow(), ticks.to_pandas()  # with the columns of a file; to_polars() needs the package polars
+ticks.save("run.parquet")  # or .csv
+ticks.plot("depth").figure.savefig("run.png")  # each membrane's force along the needle, and its band
 ```
 
 In Python a field is an attribute, `ticks.force`, an array with one row a tick: n ticks, m membranes. In a file it

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The core for machines without exceptions, run-time types or an operating system: compiled for WebAssembly and for a Cortex-M4F.
 #   tools/small_targets.sh
-# The WebAssembly program is run in Node: it must find the forces of tests/core/without_exceptions. The program for the Cortex is linked and
-# measured, not run. Needs Debian 12's packages; says which.
+# Two programs each: tests/core/without_exceptions, and tests/core/without_heap, which is linked without the C++ library and its operator new.
+# The WebAssembly programs are run in Node and must find their forces. Those for the Cortex are linked and measured, not run. Needs Debian 12's packages; says which.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
@@ -17,10 +17,8 @@ if [ -n "$missing" ]; then echo "Missing: apt-get install$missing" >&2; exit 1; 
 
 out=build/small-targets
 mkdir -p "$out"
-source=tests/core/without_exceptions/main.cpp
 flags="-std=c++20 -Icore -fno-exceptions -fno-rtti -ffp-contract=off -Wall -Wextra -Werror"
 
-clang++ --target=wasm32-wasi --sysroot=/usr $flags -O2 "$source" -o "$out/core.wasm"
 cat >"$out/run.mjs" <<'JS'
 import { readFile } from "node:fs/promises";
 import { WASI } from "node:wasi";
@@ -28,9 +26,17 @@ const wasi = new WASI({ version: "preview1", returnOnExit: true });
 const module = await WebAssembly.compile(await readFile(process.argv[2]));
 process.exitCode = wasi.start(await WebAssembly.instantiate(module, wasi.getImportObject()));
 JS
-node --no-warnings "$out/run.mjs" "$out/core.wasm"
-echo "WebAssembly: $(stat -c %s "$out/core.wasm") bytes with the C++ library, passed"
 
-arm-none-eabi-g++ $flags -Wno-psabi -Os -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -ffunction-sections -fdata-sections \
-  -Wl,--gc-sections,--no-warn-mismatch --specs=nosys.specs "$source" -o "$out/core-m4f.elf" 2>"$out/m4f.log" || { cat "$out/m4f.log" >&2; exit 1; }
-echo "Cortex-M4F: $(arm-none-eabi-size "$out/core-m4f.elf" | awk 'NR == 2 { print $1 " bytes of code and constants, " $2 + $3 " bytes of data" }') with the C and C++ library"
+# small PROGRAM CLANG GCC: the drivers clang++ and g++ bring the C++ library; clang and gcc do not.
+small() {
+  local program=$1 source=tests/core/$1/main.cpp
+  "$2" --target=wasm32-wasi --sysroot=/usr $flags -O2 -x c++ "$source" -o "$out/$program.wasm"
+  node --no-warnings "$out/run.mjs" "$out/$program.wasm"
+  echo "$program, WebAssembly: $(stat -c %s "$out/$program.wasm") bytes, passed"
+  "arm-none-eabi-$3" $flags -Wno-psabi -Os -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -ffunction-sections -fdata-sections \
+    -Wl,--gc-sections,--no-warn-mismatch --specs=nosys.specs -x c++ "$source" -lm -o "$out/$program-m4f.elf" 2>"$out/m4f.log" ||
+    { cat "$out/m4f.log" >&2; return 1; }
+  echo "$program, Cortex-M4F: $(arm-none-eabi-size "$out/$program-m4f.elf" | awk 'NR == 2 { print $1 " bytes of code and constants, " $2 + $3 " bytes of data" }')"
+}
+small without_exceptions clang++ g++
+small without_heap clang gcc

@@ -28,6 +28,7 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import Recorder, RecordingError, open_recording
 from punctura.record.build_id import build_id
+from waiting import wait_until
 
 RATE = 1600.0
 MOST_MISSING_S = 0.5
@@ -127,10 +128,8 @@ def kill_once(server: Server, folder: Path, chance: random.Random, kind: int) ->
 
         server.start(path, memory, finish_after)
         try:
-            deadline = time.monotonic() + MOST_WAIT_S
-            while kind >= 2 and said(STATE) != BLOCKED and said(FINISHING if kind == 3 else STATE) == 0:
-                assert time.monotonic() < deadline, "the recording process has not begun"
-                time.sleep(1e-4)
+            begun = FINISHING if kind == 3 else STATE
+            wait_until(lambda: kind < 2 or said(STATE) == BLOCKED or said(begun) != 0, MOST_WAIT_S, poll=1e-4)
             time.sleep(chance.uniform(0, KILLED_WITHIN_S[kind]))
         finally:
             server.kill()

@@ -23,15 +23,19 @@ class Finding(NamedTuple):
         return f"{self.path}:{self.line}: {self.reason}"
 
 
-def sources(root: Path, suffixes: tuple[str, ...]) -> list[str]:
-    """The paths git tracks or would track, with forward slashes, sorted; outside a git tree every file."""
+def sources(root: Path, suffixes: tuple[str, ...], generated: bool = False) -> list[str]:
+    """The paths git tracks or would track, with forward slashes, sorted; outside a git tree every file.
+
+    generated: whether to include generated files.
+    """
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:
         listed = subprocess.run(command, capture_output=True, check=True, text=True).stdout.split("\0")
     except (OSError, subprocess.CalledProcessError):
         listed = [path.relative_to(root).as_posix() for path in root.rglob("*")]
+    skipped = () if generated else GENERATED
     return sorted(
-        {path for path in listed if path.endswith(suffixes) and path not in GENERATED and (root / path).is_file()}
+        {path for path in listed if path.endswith(suffixes) and path not in skipped and (root / path).is_file()}
     )
 
 

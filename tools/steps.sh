@@ -1,6 +1,6 @@
 # The steps of ./test, each a function named after it. A step fails by its exit code; all chosen steps run, then the sum is printed.
 
-all_steps="tree format types web cpp asan tsan consumer examples python page"
+all_steps="tree format types web cpp asan tsan consumer examples python docs page"
 fast_steps="tree format types web cpp python"
 
 choose_steps() {
@@ -92,7 +92,7 @@ step_cpp() {
   else
     compile dev || return
   fi
-  build/dev/tests/core/core_without_exceptions && both_tests dev
+  build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap && both_tests dev
 }
 
 # All sources as Clang compiles them, for its warnings, and each header alone; the tests under sanitizers. Those are slow: a few of
@@ -143,25 +143,32 @@ step_python() {
 
 # The studio's page: types, lint, tests, the messages' types as the server has them now, and its weight.
 step_web() {
-  local types=src/wire/messages.ts code=0
+  local types="src/wire/messages.ts src/wire/limit_words.json" file code=0
   export NO_COLOR=1
   python tools/build_backend/studio_page.py && python tools/build_backend/studio_page.py --modules || return
   python tools/check_bundle.py || code=1
   cd web || return
   npm run -s check || code=1
   npm run -s lint || code=1
-  cp "$types" "$root/build/messages.ts"
-  if ! npm run -s types >/dev/null || ! cmp -s "$types" "$root/build/messages.ts"; then
-    diff "$root/build/messages.ts" "$types" || true
-    cp "$root/build/messages.ts" "$types"
-    echo "web/$types is not what python/punctura/studio/wire says: cd web && npm run types" && code=1
-  fi
+  for file in $types; do cp "$file" "$root/build/${file##*/}"; done
+  npm run -s types >/dev/null || code=1
+  for file in $types; do
+    cmp -s "$file" "$root/build/${file##*/}" && continue
+    diff "$root/build/${file##*/}" "$file" || true
+    cp "$root/build/${file##*/}" "$file"
+    echo "web/$file is not what the Python package says: cd web && npm run types" && code=1
+  done
   npm test || code=1
   return $code
 }
 
 # The studio in a real browser, as a person uses it.
 step_page() { python -m pytest -n 2 --durations=8 tests/page; }
+
+# The documentation: every code block runs, and the site builds without a warning.
+step_docs() { side_by_side docs_snippets docs_site; }
+docs_snippets() { PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets tests/docs README.md CONTRIBUTING.md examples/README.md docs; }
+docs_site() { python docs/site/build.py; }
 
 # Every example runs, in a folder of its own.
 step_examples() {

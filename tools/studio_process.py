@@ -10,11 +10,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
 from resident import resident_mb
+from waiting import wait_until
 
 SHORT_S = 120.0
 PATIENCE_S = 120.0  # for the address, on a busy computer
@@ -57,11 +59,10 @@ class StudioProcess:
         self.url, self.port = self._address()
 
     def _address(self) -> tuple[str, int]:
-        end = time.monotonic() + PATIENCE_S
-        while self.running and time.monotonic() < end:
-            if found := ADDRESS.search(_whole(self._out)):
-                return found[0], int(found[1])
-            time.sleep(0.02)
+        with suppress(TimeoutError):
+            wait_until(lambda: ADDRESS.search(_whole(self._out)) or not self.running, PATIENCE_S, poll=0.02)
+        if found := ADDRESS.search(_whole(self._out)):
+            return found[0], int(found[1])
         self.end()
         raise RuntimeError(f"the studio did not start: {self.said()}")
 

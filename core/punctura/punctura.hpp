@@ -3,11 +3,11 @@
 
 #include "punctura/events/event_finder.hpp"
 #include "punctura/events/law_curve.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/validity.hpp"
-#include "punctura/proxy/insertion.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
 #include "punctura/scene/build.hpp"
@@ -15,5 +15,5 @@
 #include "punctura/servo/servo_step.hpp"
 #include "punctura/state/archive.hpp"
 #if defined(__cpp_exceptions)
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 #endif

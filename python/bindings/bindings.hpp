@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "punctura/model/thick_law.hpp"
+#include "punctura/model/thin_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/solver.hpp"

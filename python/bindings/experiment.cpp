@@ -1,5 +1,5 @@
-// core/punctura/experiment: K06 section 4 without hardware.
-#include "punctura/experiment/experiment.hpp"
+// core/punctura/plant/experiment.hpp: K06 section 4 without hardware.
+#include "punctura/plant/experiment.hpp"
 
 #include <nanobind/stl/variant.h>
 

@@ -1,5 +1,5 @@
 // core/punctura/proxy/insertion: the whole model of a scene, from positions to forces.
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 
 #include "bindings.hpp"
 #include "punctura/scene/build.hpp"

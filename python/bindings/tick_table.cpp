@@ -2,7 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings.hpp"
-#include "punctura/experiment/experiment_table.hpp"
+#include "punctura/plant/experiment_table.hpp"
 #include "tick_columns.hpp"
 #include "value.hpp"
 

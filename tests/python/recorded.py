@@ -1,19 +1,15 @@
 """A recording of a simulated device that ends by itself, made as fast as possible."""
 
-import time
-
 from punctura._core import ServoLoop
 from punctura.record import Recorder
+from waiting import wait_until
 
 
 def run_to_end(loop):
     """Armed, started, and stopped once its device has ended by itself."""
     loop.arm()
     loop.start()
-    deadline = time.monotonic() + 120
-    while not loop.device.finished:
-        assert time.monotonic() < deadline, "waited in vain"
-        time.sleep(1e-3)
+    wait_until(lambda: loop.device.finished)
     loop.stop()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 
@@ -17,7 +18,8 @@ def check(monkeypatch):
     monkeypatch.syspath_prepend(str(TOOLS))
 
     def load(name: str) -> ModuleType:
-        sys.modules.pop("sources", None)
+        for shared in ("sources", "imports"):
+            sys.modules.pop(shared, None)
         return importlib.import_module(f"check_{name}")
 
     return load
@@ -54,8 +56,10 @@ def test_an_include_of_a_lower_room_is_found(check, tmp_path):
         core__punctura__servo__d_dot_hpp="",
     )
     assert said(check("rooms"), root) == [
-        "core/punctura/model/a.hpp:2: core/punctura/model may not include core/punctura/proxy/b.hpp: it lies below",
-        "core/punctura/proxy/b2.hpp:1: core/punctura/proxy may not include core/punctura/servo/d.hpp: it lies below",
+        "core/punctura/model/a.hpp:2: core/punctura/model may not include core/punctura/proxy/b.hpp, "
+        "which is in a lower room",
+        "core/punctura/proxy/b2.hpp:1: core/punctura/proxy may not include core/punctura/servo/d.hpp, "
+        "which is in a lower room",
     ]
 
 
@@ -71,15 +75,124 @@ def test_an_unknown_room_and_a_header_that_is_not_there_are_found(check, tmp_pat
     ]
 
 
-def test_the_package_may_not_import_tests_nor_its_own_command_line(check, tmp_path):
+def test_the_package_may_not_import_tests(check, tmp_path):
+    root = plant(tmp_path, python__punctura__scene__a_dot_py="import numpy\nfrom oracles import law\n")
+    assert said(check("rooms"), root) == ["python/punctura/scene/a.py:2: the package may not import oracles"]
+
+
+PYTHON_ROOMS = ("files", "scene", "simulation", "record", "events", "live", "exercise", "reproduce", "studio", "cli")
+PAGE_ROOMS = ("wire", "engine", "state", "hand", "plots", "scene", "controls")
+
+
+@pytest.mark.parametrize(("higher", "lower"), list(pairwise(PYTHON_ROOMS)))
+def test_a_python_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(check, tmp_path, higher, lower):
+    def found(room: str, other: str) -> list[str]:
+        root = plant(tmp_path / room, **{f"python__punctura__{other}__b_dot_py": ""})
+        plant(root, **{f"python__punctura__{room}__a_dot_py": f"from punctura.{other} import b\n"})
+        return said(check("rooms"), root)
+
+    assert found(lower, higher) == []
+    assert found(higher, lower) == [
+        f"python/punctura/{higher}/a.py:1: python/punctura/{higher} may not import python/punctura/{lower}/b.py, "
+        "which is in a lower room"
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import punctura.cli\n",
+        "from ..cli import main\n",
+        "def f():\n    from punctura.cli import main\n",
+        "if TYPE_CHECKING:\n    from punctura.cli import main\n",
+        "from punctura import cli\n",
+        "from punctura import main\n",  # punctura/__init__.py has it from the command line
+    ],
+)
+def test_every_form_of_a_python_import_is_read(check, tmp_path, text):
+    root = plant(tmp_path, python__punctura__scene__a_dot_py=text, python__punctura__cli__b_dot_py="")
+    (root / "python/punctura/cli/__init__.py").write_text("")
+    (root / "python/punctura/__init__.py").write_text("from punctura.cli import main\n")
+    found = said(check("rooms"), root)
+    line = text.count("\n")
+    where = f"python/punctura/scene/a.py:{line}: python/punctura/scene may not import"
+    assert [one for one in found if one.startswith(where)] == [
+        f"{where} python/punctura/cli/__init__.py, which is in a lower room"
+    ]
+
+
+def test_an_import_from_punctura_counts_for_the_module_that_has_the_name(check, tmp_path):
+    root = plant(tmp_path, python__punctura__scene__a_dot_py="from punctura import Scene, _core\n")
+    (root / "python/punctura/__init__.py").write_text("from punctura._core import Scene\n__version__ = '1'\n")
+    assert said(check("rooms"), root) == []
+    plant(tmp_path, python__punctura__scene__a_dot_py="from punctura import __version__\n")
+    assert said(check("rooms"), root) == [
+        "python/punctura/scene/a.py:1: python/punctura/scene may not import python/punctura/__init__.py, "
+        "which is in a lower room"
+    ]
+
+
+@pytest.mark.parametrize(("higher", "lower"), list(pairwise(PAGE_ROOMS)))
+def test_a_page_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(check, tmp_path, higher, lower):
+    def found(room: str, other: str) -> list[str]:
+        root = plant(tmp_path / room, **{f"web__src__{other}__b_dot_ts": "export const b = 1;\n"})
+        plant(root, **{f"web__src__{room}__a_dot_ts": f'import {{ b }} from "../{other}/b.ts";\n'})
+        return said(check("rooms"), root)
+
+    assert found(lower, higher) == []
+    assert found(higher, lower) == [
+        f"web/src/{higher}/a.ts:1: web/src/{higher} may not import web/src/{lower}/b.ts, which is in a lower room"
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'import "../controls/b.ts";',
+        'import {\n  b,\n} from "../controls/b.ts";',
+        'import type { B } from "../controls/b.ts";',
+        'export * from "../controls/b.ts";',
+        'const b = await import("../controls/b.ts");',
+        'new Worker(new URL("../controls/b.ts", import.meta.url));',
+    ],
+)
+def test_every_form_of_a_page_import_is_read(check, tmp_path, text):
+    root = plant(tmp_path, web__src__scene__a_dot_ts=text, web__src__controls__b_dot_ts="")
+    line = text.count("\n") + 1
+    assert said(check("rooms"), root) == [
+        f"web/src/scene/a.ts:{line}: web/src/scene may not import web/src/controls/b.ts, which is in a lower room"
+    ]
+
+
+def test_files_that_import_each_other_are_found(check, tmp_path):
     root = plant(
         tmp_path,
-        python__punctura__a_dot_py="import numpy\nfrom oracles import law\nfrom .cli import main\n",
-        python__punctura__cli__b_dot_py="from punctura.cli import c\nfrom . import d\n",
+        python__punctura__studio__a_dot_py="from punctura.studio import b\n",
+        python__punctura__studio__b_dot_py="from punctura.studio.c import x\n",
+        python__punctura__studio__c_dot_py="\ndef f():\n    from punctura.studio.a import y\n",
+        python__punctura__studio__d_dot_py="from punctura.studio import a\n",
+        web__src__plots__a_dot_ts='import { b } from "./b.ts";',
+        web__src__plots__b_dot_ts='import type { A } from "./a.ts";',
     )
+    files = ", ".join(f"python/punctura/studio/{name}.py" for name in "abc")
     assert said(check("rooms"), root) == [
-        "python/punctura/a.py:2: the package may not import oracles",
-        "python/punctura/a.py:3: only the command line and the studio may import punctura.cli",
+        f"python/punctura/studio/a.py:1: import circle: {files}",
+        "web/src/plots/a.ts:1: import circle: web/src/plots/a.ts, web/src/plots/b.ts",
+    ]
+
+
+def test_python_and_page_files_outside_all_rooms_and_page_files_that_are_not_there_are_found(check, tmp_path):
+    root = plant(
+        tmp_path,
+        python__punctura__attic__a_dot_py="import numpy\n",
+        web__src__attic__a_dot_ts='import "./gone.ts";\nimport "./style.css";\n',
+        web__src__state__a_dot_ts='import "./gone.ts";\nimport "./style.css";\n',
+    )
+    reason = "lies in no room that tools/check_rooms.py knows"
+    assert said(check("rooms"), root) == [
+        f"python/punctura/attic/a.py:1: {reason}",
+        f"web/src/attic/a.ts:1: {reason}",
+        "web/src/state/a.ts:1: imports ./gone.ts, which does not exist",
     ]
 
 

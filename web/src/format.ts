@@ -1,4 +1,4 @@
-/** Numbers for people: mm, N, ms, with a fixed number of places so that nothing jumps about. */
+/** Numbers with units, with a fixed number of digits so that the text does not jump. */
 export const mm = (metres: number, places = 2): string => `${(metres * 1e3).toFixed(places)} mm`;
 export const newton = (force: number, places = 2): string => `${force.toFixed(places)} N`;
 export const degrees = (radians: number, places = 0): string => `${((radians * 180) / Math.PI).toFixed(places)}°`;

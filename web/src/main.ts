@@ -1,7 +1,7 @@
 import "./style.css";
+import { SocketEngine } from "./engine/socket_engine.ts";
 import { layout } from "./layout.ts";
 import { App } from "./state/app.ts";
-import { SocketEngine } from "./wire/socket_engine.ts";
 
 const app = new App(new SocketEngine(window.location));
 layout(document.getElementById("app") as HTMLElement, app);

@@ -1,6 +1,6 @@
 import type { App } from "./state/app.ts";
 
-/** A part of the page: fills `host`, and from then on follows the app. */
+/** A part of the page: fills `host`, and updates itself from the app. */
 export type Panel = (host: HTMLElement, app: App) => void;
 
 type Child = Node | string;
@@ -21,7 +21,7 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** Calls once an animation frame while the page is to be seen; what it returns ends that. */
+/** Calls once per animation frame while the page is visible; the returned function ends that. */
 export function everyFrame(draw: (now: number) => void): () => void {
   let handle = 0;
   const step = (now: number): void => {

@@ -1,9 +1,8 @@
 // What a law says at one depth: the forces at which the needle may rest.
 #pragma once
 
-#include <algorithm>
-
 #include "punctura/model/finite_math.hpp"
+#include "punctura/model/lane.hpp"
 
 namespace punctura {
 
@@ -14,7 +13,15 @@ struct Band {
   Scalar upper;  ///< Phi_O: kinetic friction while it comes out
 
   /// The force of the band nearest to f, the clamp of K06 (32).
-  constexpr Scalar clamp(Scalar f) const noexcept { return std::min(std::max(f, lower), upper); }
+  constexpr Scalar clamp(Scalar f) const noexcept {
+    using namespace lane;
+    return min(max(f, lower), upper);
+  }
 };
+
+template <typename M, Lanes V>
+Band<V> select(const M& mask, const Band<V>& a, const Band<V>& b) noexcept {
+  return {select(mask, a.lower, b.lower), select(mask, a.upper, b.upper)};
+}
 
 }  // namespace punctura

@@ -26,6 +26,15 @@ struct BandPiece {
   Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
 };
 
+template <typename M, Lanes V>
+Quadratic<V> select(const M& mask, const Quadratic<V>& a, const Quadratic<V>& b) noexcept {
+  return {select(mask, a.c0, b.c0), select(mask, a.c1, b.c1), select(mask, a.c2, b.c2)};
+}
+template <typename M, Lanes V>
+BandPiece<V> select(const M& mask, const BandPiece<V>& a, const BandPiece<V>& b) noexcept {
+  return {select(mask, a.origin, b.origin), select(mask, a.lower, b.lower), select(mask, a.upper, b.upper)};
+}
+
 /// N pieces, N-1 breaks in ascending order. The first break (the surface) belongs to the piece behind it, the
 /// others to the piece before them, as the closed interval [0, X] of K06 (13) asks.
 template <typename Scalar_, std::size_t N>
@@ -51,14 +60,21 @@ struct PiecewiseBand {
     return i;
   }
 
-  constexpr Band<Scalar> band(Scalar q) const noexcept { return band(q, index(q)); }
+  /// Whether depth q is behind break k: in piece k + 1 or a later one.
+  constexpr auto behind(std::size_t k, Scalar q) const noexcept { return k == 0 ? q >= breaks[0] : q > breaks[k]; }
+
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    if constexpr (OneNumber<Scalar>) {
+      return band(q, index(q));
+    } else {  // no lane can be an index: each takes the last piece that it has reached
+      Piece piece = pieces[0];
+      for (std::size_t k = 0; k < N - 1; ++k) piece = select(behind(k, q), pieces[k + 1], piece);
+      return band(q, piece);
+    }
+  }
 
   /// The same where piece i is known to hold q.
-  constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept {
-    const Piece& piece = pieces[i];
-    const Scalar x = q - piece.origin;
-    return {piece.lower.value(x), piece.upper.value(x)};
-  }
+  constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept { return band(q, pieces[i]); }
 
   /// The same band with room for M >= N pieces, so that laws with different numbers of pieces fit into one type. The last piece
   /// goes on without end.
@@ -71,6 +87,12 @@ struct PiecewiseBand {
     std::copy(breaks.begin(), breaks.end(), more.breaks.begin());
     std::copy(pieces.begin(), pieces.end(), more.pieces.begin());
     return more;
+  }
+
+ private:
+  static constexpr Band<Scalar> band(Scalar q, const Piece& piece) noexcept {
+    const Scalar x = q - piece.origin;
+    return {piece.lower.value(x), piece.upper.value(x)};
   }
 };
 

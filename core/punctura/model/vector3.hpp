@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "punctura/model/finite_math.hpp"
+#include "punctura/model/lane.hpp"
 
 namespace punctura {
 
@@ -49,7 +50,7 @@ class Vector3 {
     return {static_cast<Other>(v_[0]), static_cast<Other>(v_[1]), static_cast<Other>(v_[2])};
   }
 
-  constexpr bool operator==(const Vector3&) const noexcept = default;
+  constexpr bool operator==(const Vector3& b) const noexcept { return v_ == b.v_; }
   constexpr Vector3 operator-() const noexcept { return {-v_[0], -v_[1], -v_[2]}; }
   constexpr Vector3& operator+=(const Vector3& b) noexcept { return *this = *this + b; }
   constexpr Vector3& operator-=(const Vector3& b) noexcept { return *this = *this - b; }
@@ -75,7 +76,7 @@ class Vector3 {
   /// were recorded.
   constexpr Scalar dot(const Vector3& b) const noexcept {
     const Scalar x = v_[0] * b.v_[0], y = v_[1] * b.v_[1], z = v_[2] * b.v_[2];
-    if constexpr (std::is_same_v<Scalar, float>) return x + (y + z);
+    if constexpr (std::is_same_v<Lane<Scalar>, float>) return x + (y + z);
     return (x + y) + z;
   }
   constexpr Vector3 cross(const Vector3& b) const noexcept {
@@ -113,6 +114,11 @@ class Vector3 {
 
 using Vector3d = Vector3<double>;
 
+template <typename M, Lanes V>
+Vector3<V> select(const M& mask, const Vector3<V>& a, const Vector3<V>& b) noexcept {
+  return {select(mask, a.x(), b.x()), select(mask, a.y(), b.y()), select(mask, a.z(), b.z())};
+}
+
 /// Whether a position can be one: NaN cannot, nor what is more than 1000 km away, where filters and couplings might overflow later.
 template <std::floating_point Scalar>
 bool is_place(Scalar p) noexcept {
@@ -128,8 +134,11 @@ bool is_unit(const Vector3<Scalar>& v) noexcept {
 }
 static_assert(std::is_trivially_copyable_v<Vector3d>);
 
-/// Plain storage for records.
-inline std::array<double, 3> plain(const Vector3d& v) noexcept { return v.array(); }
+/// Plain storage for records, which are double.
+template <OneNumber Scalar>
+std::array<double, 3> plain(const Vector3<Scalar>& v) noexcept {
+  return v.template cast<double>().array();
+}
 inline Vector3d vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

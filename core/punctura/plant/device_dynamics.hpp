@@ -1,23 +1,26 @@
 // The mechanics of an impedance-type haptic device as its user feels them at the tip.
 #pragma once
 
+#include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 
 namespace punctura {
 
-/// Defaults: PHANTOM Omni, by its maker's data sheet (SensAble Technologies, about 2005): apparent mass at the tip 45 g,
-/// backdrive friction 0.26 N, nominal position resolution 0.055 mm (450 dpi), largest force at the nominal position 3.3 N.
-/// All four are nominal: the true ones change over the workspace and with the direction, which is not modelled here.
-struct DeviceDynamics {
-  double mass = 0.045;             ///< kg
-  double friction = 0.26;          ///< N, dry
-  double encoder_step = 0.055e-3;  ///< m; 0 is an ideal sensor
-  double max_force = 3.3;          ///< N, norm, at which the motors saturate
+/// The defaults are those of a PHANTOM Omni. That they change over the workspace and with the direction is not modelled.
+template <typename Scalar>
+struct BasicDeviceDynamics {
+  Scalar mass = Scalar(Omni::mass);                  ///< kg
+  Scalar friction = Scalar(Omni::friction);          ///< N, dry
+  Scalar encoder_step = Scalar(Omni::encoder_step);  ///< m; 0 is an ideal sensor
+  Scalar max_force = Scalar(Omni::max_force);        ///< N, norm, at which the motors saturate
 
-  Vector3d saturate(const Vector3d& force) const noexcept {
-    const double norm = force.norm();
-    return norm > max_force ? Vector3d(force * (max_force / norm)) : force;
+  Vector3<Scalar> saturate(const Vector3<Scalar>& force) const noexcept {
+    const Scalar norm = force.norm();
+    return norm > max_force ? force * (max_force / norm) : force;
   }
 };
+
+using DeviceDynamics = BasicDeviceDynamics<double>;
+using DeviceDynamicsF = BasicDeviceDynamics<float>;
 
 }  // namespace punctura

@@ -78,7 +78,7 @@ struct SampledCoupling {
 /// compute slowly. Adding a number and taking it away again stops that without a branch.
 template <typename Scalar>
 Vector3<Scalar> without_denormals(const Vector3<Scalar>& e) noexcept {
-  const auto far_below = Vector3<Scalar>::Constant(std::sqrt(std::numeric_limits<Scalar>::min()));
+  const auto far_below = Vector3<Scalar>::Constant(std::sqrt(std::numeric_limits<Lane<Scalar>>::min()));
   return (e + far_below) - far_below;
 }
 

@@ -11,9 +11,10 @@ struct Exact {
   template <typename L, typename C>
   static LineTick<typename L::Scalar> step(const LineParams<L, C>& params, LineState<L, C>& state,
                                            typename L::Scalar p) noexcept {
+    using namespace lane;
     using Scalar = typename L::Scalar;
     const C& c = params.coupling;
-    const Scalar p_prev = state.started ? state.p : p;
+    const Scalar p_prev = select(state.started, state.p, p);
     const Scalar q_prev = p_prev + state.e;
     const Scalar f_star = c.holding_force(p, p_prev, state.e, state.coupling);  // K06 (27)
     const auto& pieces = pieces_now(params, state);
@@ -28,31 +29,34 @@ struct Exact {
   static SpaceTick<typename L::Scalar> step(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
                                             const Vector3<typename L::Scalar>& p,
                                             const Vector3<typename L::Scalar>& axis) noexcept {
+    using namespace lane;
     using Scalar = typename L::Scalar;
     using Vector = Vector3<Scalar>;
     const auto& [law, a, n, c] = params;
-    const Vector p_prev = state.started ? state.p : p;
+    const Vector p_prev = select(state.started, state.p, p);
     const Vector f_star = c.holding_force(p, p_prev, state.e, state.coupling);  // K06 (38)
 
-    if (!inside(state.phase)) {
+    if (const auto was_outside = !inside(state.phase); any(was_outside)) {
       const Vector q_free = p + c.free_offset(state.e, state.coupling);  // without friction
-      if (n.dot(q_free - a) <= 0)
-        state.phase = Phase::outside;
-      else if (state.phase == Phase::outside)
-        enter(params, state, axis);
+      const auto in_front = n.dot(q_free - a) <= 0;
+      const auto passed = !in_front && state.phase == Phase::outside;
+      state.phase = select(was_outside && in_front, PhaseOf<Scalar>(Phase::outside), state.phase);
+      if (any(passed)) enter(params, state, axis, passed);
     }
-    if (!inside(state.phase)) return settle_outside(params, state, p);
+    const auto is_inside = inside(state.phase);
+    if (!any(is_inside)) return settle_outside(params, state, p);
 
     const Vector q_prev = p_prev + state.e;
     const Scalar s_prev = n.dot(q_prev - a) / state.cos_beta, f_star_b = state.b.dot(f_star);
     const Friction<Scalar> friction = exact_friction(state.pieces, s_prev, f_star_b, c.g);  // K06 (21)-(23) along b
     const Scalar s = s_prev + (friction.force - f_star_b) * c.inv_g;                        // K06 (37) along b
     // The solution alone decides that the membrane is left. With H = 0 the proxy may rest on the surface under load.
-    if (s <= 0 && friction.force == 0) {
-      state.phase = Phase::outside;
-      return settle_outside(params, state, p);
-    }
-    return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
+    const auto left = is_inside && s <= 0 && friction.force == 0;
+    state.phase = select(left, PhaseOf<Scalar>(Phase::outside), state.phase);
+    const auto stays = is_inside && !left;
+    if (!any(stays)) return settle_outside(params, state, p);
+    if (all(stays)) return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
+    return settle_each(params, state, p, p_prev, f_star, friction, s, stays);
   }
 };
 

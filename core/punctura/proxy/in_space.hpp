@@ -20,6 +20,8 @@ template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, Vector3<typename L::Scalar>>
 struct SpaceParams {
   static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
+  static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
+                "a law with memory works on one number, not on lanes");
   using Vector = Vector3<typename L::Scalar>;
 
   L law;
@@ -41,8 +43,8 @@ struct SpaceState {
   using Scalar = typename L::Scalar;
   using Vector = Vector3<Scalar>;
 
-  bool started = false;
-  Phase phase = Phase::barred;
+  Mask<Scalar> started{};
+  PhaseOf<Scalar> phase = Phase::barred;
   Vector p{};  ///< p(k), m: the device's position
   Vector e{};  ///< e(k) = q(k) - p(k), m
   Vector f{};  ///< f(k), N
@@ -76,7 +78,7 @@ struct SpaceTick {
   /// Along b while inside, m: of the proxy q(k), or of q* with the paper's solver. Else along the normal, from the surface.
   Scalar depth;
   Band<Scalar> band;  ///< bounds the axial force, N: taken at depth, 0 outside
-  Phase phase;
+  PhaseOf<Scalar> phase;
 
   static void archive(auto& self, auto& state) {
     state.numbers(self.force, self.proxy, self.direction, self.axial_force, self.depth, self.band.lower,
@@ -84,6 +86,14 @@ struct SpaceTick {
     state.choice(self.phase, Phase::barred);
   }
 };
+
+template <typename M, Lanes V>
+SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b) noexcept {
+  return {select(mask, a.force, b.force),         select(mask, a.proxy, b.proxy),
+          select(mask, a.direction, b.direction), select(mask, a.axial_force, b.axial_force),
+          select(mask, a.depth, b.depth),         select(mask, a.band, b.band),
+          select(mask, a.phase, b.phase)};
+}
 
 /// Lays the law out for the needle as it stands in the membrane, and the membrane as it is now.
 template <typename L, typename C>
@@ -94,16 +104,20 @@ void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept 
     state.pieces = params.law.pieces(state.cos_beta);
 }
 
-/// The tip has just passed the surface: b and U are fixed until it leaves. K06 (41)
+/// Where `passed` is true the tip has just passed the surface: b and U are fixed until it leaves. K06 (41)
 template <typename L, typename C>
-void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-           const typename SpaceState<L, C>::Vector& axis) noexcept {
-  state.phase = Phase::barred;
-  state.cos_beta = params.n.dot(axis);
-  if (!(state.cos_beta >= grazing_cosine<typename L::Scalar>)) return;
-  state.phase = Phase::sticking;
-  state.b = axis;
-  lay_out(params, state);
+void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typename SpaceState<L, C>::Vector& axis,
+           const Mask<typename L::Scalar>& passed) noexcept {
+  using namespace lane;
+  using Scalar = typename L::Scalar;
+  using P = PhaseOf<Scalar>;
+  const Scalar cos_beta = params.n.dot(axis);
+  const auto enters = passed && cos_beta >= grazing_cosine<Lane<Scalar>>;
+  state.phase = select(passed, select(enters, P(Phase::sticking), P(Phase::barred)), state.phase);
+  state.cos_beta = select(passed, cos_beta, state.cos_beta);
+  if (!any(enters)) return;
+  state.b = select(enters, axis, state.b);
+  lay_out(params, state);  // a lane that does not enter gets the pieces that it had
 }
 
 /// The end of a tick inside: friction along b is known, so is where the proxy goes.
@@ -116,7 +130,7 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   state.f = f_star + state.b * (friction.force - state.b.dot(f_star));           // K06 (39)
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (state.f - f_star);  // K06 (25) and (37), as on a line
   params.coupling.advance(state.coupling, state.e, e_prev);
-  state.started = true;
+  state.started = Mask<Scalar>(true);
   state.p = p;
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
@@ -134,9 +148,26 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   state.f = {};
   state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0
   params.coupling.advance(state.coupling, state.e, e_prev);
-  state.started = true;
+  state.started = Mask<Scalar>(true);
   state.p = p;
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
+}
+
+/// The end of a tick of which some lanes are inside and some are not.
+template <typename L, typename C, typename Scalar>
+SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p,
+                              const Vector3<Scalar>& p_prev, const Vector3<Scalar>& f_star,
+                              const Friction<Scalar>& friction, Scalar depth, const Mask<Scalar>& is_inside) noexcept {
+  using namespace lane;
+  SpaceState<L, C> outside = state;
+  const SpaceTick<Scalar> of_outside = settle_outside(params, outside, p);
+  const SpaceTick<Scalar> of_inside = settle_inside(params, state, p, p_prev, f_star, friction, depth);
+  state.phase = select(is_inside, state.phase, outside.phase);
+  state.e = select(is_inside, state.e, outside.e);
+  state.f = select(is_inside, state.f, outside.f);
+  if constexpr (!std::is_empty_v<decltype(state.coupling)>)
+    state.coupling = select(is_inside, state.coupling, outside.coupling);
+  return select(is_inside, of_inside, of_outside);
 }
 
 }  // namespace punctura

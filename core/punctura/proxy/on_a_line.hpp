@@ -14,6 +14,8 @@ template <Law L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, typename L::Scalar>
 struct LineParams {
   static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
+  static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
+                "a law with memory works on one number, not on lanes");
   L law;
   C coupling;
 
@@ -28,8 +30,8 @@ template <Law L, typename C = SampledCoupling<typename L::Scalar>>
 struct LineState {
   using Scalar = typename L::Scalar;
 
-  bool started = false;
-  Phase phase = Phase::sticking;
+  Mask<Scalar> started{};
+  PhaseOf<Scalar> phase = Phase::sticking;
   Scalar p{};  ///< p(k), m: the device's depth
   Scalar e{};  ///< e(k) = q(k) - p(k), m
   Scalar f{};  ///< f(k), N
@@ -53,7 +55,7 @@ struct LineTick {
   Scalar proxy;       ///< q(k), m
   Scalar depth;       ///< where the band was taken, m: q(k), or q* with the paper's solver
   Band<Scalar> band;  ///< N, at depth
-  Phase phase;
+  PhaseOf<Scalar> phase;
 
   static void archive(auto& self, auto& state) {
     state.numbers(self.force, self.proxy, self.depth, self.band.lower, self.band.upper);
@@ -80,7 +82,7 @@ void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Sc
   params.coupling.advance(state.coupling, state.e, e_prev);
   if constexpr (LawWithMemory<L>)
     if (p + state.e > 0) params.law.advance(state.law, p + state.e);
-  state.started = true;
+  state.started = Mask<Scalar>(true);
   state.p = p;
   state.f = friction.force;
   state.phase = friction.phase;

@@ -8,7 +8,7 @@
 
 namespace punctura {
 
-template <ObliqueLaw L, typename C>
+template <ObliqueLaw L, typename C, typename Storage>
 class InsertionOf;
 
 /// The proxy of K06 Fig. 7: it moves along b, the needle's direction at entry, and friction acts along b alone.
@@ -83,7 +83,7 @@ class Proxy3d {
   Scalar depth() const noexcept { return tick_.depth; }             ///< m, see SpaceTick
 
  private:
-  template <ObliqueLaw, typename>
+  template <ObliqueLaw, typename, typename>
   friend class InsertionOf;  // which checks p and axis once for all membranes
 
   /// A tick at a place and along an axis that were checked.

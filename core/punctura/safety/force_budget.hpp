@@ -14,39 +14,43 @@ namespace punctura {
 /// rating^2 * window. A force that lasts is held at sqrt(rate), 87 % of the rating.
 ///
 /// The budget belongs to a device: motors do not cool because a new run begins.
-class ForceBudget {
+template <typename Scalar>
+class BasicForceBudget {
  public:
-  static constexpr double burst_share = 0.25;
+  static constexpr Scalar burst_share = Scalar(0.25);
 
   /// window: s. rating: N rms.
-  ForceBudget(double window, double rating) noexcept
+  BasicForceBudget(Scalar window, Scalar rating) noexcept
       : depth_(burst_share * rating * rating * window), rate_((1 - burst_share) * rating * rating) {}
 
   /// Counts a force, squared, N^2, that was given for a time, s. A force that is not a number uses all up.
-  void spend(double square, double time) noexcept {
-    const double spent = spent_ + (square - rate_) * time;
-    spent_ = std::isnan(spent) ? most() : std::clamp(spent, 0.0, most());
+  void spend(Scalar square, Scalar time) noexcept {
+    const Scalar spent = spent_ + (square - rate_) * time;
+    spent_ = std::isnan(spent) ? most() : std::clamp(spent, Scalar(0), most());
   }
 
   /// The square, N^2, of the greatest force that the promise permits for a time, s.
-  double permitted_square(double time) const noexcept { return rate_ + std::max(0.0, depth_ - spent_) / time; }
+  Scalar permitted_square(Scalar time) const noexcept { return rate_ + std::max(Scalar(0), depth_ - spent_) / time; }
 
   /// What is left of the bucket, 0 to 1.
-  double left() const noexcept { return std::clamp(1 - spent_ / depth_, 0.0, 1.0); }
+  Scalar left() const noexcept { return std::clamp(1 - spent_ / depth_, Scalar(0), Scalar(1)); }
 
   /// The square, N^2, of the force that may be given without end.
-  double rate() const noexcept { return rate_; }
+  Scalar rate() const noexcept { return rate_; }
 
   /// What was taken from the bucket and has not come back yet, N^2 s.
-  double spent() const noexcept { return spent_; }
-  void set_spent(double spent) noexcept { spent_ = spent > 0 ? spent : 0; }
+  Scalar spent() const noexcept { return spent_; }
+  void set_spent(Scalar spent) noexcept { spent_ = spent > 0 ? spent : 0; }
 
  private:
   /// More is not remembered: it comes back within `window`, whatever was given.
-  double most() const noexcept { return depth_ / burst_share; }
+  Scalar most() const noexcept { return depth_ / burst_share; }
 
-  double depth_, rate_;
-  double spent_ = 0;
+  Scalar depth_, rate_;
+  Scalar spent_ = 0;
 };
+
+using ForceBudget = BasicForceBudget<double>;
+using ForceBudgetF = BasicForceBudget<float>;
 
 }  // namespace punctura

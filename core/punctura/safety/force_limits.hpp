@@ -5,17 +5,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/safety/force_budget.hpp"
 
 namespace punctura {
 
 struct ForceLimits {
-  double max_force = 3.3;          ///< N, norm. A PHANTOM Omni's peak, by its maker's data sheet
-  double continuous_force = 0.88;  ///< N rms in any continuous_time. The Omni's rating, by its maker's data sheet
-  double continuous_time = 10;     ///< s. A choice: no data sheet gives the motors' thermal time constant
-  double ramp_time = 0.5;          ///< s from zero to full force after arming
-  double warm_motor = 0.8;         ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
+  double max_force = Omni::max_force;                ///< N, norm
+  double continuous_force = Omni::continuous_force;  ///< N rms in any continuous_time
+  double continuous_time = 10;  ///< s. A choice: no data sheet gives the motors' thermal time constant
+  double ramp_time = 0.5;       ///< s from zero to full force after arming
+  double warm_motor = 0.8;      ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
 };
 
 /// The limit that makes the force of a tick smaller than the model's.
@@ -40,26 +41,29 @@ struct LimitCounters {
 ///
 /// A device holds a force until the next tick, however late that comes. So each tick counts the force of the one before,
 /// for the time that has passed.
-class ForceLimiter {
+template <typename Scalar>
+class BasicForceLimiter {
  public:
+  using Vector = Vector3<Scalar>;
   /// s. A force is held so long at most, by the gate's deadline; the budget always has room for that.
-  static constexpr double longest_hold = 0.020;
-  static constexpr double unknown_time = -1;
+  static constexpr Scalar longest_hold = Scalar(0.020);
+  static constexpr Scalar unknown_time = -1;
 
-  ForceLimiter(const ForceLimits& limits, double period) noexcept
-      : limits_(limits),
-        budget_(limits.continuous_time, limits.continuous_force),
+  BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
+      : max_force_(static_cast<Scalar>(limits.max_force)),
+        warm_motor_(static_cast<Scalar>(limits.warm_motor)),
+        budget_(static_cast<Scalar>(limits.continuous_time), static_cast<Scalar>(limits.continuous_force)),
         period_(period),
-        steady_(std::min(limits.max_force, std::sqrt(budget_.rate()))),
+        steady_(std::min(max_force_, std::sqrt(budget_.rate()))),
         hold_(std::max(period, longest_hold)),
-        ramp_step_(period / limits.ramp_time),
+        ramp_step_(period / static_cast<Scalar>(limits.ramp_time)),
         ceiling_(permitted(0)) {}
 
   /// Starts a new ramp. The budget and the counters stay: motors do not cool by a reset.
   void reset() noexcept { gain_ = 0; }
 
   /// Goes on from where another limiter is, with its own limits: ramp, budget and counters.
-  void resume(const ForceLimiter& previous) noexcept {
+  void resume(const BasicForceLimiter& previous) noexcept {
     gain_ = previous.gain_;
     held_square_ = previous.held_square_;
     counters_ = previous.counters_;
@@ -68,18 +72,18 @@ class ForceLimiter {
 
   /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1. elapsed: s since
   /// the tick before; a period if not given; NaN in the first tick of a run.
-  Vector3d step(const Vector3d& wanted, double motor_temperature = 0, double elapsed = unknown_time) noexcept {
+  Vector step(const Vector& wanted, Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
-    gain_ = std::min(1.0, gain_ + ramp_step_);
-    if (gain_ < 1 && wanted != Vector3d()) act(Limit::ramp, counters_.ramp);
-    Vector3d force = gain_ * wanted;
+    gain_ = std::min(Scalar(1), gain_ + ramp_step_);
+    if (gain_ < 1 && wanted != Vector()) act(Limit::ramp, counters_.ramp);
+    Vector force = gain_ * wanted;
 
     ceiling_ = permitted(motor_temperature);
-    if (const double norm = force.stableNorm(); !(norm <= ceiling_)) {
+    if (const Scalar norm = force.stableNorm(); !(norm <= ceiling_)) {
       force = force / norm * ceiling_;
       if (cool(motor_temperature) < 1)
         act(Limit::temperature, counters_.temperature);
-      else if (ceiling_ < limits_.max_force)
+      else if (ceiling_ < max_force_)
         act(Limit::continuous, counters_.continuous);
       else
         act(Limit::peak, counters_.peak);
@@ -89,38 +93,38 @@ class ForceLimiter {
   }
 
   /// One tick without force.
-  void rest(double motor_temperature = 0, double elapsed = unknown_time) noexcept {
+  void rest(Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
     ceiling_ = permitted(motor_temperature);
   }
 
   /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
-  void end(double elapsed) noexcept { count(elapsed); }
+  void end(Scalar elapsed) noexcept { count(elapsed); }
 
-  double ceiling() const noexcept { return ceiling_; }  ///< the greatest force that the last tick permitted, N
+  Scalar ceiling() const noexcept { return ceiling_; }  ///< the greatest force that the last tick permitted, N
   Limit limit() const noexcept { return limit_; }       ///< what cut the force of the last tick
-  double gain() const noexcept { return gain_; }        ///< of the ramp, 0 to 1
+  Scalar gain() const noexcept { return gain_; }        ///< of the ramp, 0 to 1
   const LimitCounters& counters() const noexcept { return counters_; }
 
-  const ForceBudget& budget() const noexcept { return budget_; }
+  const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
   /// Goes on with a device whose motors have given that much, N^2 s, see ForceBudget::spent.
-  void set_spent(double spent) noexcept { budget_.set_spent(spent); }
+  void set_spent(Scalar spent) noexcept { budget_.set_spent(spent); }
 
  private:
   /// By how much warm motors bring the ceiling down: 1 is not at all.
-  double cool(double temperature) const noexcept {
-    if (temperature <= limits_.warm_motor) return 1;
-    return std::max(0.0, (1 - temperature) / (1 - limits_.warm_motor));
+  Scalar cool(Scalar temperature) const noexcept {
+    if (temperature <= warm_motor_) return 1;
+    return std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_));
   }
 
-  double permitted(double temperature) const noexcept {
-    const double share = std::min(1.0, 2 * budget_.left());
-    const double wanted = steady_ + share * (limits_.max_force - steady_);
+  Scalar permitted(Scalar temperature) const noexcept {
+    const Scalar share = std::min(Scalar(1), 2 * budget_.left());
+    const Scalar wanted = steady_ + share * (max_force_ - steady_);
     return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
   }
 
   /// The force of the tick before, for the time that it was held.
-  void count(double elapsed) noexcept {
+  void count(Scalar elapsed) noexcept {
     const bool known = elapsed >= 0 && std::isfinite(elapsed);
     // Before the first tick of a run no time has passed: a period of rest for each run would add up over many runs.
     // So would one for each wrong stamp.
@@ -135,15 +139,19 @@ class ForceLimiter {
     ++counter;
   }
 
-  ForceLimits limits_;
-  ForceBudget budget_;
-  double period_;
-  double steady_;  ///< the force that may be given without end, N
-  double hold_, ramp_step_;
-  double gain_ = 0, ceiling_;
-  double held_square_ = 0;  ///< of the force that the device holds since the last tick, N^2
+  Scalar max_force_;   ///< N
+  Scalar warm_motor_;  ///< 0 to 1
+  BasicForceBudget<Scalar> budget_;
+  Scalar period_;
+  Scalar steady_;  ///< the force that may be given without end, N
+  Scalar hold_, ramp_step_;
+  Scalar gain_ = 0, ceiling_;
+  Scalar held_square_ = 0;  ///< of the force that the device holds since the last tick, N^2
   Limit limit_ = Limit::none;
   LimitCounters counters_{};
 };
+
+using ForceLimiter = BasicForceLimiter<double>;
+using ForceLimiterF = BasicForceLimiter<float>;
 
 }  // namespace punctura

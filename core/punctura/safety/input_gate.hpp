@@ -19,17 +19,21 @@ struct GateLimits {
   std::uint32_t dead_man = 0;    ///< buttons of which one must be held for force to be given; 0 asks for none
 };
 
-/// Judges one sample after the other. Each comparison is written so that NaN fails it.
-class InputGate {
+/// Judges one sample after the other. Each comparison is written so that NaN fails it. Times are double for each Scalar: a float
+/// that counts seconds has no milliseconds after some hours.
+template <typename Scalar>
+class BasicInputGate {
  public:
+  using Vector = Vector3<Scalar>;
+
   /// period: T, s.
-  InputGate(const GateLimits& limits, double period, bool axis_is_used) noexcept
+  BasicInputGate(const GateLimits& limits, double period, bool axis_is_used) noexcept
       : limits_(limits), period_(period), axis_is_used_(axis_is_used) {}
 
   void reset() noexcept { started_ = false; }
 
   /// Goes on from where another gate is, with its own limits.
-  void resume(const InputGate& previous) noexcept {
+  void resume(const BasicInputGate& previous) noexcept {
     started_ = previous.started_;
     time_ = previous.time_;
     fresh_time_ = previous.fresh_time_;
@@ -44,18 +48,19 @@ class InputGate {
 
   Fault step(const DeviceSample& s) noexcept {
     if (!s.healthy) return Fault::device;
-    const Vector3d position = vector(s.position), axis = vector(s.axis);
+    const Vector position = vector(s.position).template cast<Scalar>(), axis = vector(s.axis).template cast<Scalar>();
     if (!position.allFinite() || !std::isfinite(s.time)) return Fault::non_finite_input;
     if (axis_is_used_) {
       if (!axis.allFinite()) return Fault::non_finite_input;
-      if (!(std::abs(axis.norm() - 1) <= limits_.axis_tolerance)) return Fault::bad_axis;
+      if (!(std::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;
     }
     if (started_) {
       if (!(s.time >= time_)) return Fault::clock;
       if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
       // Two readings that come close together may still be a period apart: T is the least time taken.
       const double since_reading = std::max(period_, s.time - fresh_time_);
-      if (!((position - position_).norm() <= limits_.max_speed * since_reading)) return Fault::position_jump;
+      if (!((position - position_).norm() <= static_cast<Scalar>(limits_.max_speed * since_reading)))
+        return Fault::position_jump;
     }
     if (!started_ || s.sequence != sequence_) fresh_time_ = s.time;
     if (!(s.time - fresh_time_ <= limits_.stale)) return Fault::stale_sample;
@@ -74,7 +79,10 @@ class InputGate {
   bool started_ = false;
   double time_ = 0, fresh_time_ = 0;
   std::uint64_t sequence_ = 0;
-  Vector3d position_ = Vector3d::Zero();
+  Vector position_{};
 };
+
+using InputGate = BasicInputGate<double>;
+using InputGateF = BasicInputGate<float>;
 
 }  // namespace punctura

@@ -1,13 +1,14 @@
 // From a scene to what runs. try_build() returns the problems; build() throws them, and is the one place in core that throws.
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura/servo/servo_step.hpp"
 
@@ -41,9 +42,13 @@ BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMemb
 }
 }  // namespace detail
 
+/// Gives the law of membrane i: `law_of(needle, membrane, i)`.
+template <typename LawOf, typename Scalar>
+concept GivesLaws = std::invocable<LawOf, const BasicNeedle<Scalar>&, const BasicMembrane<Scalar>&, std::size_t>;
+
 /// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane, i)`: both in
 /// Scalar, and the membrane's number in the scene. Empty where the scene has problems, which are added to `problems`.
-template <typename Scalar, typename LawOf>
+template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
   using Made = decltype(detail::insertion_of<Scalar>(scene, law_of));
   const auto found = check(scene);
@@ -56,14 +61,23 @@ std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, st
   return try_build_insertion<Scalar>(scene, problems, detail::k06_law<Scalar>);
 }
 
-/// The whole tick of a scene: input gate, model, force limits. Empty where scene or limits have problems, which are added to `problems`.
-inline std::optional<ServoStep> try_build(const Scene& scene, std::vector<Problem>& problems,
-                                          const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  auto insertion = try_build_insertion(scene, problems);
+/// The whole tick of a scene: input gate, model, force limits. Laws as in try_build_insertion(). Empty where scene or limits have
+/// problems, which are added to `problems`.
+template <typename Scalar, GivesLaws<Scalar> LawOf>
+auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of, const GateLimits& gate = {},
+               const ForceLimits& limits = {}) {
+  auto insertion = try_build_insertion<Scalar>(scene, problems, law_of);
+  using Made = ServoStepOf<std::remove_reference_t<decltype(*insertion)>>;
   const auto found = check(gate, limits);
   problems.insert(problems.end(), found.begin(), found.end());
-  if (!insertion || !found.empty()) return std::nullopt;
-  return ServoStep(std::move(*insertion), 1 / scene.servo.rate, gate, limits);
+  if (!insertion || !found.empty()) return std::optional<Made>();
+  return std::make_optional<Made>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits);
+}
+/// The same with K06's law. Scalar: double, or float.
+template <typename Scalar = double>
+std::optional<BasicServoStep<Scalar>> try_build(const Scene& scene, std::vector<Problem>& problems,
+                                                const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+  return try_build<Scalar>(scene, problems, detail::k06_law<Scalar>, gate, limits);
 }
 
 #if defined(__cpp_exceptions)
@@ -92,7 +106,7 @@ T or_throw(std::optional<T> made, std::vector<Problem> problems) {
 }  // namespace detail
 
 /// As try_build_insertion(). Throws SceneError.
-template <typename Scalar, typename LawOf>
+template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto build_insertion(const Scene& scene, LawOf&& law_of) {
   std::vector<Problem> problems;
   auto made = try_build_insertion<Scalar>(scene, problems, law_of);
@@ -104,10 +118,15 @@ BasicInsertion<Scalar> build_insertion(const Scene& scene) {
 }
 
 /// As try_build(). Throws SceneError, for scene and limits together.
-inline ServoStep build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+template <typename Scalar, GivesLaws<Scalar> LawOf>
+auto build(const Scene& scene, LawOf&& law_of, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
   std::vector<Problem> problems;
-  auto made = try_build(scene, problems, gate, limits);
+  auto made = try_build<Scalar>(scene, problems, law_of, gate, limits);
   return detail::or_throw(std::move(made), std::move(problems));
+}
+template <typename Scalar = double>
+BasicServoStep<Scalar> build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
+  return build<Scalar>(scene, detail::k06_law<Scalar>, gate, limits);
 }
 #endif
 

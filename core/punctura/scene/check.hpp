@@ -60,6 +60,11 @@ inline constexpr FieldOf<ForceLimits> limit_fields[] = {
     {{"warm_motor", "-", "-", {0, 1, false, true, "must be from 0 to below 1"}}, &ForceLimits::warm_motor},
 };
 
+inline constexpr FieldOf<Placement> placement_fields[] = {
+    {{"scale", "-", "-", {0, no_bound, true, true, "must be greater than 0"}}, &Placement::scale},
+    {{"tip_offset", "-", "m", {}}, &Placement::tip_offset},
+};
+
 namespace detail {
 inline bool finite(const std::array<double, 3>& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
@@ -114,9 +119,7 @@ inline std::vector<Problem> check(const Placement& placement) {
     problems.push_back({"placement.rotation", r[0], "must be a quaternion w, x, y, z: four finite numbers, not all 0"});
   if (!detail::finite(placement.offset))
     problems.push_back({"placement.offset", detail::offender(placement.offset), "must be three finite numbers"});
-  check_field({"scale", "-", "-", {0, no_bound, true, true, "must be greater than 0"}}, placement.scale, "placement",
-              problems);
-  check_field({"tip_offset", "-", "m", {}}, placement.tip_offset, "placement", problems);
+  check_fields(placement_fields, placement, "placement", problems);
   return problems;
 }
 

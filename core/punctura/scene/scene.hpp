@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/needle.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura/proxy/coupling.hpp"
-#include "punctura/proxy/insertion.hpp"
 #include "punctura/proxy/solver.hpp"
 #include "punctura/signal/conditioning.hpp"
 
@@ -27,11 +28,11 @@ struct PlacedMembrane {
 };
 
 struct ServoSettings {
-  double rate = 1600;     ///< 1/T, Hz. K06 section 4
-  double low_pass = 300;  ///< cutoff, Hz, for Conditioning::low_pass; 0 is off. K06 section 4
+  double rate = usual_rate;  ///< 1/T, Hz
+  double low_pass = 300;     ///< cutoff, Hz, for Conditioning::low_pass; 0 is off. K06 section 4
   Solver solver = Solver::exact;
   Conditioning conditioning = Conditioning::low_pass;
-  double encoder_step = 0.055e-3;  ///< m, for line_fit; 0 is an ideal sensor. A PHANTOM Omni's
+  double encoder_step = Omni::encoder_step;  ///< m, for line_fit; 0 is an ideal sensor
 };
 
 struct Scene {

@@ -7,12 +7,14 @@
 
 namespace punctura {
 
-inline MembraneRecord record_of(const SpaceTick<double>& t) noexcept {
+template <typename Scalar>
+MembraneRecord record_of(const SpaceTick<Scalar>& t) noexcept {
   return {t.depth, t.axial_force, t.band.lower, t.band.upper, plain(t.proxy), plain(t.direction), t.phase};
 }
 
 /// On a line, the needle's direction is the first axis.
-inline MembraneRecord record_of(const LineTick<double>& t) noexcept {
+template <typename Scalar>
+MembraneRecord record_of(const LineTick<Scalar>& t) noexcept {
   return {t.depth, t.force, t.band.lower, t.band.upper, {t.proxy, 0, 0}, {1, 0, 0}, t.phase};
 }
 

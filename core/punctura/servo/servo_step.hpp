@@ -9,10 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/servo/record.hpp"
@@ -20,14 +21,21 @@
 
 namespace punctura {
 
-class ServoStep {
+/// Insertion: an InsertionOf, with laws and coupling of any author. Its Scalar computes the tick; the record is double.
+template <typename Insertion>
+class ServoStepOf {
  public:
-  /// period: T, s. Made by build() (scene/build.hpp), which checks the scene first.
-  ServoStep(Insertion insertion, double period, const GateLimits& gate = {}, const ForceLimits& limits = {})
+  using Scalar = typename Insertion::Scalar;
+  using Vector = Vector3<Scalar>;
+
+  /// period: T, s. insertion: of max_membranes at most; more end the program. Made by build() (scene/build.hpp), which checks the
+  /// scene first.
+  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {})
       : insertion_(std::move(insertion)),
         gate_(gate, period, insertion_.uses_axis()),
         limiter_(limits, period),
         fade_step_(period / fade_time) {
+    if (insertion_.proxies().size() > max_membranes) std::abort();
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
   }
 
@@ -58,7 +66,7 @@ class ServoStep {
   ///
   /// Membranes in the same place keep their proxies. What the change does to the force is faded in over `fade_time`: the hand
   /// feels no jump. Takes no memory; `previous` is of no use afterwards.
-  void resume(ServoStep& previous) noexcept {
+  void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     gate_.resume(previous.gate_);
     limiter_.resume(previous.limiter_);
@@ -71,15 +79,16 @@ class ServoStep {
     fade_ = 1;
     fade_starts_ = true;
   }
-  static constexpr double fade_time = 0.2;  ///< s
+  static constexpr Scalar fade_time = Scalar(0.2);  ///< s
 
   /// One tick. Gives the record of it; its `force` is for the device. Valid until the next step.
   const Snapshot& step(const DeviceSample& sample) noexcept {
     if (fault_ == Fault::none) fault_ = gate_.step(sample);
 
-    Vector3d model_force = Vector3d::Zero(), force = Vector3d::Zero();
+    Vector model_force = Vector::Zero(), force = Vector::Zero();
     if (fault_ == Fault::none) {
-      model_force = insertion_.step(vector(sample.position), vector(sample.axis).stableNormalized());
+      model_force = insertion_.step(vector(sample.position).template cast<Scalar>(),
+                                    vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) {
@@ -91,17 +100,19 @@ class ServoStep {
       state_ = ServoState::active;
       limiter_.reset();
     }
-    const double elapsed = sample.time - time_;  // NaN or below 0 where the clock is at fault, or a new run begins
+    // NaN or below 0 where the clock is at fault, or a new run begins
+    const auto elapsed = static_cast<Scalar>(sample.time - time_);
+    const auto temperature = static_cast<Scalar>(sample.motor_temperature);
     if (std::isfinite(sample.time)) time_ = sample.time;
     if (state_ == ServoState::active) {
-      force = limiter_.step(faded(model_force), sample.motor_temperature, elapsed);
+      force = limiter_.step(faded(model_force), temperature, elapsed);
       if (!force.allFinite()) {  // cannot be, with limits that passed check(); a hand must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
         force.setZero();
       }
     } else {
-      limiter_.rest(sample.motor_temperature, elapsed);
+      limiter_.rest(temperature, elapsed);
       wanted_.setZero();
       fade_ = 0;
     }
@@ -110,13 +121,13 @@ class ServoStep {
   }
 
   /// What the device's motors have given and not yet recovered from, N^2 s: see ForceBudget. A run goes on with it.
-  double spent() const noexcept { return limiter_.budget().spent(); }
-  void set_spent(double spent) noexcept {
+  Scalar spent() const noexcept { return limiter_.budget().spent(); }
+  void set_spent(Scalar spent) noexcept {
     limiter_.set_spent(spent);
     time_ = std::numeric_limits<double>::quiet_NaN();  // no time of the last run counts as rest
   }
   /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
-  void end(double elapsed) noexcept { limiter_.end(elapsed); }
+  void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
   const Snapshot& snapshot() const noexcept { return snapshot_; }
   const Insertion& insertion() const noexcept { return insertion_; }
@@ -125,15 +136,15 @@ class ServoStep {
 
  private:
   /// The model's force, on its way from what the hand felt before resume().
-  Vector3d faded(const Vector3d& model_force) noexcept {
+  Vector faded(const Vector& model_force) noexcept {
     if (fade_starts_) offset_ = wanted_ - model_force;
     fade_starts_ = false;
     wanted_ = model_force + fade_ * offset_;
-    fade_ = std::max(0.0, fade_ - fade_step_);
+    fade_ = std::max(Scalar(0), fade_ - fade_step_);
     return wanted_;
   }
 
-  void record(const DeviceSample& sample, const Vector3d& model_force, const Vector3d& force) noexcept {
+  void record(const DeviceSample& sample, const Vector& model_force, const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
     snapshot_.tip = plain(insertion_.tip());
@@ -150,17 +161,23 @@ class ServoStep {
   }
 
   Insertion insertion_;
-  InputGate gate_;
-  ForceLimiter limiter_;
+  BasicInputGate<Scalar> gate_;
+  BasicForceLimiter<Scalar> limiter_;
   ServoState state_ = ServoState::disarmed;
   Fault fault_ = Fault::none;
   std::uint64_t tick_ = 0;
   std::uint32_t commands_ = 0;
   double time_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last sample of this run, s
-  double fade_step_, fade_ = 0;
+  Scalar fade_step_, fade_ = 0;
   bool fade_starts_ = false;
-  Vector3d wanted_ = Vector3d::Zero(), offset_ = Vector3d::Zero();
+  Vector wanted_{}, offset_{};
   Snapshot snapshot_{};
 };
+
+/// With K06's law and coupling.
+template <typename Scalar>
+using BasicServoStep = ServoStepOf<BasicInsertion<Scalar>>;
+using ServoStep = BasicServoStep<double>;
+using ServoStepF = BasicServoStep<float>;
 
 }  // namespace punctura

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/signal/line_fit.hpp"
 #include "punctura/signal/low_pass.hpp"
@@ -19,7 +20,7 @@ enum class Conditioning : std::uint8_t {
   line_fit,  ///< LineFit on each axis, then a low-pass whose lag it makes up for: for real devices
 };
 
-/// How much a line fit smooths: what a step of 0.055 mm needs, and less for finer encoders. With the root of the step the force
+/// How much a line fit smooths: what the Omni's step needs, and less for finer encoders. With the root of the step the force
 /// noise stays about the same, and a fine device is not made to lag for noise that it does not have.
 template <typename Scalar>
 struct Smoothing {
@@ -27,7 +28,7 @@ struct Smoothing {
   Scalar cutoff_hz;  ///< of the low-pass behind it; 0 is off, for an ideal sensor
 
   static Smoothing of(Scalar encoder_step) noexcept {
-    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(0.055e-3)));
+    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
     return {Scalar(0.010) * share, share > 0 ? Scalar(150) / share : Scalar(0)};
   }
 };
@@ -35,10 +36,11 @@ struct Smoothing {
 /// From the measured position (m) to the one that the model is given (m).
 ///
 /// Each axis by itself: encoders count axis by axis, and an axis that rests stays quiet while another moves.
-template <typename Scalar>
+template <typename Scalar, typename Storage = HeapStorage>
 class PositionConditioner {
  public:
   using Vector = Vector3<Scalar>;
+  using Line = LineFit<Scalar, Storage>;
 
   /// low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m; 0 is off.
   PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
@@ -59,7 +61,7 @@ class PositionConditioner {
 
   static void archive(auto& self, auto& state) {
     if (self.fits_)
-      for (auto& line : self.lines_) LineFit<Scalar>::archive(line, state);
+      for (auto& line : self.lines_) Line::archive(line, state);
     LowPass<Scalar, Vector>::archive(self.low_pass_, state);
   }
   void describe(auto& parameters) const {
@@ -74,13 +76,13 @@ class PositionConditioner {
   }
 
  private:
-  LineFit<Scalar> fit(Scalar encoder_step, Scalar period) const {
+  Line fit(Scalar encoder_step, Scalar period) const {
     return {encoder_step, Smoothing<Scalar>::of(encoder_step).window, period, low_pass_.lag()};
   }
 
   bool fits_;
   LowPass<Scalar, Vector> low_pass_;
-  std::array<LineFit<Scalar>, 3> lines_;
+  std::array<Line, 3> lines_;
 };
 
 }  // namespace punctura

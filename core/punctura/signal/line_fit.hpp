@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
+
+#include "punctura/model/storage.hpp"
 
 namespace punctura {
 
@@ -17,7 +18,7 @@ namespace punctura {
 /// who want the slope, a velocity; here the line's end is wanted, a position. All memory is taken at construction.
 ///
 /// Every window is odd: an encoder that toggles every tick then moves the end of the line by 1/n of a step, not by 3/n.
-template <typename Scalar>
+template <typename Scalar, typename Storage = HeapStorage>
 class LineFit {
  public:
   static constexpr std::size_t most_samples = 129;         ///< bounds what a tick costs
@@ -104,7 +105,7 @@ class LineFit {
   Scalar tolerance_, lead_;
   std::size_t size_, newest_ = 0;
   bool started_ = false;
-  std::vector<Scalar> ring_;
+  typename Storage::template Samples<Scalar> ring_;
 };
 
 }  // namespace punctura

@@ -1,6 +1,6 @@
 """The command line. Each verb is a file in this folder: `simulate.py` holds `command`, which is `punctura simulate`.
 
-A new verb is a new file; nothing is registered anywhere else. A file whose name begins with an underscore is no verb.
+A new verb needs only a new file. Files whose names begin with an underscore are not verbs.
 """
 
 from punctura.cli._app import main

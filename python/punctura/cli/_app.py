@@ -1,6 +1,6 @@
-"""Finds the verbs, runs one, and turns what goes wrong into a sentence and an exit status.
+"""Finds the verbs, runs one, and turns errors into a sentence and an exit status.
 
-The statuses stand in _status.py.
+_status.py has the statuses.
 """
 
 from __future__ import annotations
@@ -81,12 +81,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except Ended as end:
             leave(end)
         finally:
-            if isinstance(sys.exc_info()[1], SystemExit | None):  # else a traceback comes, which nobody may wait for
+            if isinstance(
+                sys.exc_info()[1], SystemExit | None
+            ):  # else there is a traceback, which must not wait for its reader
                 wait_for_stderr_again()
 
 
 def _where() -> str:
-    """What to do where a folder is missing that no message can name."""
+    """The advice for a missing folder, such as the current folder after its removal."""
     try:
         os.getcwd()
     except OSError:

@@ -1,4 +1,4 @@
-"""`punctura run --headless`: strokes, or a device in a hand, with a line in the terminal."""
+"""`punctura run --headless`: runs strokes or a real device, with a status line in the terminal."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ USUAL_SCENE = "k06-fig10"
 
 
 class Wishes(NamedTuple):
-    """What every way to run takes from the command line."""
+    """Options of the command line for both ways to run."""
 
     scene: str  # empty: none was named
     device: str
@@ -43,7 +43,7 @@ class Wishes(NamedTuple):
 
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
-    """Raises DeviceError; Ended where a signal has ended it."""
+    """Raises DeviceError, and Ended if a signal ended the run."""
     tape = Tape(record, StatusLine(never_wait_for_stderr()))
     loaded = load_scene(wishes.scene or USUAL_SCENE)
     opened = open_for(loaded, wishes.device, wishes.processor)
@@ -77,7 +77,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
 
 class Tape:
-    """The recording of one run, where one is wanted, and the line that tells how both are doing."""
+    """The optional recording of one run, and the status line of both."""
 
     def __init__(self, path: Path | None, line: StatusLine) -> None:
         self.status: RecorderStatus | None = None  # how it ended
@@ -86,7 +86,7 @@ class Tape:
         self._recorder: Recorder | None = None
 
     def begin(self, loop: ServoLoop) -> Callable[[], None]:
-        """Raises RecordingError. What it returns makes the file whole, and says where it is."""
+        """Raises RecordingError. Returns a function that finishes the file and prints its path."""
         if self._path:
             self._recorder = Recorder(loop, self._path)
         return self._finish
@@ -97,7 +97,7 @@ class Tape:
         self.tell_fault(summary.fault)
 
     def tell_fault(self, fault: str) -> None:
-        """At once, and what is added to it later: a call of the maker's that never returns would hold up the end."""
+        """Prints the fault at once, and later additions: a driver call that never returns would delay the end."""
         if fault and fault != self._fault:
             news, self._fault = fault.removeprefix(f"{self._fault}: "), fault
             self._line.end()
@@ -125,7 +125,7 @@ def say(text: str) -> None:
 
 
 def tell_result(text: str) -> None:
-    """Waits for its reader, however slow; the run is over. Raises OSError, but not for a terminal that was closed."""
+    """Prints after the run, and waits for the reader. Raises OSError, except for a closed terminal."""
     try:
         typer.echo(text)
     except OSError as error:
@@ -135,7 +135,7 @@ def tell_result(text: str) -> None:
 
 
 def begun(scene: str, loop: ServoLoop, device: Device) -> str:
-    """What runs on what, and how strong it may get."""
+    """The scene, the device and the limits of the force."""
     most = loop.limits
     strong = f"at most {most.max_force:.3g} N, {most.continuous_force:.3g} N rms in any {most.continuous_time:.3g} s"
     return f"punctura: {scene} on {device.info.model}, {strong}; Ctrl-C ends it"

@@ -1,4 +1,4 @@
-"""The end of a command that a signal has ended."""
+"""Ends a command that got a signal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from punctura.live.signals import ignore_more_signals
 
 
 def leave(end: Ended, more: str = "") -> NoReturn:
-    """Says which signal it was; the exit status says it, too."""
+    """Prints the signal's name, and exits with its status."""
     ignore_more_signals()
     give_up_stdout()
     words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}{more}"

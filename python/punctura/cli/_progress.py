@@ -1,4 +1,4 @@
-"""A progress bar that shows itself only where somebody waits: on a terminal, after a second."""
+"""A progress bar, shown only on a terminal and after one second."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PATIENCE_S = 1.0
 
 @contextmanager
 def progress_bar(what: str, stream: TextIO | None = None) -> Iterator[Callable[[float], None]]:
-    """Gives a function that is told the share done, 0 to 1."""
+    """Gives a function that takes the finished share, 0 to 1."""
     console = Console(file=stream or sys.stderr)
     began = time.monotonic()
     with ExitStack() as stack:

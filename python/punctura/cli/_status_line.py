@@ -1,4 +1,4 @@
-"""One line that says how a live run is doing, rewritten in place on a terminal."""
+"""The status line of a live run, rewritten in place on a terminal."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ EVERY_S = 0.1
 
 
 class StatusLine:
-    """Silent where nobody watches, or where the terminal takes no text at present."""
+    """Prints nothing without a terminal, or while the terminal takes no text."""
 
     def __init__(self, stream: DroppingStream) -> None:
         self._stream = stream

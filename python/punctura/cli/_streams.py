@@ -1,4 +1,4 @@
-"""The standard streams, so that neither a closed one nor one that nobody reads changes what a command does."""
+"""Makes the standard streams safe: neither a closed stream nor an unread one changes what a command does."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from punctura.live import DroppingStream
 
 
 def open_closed_streams() -> None:
-    """A stream that was closed (`2>&-`) becomes one that keeps nothing; else the next file would get its number."""
+    """Replaces a closed stream (`2>&-`) by the null device; else the next file would get its descriptor."""
     nowhere = os.open(os.devnull, os.O_RDWR)
     while nowhere <= 2:
         nowhere = os.dup(nowhere)
@@ -31,24 +31,24 @@ class StdoutError(OSError):
 
 
 class _NamedStdout(io.FileIO):
-    """Its errors say that it is standard output: those of the system have no name for it."""
+    """Its errors name standard output; the system's errors have no name for it."""
 
     def write(self, data: Any) -> int:
         try:
             return super().write(data)
         except OSError as error:
-            if error.errno == errno.EPIPE:  # a reader that has seen enough, as in `punctura ... | head`
+            if error.errno == errno.EPIPE:  # the reader has closed the pipe, as in `punctura ... | head`
                 raise
             raise StdoutError(error.errno, error.strerror) from None
 
 
 def name_stdout() -> None:
-    """From here on an error of sys.stdout, as on a full disk, says that it is standard output."""
+    """From here on, errors of sys.stdout (such as a full disk) name standard output."""
     plain = sys.stdout
     if not isinstance(plain, io.TextIOWrapper):
         return
     raw = getattr(plain.buffer, "raw", plain.buffer)  # a stream without a buffer (python -u) is raw itself
-    if type(raw) is not io.FileIO:  # a console on Windows, or what a program has put there
+    if type(raw) is not io.FileIO:  # a console on Windows, or an object of another program
         return
     named: Any = _NamedStdout(raw.fileno(), "wb", closefd=False)
     sys.stdout = io.TextIOWrapper(
@@ -61,14 +61,14 @@ def name_stdout() -> None:
 
 
 def never_wait_for_stderr() -> DroppingStream:
-    """From here on sys.stderr, which is returned, drops what its reader does not take in time."""
+    """From here on, sys.stderr drops text that is not read in time. Returns that stream."""
     if not isinstance(sys.stderr, DroppingStream):
         sys.stderr = cast(TextIO, DroppingStream(sys.stderr))
     return cast(DroppingStream, sys.stderr)
 
 
 def wait_for_stderr_again() -> None:
-    """Undoes that at the end of a command, once what waits is written or its reader has long stopped reading."""
+    """Restores the stream at the end of a command, once its text is written or its reader has stopped reading."""
     stream = sys.stderr
     if isinstance(stream, DroppingStream):
         stream.end()
@@ -76,7 +76,7 @@ def wait_for_stderr_again() -> None:
 
 
 def give_up_stdout() -> None:
-    """What waits in sys.stdout is thrown away: at the end of the program it would block, or change the exit status."""
+    """Drops unwritten text of sys.stdout: at the end it would block the program, or change the exit status."""
     with suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())

@@ -15,11 +15,11 @@ from punctura.live import DroppingStream
 def run_page(
     wishes: Wishes, port: int, browser: bool, recordings: Path | None, page: Path | None, own: Sequence[str] = ()
 ) -> None:
-    """own: exercises that the page lists, too; without a scene, that of the first runs.
+    """own: exercise files that the page lists, too; without a scene, the first exercise's scene runs.
 
-    Raises DeviceError; Ended where a signal has ended it; StudioError, which says what to do; ConfigurationError.
+    Raises DeviceError, Ended if a signal ended the run, StudioError (its text says what to do), ConfigurationError.
     """
-    from punctura.studio import serve  # a server is a lot to import for those who want none
+    from punctura.studio import serve  # imported here, because importing the server takes long
     from punctura.studio.catalog import Exercises
     from punctura.studio.loaded import from_name
     from punctura.studio.run import Settings

@@ -1,4 +1,4 @@
-"""`punctura devices`: what there is to feel with, and why something is not there."""
+"""`punctura devices`: lists the devices, and why a device is not available."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from punctura.live import enumerate_devices
 
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
-    """Lists every kind of device: available, or why not and what to do."""
+    """Lists every kind of device: whether it is available, and what to do if not."""
     entries = enumerate_devices()
     if as_json:
         typer.echo(json.dumps(entries, indent=2))

@@ -1,4 +1,4 @@
-"""`punctura exercise`: what exercises there are, and how a recorded attempt was."""
+"""`punctura exercise`: lists exercises, and scores a recorded attempt."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def score(
 ) -> None:
     """Scores a recorded attempt as the studio would have.
 
-    The status is 0 whether it was passed or not: the first line says so.
+    The exit status is 0 for passed and not passed; the first line says which.
     """
     from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge
@@ -55,7 +55,7 @@ def score(
     for goal in result.goals:
         typer.echo(f"  {state(goal):{width}}  {goal.text}")
     m = result.metrics
-    typer.echo(f"  {m.attempts} {'entry' if m.attempts == 1 else 'entries'}, model force {m.peak_force:.2f} N at most")
+    typer.echo(f"  {m.entries} {'entry' if m.entries == 1 else 'entries'}, model force {m.peak_force:.2f} N at most")
     typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:

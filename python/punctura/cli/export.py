@@ -18,7 +18,7 @@ def command(
     out: Annotated[Path, typer.Option("--out", help="File to write.", metavar="OUT.csv|.parquet|.mcap")],
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Converts a recording to CSV, Parquet or MCAP, also one whose process was killed."""
+    """Converts a recording to CSV, Parquet or MCAP, even if its process was killed."""
     from punctura.record import export
 
     try:

@@ -1,4 +1,4 @@
-"""`punctura place`: shows the device where the scene is, with the force off."""
+"""`punctura place`: measures the place of the device in the scene, with the force off."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ import numpy as np
 import typer
 
 from punctura._core import DeviceError, ServoLoop
+from punctura.files.whole_file import write_whole
 from punctura.live import fit_direction, open_for, placement_from_pose, placement_text, present_pose
 from punctura.scene import load_scene
 
-IN_FRONT = 20e-3  # m before the first membrane: where the hand is asked to hold the tip
+IN_FRONT = 20e-3  # m in front of the first membrane: the user holds the tip there
 
 
 def command(
@@ -43,13 +44,13 @@ def command(
     first = fitted.membranes[0]
     inward = np.array(first.inward_normal) / np.linalg.norm(first.inward_normal)
     loop = ServoLoop(opened, fitted)
-    loop.start()  # disarmed: it reads, and gives no force
+    loop.start()  # disarmed: no force
     try:
         typer.echo(
-            f"Hold the stylus where the tip shall be {IN_FRONT * 1e3:g} mm in front of '{first.name}'"
-            + ("" if note else ", pointing as it shall go straight in")
+            f"Hold the stylus so that the tip is {IN_FRONT * 1e3:g} mm in front of '{first.name}'"
+            + ("" if note else " and points straight into it")
         )
-        typer.prompt("then press Enter", default="", show_default=False, prompt_suffix=" ")
+        typer.prompt("Then press Enter", default="", show_default=False, prompt_suffix=" ")
         position, axis = present_pose(loop)
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None
@@ -58,6 +59,6 @@ def command(
     placement = placement_from_pose(
         position, inward if note else axis, np.array(first.point) - IN_FRONT * inward, inward, tip_offset_mm * 1e-3
     )
-    out.write_text(placement_text(placement), encoding="utf-8")
+    write_whole(out, placement_text(placement).encode("utf-8"))
     on = f" --device {device}" if device else ""
     typer.echo(f"{out}: written. Try it: punctura run {scene} --headless{on} --placement {out}")

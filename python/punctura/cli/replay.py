@@ -1,4 +1,4 @@
-"""`punctura replay`: a recording's forces again, from its inputs."""
+"""`punctura replay`: computes a recording's forces again from its inputs."""
 
 from __future__ import annotations
 

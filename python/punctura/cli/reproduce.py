@@ -19,7 +19,7 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
 ) -> None:
     """Makes Figures 3, 5, 10, 11 and 12 of K06 as PNG, SVG and CSV, and a page that shows them."""
-    from punctura.reproduce import reproduce  # it needs the drawing library, which the other verbs need not wait for
+    from punctura.reproduce import reproduce  # imported here, because the drawing library takes long to load
 
     with progress_bar("reproduce") as tell:
         result = reproduce(out, tell)

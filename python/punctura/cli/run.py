@@ -1,4 +1,4 @@
-"""`punctura run`: a scene on a device, now; in a page, or in this terminal."""
+"""`punctura run`: runs a scene on a device, with a page or in this terminal."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def command(
 
 
 def _existing(processor: int | None) -> int:
-    """Raises typer.BadParameter for one that this computer does not have, or does not let us use."""
+    """Raises typer.BadParameter for a processor that does not exist or is not allowed."""
     if processor is None:
         return ANY_PROCESSOR
     there = sorted(os.sched_getaffinity(0)) if sys.platform == "linux" else range(os.cpu_count() or 1)

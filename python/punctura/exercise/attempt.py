@@ -162,7 +162,7 @@ class Attempt:
     def _instruction(self) -> str:
         if self.over:
             return " ".join(self._reasons())
-        if self._measures.attempts == 0:
+        if self._measures.entries == 0:
             return self.exercise.instruction
         if self._too_deep:
             return words.too_deep(self.exercise.file.space)

@@ -9,7 +9,7 @@ LEAST_MM = 0.1  # of every depth and distance, of the width of a space, and betw
 
 LEAST_S, MOST_S = 0.01, 3600.0  # of every time
 LEAST_N, MOST_N = 0.001, 1000.0  # of a force
-MOST_ATTEMPTS = 1000
+MOST_ENTRIES = 1000
 
 # A heading is a direction. Outside these lengths, computing with it loses digits or overflows.
 LEAST_HEADING, MOST_HEADING = 1e-3, 1e3

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -18,8 +18,10 @@ from punctura.errors import MISSING, Problem
 from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
 from punctura.exercise.depths import Table, unreachable
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.problems import GOALS, Location, located, problem
+from punctura.exercise.problems import GOALS, located, problem
 from punctura.exercise.schema import ExerciseFile, Space, Start
+from punctura.files.tables import Location
+from punctura.files.toml import Tables
 
 
 class Sound(NamedTuple):
@@ -30,7 +32,7 @@ class Sound(NamedTuple):
     goals: dict[int, Table]  # by their place; a goal whose kind is not known is left out
 
 
-def check_tables(tables: dict[str, Any], scene: Scene | None) -> tuple[ExerciseFile | None, list[Problem]]:
+def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | None, list[Problem]]:
     """The exercise file of these tables, if it is sound, and every problem if it is not. scene: None if it is not."""
     file, problems, unsound = None, [], set[Location]()
     try:
@@ -47,8 +49,8 @@ def check_tables(tables: dict[str, Any], scene: Scene | None) -> tuple[ExerciseF
     return (None if problems else file), problems
 
 
-def _sound(tables: dict[str, Any], unsound: set[Location]) -> Sound:
-    def values(model: type[BaseModel], given: Any, place: Location) -> Table:
+def _sound(tables: Tables, unsound: set[Location]) -> Sound:
+    def values(model: type[BaseModel], given: object, place: Location) -> Table:
         if not isinstance(given, dict):
             return {}
         bad = {where[len(place)] for where in unsound if where[: len(place)] == place and len(where) > len(place)}
@@ -68,7 +70,7 @@ def _sound(tables: dict[str, Any], unsound: set[Location]) -> Sound:
     return Sound(start, space, goals)
 
 
-def _kinds(given: Any, goals: dict[int, Table]) -> Iterator[Problem]:
+def _kinds(given: object, goals: dict[int, Table]) -> Iterator[Problem]:
     if not isinstance(given, list) or not given or len(goals) < len(given):
         return
     if not any(goal["kind"] in ("reach", "stay") for goal in goals.values()):

@@ -7,7 +7,7 @@ import numpy as np
 from punctura import Scene
 from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment
-from punctura.exercise.schema import AnyGoal, Attempts, NeverPass, PeakForce, Reach, Stay, StopAfterPop, TimeLimit
+from punctura.exercise.schema import AnyGoal, Entries, NeverPass, PeakForce, Reach, Stay, StopAfterPop, TimeLimit
 from punctura.exercise.space import place_of
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import Ticks
@@ -54,8 +54,8 @@ class ForceJudge(Limit):
         self._miss(ticks, ticks.force > self.at_most)
 
 
-class AttemptsJudge(Limit):
-    def __init__(self, goal: Attempts, scene: Scene) -> None:
+class EntriesJudge(Limit):
+    def __init__(self, goal: Entries, scene: Scene) -> None:
         times = "once" if goal.at_most == 1 else f"{goal.at_most} times"
         super().__init__(goal.text or f"Enter the {scene.membranes[0].name} no more than {times}")
         self.at_most = goal.at_most
@@ -82,4 +82,4 @@ def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
         return TimeJudge(goal)
     if isinstance(goal, PeakForce):
         return ForceJudge(goal)
-    return AttemptsJudge(goal, scene)
+    return EntriesJudge(goal, scene)

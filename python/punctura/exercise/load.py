@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.check import check_tables
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.tip import tip_warnings
+from punctura.files.toml import read_tables
 from punctura.scene import load_scene, scene_names
-from punctura.scene.parse import read_tables
 
 _FOLDER = Path(__file__).parents[1] / "exercises"
 
@@ -30,7 +29,7 @@ def exercises() -> list[Exercise]:
 def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
     """A ready exercise by its name, or one from a file. Raises ConfigurationError with everything that is wrong."""
     path = _path_of(name_or_path)
-    tables = read_tables(path, "exercise")
+    tables = read_tables(path, "exercise", float)
     scene, scene_name, scene_problems = _scene_of(tables.get("scene"), path)
     file, problems = check_tables(tables, scene)
     problems += scene_problems
@@ -50,7 +49,7 @@ def _path_of(name_or_path: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _scene_of(given: Any, path: Path) -> tuple[Scene | None, str, list[Problem]]:
+def _scene_of(given: object, path: Path) -> tuple[Scene | None, str, list[Problem]]:
     if not isinstance(given, str) or not given:
         return None, "", []
     name = given if given in scene_names() else str(path.parent / given)

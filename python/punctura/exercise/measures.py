@@ -15,7 +15,7 @@ from punctura.exercise.path import Path, PathSoFar
 from punctura.exercise.result import Metrics, Overshoot
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
-from punctura.live.summary import LIMIT_WORDS
+from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # after a pop, where no goal says otherwise: a hand's own reaction comes later
 
@@ -31,7 +31,7 @@ class Measures:
         self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
         self._space = space
-        self.attempts = 0
+        self.entries = 0
         self.peak_force = 0.0
         self.first_touch: float | None = None
         self.arrival: float | None = None
@@ -43,7 +43,7 @@ class Measures:
         self._entry_angle: float | None = None
         self._next_tick: int | None = None
         self._lost = 0
-        self._cut = dict.fromkeys(LIMIT_WORDS, 0)  # ticks
+        self._cut = dict.fromkeys(CUTS, 0)  # ticks
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
 
@@ -52,10 +52,10 @@ class Measures:
             return
         self._count(ticks)
         touches = [event for event in events if event.what == "touch" and event.membrane == 0]
-        self.attempts += len(touches)
+        self.entries += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
-        for name in LIMIT_WORDS:
+        for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
         self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
@@ -122,7 +122,7 @@ class Measures:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
         return Metrics(
-            attempts=self.attempts,
+            entries=self.entries,
             peak_force=self.peak_force,
             overshoot=self._overshoots,
             dwell=self.dwell,

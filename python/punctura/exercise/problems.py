@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import get_args
 
 from pydantic import BaseModel
@@ -10,9 +9,8 @@ from pydantic_core import ErrorDetails
 
 from punctura.errors import MISSING, Problem
 from punctura.exercise.schema import AnyGoal, ExerciseFile, Space, Start
-from punctura.scene.units import split_key
-
-Location = tuple[int | str, ...]  # of a value in the file: ("goal", 1, "seconds")
+from punctura.files.tables import Location, missing, path_of, shown, unknown_key
+from punctura.files.units import split_key
 
 GOALS: dict[str, type[BaseModel]] = {
     get_args(goal.model_fields["kind"].annotation)[0]: goal for goal in get_args(get_args(AnyGoal)[0])
@@ -49,7 +47,7 @@ def located(error: ErrorDetails) -> tuple[Location, str]:
 def problem(error: ErrorDetails) -> Problem:
     """What is wrong, where, and what would be right."""
     location, goal = located(error)
-    path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location).lstrip(".")
+    path = path_of(location)
     given = error["input"]
     if error["type"] in ("union_tag_invalid", "union_tag_not_found"):
         tag = given.get("kind", MISSING) if isinstance(given, dict) else MISSING
@@ -58,19 +56,17 @@ def problem(error: ErrorDetails) -> Problem:
 
 
 def _shown(error: ErrorDetails) -> object:
-    given = error["input"]
-    if error["type"] == "missing" or isinstance(given, dict):
-        return MISSING
-    return MISSING if isinstance(given, list) and any(isinstance(part, dict | list) for part in given) else given
+    return MISSING if error["type"] == "missing" else shown(error["input"])
 
 
 def _reason(error: ErrorDetails, location: Location, goal: str) -> str:
     kind = error["type"]
     key = next((part for part in reversed(location) if isinstance(part, str)), "")
     if kind == "missing":
-        return f"is missing; write a table {_HEADS[key]}" if len(location) == 1 and key in _HEADS else "is missing"
+        return missing(_HEADS.get(key) if len(location) == 1 else None)
     if kind == "extra_forbidden":
-        return _unknown_key(key, GOALS.get(goal) or _TABLES.get(str(location[0]), ExerciseFile), len(location) == 1)
+        table = ExerciseFile if len(location) == 1 else GOALS.get(goal) or _TABLES.get(str(location[0]), ExerciseFile)
+        return unknown_key(key, table)
     if kind in _TYPES:
         unit = _UNITS.get(key) or split_key(key)[1].name
         return _TYPES[kind].format(**error.get("ctx", {}), unit=f" {unit}" if unit else "")
@@ -81,9 +77,3 @@ def _reason(error: ErrorDetails, location: Location, goal: str) -> str:
     if key in _HEADS:
         return f"must be a table, {_HEADS[key]}"
     return error["msg"][:1].lower() + error["msg"][1:]
-
-
-def _unknown_key(key: str, table: type[BaseModel], top: bool) -> str:
-    known = list((ExerciseFile if top else table).model_fields)
-    near = difflib.get_close_matches(key, known, n=1) or [k for k in known if split_key(k)[0] == key]
-    return f"unknown key; did you mean {near[0]}?" if near else f"unknown key; known here: {', '.join(known)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
 from punctura.events import Event
 
@@ -47,7 +47,7 @@ class Overshoot(_Part):
 class Metrics(_Part):
     """Of the attempt up to its decision (an overshoot to the end of its seconds), SI. None: there was none."""
 
-    attempts: int  # entries into the first membrane
+    entries: int = Field(validation_alias=AliasChoices("entries", "attempts"))  # into the first membrane
     peak_force: Finite  # N, of the model, all membranes together
     overshoot: list[Overshoot]
     dwell: Finite  # s in the space, in all; of the whole tip where a stay goal asks for it, else of the point

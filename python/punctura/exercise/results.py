@@ -10,12 +10,12 @@ import secrets
 import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from pydantic import ValidationError
 
 from punctura._core import PuncturaError
 from punctura.exercise.result import Result
+from punctura.files.whole_file import write_whole
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
 _LARGEST = 20_000_000  # bytes; a result has some kilobytes
@@ -23,7 +23,7 @@ _LARGEST = 20_000_000  # bytes; a result has some kilobytes
 # A row of the table: its column's name, and where it stands in a result. Units for people, as in `punctura simulate`.
 COLUMNS = (
     "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
-    "reasons", "attempts",
+    "reasons", "entries",
     "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
     "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
     "force_cut_s",
@@ -60,12 +60,7 @@ class ResultStore:
             path = self._path(kept.name)
             if not path.exists():
                 break
-        temporary = path.with_suffix(".part")
-        try:
-            temporary.write_text(kept.model_dump_json(indent=1), encoding="utf-8")
-            temporary.replace(path)
-        finally:
-            temporary.unlink(missing_ok=True)
+        write_whole(path, kept.model_dump_json(indent=1).encode("utf-8"), replace=False)
         return kept
 
     def load(self, name: str) -> Result:
@@ -127,14 +122,14 @@ def to_json(results: Iterable[Result]) -> str:
     return "[" + ",\n".join(result.model_dump_json(indent=1) for result in results) + "]\n"
 
 
-def _row(result: Result) -> dict[str, Any]:
+def _row(result: Result) -> dict[str, object]:
     m = result.metrics
     largest = max((one.distance for one in m.overshoot), default=None)
     row = {name: getattr(result, name) for name in COLUMNS[:9]}
     return row | {
         "not_measured": "; ".join(result.unmeasured),
         "reasons": " ".join(result.reasons),
-        "attempts": m.attempts,
+        "entries": m.entries,
         "peak_force_N": m.peak_force,
         "largest_overshoot_mm": _times(largest, 1e3),
         "dwell_s": m.dwell,

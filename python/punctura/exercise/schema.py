@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+from pydantic.json_schema import JsonSchemaValue
 
-from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ATTEMPTS, MOST_N, MOST_S
+from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ENTRIES, MOST_N, MOST_S
+from punctura.files.tables import Table
 
 Text = Annotated[str, Field(min_length=1, max_length=2000)]
 Word = Annotated[str, Field(min_length=1, max_length=200)]
@@ -18,19 +20,15 @@ Newtons = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_N, le=MOST_N)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
-
-
-class Start(_Table):
+class Start(Table):
     """Where the needle waits, and where it points."""
 
     position_mm: Vector
     angle_deg: Annotated[float, Field(gt=10, le=90)] = 90.0  # between the needle and the first membrane's surface
-    heading: Vector = [1.0, 0.0, 0.0]  # where a slanted needle points, seen from in front of the surface
+    heading: Vector = Field([1.0, 0.0, 0.0])  # where a slanted needle points, seen from in front of the surface
 
 
-class Space(_Table):
+class Space(Table):
     """The space to reach: behind one membrane. It may end in front of another, at a depth, or nowhere.
 
     Depths are measured from the far face of `behind`, along that membrane's normal.
@@ -45,7 +43,7 @@ class Space(_Table):
     press_mm: Depth = 0.0  # how deep the point may be in the second membrane
 
 
-class _Goal(_Table):
+class _Goal(Table):
     text: Word | None = None  # in place of the sentence that is made from the goal
 
 
@@ -96,19 +94,19 @@ class PeakForce(_Goal):
     at_most_N: Newtons
 
 
-class Attempts(_Goal):
+class Entries(_Goal):
     """The first membrane is entered no more often."""
 
-    kind: Literal["attempts"]
-    at_most: Annotated[int, Field(ge=1, le=MOST_ATTEMPTS)]
+    kind: Literal["entries"]
+    at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
 
 
 AnyGoal = Annotated[
-    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Attempts, Field(discriminator="kind")
+    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Entries, Field(discriminator="kind")
 ]
 
 
-class ExerciseFile(_Table):
+class ExerciseFile(Table):
     """An exercise: a scene, what to do in it, and by what it is judged."""
 
     title: Word
@@ -120,6 +118,6 @@ class ExerciseFile(_Table):
     goal: Annotated[list[AnyGoal], Field(min_length=1)]
 
 
-def exercise_json_schema() -> dict[str, Any]:
+def exercise_json_schema() -> JsonSchemaValue:
     """JSON Schema of exercise files."""
     return ExerciseFile.model_json_schema()

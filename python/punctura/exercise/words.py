@@ -8,7 +8,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from punctura._core import Fault, describe
 from punctura.exercise.achievements import Achievement, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
-from punctura.exercise.limits import AttemptsJudge, ForceJudge, NeverPassJudge, TimeJudge
+from punctura.exercise.limits import EntriesJudge, ForceJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.measures import Measures
 from punctura.exercise.result import GoalState
 from punctura.exercise.schema import Space
@@ -41,7 +41,7 @@ def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -
         return f"The time was over, {limit.seconds:g} s after the first touch."
     if isinstance(limit, ForceJudge):
         return f"You pushed with more than {limit.at_most:g} N."
-    if isinstance(limit, AttemptsJudge):
+    if isinstance(limit, EntriesJudge):
         return f"You went in more often than the {limit.at_most} time{'s' * (limit.at_most > 1)} that are allowed."
     return f"Missed: {limit.text}."
 
@@ -82,7 +82,7 @@ def spoilt(why: str, fault: Fault) -> str:
 
 def open_still(achievement: Achievement, measures: Measures, space: TargetSpace, first: str) -> str:
     """Why an achievement is none, when the attempt ends without a decision."""
-    if measures.attempts == 0:
+    if measures.entries == 0:
         return f"You did not touch the {first}."
     if measures.arrival is None:
         return f"You did not reach {space.name}."
@@ -107,7 +107,7 @@ def passed(achievements: Sequence[Achievement], measures: Measures, space: Targe
     said = []
     if measures.arrival is not None and measures.first_touch is not None:
         seconds = tenths(measures.arrival - measures.first_touch)
-        entries = "at the first attempt" if measures.attempts == 1 else f"with {measures.attempts} attempts"
+        entries = "at the first entry" if measures.entries == 1 else f"with {measures.entries} entries"
         said.append(f"You reached {space.name} {seconds} s after touching the {first}, {entries}.")
     if any(isinstance(one, StayJudge) for one in achievements):
         said.append(f"You stayed in it for {tenths(measures.longest_stay)} s.")

@@ -1,4 +1,4 @@
-"""A scene on a device, now: what `punctura run` does, for programs."""
+"""Runs a scene on a device, as `punctura run` does, for programs."""
 
 from punctura._core import (
     Device,
@@ -20,16 +20,17 @@ from punctura.live.dropping_stream import DroppingStream
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
-from punctura.live.plug_ins import enumerate_devices
+from punctura.live.plug_ins import BackendState, enumerate_devices
 from punctura.live.pose import present_pose
-from punctura.live.room import room_note
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
 from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
+from punctura.record.room import room_note
 
 __all__ = [
     "ANY_PROCESSOR",
+    "BackendState",
     "Device",
     "DeviceError",
     "DeviceInfo",

@@ -1,4 +1,4 @@
-"""Which device to run on."""
+"""Selects the device, and fits a scene to it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ ANY_PROCESSOR = -1
 
 
 def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> Device:
-    """The device of that name, `backend` or `backend:device`; without one the first available, else the simulated.
+    """Opens the device `backend` or `backend:device`; by default the first available one, else the simulated.
 
-    `replay:FILE` is a recorded motion. processor: the one to tick on, where the thread is ours. Raises DeviceError,
-    which says what there is, or what to do.
+    `replay:FILE` is a recorded motion. processor: to tick on, if the thread belongs to Punctura. Raises DeviceError,
+    which lists the devices, or says what to do.
     """
     backend, _, device = name.partition(":")
     if backend == "replay":
@@ -50,9 +50,9 @@ def _replay(file: str, processor: int) -> Device:
 
 
 def gate_for(device: Device) -> GateLimits:
-    """The gate's limits where nobody has chosen any: the core's own, but a simulated device may be late by a second.
+    """The default input limits: the core's, except that a simulated device may be late by one second.
 
-    Nobody holds a simulated device: a computer that hangs for a moment is no reason to stop.
+    Nobody holds a simulated device, so a short pause of the computer need not stop it.
     """
     return GateLimits(stale=1.0, deadline=1.0) if isinstance(device, SimulatedDevice) else GateLimits()
 
@@ -67,7 +67,7 @@ def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:
 def fit_conditioning(scene: Scene, device: Device) -> tuple[Scene, str]:
     """The scene with positions conditioned for the device's own encoders (docs/conditioning.md), and a note about that.
 
-    As it is for a device that does not say how far its encoders step.
+    Unchanged if the device does not report its encoder step.
     """
     step = device.info.encoder_step
     if not math.isfinite(step):

@@ -1,4 +1,4 @@
-"""Text for a reader that nobody waits for: what it does not take in time is dropped, counted, and told."""
+"""A text stream that never waits for its reader: text that is not read in time is dropped and counted."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from typing import Any, TextIO
 
 ROOM_BYTES = 1 << 16
 CUT = " ... punctura: the rest of this line is left out: it is too long"
-LINGER_S = 1.0  # that the end of the program waits for a reader
+LINGER_S = 1.0  # the longest time that the end of the program waits for the reader
 RETRY_S = 0.05
 
 
 class DroppingStream(io.TextIOBase):
     """Writes to another stream's file descriptor, in a thread of its own; `write` and `flush` never wait.
 
-    A terminal that was stopped (Ctrl-S), or a pipe that nobody reads, holds up that thread alone. It writes without
-    Python's locks, so that nothing at the end of the program has to wait for it.
+    A stopped terminal (Ctrl-S), or a pipe that nobody reads, blocks only that thread. It writes without Python's
+    locks, so that the end of the program does not wait for it.
     """
 
     def __init__(self, stream: TextIO, room: int = ROOM_BYTES) -> None:
-        """room: bytes that wait for the reader at most; of more, the oldest lines are dropped.
+        """room: the most bytes that wait for the reader; above it, the oldest lines are dropped.
 
-        Of a line that alone has more, so many bytes are kept, and words that say so.
+        A single longer line is cut to this many bytes, with a note.
         """
-        self.stream = stream  # which would close its file if nobody held it
+        self.stream = stream  # kept, because it would close its file
         self._raw: Any = getattr(stream.buffer, "raw", stream.buffer)  # a stream without a buffer is raw itself
         self._encoding = stream.encoding
         self._room = room
-        self._change = threading.Condition()  # may be taken again by a signal handler that writes
+        self._change = threading.Condition()  # reentrant, because a signal handler may write
         self._pieces: deque[bytes] = deque()
         self._bytes = 0  # that wait, or are being written
         self._begun = b""  # of a line
@@ -62,13 +62,13 @@ class DroppingStream(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        """Hands on what has been written of a line. Does not wait until it is read."""
+        """Passes on the line as far as it was written. Does not wait until it is read."""
         if self._begun and not self._over:
             with self._change:
                 self._put(self._taken())
 
     def offer(self, text: str) -> bool:
-        """Takes the text only if nothing else waits: for a status line, of which only the newest counts."""
+        """Takes the text only if nothing else waits: for a status line, where only the newest text matters."""
         with self._change:
             if self._bytes or self._over:
                 return False
@@ -76,7 +76,7 @@ class DroppingStream(io.TextIOBase):
             return True
 
     def end(self, seconds: float = LINGER_S) -> None:
-        """Nothing is taken any more. Waits so long for the reader, but not for one that has long stopped reading."""
+        """Closes the stream. Waits for the reader for this time, unless it stopped reading long ago."""
         self.flush()
         with self._change:
             now = time.monotonic()
@@ -84,7 +84,7 @@ class DroppingStream(io.TextIOBase):
             self._over = True
 
     def _leave(self) -> None:
-        """At the end of the program, where others may write without asking: the interpreter, a library in C."""
+        """For the end of the program, when the interpreter or a C library may write to the same file."""
         self.end()
         if self._bytes:
             with suppress(OSError, ValueError):
@@ -96,7 +96,7 @@ class DroppingStream(io.TextIOBase):
         return text.encode(self._encoding, "backslashreplace")
 
     def _add(self, text: str) -> None:
-        """More of the line that has begun, as far as there is room."""
+        """Appends to the present line, as far as there is space."""
         if self._cut:
             return
         left = self._room - len(self._begun)
@@ -107,7 +107,7 @@ class DroppingStream(io.TextIOBase):
         self._begun += data
 
     def _taken(self, end: str = "") -> bytes:
-        """The line that has begun, so that another one can begin."""
+        """Ends the present line."""
         data = self._begun + self._encoded((CUT if self._cut else "") + end)
         self._begun, self._cut = b"", False
         return data
@@ -126,7 +126,7 @@ class DroppingStream(io.TextIOBase):
                 self._thread.start()
 
     def _next(self) -> bytes:
-        """The piece to write next; in place of those that were dropped, how many they were."""
+        """The next piece to write; if lines were dropped, their number first."""
         while not self._pieces:
             self._change.wait()
         if self._dropped == 0:

@@ -1,4 +1,4 @@
-"""Limits files: what bounds the force on a device, and what its readings must fulfil. What is left out is default.
+"""Limits files: limits of the force on a device and of its inputs. A key that is left out has its default.
 
 max_force_N = 0.5           # of the force's norm
 continuous_force_N = 0.3    # rms over continuous_time_s
@@ -8,41 +8,65 @@ dead_man_buttons = [1]      # one of them must be held for force to be given
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from punctura._core import Device, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
 from punctura.errors import ConfigurationError, Problem
+from punctura.files.fields import Buttons, Number
+from punctura.files.tables import Table
+from punctura.files.units import split_key
 from punctura.live.choose import gate_for
-from punctura.live.tables import Buttons, Number, read_table
+from punctura.live.tables import in_si, read_table
 
-FORCE: dict[str, Number | Buttons] = {
-    "max_force_N": Number("max_force"),
-    "continuous_force_N": Number("continuous_force"),
-    "continuous_time_s": Number("continuous_time"),
-    "ramp_time_s": Number("ramp_time"),
-    "warm_motor": Number("warm_motor"),
-}
-_RATED = {name: FORCE[name].field for name in ("max_force_N", "continuous_force_N")}  # no device gives more
-GATE: dict[str, Number | Buttons] = {
-    "max_speed_m_per_s": Number("max_speed"),
-    "stale_ms": Number("stale", 1000),
-    "deadline_ms": Number("deadline", 1000),
-    "axis_tolerance": Number("axis_tolerance"),
-    "dead_man_buttons": Buttons("dead_man"),
-}
+_RATED = {"max_force_N": "max_force", "continuous_force_N": "continuous_force"}  # no device gives more
+
+
+class LimitsFile(Table):
+    """The keys of a limits file. Their names without the unit are the fields of ForceLimits and GateLimits."""
+
+    max_force_N: Number | None = None
+    continuous_force_N: Number | None = None
+    continuous_time_s: Number | None = None
+    ramp_time_s: Number | None = None
+    warm_motor: Number | None = None
+    max_speed_m_per_s: Number | None = None
+    stale_ms: Number | None = None
+    deadline_ms: Number | None = None
+    axis_tolerance: Number | None = None
+    dead_man_buttons: Buttons | None = None
+
+    @property
+    def force(self) -> dict[str, float]:
+        """The given fields of ForceLimits, SI."""
+        return self._given("max_force_N", "continuous_force_N", "continuous_time_s", "ramp_time_s", "warm_motor")
+
+    @property
+    def gate(self) -> dict[str, float | int]:
+        """The given fields of GateLimits, SI."""
+        given: dict[str, float | int] = {}
+        given |= self._given("max_speed_m_per_s", "stale_ms", "deadline_ms", "axis_tolerance")
+        if self.dead_man_buttons is not None:
+            given["dead_man"] = sum({1 << (number - 1) for number in self.dead_man_buttons})
+        return given
+
+    def _given(self, *keys: str) -> dict[str, float]:
+        return {split_key(key)[0]: in_si(key, value) for key in keys if (value := getattr(self, key)) is not None}
 
 
 class Limits(NamedTuple):
-    """force: what bounds the force. gate, chosen: those fields of GateLimits and ForceLimits that were chosen, SI."""
+    """force: limits of the force. gate, chosen: the fields of GateLimits and ForceLimits that the user chose, SI."""
 
     force: ForceLimits = ForceLimits()
-    gate: Mapping[str, Any] = MappingProxyType({})
+    gate: Mapping[str, float | int] = MappingProxyType({})
     chosen: Mapping[str, float] = MappingProxyType({})
 
     def gate_on(self, device: Device) -> GateLimits:
-        """What was not chosen is as gate_for has it. Raises ConfigurationError where the device cannot keep to it."""
+        """The input limits for this device; fields that were not chosen are those of gate_for.
+
+        Raises ConfigurationError if the device cannot keep to them.
+        """
         made = gate_for(device).replace(**self.gate)
         info = device.info
         problems = []
@@ -60,12 +84,12 @@ class Limits(NamedTuple):
         return made
 
     def at_most(self, max_force: float) -> Limits:
-        """With this greatest norm of the force, N. Raises ConfigurationError."""
+        """The same limits with another max_force, N. Raises ConfigurationError."""
         chosen = {**self.chosen, "max_force": max_force}
         return self._replace(force=self.force.replace(max_force=max_force), chosen=MappingProxyType(chosen))
 
     def notes(self, loop: ServoLoop) -> list[str]:
-        """What will not be as chosen: a force above the device's rating, a button that nobody can press."""
+        """Warnings: a force above the device's rating, a button that nobody can press."""
         model, notes = loop.device.info.model or loop.device.info.backend, []
         for name, field in _RATED.items():
             chosen, given = self.chosen.get(field, 0), getattr(loop.limits, field)
@@ -84,34 +108,10 @@ class Limits(NamedTuple):
 
 def load_limits(path: str | os.PathLike[str]) -> Limits:
     """Reads a limits file. Raises ConfigurationError with all of its problems."""
-    table = read_table(path, "limits", FORCE | GATE, _refused)
-    force = _fields(FORCE, table)
-    return Limits(ForceLimits(**force), _fields(GATE, table), force)
-
-
-def _fields(keys: Mapping[str, Number | Buttons], table: dict[str, Any]) -> dict[str, Any]:
-    return {key.field: _si(key, table[name]) for name, key in keys.items() if name in table}
-
-
-def _refused(table: dict[str, Any]) -> list[Problem]:
-    """What the core has against the values, told of the file's own keys."""
-    problems = []
-    kinds: tuple[tuple[Callable[..., object], Mapping[str, Number | Buttons]], ...] = (
-        (ForceLimits, FORCE),
-        (GateLimits, GATE),
+    file = read_table(
+        path,
+        "limits",
+        LimitsFile,
+        (lambda file: ForceLimits(**file.force), lambda file: GateLimits().replace(**file.gate)),
     )
-    for kind, keys in kinds:
-        try:
-            kind(**_fields(keys, table))
-        except ConfigurationError as error:
-            names = {key.field: name for name, key in keys.items()}
-            for problem in error.problems:
-                name = names[problem.path.rpartition(".")[2]]
-                problems.append(Problem(name, table[name], problem.reason))
-    return problems
-
-
-def _si(key: Number | Buttons, value: Any) -> Any:
-    if isinstance(key, Buttons):
-        return sum({1 << (number - 1) for number in value})
-    return float(value) / key.per_si
+    return Limits(ForceLimits(**file.force), file.gate, file.force)

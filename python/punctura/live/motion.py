@@ -1,4 +1,4 @@
-"""What the hand at a simulated device does when nobody tells it: strokes through everything in the scene."""
+"""The default motion of a simulated hand: strokes through all membranes of the scene."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 from punctura import Hand, Scene, Strokes
 from punctura._core import law_curve
 
-CLEARANCE = 5e-3  # m in front of the first surface, where force may be switched on
+CLEARANCE = 5e-3  # m in front of the first surface, where the force may begin
 BEYOND = 3e-3  # m of shaft behind the last wall, and for the friction of the device itself
-STEEPEST = math.radians(80)  # a wall that lies almost along the strokes cannot be gone through that way
+STEEPEST = math.radians(80)  # the strokes cannot pass through a wall that is almost parallel to them
 
 Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 Triple = tuple[float, float, float]
 
 
 def stroke_ends(scene: Scene) -> tuple[Triple, Triple]:
-    """Where the hand's strokes through the scene begin and end, m: in front of all membranes, and beyond the last.
+    """The two ends of the hand's strokes, m: in front of all membranes, and behind the last.
 
-    Beyond it by as much as the walls' greatest forces F hold the tip back: each its own by F / K in the coupling, and
-    all together by sum(F) / k in the hand's spring k, so that the tip itself comes out behind.
+    The far end adds the lag of the tip under the walls' greatest forces F: F / K of each in the coupling, and
+    sum(F) / k in the hand's spring k. So the tip itself comes out behind.
     """
     first = np.array(scene.membranes[0].point)
     inward = _unit(scene.membranes[0].inward_normal)
@@ -33,10 +33,10 @@ def stroke_ends(scene: Scene) -> tuple[Triple, Triple]:
 
 
 def _wall(scene: Scene, i: int, origin: Array, way: Array) -> tuple[float, float, float]:
-    """Along a way: where its surface is, how far it is through, m; and its greatest force, N."""
+    """A wall along the stroke: place of its surface, length through it, m; its greatest force, N."""
     placed = scene.membranes[i]
     normal = _unit(placed.inward_normal)
-    if normal @ way < 0:  # a back wall may be written with its normal the other way: it is met from its far side
+    if normal @ way < 0:  # a back wall may have the opposite normal: the needle meets its far side
         normal = -normal
     cosine = max(float(normal @ way), math.cos(STEEPEST))
     law = law_curve(scene, i, math.acos(min(1.0, cosine)))

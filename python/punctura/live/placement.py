@@ -1,48 +1,43 @@
-"""Placement files: where a device stands in the scene. TOML, in millimetres; a rotation is a quaternion."""
+"""Placement files: the place of a device in the scene. TOML, in millimetres; the rotation is a quaternion."""
 
 from __future__ import annotations
 
 import os
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Placement
-from punctura.errors import ConfigurationError, Problem
-from punctura.live.tables import Key, Number, Vector, read_table
+from punctura.files.fields import Number, Quaternion, Vector
+from punctura.files.tables import Table
+from punctura.live.tables import in_si, read_table
 
-KEYS: dict[str, Key] = {"rotation": Vector(4), "offset_mm": Vector(3), "scale": Number(), "tip_offset_mm": Number()}
+
+class PlacementFile(Table):
+    """The keys of a placement file."""
+
+    rotation: Quaternion | None = None
+    offset_mm: Vector | None = None
+    scale: Number | None = None
+    tip_offset_mm: Number | None = None
 
 
 def load_placement(path: str | os.PathLike[str]) -> Placement:
     """Reads a placement file. Raises ConfigurationError with all of its problems."""
-    return _placement(read_table(path, "placement", KEYS, _refused))
+    return _placement(read_table(path, "placement", PlacementFile, (_placement,)))
 
 
-def _placement(table: dict[str, Any]) -> Placement:
-    metres = [x * 1e-3 for x in table.get("offset_mm", (0.0, 0.0, 0.0))]
-    return Placement(
-        rotation=table.get("rotation", (1.0, 0.0, 0.0, 0.0)),
-        offset=(metres[0], metres[1], metres[2]),
-        scale=table.get("scale", 1.0),
-        tip_offset=table.get("tip_offset_mm", 0.0) * 1e-3,
-    )
-
-
-def _refused(table: dict[str, Any]) -> list[Problem]:
-    """What the core has against the values, told of the file's own keys."""
-    try:
-        _placement(table)
-    except ConfigurationError as error:
-        names = {name.removesuffix("_mm"): name for name in KEYS}
-        keys = [names[problem.path.rpartition(".")[2]] for problem in error.problems]
-        return [Problem(key, table[key], problem.reason) for key, problem in zip(keys, error.problems, strict=True)]
-    return []
+def _placement(file: PlacementFile) -> Placement:
+    given = Placement()
+    w, x, y, z = map(float, file.rotation) if file.rotation else given.rotation
+    a, b, c = (in_si("offset_mm", part) for part in file.offset_mm) if file.offset_mm else given.offset
+    scale = given.scale if file.scale is None else float(file.scale)
+    tip = given.tip_offset if file.tip_offset_mm is None else in_si("tip_offset_mm", file.tip_offset_mm)
+    return Placement((w, x, y, z), (a, b, c), scale, tip)
 
 
 def placement_text(placement: Placement) -> str:
-    """The file that load_placement reads back."""
+    """The text of a placement file for load_placement."""
     rotation = ", ".join(repr(x) for x in placement.rotation)
     offset = ", ".join(repr(x * 1e3) for x in placement.offset)
     return (
@@ -61,7 +56,7 @@ def placement_from_pose(
     wanted_axis: npt.ArrayLike,
     tip_offset: float = 0.0,
 ) -> Placement:
-    """The placement that puts a pose of the device where the scene wants it, by the shortest turn.
+    """The placement that maps a pose of the device to a pose in the scene, by the smallest rotation.
 
     position (m) and axis: as the device reports them. wanted_tip (m) and wanted_axis: in the scene, of any length.
     """
@@ -76,7 +71,7 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
     """The quaternion w, x, y, z of the smallest rotation that takes one direction to another."""
     a, b = (np.asarray(v, float) / np.linalg.norm(np.asarray(v, float)) for v in (start, end))
     w = 1.0 + float(a @ b)
-    if w < 1e-9:  # opposite: half a turn about anything across
+    if w < 1e-9:  # opposite directions: half a turn about any perpendicular axis
         across = np.cross(a, [1.0, 0.0, 0.0] if abs(a[0]) < 0.9 else [0.0, 1.0, 0.0])
         q = np.array([0.0, *(across / np.linalg.norm(across))])
     else:
@@ -86,7 +81,7 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
 
 
 def rotate(quaternion: tuple[float, float, float, float], v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """v turned by a unit quaternion w, x, y, z."""
+    """v rotated by the unit quaternion w, x, y, z."""
     w, u = quaternion[0], np.array(quaternion[1:])
     turned: npt.NDArray[np.float64] = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
     return turned

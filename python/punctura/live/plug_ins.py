@@ -1,14 +1,14 @@
-"""Devices that other packages bring, as entry points of the group "punctura.devices" (docs/devices.md).
+"""Devices of other packages, registered as entry points of the group "punctura.devices" (docs/devices.md).
 
 An entry point names a module or an object with `open(rate, device)`, which returns a Device (a FedDevice that a thread
-of its own feeds), and with `status()`, a dict of state, detail and devices as `enumerate_devices` gives it. The name of
-the entry point is the name for `--device`.
+of its own feeds), and with `status()`, which returns a dict with state, detail and devices as in BackendState. The name
+of the entry point is the name for `--device`.
 """
 
 from __future__ import annotations
 
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import TypedDict, cast
 
 from punctura import _core
 from punctura._core import Device, DeviceError
@@ -16,14 +16,23 @@ from punctura._core import Device, DeviceError
 GROUP = "punctura.devices"
 
 
-def enumerate_devices() -> list[dict[str, Any]]:
-    """Of each kind of device a dict: backend, state, detail, devices; those of other packages first. Gives no force."""
-    own = _core.enumerate_devices()
+class BackendState(TypedDict):
+    """One kind of device, as `enumerate_devices` lists it."""
+
+    backend: str  # the name for `--device`
+    state: str  # available, library_not_found, symbol_missing, no_device, in_use, needs_calibration, fault
+    detail: str  # in words: where it looked, what to do
+    devices: list[str]  # the names of the connected devices
+
+
+def enumerate_devices() -> list[BackendState]:
+    """Every kind of device; those of other packages first. Gives no force."""
+    own = cast(list[BackendState], _core.enumerate_devices())
     return plug_in_states({entry["backend"] for entry in own}) + own
 
 
-def plug_in_states(taken: set[str]) -> list[dict[str, Any]]:
-    """The entries of other packages. taken: the names of Punctura's own devices, which none can take over."""
+def plug_in_states(taken: set[str]) -> list[BackendState]:
+    """The devices of other packages. taken: the names of Punctura's own devices, which no package can replace."""
     return [_status(found, taken) for found in _found().values()]
 
 
@@ -45,17 +54,20 @@ def _found() -> dict[str, EntryPoint]:
     return {found.name: found for found in entry_points(group=GROUP)}
 
 
-def _status(found: EntryPoint, taken: set[str]) -> dict[str, Any]:
+def _status(found: EntryPoint, taken: set[str]) -> BackendState:
     """A package that fails must not hide the other devices."""
-    entry: dict[str, Any] = {"backend": found.name, "state": "fault", "detail": "", "devices": []}
+    entry = BackendState(backend=found.name, state="fault", detail="", devices=[])
     if found.name in taken:
-        return entry | {"detail": f"{found.value}: Punctura has a device of this name; choose another one"}
+        entry["detail"] = f"{found.value}: Punctura has a device of this name; choose another one"
+        return entry
     try:
         said = found.load().status()
-        return entry | {
-            "state": str(said["state"]),
-            "detail": str(said.get("detail", "")),
-            "devices": [str(name) for name in said.get("devices", [])],
-        }
+        return BackendState(
+            backend=found.name,
+            state=str(said["state"]),
+            detail=str(said.get("detail", "")),
+            devices=[str(name) for name in said.get("devices", [])],
+        )
     except Exception as error:
-        return entry | {"detail": f"{found.value}: {type(error).__name__}: {error}"}
+        entry["detail"] = f"{found.value}: {type(error).__name__}: {error}"
+        return entry

@@ -1,4 +1,4 @@
-"""Where the device is, once it has said so."""
+"""Reads the pose of a device."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ POLL_S = 0.01
 def present_pose(
     loop: ServoLoop, wait: float = 5.0, sleep: Callable[[float], None] = time.sleep
 ) -> tuple[Vector, Vector]:
-    """Position (m) and axis of the last tick of a started loop; a device may take `wait` (s) to its first.
+    """Position (m) and axis in the last tick of a started loop. wait: the longest time to the first tick, s.
 
-    Raises DeviceError where no tick has come by then, or what came is no position.
+    Raises DeviceError if no tick came in this time, or if the position is not finite.
     """
     for _ in range(max(1, round(wait / POLL_S))):
         if loop.report()["ticks"]:

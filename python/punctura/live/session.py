@@ -23,13 +23,13 @@ def run_live(
     watch: Callable[[RunSummary], None] | None = None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
 ) -> RunSummary:
-    """Ticks until `duration` (s) is over, a fault is latched, ticks cease, the device has ended, or a signal comes.
+    """Runs until `duration` (s) is over, a fault is latched, ticks cease, the device ends, or a signal comes.
 
-    A thread of its own decides that, and takes the force away: `watch` may wait for what it likes. A signal raises
-    Ended: in `watch` at once; otherwise at the end, so that neither `prepare` nor what it returns is cut short.
+    A separate thread ends the run and the force, so `watch` may block. A signal raises Ended: inside `watch` at once;
+    otherwise at the end, so that neither `prepare` nor the function that it returns is interrupted.
 
-    watch: called some 20 times a second with the summary. prepare: called with the loop before it starts, to add
-    listeners; what it returns is called after the stop.
+    watch: called about 20 times a second with the summary. prepare: called with the loop before it starts, to add
+    listeners; it returns a function that is called after the stop.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
@@ -68,7 +68,7 @@ class Watched:
     """A loop as its supervisor sees it."""
 
     def __init__(self, loop: ServoLoop) -> None:
-        self.silence = ""  # that ticks have ceased, in words
+        self.silence = ""  # why the ticks ceased, in words
         self._loop = loop
         self._watch = SilenceWatch(loop)
 

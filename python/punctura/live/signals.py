@@ -1,4 +1,4 @@
-"""A signal ends a run, and nothing else: the force ends before the program does."""
+"""A signal ends the run, not the program: the force ends first."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ENDING_A_RUN = (*ENDING, "SIGTSTP")
 
 
 class Ended(BaseException):
-    """A signal asked the run to end. Not an Exception: nothing on the way may take it for an error and go on."""
+    """A signal ended the run. Not an Exception, so that no `except Exception` catches it."""
 
     def __init__(self, number: int) -> None:
         self.number = number
@@ -29,7 +29,7 @@ class Ended(BaseException):
 
 
 def ignore_more_signals() -> None:
-    """For a program that ends anyway: nothing that comes now makes a difference but to its last words."""
+    """For a program that is ending: another signal could only cut its last messages."""
     for name in ENDING_A_RUN:
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
@@ -38,8 +38,8 @@ def ignore_more_signals() -> None:
 class Signals:
     """The signals of one `ends_on_signals` block. The first one counts, later ones are ignored.
 
-    It reaches the thread that waits for it at once, whatever the main thread does. The main thread gets Ended: inside a
-    `raised` block at once, elsewhere at the end of the whole block. So cleaning up is never cut short.
+    The waiting thread gets it at once, whatever the main thread does. The main thread gets Ended: inside a `raised`
+    block at once, elsewhere at the end of the whole block. So clean-up code is never interrupted.
     """
 
     _innermost: Signals | None = None
@@ -55,7 +55,7 @@ class Signals:
 
     @contextmanager
     def raised(self) -> Iterator[None]:
-        """Of the main thread: in this block, and only there, the first signal raises Ended at once."""
+        """For the main thread: in this block, and only there, the first signal raises Ended at once."""
         self._raises = True
         try:
             if self.number:
@@ -65,9 +65,9 @@ class Signals:
             self._raises = False
 
     def wait(self, seconds: float) -> bool:
-        """Of one thread: whether a signal came. Waits so long for it (s, above 0), or until `wake`.
+        """For one thread: whether a signal came. Waits at most this time (s, above 0), or until `wake`.
 
-        A signal for which the caller has installed a handler of its own meanwhile is the caller's.
+        If the caller has installed a handler for a signal meanwhile, that signal does not count.
         """
         for number in self._wake_socket.wait(seconds):
             if self._is_ours(number):
@@ -75,10 +75,10 @@ class Signals:
         return self._came != 0
 
     def resend(self) -> None:
-        """Of the same thread: sees to it that the main thread takes a signal that came.
+        """For the same thread: makes sure that the main thread handles a signal that came.
 
-        One that comes just before the main thread begins to wait in the system does not end that wait by itself.
-        Gives up after 5 s, and at once where the caller has installed a handler of its own.
+        A signal that comes just before a blocking system call of the main thread does not interrupt that call.
+        Gives up after 5 s, or at once if the caller has installed a handler.
         """
         main = threading.main_thread().ident
         if main is None or not hasattr(signal, "pthread_kill"):
@@ -94,7 +94,7 @@ class Signals:
         self._wake_socket.wake()
 
     def take(self, names: Sequence[str]) -> None:
-        """Installs the handlers. What the program ignores already (nohup) stays ignored."""
+        """Installs the handlers. A signal that the program ignores (nohup) stays ignored."""
         Signals._innermost = self
         for number in (getattr(signal, name) for name in names if hasattr(signal, name)):
             before = signal.getsignal(number)
@@ -104,7 +104,7 @@ class Signals:
         self._wakeup = signal.set_wakeup_fd(self._wake_socket.fileno(), warn_on_full_buffer=False)
 
     def give_back(self) -> None:
-        """Installs what was there before, where nobody has installed something else meanwhile."""
+        """Restores the handlers from before, unless somebody has replaced ours meanwhile."""
         signal.set_wakeup_fd(self._wakeup, warn_on_full_buffer=False)
         Signals._innermost = self._outer
         for number, handler in self._before.items():
@@ -112,7 +112,7 @@ class Signals:
                 signal.signal(number, handler)
 
     def _is_ours(self, number: int) -> bool:
-        """Whether this block took the signal, and its handler is still the one that is installed."""
+        """Whether this block handles the signal, and its handler is still installed."""
         return number in self._before and signal.getsignal(number) == self._handle
 
     def _handle(self, number: int, _frame: FrameType | None) -> None:
@@ -128,9 +128,9 @@ class Signals:
 
 @contextmanager
 def ends_on_signals(names: Sequence[str] = ENDING_A_RUN) -> Iterator[Signals]:
-    """In this block these signals raise Ended, in place of what they do otherwise; see Signals for the moment.
+    """In this block these signals raise Ended; class Signals says when.
 
-    Does nothing in a thread other than the main one: only that one may take signals.
+    Does nothing outside the main thread: only the main thread handles signals.
     """
     with WakeSocket() as wake_socket:
         signals = Signals(wake_socket)

@@ -1,4 +1,4 @@
-"""A device whose ticks have ceased keeps its last force, and no tick can tell: somebody else has to watch."""
+"""Detects that a device's ticks have ceased. The device keeps its last force then, so another thread must watch."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import time
 
 from punctura._core import FedDevice, ReplayDevice, ServoLoop, SimulatedDevice
 
-LONGEST_S = 0.1  # without a tick; a later deadline of the gate's makes it longer
-# A simulated or recorded motion may end, and whoever feeds a device knows when it does: nobody's hand is held.
+LONGEST_S = 0.1  # without a tick; a longer deadline of the gate extends it
+# These devices may stop ticking without danger: nobody holds them.
 HELD_BY_NOBODY: tuple[type, ...] = (SimulatedDevice, ReplayDevice, FedDevice)
 
 
 class SilenceWatch:
-    """Of one run, asked a few times a second by a thread that may stop the loop.
+    """Watches one run. A thread that can stop the loop calls it a few times a second.
 
-    It does not ask the driver what is wrong: that may take time, and the stop must not wait for it.
+    It does not ask the driver what is wrong: the answer may take time, and the stop must not wait.
     """
 
     def __init__(self, loop: ServoLoop) -> None:

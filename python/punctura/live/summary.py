@@ -1,20 +1,17 @@
-"""What a live run was, gathered while it runs in constant memory."""
+"""The summary of a live run, collected during the run in constant memory."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
-from punctura.live.room import room_note
+from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.record.room import room_note
 from punctura.ticks import ABSENT, Ticks
-
-# The limits that cut a force; the ramp after arming is no news.
-LIMIT_WORDS = {"peak": "peak limit", "continuous": "long-run limit", "temperature": "warm motors"}
 
 
 def strongest(force: NDArray[np.float64], ceiling: NDArray[np.float64]) -> float:
@@ -40,7 +37,7 @@ class RunSummary:
     strongest_N: float = 0.0
     deepest_m: list[float] = field(default_factory=list)
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
-    limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names of LIMIT_WORDS
+    limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names in CUTS
     fault: str = ""
     late: int = 0
     compute_p99_9_s: float = 0.0
@@ -74,12 +71,13 @@ class RunSummary:
         self.strongest_N = max(self.strongest_N, strongest(ticks.force, ticks.ceiling))
         deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
-        self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in LIMIT_WORDS}
+        self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in CUTS}
         self.limited_ticks = sum(self.limited_by.values())
         x, y, z = ticks.force[-1]
         self.force_N = (float(x), float(y), float(z))
         self.model_force_N = float(np.linalg.norm(ticks.model_force[-1]))
-        self.limit = LIMIT_WORDS.get(Limit(int(ticks.limit[-1])).name, "")
+        last = Limit(int(ticks.limit[-1])).name
+        self.limit = LIMIT_WORDS[last] if last in CUTS else ""
         self.depth_m = [float(d) for d in ticks.depth[-1]]
         self.phases = [Phase(int(p)).name for p in ticks.phase[-1] if p != ABSENT]
         self.state = ServoState(int(ticks.state[-1])).name
@@ -89,9 +87,9 @@ class RunSummary:
             self.fault = describe(Fault(fault))
 
     def finish(self, loop: ServoLoop) -> None:
-        """Takes the loop's own account, after it has stopped."""
+        """Takes the loop's report, after it has stopped."""
         report = loop.report()
-        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # with those after the last one that was read
+        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # including ticks after the last read
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
@@ -99,16 +97,16 @@ class RunSummary:
         self.blame(loop.device)
 
     def blame(self, device: Device) -> None:
-        """What the device has to say of a fault, or of trouble that no tick has told."""
+        """Adds the device's explanation of a fault, or of trouble outside ticks."""
         trouble = device.trouble()
         if trouble.rstrip(". ") not in self.fault:
             self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
 
     @property
     def limits_in_words(self) -> str:
-        """Which limits have cut the force, and for how long: "the long-run limit for 1.2 s"; empty without any."""
+        """The limits that cut the force, and for how long: "the long-run limit for 1.2 s"; empty if none did."""
         acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
         return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         return {key: value for key, value in asdict(self).items() if not key.startswith("_")}

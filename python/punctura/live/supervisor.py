@@ -1,4 +1,4 @@
-"""Ends a run in time, whatever the terminal and the caller's own code do meanwhile."""
+"""Ends a run in time, even if the terminal or the caller's code blocks."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ POLL_S = 0.05
 
 
 class Supervisor:
-    """One thread begins a run and ends it: after its time, when `over` says so, at a signal, or at `stop`.
+    """One thread begins and ends a run: after its duration, when `over` returns True, at a signal, or at `stop`.
 
-    It prints nothing and calls nothing that waits for a terminal, a file or a page.
+    It prints nothing, and calls nothing that may wait for a terminal, a file or a page.
     """
 
     def __init__(
@@ -26,7 +26,7 @@ class Supervisor:
         end: Callable[[], None],
         duration: float | None = None,
     ) -> None:
-        """over: asked some 20 times a second. end: is called once, also if `over` has raised. duration: s."""
+        """over: called about 20 times a second. end: called once, also if `over` raises. duration: s."""
         self._signals, self._begin, self._is_over, self._end = signals, begin, over, end
         self._duration = math.inf if duration is None else duration
         self._asked = self._started = False
@@ -37,7 +37,7 @@ class Supervisor:
     def start(self) -> None:
         """Returns when the run has begun. Raises what `begin` raises; `end` is not called then.
 
-        Not inside a `raised` block of the signals: a thread that is half started cannot be stopped.
+        Not for use inside a `raised` block: a half-started thread cannot be stopped.
         """
         self._thread.start()
         self._started = True
@@ -45,7 +45,7 @@ class Supervisor:
         self._raise_error()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Whether the run has ended, after so long at most; without a number, when it has."""
+        """Waits at most this time (s) for the end of the run; without a number, until it ends. True if it has ended."""
         return self._ended.wait(seconds)
 
     def stop(self) -> None:

@@ -1,4 +1,4 @@
-"""Wakes a thread that waits, also from a signal handler: no lock is taken, which the interrupted code might hold."""
+"""Wakes a waiting thread, also from a signal handler: it takes no lock, because the interrupted code may hold it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from types import TracebackType
 
 
 class WakeSocket:
-    """One thread waits; any thread may wake it, and so may the signal handler of the system, by `fileno`."""
+    """One thread waits; any thread may wake it, and so may the system's signal handler, through `fileno`."""
 
     def __init__(self) -> None:
         self._receiver, self._sender = socket.socketpair()
-        self._sender.setblocking(False)  # a full socket wakes as well
+        self._sender.setblocking(False)  # a full socket wakes the thread, too
 
     def fileno(self) -> int:
         """For signal.set_wakeup_fd: each signal is one byte, its number."""
@@ -23,7 +23,7 @@ class WakeSocket:
             self._sender.send(b"\0")
 
     def wait(self, seconds: float) -> bytes:
-        """What has come, 0 for a `wake`; empty if nothing came in this time (s, above 0)."""
+        """The bytes that came, 0 for a `wake`; empty if nothing came in this time (s, above 0)."""
         self._receiver.settimeout(seconds)
         try:
             return self._receiver.recv(256)

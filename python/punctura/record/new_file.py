@@ -1,20 +1,18 @@
-"""New files that have their name only once their beginning, or all of them, is written: a kill leaves no empty file."""
+"""Creates growing recordings that get their name once their beginning is written: a kill leaves no empty file."""
 
 from __future__ import annotations
 
-import errno
 import os
 import secrets
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+from punctura.files.whole_file import give_name, rename_new, unnamed_file
 from punctura.record.errors import RecordingError
 from punctura.record.lock import in_use, lock
 from punctura.record.part_file import PartFile
 
-_NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
 _MOST_WITHOUT_TICK = 1 << 20  # bytes of a header, and of a first batch whose write was cut short by a kill
 _TRIES = 100
 _Left = Literal["no tick", "damaged", "other"]
@@ -36,88 +34,20 @@ def make_file(path: Path, begin: Callable[[int], None]) -> tuple[int, Path | Non
     raise FileExistsError(path)
 
 
-@contextmanager
-def whole_file(path: Path, replace: bool) -> Iterator[str]:
-    """Where to write a file that gets its name when it is whole and on the disk; after an error there is nothing.
-
-    replace: whether it may take the place of another file; if not, raises FileExistsError. Where the system has files
-    without a name, a kill leaves nothing, else a hidden file.
-    """
-    hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
-    descriptor = _unnamed(path.parent)
-    try:
-        yield str(hidden) if descriptor is None else f"/proc/self/fd/{descriptor}"
-        _sync(hidden) if descriptor is None else os.fsync(descriptor)
-        if descriptor is not None and not _give_name(descriptor, hidden):
-            raise OSError(errno.EOPNOTSUPP, os.strerror(errno.EOPNOTSUPP), str(path))
-        if replace:
-            os.replace(hidden, path)
-        else:
-            _rename(hidden, path)
-    finally:
-        if descriptor is not None:
-            os.close(descriptor)
-        hidden.unlink(missing_ok=True)
-
-
-def _sync(file: Path) -> None:
-    descriptor = os.open(file, os.O_RDWR)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def _rename(file: Path, path: Path) -> None:
-    """Overwrites nothing, also where another program makes a file of this name in the same moment."""
-    try:
-        os.link(file, path)
-    except FileExistsError:
-        raise
-    except OSError:  # a file system without second names
-        if path.exists():
-            raise FileExistsError(path) from None
-        os.replace(file, path)
-
-
 def _make(path: Path, begin: Callable[[int], None]) -> int:
-    descriptor = _unnamed(path.parent)
+    descriptor = unnamed_file(path.parent)
     if descriptor is None:
         return _make_named(path, begin)
     try:
         lock(descriptor)
         begin(descriptor)
-        if _give_name(descriptor, path):
+        if give_name(descriptor, path):
             return descriptor
     except BaseException:
         os.close(descriptor)
         raise
     os.close(descriptor)
     return _make_named(path, begin)
-
-
-def _give_name(descriptor: int, path: Path) -> bool:
-    """False where the system does not do it. Raises FileExistsError."""
-    try:
-        # With src_dir_fd, though an absolute path has no use for it: only then Python follows the link in /proc.
-        os.link(f"/proc/self/fd/{descriptor}", path, src_dir_fd=descriptor)
-    except FileExistsError:
-        raise
-    except OSError:
-        return False
-    return True
-
-
-def _unnamed(folder: Path) -> int | None:
-    """A file without a name, which is gone when it is closed; None where the system has none."""
-    if not hasattr(os, "O_TMPFILE") or not os.path.isdir("/proc/self/fd"):
-        return None
-    try:
-        return os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
-    except OSError as error:
-        if error.errno in _NO_UNNAMED:
-            return None
-        raise
 
 
 def _make_named(path: Path, begin: Callable[[int], None]) -> int:
@@ -163,7 +93,7 @@ def _clear(path: Path, left: _Left) -> Path | None:
     aside = None
     if left == "damaged":
         aside = path.with_name(f"{path.name}.{secrets.token_hex(4)}.damaged")
-        _rename(path, aside)
+        rename_new(path, aside)
     path.unlink(missing_ok=True)
     return aside
 

@@ -10,9 +10,9 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from punctura.files.whole_file import whole_file
 from punctura.record.errors import RecordingError
 from punctura.record.header import from_metadata, to_metadata
-from punctura.record.new_file import whole_file
 from punctura.record.stream import BROKEN
 
 Progress = Callable[[float], None]

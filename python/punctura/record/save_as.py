@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from punctura.record.new_file import whole_file
+from punctura.files.whole_file import whole_file
 from punctura.record.pieces import export_steps
 from punctura.record.recording import open_recording
 from punctura.record.target import check_target

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from punctura._core import Scene
 from punctura.errors import ConfigurationError
+from punctura.files.toml import parse_toml
 from punctura.record.errors import RecordingError
 from punctura.scene import scene_text
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
-from punctura.scene.parse import parse_toml
 
 
 def to_text(scene: Scene, rate: float) -> str:

@@ -105,12 +105,12 @@ def numbers(batch: pa.RecordBatch, name: str) -> NDArray[Any]:
 def input_ticks(batch: pa.RecordBatch) -> Ticks:
     """What the ticks of a batch were given."""
     wanted = [column.name for column in file_columns([FIELDS[name] for name in ("tick", *INPUTS)], 0)]
-    return gather({name: numbers(batch, name) for name in wanted})
+    return Ticks(gather({name: numbers(batch, name) for name in wanted}))
 
 
 def ticks_of(batch: pa.RecordBatch) -> Ticks:
     """A batch of a recording. Of membranes that a tick did not have: NaN, phase ABSENT."""
-    ticks = gather({f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES})
+    ticks = Ticks(gather({f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}))
     if "limit" in ticks:
         return ticks
     return ticks.replace(limit=np.full(len(batch), ABSENT, np.uint8))  # recordings of format 1 do not say

@@ -8,7 +8,6 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from punctura.reproduce.drawing import Drawing, Measured
 from punctura.reproduce.figure_10 import figure_10
@@ -40,7 +39,7 @@ class Reproduction:
         """The page that shows everything."""
         return self.folder / PAGE
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """For JSON. An expected value that there is not is null."""
         return {
             "page": str(self.page),

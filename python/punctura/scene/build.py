@@ -7,9 +7,9 @@ from decimal import Decimal
 from typing import Any, NamedTuple
 
 from punctura._core import Coupling, Membrane, Needle, PlacedMembrane, Scene, ServoSettings
+from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
-from punctura.scene.units import split_key, to_si
 
 # What stands in for a value that is missing or of the wrong type while the core looks at the others. Chosen so that
 # it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
@@ -67,7 +67,7 @@ def _si(value: Any, unit: Any) -> Any:
     return to_si(value, unit) if isinstance(value, Decimal) else value
 
 
-def scene_parts(data: Mapping[str, Any], unsound: Collection[str] = ()) -> Parts:
+def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Parts:
     """Reads what can be read of the tables; `unsound` are the paths that the schema has refused."""
     reader = _Reader(unsound)
     needle = reader.table(data.get("needle"), "needle", NeedleTable)

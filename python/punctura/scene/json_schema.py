@@ -6,15 +6,17 @@ import math
 from decimal import Decimal
 from typing import Any
 
+from pydantic.json_schema import JsonSchemaValue
+
 from punctura import _core
+from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import ALTERNATIVES, SceneFile
-from punctura.scene.units import split_key, to_si
 
 _TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "MembraneTable": "membrane"}
 
 
-def scene_json_schema() -> dict[str, Any]:
+def scene_json_schema() -> JsonSchemaValue:
     """JSON Schema (2020-12) of a scene file. `x-unit` and `x-symbol` say a number's unit and its letter in K06;
     `x-diameters-mm`, in the order of `enum`, what the gauges are."""
     schema = SceneFile.model_json_schema()
@@ -32,7 +34,7 @@ def scene_json_schema() -> dict[str, Any]:
     return schema
 
 
-def _complete(entry: dict[str, Any], key: str, field: dict[str, Any] | None) -> None:
+def _complete(entry: JsonSchemaValue, key: str, field: dict[str, Any] | None) -> None:
     optional = entry.pop("anyOf", None)
     if optional:  # a key that may be left out, but never be null
         entry |= next(kind for kind in optional if kind.get("type") != "null")

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from punctura._core import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.toml import read_tables
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
-from punctura.scene.parse import parse_toml, read_text
 
 _FOLDER = Path(__file__).parents[1] / "scenes"
 
@@ -36,7 +36,7 @@ def scene_path(path_or_name: str | os.PathLike[str]) -> Path:
 def load_scene(path_or_name: str | os.PathLike[str]) -> Scene:
     """The scene of a file or of a ready scene's name. Raises ConfigurationError with everything that is wrong."""
     path = scene_path(path_or_name)
-    scene_file, problems = check_tables(parse_toml(read_text(path), path))
+    scene_file, problems = check_tables(read_tables(path, "scene"))
     if scene_file is None:
         raise ConfigurationError(problems, str(path))
     return build_scene(scene_file)

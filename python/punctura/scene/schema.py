@@ -1,6 +1,6 @@
 """The scene file, described once: keys, units, titles and help. Reader, writer and JSON Schema all come from here.
 
-A number's key ends in its unit (scene/units.py), the rest of the key is the field's name in the core. No bound stands
+A number's key ends in its unit (files/units.py), the rest of the key is the field's name in the core. No bound stands
 here: the core checks what is read, and tells JSON Schema its bounds (scene/json_schema.py).
 """
 
@@ -9,17 +9,14 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
 from punctura._core import ServoSettings
-from punctura.scene.fields import Number, Text, Vector, WholeNumber
-from punctura.scene.units import UNITS, from_si
+from punctura.files.fields import Number, Text, Vector, WholeNumber
+from punctura.files.tables import Table
+from punctura.files.units import UNITS, from_si
 
 _SERVO = ServoSettings()  # where the defaults stand
-
-
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
 def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
@@ -27,7 +24,7 @@ def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
     return Field(default, title=title, description=help, json_schema_extra=extra)
 
 
-class NeedleTable(_Table):
+class NeedleTable(Table):
     """The needle: a wedge of one slanted face, then a shaft (K06 Fig. 1)."""
 
     model_config = ConfigDict(title="Needle")
@@ -47,7 +44,7 @@ class NeedleTable(_Table):
     )
 
 
-class CouplingTable(_Table):
+class CouplingTable(Table):
     """The virtual spring and damper between device and proxy, one pair a membrane (K06 (21))."""
 
     model_config = ConfigDict(title="Coupling")
@@ -56,7 +53,7 @@ class CouplingTable(_Table):
     damping_Ns_per_mm: Number = _field("Damping", "Damper of the virtual coupling.", "B")
 
 
-class ServoTable(_Table):
+class ServoTable(Table):
     """How often the force is computed, and how."""
 
     model_config = ConfigDict(title="Servo")
@@ -83,7 +80,7 @@ class ServoTable(_Table):
     )
 
 
-class MembraneTable(_Table):
+class MembraneTable(Table):
     """A membrane: a layer that grips the needle with dry friction (K06 section 2)."""
 
     model_config = ConfigDict(title="Membrane")
@@ -104,7 +101,7 @@ class MembraneTable(_Table):
     )
 
 
-class SceneFile(_Table):
+class SceneFile(Table):
     """A scene: a needle, the coupling that drives it and the membranes in its way."""
 
     model_config = ConfigDict(title="Scene file")

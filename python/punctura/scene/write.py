@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import secrets
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,9 @@ from typing import Any
 from pydantic import BaseModel
 
 from punctura._core import Scene
+from punctura.files.units import from_si, split_key
+from punctura.files.whole_file import write_whole
 from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
-from punctura.scene.units import from_si, split_key
 
 _SKIPPED = ("gauge", "tip_angle_deg")  # the other ways to say what diameter_mm and tip_angle_rad say
 
@@ -42,15 +42,8 @@ def file_text(file: SceneFile) -> str:
 
 
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Writes a scene file; what stood at `path` stays until the new file is whole."""
-    target = Path(path)
-    temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
-    try:
-        temporary.write_bytes(scene_text(scene).encode("utf-8"))
-        os.replace(temporary, target)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    """Writes a scene file; the file that was at `path` stays until the new one is complete. Raises OSError."""
+    write_whole(Path(path), scene_text(scene).encode("utf-8"))
 
 
 def _attributes(struct: object, model: type[Any]) -> dict[str, Any]:

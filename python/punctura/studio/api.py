@@ -1,6 +1,6 @@
-"""The addresses under /api that read and keep things: recordings, exercises, results. The table is in docs/studio.md.
+"""The addresses under /api for recordings, exercises and results. docs/studio.md has the table.
 
-Each runs in a thread of the server's pool, so that a long file holds up neither a page nor the worker.
+Each request runs in a thread of the server's pool, so that a long file blocks neither a page nor the worker.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import threading
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from starlette.requests import Request
@@ -45,7 +44,7 @@ _STATUS: dict[type[Exception], int] = {
 
 
 class Api:
-    """What the routes work on."""
+    """Holds what the routes need."""
 
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
@@ -102,7 +101,7 @@ class Api:
             finished = self._shelf.find(name)
             if finished == path:
                 raise
-            return self._file(finished, name, kind)  # it has been made whole while it was being read
+            return self._file(finished, name, kind)  # the recording was finished while it was being read
 
     def _file(self, path: Path, name: str, kind: str) -> Response:
         if kind == "parquet" and path.suffix == SUFFIX:
@@ -121,7 +120,7 @@ class Api:
             return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
 
     def exercises(self, request: Request) -> Response:
-        return JSONResponse(self._session.exercises.overviews())
+        return JSONResponse([entry.model_dump(mode="json") for entry in self._session.exercises.overviews()])
 
     def results(self, request: Request) -> Response:
         person = request.query_params.get("person")
@@ -151,7 +150,7 @@ class Api:
 
 
 def disposition(filename: str) -> str:
-    """A header that makes a download of an answer, under a name of any characters."""
+    """The header that makes a browser download the response under this name; any characters are allowed."""
     return f"attachment; filename*=utf-8''{quote(filename, safe='')}"
 
 
@@ -164,8 +163,8 @@ def _sentence(status: int, text: str) -> Response:
     return PlainTextResponse(text + "\n", status)
 
 
-def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Any]:
-    """What goes wrong becomes a status and a sentence."""
+def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
+    """Errors become an HTTP status and a sentence."""
 
     def told(request: Request) -> Response:
         try:

@@ -1,4 +1,4 @@
-"""The studio's addresses. What each gives: docs/studio.md."""
+"""The studio's addresses; docs/studio.md describes them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it.
 
 
 class Studio:
-    """What the routes share."""
+    """The state that the routes share."""
 
     def __init__(self, session: Session, hub: Hub, page: Path, token: str, figures: Sequence[Path] = ()) -> None:
         self.session, self.hub, self.page, self.token, self.figures = session, hub, page, token, Figures(figures)
@@ -65,12 +65,12 @@ class Studio:
         index = self.page / "index.html"
         if not index.is_file():
             return PlainTextResponse(NO_PAGE + "\n", 503)
-        # With the token, the page's files are not refused when strangers ask for too many.
+        # Requests with the token are not refused when requests without it are too many.
         text = _ASSET.sub(rf"\g<0>?token={self.token}", index.read_text(encoding="utf-8"))
         return HTMLResponse(text)
 
     async def access(self, request: Request) -> Response:
-        """The guard refuses this as it refuses the socket, and here a browser shows a page the reason."""
+        """The guard checks this as it checks the socket; here the browser shows the reason of a refusal."""
         return Response(status_code=204)
 
     async def schema(self, request: Request) -> Response:

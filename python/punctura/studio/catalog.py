@@ -1,4 +1,4 @@
-"""What there is to choose from."""
+"""The scenes and exercises that a page can choose."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import os
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
+
+from pydantic import Field
 
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise import Attempt, Exercise, exercise_names, exercises, load_exercise
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
 from punctura.studio.names import BadName, safe_name
+from punctura.studio.wire.common import Part, ProblemPart, Vector
 from punctura.studio.wire.messages import Choice
 
 
@@ -26,21 +28,40 @@ def ready_scenes() -> list[Choice]:
     return list(_ready_scenes())
 
 
-class Exercises:
-    """Those that come with the package, and files that the command line has named.
+class ExerciseOverview(Part):
+    """An exercise as the page lists it. SI."""
 
-    A file is read anew each time, so that it may be written while the studio runs. A page chooses by name: it cannot
-    name a file.
+    name: str
+    title: str
+    description: str = ""
+    instruction: str = ""
+    scene: str = ""
+    space: list[int] = Field(default=[])  # the membrane before the space, by index, and the one behind it, if any
+    space_from: float = 0.0  # where the space begins behind the far face of the first, m
+    space_to: float | None = None  # where it ends, if at a depth, m
+    goal_from: float = 0.0  # how deep the needle must come, m
+    start_position: Vector = Field(default=[0.0, 0.0, 0.0])  # m
+    start_axis: Vector = Field(default=[0.0, -1.0, 0.0])
+    goals: list[str] = Field(default=[])
+    problems: list[ProblemPart] = Field(default=[])
+    warnings: list[ProblemPart] = Field(default=[])
+
+
+class Exercises:
+    """The exercises of the package, and files from the command line.
+
+    A file is read again each time, so that it may change while the studio runs. A page chooses by name: it cannot name
+    a file.
     """
 
     def __init__(self, files: Sequence[str | os.PathLike[str]] = ()) -> None:
-        """Raises ConfigurationError where a file is no sound exercise, or has the name of another."""
+        """Raises ConfigurationError if a file has an error, or the name of another exercise."""
         self._files: dict[str, Path] = {}
         self._titles: dict[str, str] = {}
-        self.warnings: list[tuple[Path, Problem]] = []  # of the files as they are now
+        self.warnings: list[tuple[Path, Problem]] = []  # of the files when the studio started
         for given in files:
             if given in exercise_names():
-                continue  # it is listed anyhow
+                continue  # a ready exercise, listed anyway
             exercise = load_exercise(given)
             reason = self._unfit(exercise.name, exercise.path)
             if reason:
@@ -50,7 +71,7 @@ class Exercises:
             self.warnings += [(exercise.path, warning) for warning in exercise.warnings]
 
     def _unfit(self, name: str, path: Path) -> str:
-        """Why a file, or its name, by which the page and its results know it, cannot be listed."""
+        """Why the file cannot be listed; empty if it can. The page and the results know it by its name."""
         if not path.is_file():
             return "is not a file that can be read again and again"
         if name in exercise_names():
@@ -64,62 +85,49 @@ class Exercises:
         return ""
 
     def names(self) -> list[str]:
-        """One's own first."""
+        """The names of the files first."""
         return [*self._files, *exercise_names()]
 
     def load(self, name: str) -> Exercise:
-        """Raises ConfigurationError where a file is not sound any more; KeyError for a name that is not listed."""
+        """Raises ConfigurationError if the file has an error now; KeyError for a name that is not listed."""
         if name not in self.names():
             raise KeyError(name)
         return load_exercise(self._files.get(name, name))
 
-    def overviews(self) -> list[dict[str, Any]]:
-        """What they are, and where the needle begins (m); for a file that is not sound, what is wrong with it."""
-        return [self._own(name) for name in self._files] + [dict(entry) for entry in _ready_exercises()]
+    def overviews(self) -> list[ExerciseOverview]:
+        """All exercises. Of a file with an error: its problems."""
+        return [self._own(name) for name in self._files] + list(_ready_exercises())
 
     def choices(self) -> list[Choice]:
-        """By the titles that they had when the studio began."""
+        """Names, and the titles of the files when the studio started."""
         own = [Choice(name=name, title=title) for name, title in self._titles.items()]
-        return own + [Choice(name=entry["name"], title=entry["title"]) for entry in _ready_exercises()]
+        return own + [Choice(name=entry.name, title=entry.title) for entry in _ready_exercises()]
 
-    def _own(self, name: str) -> dict[str, Any]:
+    def _own(self, name: str) -> ExerciseOverview:
         try:
             return _overview(self.load(name))
         except ConfigurationError as error:
-            wrong = _for_page(error.problems)
-            return _NOTHING | {"name": name, "title": self._files[name].name, "problems": wrong}
+            return ExerciseOverview(name=name, title=self._files[name].name, problems=problem_parts(error.problems))
 
 
-_NOTHING: dict[str, Any] = {
-    "description": "", "instruction": "", "scene": "", "space": [], "space_from": 0.0, "space_to": None,
-    "goal_from": 0.0,
-    "start_position": [0.0, 0.0, 0.0], "start_axis": [0.0, -1.0, 0.0], "goals": [], "warnings": [],
-}  # fmt: skip
-
-
-def _for_page(problems: Sequence[Problem]) -> list[dict[str, Any]]:
-    return [part.model_dump(mode="json") for part in problem_parts(problems)]
-
-
-def _overview(exercise: Exercise) -> dict[str, Any]:
-    return {
-        "name": exercise.name,
-        "title": exercise.title,
-        "description": " ".join(exercise.description.split()),
-        "instruction": exercise.instruction,
-        "scene": exercise.scene.name,
-        "space": list(exercise.space),
-        "space_from": exercise.space_depth[0],
-        "space_to": exercise.space_depth[1],
-        "goal_from": exercise.goal_depth,
-        "start_position": list(exercise.start_position),
-        "start_axis": list(exercise.start_axis),
-        "goals": [goal.text for goal in Attempt(exercise, exercise.scene).goals],
-        "problems": [],
-        "warnings": _for_page(exercise.warnings),
-    }
+def _overview(exercise: Exercise) -> ExerciseOverview:
+    return ExerciseOverview(
+        name=exercise.name,
+        title=exercise.title,
+        description=" ".join(exercise.description.split()),
+        instruction=exercise.instruction,
+        scene=exercise.scene.name,
+        space=list(exercise.space),
+        space_from=exercise.space_depth[0],
+        space_to=exercise.space_depth[1],
+        goal_from=exercise.goal_depth,
+        start_position=list(exercise.start_position),
+        start_axis=list(exercise.start_axis),
+        goals=[goal.text for goal in Attempt(exercise, exercise.scene).goals],
+        warnings=problem_parts(exercise.warnings),
+    )
 
 
 @cache
-def _ready_exercises() -> tuple[dict[str, Any], ...]:
+def _ready_exercises() -> tuple[ExerciseOverview, ...]:
     return tuple(_overview(exercise) for exercise in exercises())

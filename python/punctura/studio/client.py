@@ -1,4 +1,4 @@
-"""A page without a browser: for programs that drive a studio, for tests and for soaks."""
+"""A client for programs that control a studio, for tests and for soak tests. It needs no browser."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ PATIENCE_S = 20.0
 
 
 class StudioClient:
-    """Connects to the address that `punctura run` prints. Keeps all messages; of the frames the last and the counts.
+    """Connects to the address that `punctura run` prints. Keeps all messages, the last frame, and the counts of frames.
 
     with StudioClient(url) as page:
         page.ask(do="strokes", period=2.0)
@@ -33,7 +33,7 @@ class StudioClient:
     """
 
     def __init__(self, url: str, keep_frames: bool = False, patience: float = PATIENCE_S) -> None:
-        """keep_frames: all of them stand in `frames`. patience: s that `ask` and `wait` wait at most.
+        """keep_frames: whether `frames` keeps all frames. patience: the longest time that `ask` and `wait` wait, s.
 
         Raises OSError, websockets' exceptions.
         """
@@ -44,7 +44,7 @@ class StudioClient:
         self.messages: list[Json] = []
         self.frames: list[Frame] = []
         self.last: Frame | None = None
-        self.ticks = self.gaps = 0  # gaps: frames that do not follow the one before them, within a run
+        self.ticks = self.gaps = 0  # gaps: frames of a run that do not follow the frame before
         self.run = 0  # that was told last
         self.closed: tuple[int, str] | None = None  # code and reason
         self._keep = keep_frames
@@ -71,12 +71,12 @@ class StudioClient:
         self._socket.send(text)
 
     def target(self, position: list[float], axis: list[float], run: int | None = None) -> None:
-        """Where the simulated hand shall go, m, and point; run: in which, the one that was told last if not given."""
+        """Moves the simulated hand: position, m, and direction. run: its number; by default the present run."""
         number = self.run if run is None else run
         self.send(json.dumps({"do": "target", "run": number, "position": position, "axis": axis}))
 
     def ask(self, **request: Any) -> Json:
-        """Sends a request, and gives its reply."""
+        """Sends a request and returns its reply."""
         number = next(self._ids)
         self.send(json.dumps({"id": number, **request}))
         return self.wait(lambda: next((m for m in self.of("reply") if m["id"] == number), None))
@@ -86,12 +86,12 @@ class StudioClient:
         return [m for m in list(self.messages) if m["kind"] == kind]
 
     def status(self) -> Json:
-        """The next account of the loop's health."""
+        """The next status message."""
         n = len(self.of("status"))
         return self.wait(lambda: self.of("status")[n:])[0]
 
     def wait(self, ready: Callable[[], T | None], seconds: float | None = None) -> T:
-        """What `ready` gives, as soon as that is true. Raises TimeoutError; ConnectionError when it is closed."""
+        """Returns the value of `ready` as soon as it is true. Raises TimeoutError, ConnectionError."""
         end = time.monotonic() + (self._patience if seconds is None else seconds)
         while True:
             found = ready()
@@ -100,11 +100,11 @@ class StudioClient:
             if self.closed:
                 raise ConnectionError(f"closed: {self.closed[0]} {self.closed[1]}")
             if time.monotonic() > end:
-                raise TimeoutError("what was waited for has not come")
+                raise TimeoutError("the condition did not become true in time")
             time.sleep(0.005)
 
     def get(self, path: str, method: str = "GET") -> tuple[int, bytes]:
-        """Status and body of one of the addresses under /api; `path` may hold any character."""
+        """Requests an address under /api. Returns status and body. `path` may contain any character."""
         connection = http.client.HTTPConnection(self.host, timeout=60)
         try:
             connection.request(method, quote(path, safe="/?=&%"), headers={"Authorization": f"Bearer {self.token}"})

@@ -5,19 +5,21 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any
+from typing import TypeAlias
 
 from punctura.errors import ConfigurationError
+from punctura.exercise import Exercise
 from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
-from punctura.studio.loaded import from_name, from_tables, from_text, problem_parts
+from punctura.studio.exercise_activity import ExerciseActivity
+from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
 from punctura.studio.wire import requests as ask
 from punctura.studio.wire.messages import Notice, Reply
 
-Done = tuple[str, dict[str, Any]]  # a reply's text and data
+Done: TypeAlias = tuple[str, dict[str, str | int]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
@@ -25,7 +27,7 @@ class NotNow(ValueError):
     """Something that cannot be done as things are; the text says why."""
 
 
-def prepare(request: Any, session: Session) -> Job:
+def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     """What the worker shall do. Raises what `refusal` knows, with nothing done. A pause is no job: Session.pause."""
     match request:
         case ask.Arm():
@@ -59,7 +61,7 @@ def refusal(number: int, error: Exception) -> Reply | None:
     return None
 
 
-def _prepare_scene(request: Any) -> Job:
+def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:
     if isinstance(request, ask.Edit):
         loaded = from_tables(request.tables)
         return lambda session: _edit(session, loaded)
@@ -72,7 +74,7 @@ def _prepare_scene(request: Any) -> Job:
     return lambda session: _load(session, loaded)
 
 
-def _load(session: Session, loaded: Any) -> None:
+def _load(session: Session, loaded: Loaded) -> None:
     session.begin(loaded)
     _tell_room(session)
 
@@ -83,9 +85,7 @@ def _tell_room(session: Session) -> None:
         session.out.say(Notice(text=note))
 
 
-def _edit(session: Session, loaded: Any) -> Done:
-    if session.practice:
-        raise NotNow("end the exercise before you change its scene")
+def _edit(session: Session, loaded: Loaded) -> Done:
     session.edit(loaded)
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
         return "the new rate is that of the next run", {}
@@ -103,7 +103,9 @@ def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     do()
 
 
-def _prepare_take(request: Any, session: Session) -> Job:
+def _prepare_take(
+    request: ask.StartRecording | ask.StopRecording | ask.StartExercise | ask.EndExercise, session: Session
+) -> Job:
     match request:
         case ask.StartRecording():
             _refuse_second(session)
@@ -138,8 +140,8 @@ def _start_recording(session: Session, name: str) -> Done:
 def _stop_recording(session: Session) -> Future[Done]:
     if not session.recording:
         raise NotNow("nothing is being recorded")
-    if session.practice:
-        raise NotNow("the exercise is recorded until it ends")
+    if activity := session.activities.now:
+        raise NotNow(f"the {activity.what} is recorded until it ends")
     done: Future[Done] = Future()
 
     def tell(name: str, status: RecorderStatus) -> None:
@@ -150,12 +152,14 @@ def _stop_recording(session: Session) -> Future[Done]:
     return done
 
 
-def _start_exercise(session: Session, exercise: Any, loaded: Any, person: str, name: str) -> Done:
-    session.practise(exercise, loaded, person, name)
+def _start_exercise(session: Session, exercise: Exercise, loaded: Loaded, person: str, name: str) -> Done:
+    pose = exercise.start_position, exercise.start_axis
+    about = {"title": exercise.title, "exercise": exercise.name, "scene": loaded.tables()}
+    session.begin_activity(ExerciseActivity(exercise, person, name, session.results), loaded, pose, name, about)
     return "", {"recording": name}
 
 
 def _end_exercise(session: Session) -> None:
-    if not session.practice:
+    if not session.activities.now:
         raise NotNow("there is no exercise to end")
     session.begin_again()

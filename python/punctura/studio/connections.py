@@ -1,7 +1,7 @@
-"""All connections to the server: how many there may be, and when one is ended.
+"""All connections to the server: how many are allowed, and when one is closed.
 
-A stranger is a connection that has not shown the token. Strangers and the others are counted apart, so that strangers
-cannot take the places of the person who has the token. Everything here runs on the server's event loop.
+A stranger is a connection that has not sent the token. Strangers have a limit of their own, so that they cannot use up
+the connections of the user, who has the token. Everything here runs on the server's event loop.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ TOO_LATE = (
 
 @dataclass(eq=False)
 class Connection:
-    """One TCP connection, through all protocols that it speaks. Times are in s, of the clock of Connections."""
+    """One TCP connection, in HTTP and after an upgrade to WebSocket. Times are in s, on the clock of Connections."""
 
     transport: asyncio.Transport
     clock: Callable[[], float]
-    known: bool = False  # has shown the token
+    known: bool = False  # has sent the token
     socket: bool = False  # has become a WebSocket
     served: int = 0  # requests that are being answered; a WebSocket is one, from its handshake to its close
     since: float = field(init=False)  # accepted, or the last request was answered
@@ -64,7 +64,7 @@ class Connection:
                 self.since = self.clock()
 
     def writing(self, possible: bool) -> None:
-        """The transport's buffer is full, or has room again."""
+        """The transport's buffer has become full, or has space again."""
         self.unread_since = None if possible else self.clock()
 
     def overdue(self, now: float) -> bool:
@@ -80,23 +80,23 @@ class Connection:
         return not self.served and now - self.since >= IDLE_S
 
     def end(self) -> None:
-        """At once; what was not read is lost. A connection that has sent no whole request is told why."""
+        """Closes at once; unread data is lost. A connection without a complete request gets the reason."""
         if not self.served and not self.known and not self.socket and not self.transport.is_closing():
             self.transport.write(TOO_LATE)
         self.transport.abort()
 
 
 class Connections:
-    """strangers, known: how many of each there may be."""
+    """strangers, known: the limits without and with the token."""
 
     def __init__(self, strangers: int, known: int, clock: Callable[[], float] = time.monotonic) -> None:
         self._most_strangers, self._most_known, self._clock = strangers, known, clock
-        # In the order in which they came: the first of the strangers is the oldest.
+        # In the order of their arrival: the first stranger is the oldest.
         self.strangers: dict[Connection, None] = {}
         self.known: dict[Connection, None] = {}
 
     def add(self, transport: asyncio.Transport) -> Connection:
-        """A connection that was accepted now. If there are too many strangers, the oldest is ended."""
+        """Adds a new connection. If there are too many strangers, closes the oldest."""
         connection = Connection(transport, self._clock)
         self.strangers[connection] = None
         if len(self.strangers) > self._most_strangers:
@@ -106,7 +106,7 @@ class Connections:
         return connection
 
     def admit(self, connection: Connection) -> bool:
-        """It has shown the token. False: there are too many that have, or it has ended meanwhile."""
+        """The connection has sent the token. Returns False if too many have, or if the connection has ended."""
         if connection.known:
             return True
         if connection.transport.is_closing() or len(self.known) >= self._most_known:
@@ -121,20 +121,20 @@ class Connections:
         self.known.pop(connection, None)
 
     def sweep(self) -> None:
-        """Ends the connections that are overdue."""
+        """Closes all connections whose deadline has passed."""
         now = self._clock()
         for connection in [c for c in (*self.strangers, *self.known) if c.overdue(now)]:
             connection.end()
 
     async def watch(self) -> None:
-        """Until it is cancelled."""
+        """Runs until it is cancelled."""
         while True:
             self.sweep()
             await asyncio.sleep(SWEEP_S)
 
 
 def room(open_files: float) -> tuple[int, int]:
-    """How many strangers and how many others there may be.
+    """The limits for connections without and with the token.
 
     A connection takes up to two open files: its socket, and the file that it is sent.
     """
@@ -143,7 +143,7 @@ def room(open_files: float) -> tuple[int, int]:
 
 
 def open_file_limit() -> float:
-    """How many files this process may have open; first raised to FILES_WANTED where the system allows it."""
+    """The limit of open files of this process, after raising it to FILES_WANTED if the system allows that."""
     if resource is None:
         return float(FILES_WANTED)
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -154,5 +154,5 @@ def open_file_limit() -> float:
             resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
             soft = wanted
         except (OSError, ValueError):
-            pass  # the connections are as many as the limit allows
+            pass  # the limit of connections follows the limit of files
     return float("inf") if soft == unlimited else float(soft)

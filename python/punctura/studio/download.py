@@ -1,4 +1,4 @@
-"""Answers that are made while they are sent, for clients of whom some never read."""
+"""Responses that are produced while they are sent; some clients never read them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from starlette.types import Receive, Scope, Send
 
 
 class Download(StreamingResponse):
-    """Bytes as they come. When the answer ends, also with its connection (limits.UNREAD_S), its place is free again."""
+    """Sends bytes as they come. Releases its slot when the response ends, also if the connection ends first."""
 
     def __init__(self, pieces: Iterator[bytes], place: threading.BoundedSemaphore | None = None, **more: Any) -> None:
-        """The first piece is made at once: what is wrong with a file shows before the answer begins.
+        """Produces the first piece at once, so that an error in the file shows before the response begins.
 
-        place: one that the caller has acquired. It is released when the answer has ended, or cannot begin.
+        place: a slot that the caller has acquired. It is released when the response ends or cannot begin.
         """
         self._pieces, self._place = pieces, place
         try:

@@ -1,4 +1,4 @@
-"""The page of `punctura reproduce`, where it has been made: those files of its folder and no others."""
+"""Serves the page of `punctura reproduce`, if it exists: the files of that page and no others."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _MADE = re.compile(r"index\.html|(fig\d\d|chatter|pop)\.(png|svg|csv)")
 
 
 def likely_folders() -> list[Path]:
-    """Where `./run reproduce` and `punctura reproduce` put it, as seen from here."""
+    """The default folders of `./run reproduce` and `punctura reproduce`, relative to the current folder."""
     try:
         here = Path.cwd()
     except OSError:  # it has been deleted
@@ -23,7 +23,7 @@ def likely_folders() -> list[Path]:
 
 
 class Figures:
-    """Looked for at each request: it may be made while the studio runs."""
+    """Looks at each request, because the page may be created while the studio runs."""
 
     def __init__(self, folders: Sequence[Path]) -> None:
         self._folders = list(folders)
@@ -37,7 +37,7 @@ class Figures:
     def file(self, request: Request) -> Response:
         name = request.path_params.get("name", "index.html")
         for folder in self._folders if _MADE.fullmatch(name) else ():
-            # The page is written last, so with it the rest is there.
+            # The page is written last: when it is there, so are the other files.
             if all((folder / each).is_file() and not (folder / each).is_symlink() for each in ("index.html", name)):
                 return FileResponse(folder / name)
         return PlainTextResponse("There are no figures yet: punctura reproduce makes them.\n", 404)

@@ -1,4 +1,4 @@
-"""The simulated hand: a target from the page, strokes, or a recorded motion. Called by the worker's thread alone."""
+"""The simulated hand: follows a target from the page, strokes, or a recorded motion. Only the worker calls it."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ Triple = tuple[float, float, float]
 Pose = tuple[Triple, Triple]  # position, m, and axis
 Array = npt.NDArray[np.float64]
 
-SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the device's Target smooths them
-REST_SHARE = 0.15  # of a stroke's period, that the hand rests at each end
-LEAD_S = 1.0  # from where the hand is to where a motion begins
-FARTHEST = 0.5  # m from the origin: nothing at a desk is farther
+SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the simulated device smooths them
+REST_SHARE = 0.15  # share of a stroke's period for which the hand rests at each end
+LEAD_S = 1.0  # time in which the hand moves to the start of a motion
+FARTHEST = 0.5  # m from the origin
 
 
 def resting_pose(scene: Scene) -> Pose:
-    """Where a hand begins: in front of all membranes, pointing into the first."""
+    """The first pose of a hand: in front of all membranes, pointing into the first."""
     inward = np.array(scene.membranes[0].inward_normal)
     return stroke_ends(scene)[0], _triple(inward / np.linalg.norm(inward))
 
 
 class Hand:
-    """Moves a simulated device; of any other device it does nothing, and `mode` says so."""
+    """Moves a simulated device. With any other device it does nothing, and `mode` is "device"."""
 
     def __init__(self) -> None:
         self._device: SimulatedDevice | None = None
@@ -44,7 +44,7 @@ class Hand:
         self._motion: tuple[Array, Array, Array] | None = None  # time, position, axis
 
     def take(self, device: Device, pose: Pose) -> None:
-        """A new run's device, at rest in this pose."""
+        """Takes the device of a new run, at rest in this pose."""
         self._device = device if isinstance(device, SimulatedDevice) else None
         self.mode = "target" if self._device else "device"
         self._here, self._axis = np.array(pose[0]), pose[1]
@@ -53,11 +53,11 @@ class Hand:
 
     @property
     def pose(self) -> Pose | None:
-        """Where targets have led it; None while something else leads it. From any thread."""
+        """The last target; None while strokes or a motion move the hand. From any thread."""
         return self._pose if self.mode == "target" else None
 
     def target(self, position: list[float], axis: list[float], buttons: int = 0) -> None:
-        """Where the hand shall go, m, and point. Raises ValueError where that is no place or no direction."""
+        """Sets position, m, and direction. Raises ValueError if they are not finite, too far, or of no length."""
         if self._device is None:
             return
         place, direction = np.array(position, float), np.array(axis, float)
@@ -68,7 +68,7 @@ class Hand:
         self._go(place, direction / length, buttons)
 
     def strokes(self, scene: Scene, period: float, now: float) -> None:
-        """To and fro through all membranes, along the first one's normal; period: s, in and out."""
+        """Strokes through all membranes and back, along the first normal. period: of one stroke in and out, s."""
         start, end = stroke_ends(scene)
         self._strokes = (np.array(start), np.array(end), period)
         self._axis = resting_pose(scene)[1]
@@ -87,11 +87,11 @@ class Hand:
 
     @property
     def next_at(self) -> float:
-        """When `drive` is due, on the clock of its `now`; infinity while nothing is scripted."""
+        """When `drive` must be called, on the clock of `now`; infinity without strokes or motion."""
         return self._next
 
     def drive(self, now: float) -> None:
-        """Sets the target of a script, if one is due."""
+        """Sets the next target of strokes or a motion, if one is due."""
         if now < self._next or self._device is None:
             return
         self._next = now + SCRIPT_PERIOD_S
@@ -117,14 +117,14 @@ class Hand:
 
 
 def _there_and_back(turns: float) -> float:
-    """0 at rest, 1 at the end, in minimum-jerk ways (Flash and Hogan 1985) with a rest at both; one turn a stroke."""
+    """From 0 to 1 and back in one turn: minimum-jerk motion (Flash and Hogan 1985), with a rest at both ends."""
     u = turns % 1.0
     u = 2 * u if u < 0.5 else 2 - 2 * u
     return float(_eased(np.array((u - REST_SHARE) / (1 - 2 * REST_SHARE))))
 
 
 def _eased(u: Array) -> Array:
-    """A minimum-jerk way from 0 to 1; at rest before and after."""
+    """Minimum-jerk motion from 0 to 1; at rest before and after."""
     u = np.clip(u, 0.0, 1.0)
     eased: Array = u * u * u * (10 + u * (-15 + 6 * u))
     return eased

@@ -3,32 +3,32 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TypedDict
 
 import numpy as np
 
-from punctura.studio.wire.messages import LimitsPart, RecordingStatus, Spread, Status
+from punctura._core import Fault, describe
+from punctura.studio.hand import Mode
+from punctura.studio.run import Run
+from punctura.studio.wire.messages import FaultMessage, LimitsPart, RecordingStatus, Spread, Status
 
-if TYPE_CHECKING:
-    from punctura.studio.run import Run
-    from punctura.studio.session import Session
 
-
-def status_of(session: Session) -> Status:
-    """How the present run is doing; `viewers` and `dropped` are each page's own, and filled in for it."""
-    report = session.run.loop.report()
+def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> Status:
+    """The state of this run. lost: ticks that the page's reader missed. `viewers` and `dropped` are 0: the hub fills
+    them in for each page."""
+    report = run.loop.report()
     return Status(
         ticks=report["ticks"],
         late=report["late"],
-        lost=max(session.pump.lost, session.run.lost),  # the ring knows of those after the last that was read
+        lost=max(lost, run.lost),  # the ring also counts ticks lost after the last read
         period=spread(report["period"]),
         compute=spread(report["compute"]),
         viewers=0,
         dropped=0,
-        armed=session.armed,
-        hand=session.hand.mode,
-        compare=session.compare,
-        statements=session.run.loop.device.statements(),
+        armed=armed,
+        hand=hand,
+        compare=compare,
+        statements=run.loop.device.statements(),
     )
 
 
@@ -49,8 +49,18 @@ def limits_of(run: Run) -> LimitsPart:
     )
 
 
-def spread(times: dict[str, Any]) -> Spread:
-    """Quantiles, and the bins between the first and the last that hold anything."""
+class Times(TypedDict):
+    """Quantiles and a histogram of `ServoLoop.report`, s."""
+
+    p50: float
+    p99: float
+    p99_9: float
+    largest: float
+    counts: list[int]
+
+
+def spread(times: Times) -> Spread:
+    """Quantiles, and the bins from the first to the last that is not empty."""
     counts = np.asarray(times["counts"])
     filled = np.flatnonzero(counts)
     first, end = (int(filled[0]), int(filled[-1]) + 1) if len(filled) else (0, 0)
@@ -85,3 +95,8 @@ def recording_status(name: str, run: Run) -> RecordingStatus:
 
 def no_recording() -> RecordingStatus:
     return RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble="")
+
+
+def no_ticks(words: str) -> FaultMessage:
+    """The device's ticks have ceased; words: why."""
+    return FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0)

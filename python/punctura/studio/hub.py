@@ -1,6 +1,6 @@
-"""Everyone who watches. Each has a queue of its own: who is slow loses their own frames, and nobody else's.
+"""All viewers. Each has a queue of its own: a slow viewer loses its own frames only.
 
-All of it runs on the server's event loop; the worker's thread comes in through `post`.
+Everything here runs on the server's event loop; the worker's thread uses `post`.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from punctura.studio.hand import Pose
 from punctura.studio.limits import MOST_FRAMES, MOST_MESSAGES, MOST_VIEWERS
 from punctura.studio.wire.messages import Control, HandPose, Status
 
-EVENTS_KEPT = 100  # of the present run, for newcomers
-# Of these the last says it all: a newer one takes the place of one that still waits.
+EVENTS_KEPT = 100  # of the present run, for new viewers
+# Of these messages only the newest matters: it replaces one that still waits.
 SUPERSEDED = ("status", "recording", "laws", "exercise")
-# What a newcomer is told, in this order; "laws" belongs to the scene before it.
+# Messages for a new viewer, in this order; "laws" belongs to the scene before it.
 RETAINED = ("scene", "laws", "control", "recording", "exercise", "fault")
 
 Data = str | bytes
@@ -28,14 +28,14 @@ Data = str | bytes
 
 @dataclass(eq=False)
 class Waiting:
-    """In a queue; without data, once a newer one has taken its place."""
+    """An entry of a queue; without data, if a newer entry has replaced it."""
 
     data: Data | None
     kind: str
 
 
 class Viewer:
-    """One page. `take` gives what to send next; `closed` says why it has to go."""
+    """One page. `take` returns what to send next; `closed` is the reason for closing."""
 
     def __init__(self, number: int) -> None:
         self.number = number
@@ -78,7 +78,7 @@ class Viewer:
         self._queue = deque(entry for entry in self._queue if isinstance(entry.data, str))
 
     async def take(self) -> Data | None:
-        """The next, in the order of `put`; None when the viewer has to go."""
+        """The next entry, in the order of `put`; None when the viewer must be closed."""
         while True:
             while not self._queue and not self.closed:
                 self._wake.clear()
@@ -106,16 +106,18 @@ class Viewer:
 
 
 class Hub:
-    """Who is there, who has control, and what everyone has to know.
+    """The viewers, who has control, and the present state for new viewers.
 
-    Control: the first to come has it. When its holder leaves, nobody has it until the next page comes (a page that was
-    loaded anew, say) or one takes it.
+    The first viewer has control. When its holder leaves, nobody has control until another page connects (for example
+    after a reload) or a page takes it.
     """
 
     def __init__(self) -> None:
         self.viewers: dict[int, Viewer] = {}
         self.holder: int | None = None
-        self.hand: Callable[[], Pose | None] = lambda: None  # where it is led to; None while something else leads it
+        self.hand: Callable[[], Pose | None] = lambda: (
+            None
+        )  # the present target; None while strokes or a motion move the hand
         self._numbers = itertools.count(1)
         self._retained: dict[str, BaseModel] = {}
         self._events: deque[BaseModel] = deque(maxlen=EVENTS_KEPT)  # of this run
@@ -125,7 +127,7 @@ class Hub:
         self._loop = loop
 
     def post(self, call: Callable[[], None]) -> None:
-        """From any thread: `call` on the server's loop. Nothing once that has ended."""
+        """From any thread: runs `call` on the server's loop. Does nothing once the loop has ended."""
         if self._loop is None:
             return
         try:
@@ -138,7 +140,7 @@ class Hub:
         self.post(lambda: self._put_frame(data))
 
     def say(self, message: BaseModel) -> None:
-        """From any thread: to all; kept for those who come later where that is of use."""
+        """From any thread: sends to all viewers, and keeps messages that new viewers need."""
         self.post(lambda: self.tell_all(message))
 
     def tell_all(self, message: BaseModel) -> None:
@@ -159,7 +161,7 @@ class Hub:
             viewer.put(text, kind)
 
     def join(self, hello: Callable[[int], BaseModel]) -> Viewer | None:
-        """A new viewer, who is told everything that is; None when there are too many."""
+        """Adds a viewer, who gets the present state; None if there are too many."""
         if len(self.viewers) >= MOST_VIEWERS:
             return None
         viewer = Viewer(next(self._numbers))
@@ -170,7 +172,7 @@ class Hub:
                 viewer.put(self._control(viewer).model_dump_json())
             elif kind in self._retained:
                 message = self._retained[kind]
-                if kind == "scene":  # for a newcomer every run is new
+                if kind == "scene":  # for a new viewer every run is new
                     message = message.model_copy(update={"new_run": True})
                 viewer.put(message.model_dump_json())
         for event in self._events:

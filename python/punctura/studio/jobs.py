@@ -1,4 +1,4 @@
-"""What other threads want of one: done one after the other, in that thread."""
+"""A queue of jobs for one thread, which does them one after the other."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ T = TypeVar("T")
 
 
 class Jobs:
-    """`post` and `call` from any thread, `do_next` in the one that works."""
+    """`post` and `call` from any thread, `do_next` in the working thread."""
 
     def __init__(self) -> None:
         self._waiting: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
 
     def post(self, job: Callable[[], None]) -> None:
-        """Whose end nobody waits for."""
+        """Adds a job; nobody waits for its end."""
         self._waiting.put(job)
 
     def call(self, job: Callable[[], T]) -> Future[T]:
-        """What it will have given or raised."""
+        """Adds a job. The future gets its result or its exception."""
         future: Future[T] = Future()
 
         def do() -> None:
@@ -36,7 +36,7 @@ class Jobs:
         return future
 
     def do_next(self, seconds: float) -> None:
-        """One job, if one comes within so long."""
+        """Does one job, if one comes within this time (s)."""
         try:
             job = self._waiting.get(timeout=seconds) if seconds > 0 else self._waiting.get_nowait()
         except queue.Empty:

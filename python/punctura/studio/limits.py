@@ -1,4 +1,4 @@
-"""How much anyone may send, hold open or leave unread: docs/studio.md has the table. A page stays far below it all."""
+"""Limits for connections, requests and unread data: docs/studio.md has the table. A page stays far below them."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ MOST_BUFFERED = 65_536  # sent by the studio and not yet taken by the other end'
 MOST_PONGS = 4_096  # the same; above it, a ping gets no answer
 
 # Rates: so many a second, and so many at once.
-REQUESTS_A_SECOND, REQUESTS_AT_ONCE = 400, 1200  # frames of any kind, of one page: targets at 240 pictures a second
+REQUESTS_A_SECOND, REQUESTS_AT_ONCE = 400, 1200  # frames of any kind from one page: targets at 240 per second
 HTTP_A_SECOND, HTTP_AT_ONCE = 200, 600  # with the token
-FREE_A_SECOND, FREE_AT_ONCE = 200, 600  # files without a secret, asked for without the token
-# Refusals that say why. Above this, a refusal says only that there are too many requests.
+FREE_A_SECOND, FREE_AT_ONCE = 200, 600  # requests for public files without the token
+# Refusals with a reason. Above this, a refusal says only that there are too many requests.
 REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 
 # Counts.
 MOST_VIEWERS = 32  # pages
 MOST_FRAMES = 60  # of ticks that wait for one page, a second of them; then all are dropped, which leaves one gap
 MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed
-MOST_KNOWN = 128  # connections that have shown the token: each page has one socket and at most six others
-MOST_STRANGERS = 64  # connections that have not: of more than these the oldest is ended
+MOST_KNOWN = 128  # connections with the token: each page has one socket and at most six others
+MOST_STRANGERS = 64  # connections without the token: if there are more, the oldest is closed
 ACCEPTED_AT_ONCE = 8  # connections accepted before the server turns to other work
 LISTEN_QUEUE = 1024  # connections that the system holds until they are accepted
 MOST_EXPORTS = 4  # downloads made while they are sent: each keeps a core busy while it is read
@@ -35,19 +35,19 @@ FILES_KEPT = 192  # of these, for the device, recordings, exports and what Pytho
 STRANGER_S = 10.0  # for a whole request with the token to arrive; then the connection is ended
 IDLE_S = 15.0  # between two requests of a connection that has shown the token
 CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it
-UNREAD_S = 30.0  # for the other end to read on, when MOST_BUFFERED is reached
-SWEEP_S = 0.5  # between two looks at all connections
+UNREAD_S = 30.0  # for the other end to continue reading, when MOST_BUFFERED is reached
+SWEEP_S = 0.5  # between two checks of all connections
 
 
 class Bucket:
-    """So many at once, then so many a second."""
+    """A token bucket: a burst, then a rate per second."""
 
     def __init__(self, rate: float, most: float, clock: Callable[[], float] = time.monotonic) -> None:
         self._rate, self._most, self._clock = rate, most, clock
         self._left, self._at = most, clock()
 
     def take(self) -> bool:
-        """False: too many."""
+        """Takes one; False if there are too many."""
         now = self._clock()
         self._left = min(self._most, self._left + (now - self._at) * self._rate)
         self._at = now
@@ -57,9 +57,9 @@ class Bucket:
         return True
 
     def fill(self) -> None:
-        """As if none had been taken."""
+        """Fills the bucket."""
         self._left = self._most
 
     def empty(self) -> None:
-        """As if all had been taken."""
+        """Empties the bucket."""
         self._left, self._at = 0.0, self._clock()

@@ -7,7 +7,7 @@ import contextlib
 import json
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -18,29 +18,29 @@ from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import LoadText, Pause, TakeControl, Target
+from punctura.studio.wire.requests import LoadText, NumberedRequest, Pause, TakeControl, Target
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
-MOST_ORDERS = 64  # requests of a page that wait for those before them
+MOST_ORDERS = 64  # requests that wait for the ones before them
 
 
 class Order(NamedTuple):
-    """A request that takes its time."""
+    """A request that may take long."""
 
-    request: Any
-    pauses: int  # that were asked for before it
+    request: NumberedRequest
+    pauses: int  # number of pauses before it
 
 
 Orders = asyncio.Queue[Order]
 
 
 class Closed(Exception):
-    """This page has to go; the text says why."""
+    """This page must be disconnected; the text says why."""
 
 
 async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Callable[[int], BaseModel]) -> None:
-    """Until the page leaves, or has to."""
+    """Runs until the page disconnects or is disconnected."""
     viewer = hub.join(hello)
     if viewer is None:
         await socket.close(FULL, "Too many pages are open.")
@@ -54,7 +54,7 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
         reason = _reason(reader) or viewer.closed
         if reason:
             sender.cancel()
-            with contextlib.suppress(Exception):  # it may be gone already
+            with contextlib.suppress(Exception):  # it may be closed already
                 await asyncio.wait_for(socket.close(REFUSED, reason[:120]), 2)
     finally:
         hub.leave(viewer)
@@ -78,11 +78,11 @@ async def _send(socket: WebSocket, viewer: Viewer) -> None:
 
 
 async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:
-    """Does at once what takes no time, above all a pause; the rest waits in `orders`."""
+    """Does quick requests at once, above all a pause; the others wait in `orders`."""
     while True:
         message = await socket.receive()
         if message["type"] == "websocket.disconnect":
-            await orders.join()  # what the page has asked for is still done
+            await orders.join()  # earlier requests of the page are still done
             return
         text = message.get("text")
         if text is None:
@@ -96,7 +96,7 @@ async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, o
 
 def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Order | None:
     try:
-        request: Any = parse_request(text)
+        request = parse_request(text)
     except ValidationError as error:
         return _not_understood(text, error)
     if len(text) > MOST_TEXT and not isinstance(request, LoadText):
@@ -112,10 +112,10 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
         return refused
     if isinstance(request, Pause):
         session.pause()
-    return Order(request, session.pauses)
+    return Order(request, session.arming.pauses)
 
 
-def _refused(request: Any, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
+def _refused(request: NumberedRequest, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
     if hub.holder != viewer.number:
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:
@@ -124,7 +124,7 @@ def _refused(request: Any, viewer: Viewer, hub: Hub, session: Session) -> Reply 
 
 
 async def _obey(viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:
-    """One order after the other. Control may have gone to another page while one waited."""
+    """Does one order after the other. Another page may have taken control while an order waited."""
     while True:
         order = await orders.get()
         reply = _refused(order.request, viewer, hub, session) or await _do(order, session)
@@ -135,12 +135,12 @@ async def _obey(viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> N
 async def _do(order: Order, session: Session) -> Reply:
     request = order.request
     try:
-        if isinstance(request, Pause):  # it has been obeyed, and the worker has nothing to say of the time before
+        if isinstance(request, Pause):  # already done; this waits for the worker's earlier jobs
             await asyncio.wrap_future(session.call(lambda: None))
             return Reply(id=request.id, ok=True)
         job = await asyncio.to_thread(prepare, request, session)
         done = await asyncio.wrap_future(session.call(lambda: job(session), order.pauses))
-        if isinstance(done, Future):  # a recording's file takes its time
+        if isinstance(done, Future):  # finishing a recording may take long
             done = await asyncio.wrap_future(done)
     except Exception as error:
         reply = refusal(request.id, error)
@@ -150,7 +150,7 @@ async def _do(order: Order, session: Session) -> Reply:
 
 
 def _not_understood(text: str, error: ValidationError) -> Reply:
-    """A page of another version gets an answer; what has no number is nothing of a page's, and ends it."""
+    """A page of another version gets a reply. A message without a request number ends the connection."""
     if len(text) > MOST_TEXT:
         raise Closed("The request is too large.")
     try:

@@ -1,43 +1,42 @@
-"""A scene together with the tables of its file: the page's editor shows the file, the loop runs the scene."""
+"""A scene and the tables of its file: the page's editor shows the tables, the loop runs the scene."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.toml import Tables, parse_toml, read_text
 from punctura.scene import scene_path
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
-from punctura.scene.parse import parse_toml, read_text
 from punctura.scene.schema import SceneFile
 from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
 
-# What a table could hold that Decimal, float and str cannot say is told by the schema; these are Python's own limits.
+# The schema finds wrong types; these are the limits of Python's own types.
 _TOO_MUCH = (RecursionError, OverflowError)
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """A sound scene file, and its scene in SI."""
+    """A scene file without errors, and its scene in SI."""
 
     file: SceneFile
     scene: Scene
 
-    def tables(self) -> dict[str, Any]:
-        """As JSON has them, with the file's keys; defaults are filled in."""
+    def tables(self) -> Tables:
+        """The tables as JSON values, under the file's keys, with defaults filled in."""
         return self.file.model_dump(mode="json", exclude_none=True)
 
     def text(self) -> str:
-        """As a scene file."""
+        """The text of a scene file."""
         return file_text(self.file)
 
 
-def from_tables(tables: dict[str, Any], source: str = "") -> Loaded:
+def from_tables(tables: Tables, source: str = "") -> Loaded:
     """Raises ConfigurationError with every problem, in the file's own keys."""
     try:
         file, problems = check_tables(tables)
@@ -60,11 +59,11 @@ def from_text(text: str, source: str = "the file") -> Loaded:
 def from_name(path_or_name: str) -> Loaded:
     """A ready scene or a file, as load_scene takes them. Raises ConfigurationError."""
     path = scene_path(path_or_name)
-    return from_text(read_text(path), str(path))
+    return from_text(read_text(path, "scene"), str(path))
 
 
 def problem_parts(problems: Sequence[Problem]) -> list[ProblemPart]:
-    """What is wrong, for the page."""
+    """The problems, for the page."""
     return [
         ProblemPart(path=p.path, value="" if p.value is MISSING else repr(p.value)[:200], reason=p.reason)
         for p in problems

@@ -1,4 +1,4 @@
-"""Names that people give, as names of files: on every system, and never outside a folder."""
+"""User-given names as file names: valid on every system, and never outside a folder."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ _RESERVED = {"con", "prn", "aux", "nul", *(f"{word}{i}" for word in ("com", "lpt
 
 
 class BadName(ValueError):
-    """A name that cannot be one; the text says why."""
+    """A name that cannot be a file name; the text says why."""
 
 
 def safe_name(name: str) -> str:
-    """The name as it is kept, in Unicode's composed form. Raises BadName."""
+    """The name in Unicode's composed form (NFC). Raises BadName."""
     name = unicodedata.normalize("NFC", name)
     if not name or len(name) > LONGEST or len(name.encode("utf-8", "replace")) > MOST_BYTES:
         raise BadName(f"a name has 1 to {LONGEST} characters")

@@ -40,17 +40,17 @@ class Watched(asyncio.Protocol):
 
 
 class BoundedHttp(Watched, H11Protocol):
-    """Its connection is counted and watched."""
+    """An HTTP protocol whose connection is counted and limited."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
         connections: Connections = self.app_state[CONNECTIONS]
         self.connection = connections.add(transport)
-        self.app_state = {**self.app_state, CONNECTION: self.connection}  # also of the WebSocket that it may become
+        self.app_state = {**self.app_state, CONNECTION: self.connection}  # also for the WebSocket after an upgrade
 
 
 class BoundedSocket(Watched, WebSocketsSansIOProtocol):
-    """Counts frames of every kind, and answers no ping of a page that does not read the answers."""
+    """Counts frames of every kind; does not answer pings of a page that does not read the answers."""
 
     def __init__(self, *args: Any, **more: Any) -> None:
         super().__init__(*args, **more)
@@ -89,12 +89,12 @@ class BoundedSocket(Watched, WebSocketsSansIOProtocol):
         if not self._counted():
             return
         if self.close_sent or self.transport.get_write_buffer_size() > MOST_PONGS:
-            self.conn.data_to_send()  # the pongs: taken, and not sent
+            self.conn.data_to_send()  # the pongs are taken and not sent
         else:
             super().handle_ping()
 
     def _counted(self) -> bool:
-        """False: too many. The page is told, and nothing more is read."""
+        """False if there are too many frames. The page gets the reason, and nothing more is read."""
         if not self.refused and not self.bucket.take():
             self.refused = True
             self.conn.data_to_send()
@@ -108,7 +108,7 @@ class BoundedSocket(Watched, WebSocketsSansIOProtocol):
 
 
 def check_overrides(bounded: type, base: type) -> None:
-    """Raises ImportError where a method of `bounded` overrides nothing: uvicorn would never call it."""
+    """Raises ImportError if a method of `bounded` overrides nothing, because uvicorn would never call it."""
     missing = [
         name for name, what in vars(bounded).items() if isfunction(what) and name[0] != "_" and not hasattr(base, name)
     ]

@@ -1,4 +1,4 @@
-"""The server's log on the terminal: without what a stranger may cause, and without ever waiting for the terminal."""
+"""The server's log on the terminal: it skips messages that strangers cause, and never waits for the terminal."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _STRANGERS = (
 
 def _news(record: logging.LogRecord) -> bool:
     error = record.exc_info[1] if record.exc_info else None
-    # The server's WebSocket answers text that is no UTF-8 also on a connection that is closing already.
+    # The server's WebSocket answers text that is not UTF-8 even on a connection that is closing.
     return not (record.getMessage().startswith(_STRANGERS) or isinstance(error, InvalidState))
 
 
 def quiet_server() -> None:
-    """A program that handles these logs itself goes on doing so."""
+    """Keeps the log handlers of a program that has installed its own."""
     for name in ("uvicorn.error", "asyncio"):
         logger = logging.getLogger(name)
         if _news not in logger.filters:

@@ -1,4 +1,4 @@
-"""One run: a scene on a device from tick 0 on, with its ring of snapshots and, if wanted, its recording."""
+"""One run: a scene on a device from tick 0 on, with its ring of snapshots and an optional recording."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from punctura.ticks import Ticks
 
 @dataclass(frozen=True)
 class Settings:
-    """What the command line has asked for. device: as `punctura devices` names it; empty is the best there is."""
+    """Options of the command line. device: a name from `punctura devices`; empty selects the first available."""
 
     device: str = ""
     placement: Placement = field(default_factory=Placement)
-    scene_filter: bool = False  # positions are filtered as the scene says, not as the device needs
+    scene_filter: bool = False  # filter positions as the scene says, not as the device needs
     limits: Limits = field(default_factory=Limits)
-    processor: int = ANY_PROCESSOR  # that ticks
+    processor: int = ANY_PROCESSOR  # to tick on
 
 
 class Bench:
-    """The device that runs are made on. A simulated one is new with every run, a real one stays open."""
+    """The device for all runs. A simulated device is new for every run, a real one stays open."""
 
     def __init__(self, settings: Settings, scene: Scene) -> None:
         """Raises DeviceError."""
@@ -50,15 +50,15 @@ class Bench:
         return self._device
 
     def fresh(self, scene: Scene, pose: Pose) -> Device:
-        """For a new run; a simulated hand holds it in this pose."""
+        """The device for a new run; a simulated hand holds it in this pose."""
         if self.simulated:
             where, before = self.settings.processor, self._device
             self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1], processor=where)
-            self._device.go_on_from(before)  # whose motors do not cool because a new run begins
+            self._device.go_on_from(before)  # its motors do not cool because a new run begins
         return self._device
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:
-        """The scene as the device can run it, and what was done to it."""
+        """The scene as the device can run it, and notes on what was changed."""
         fitted, note = fit_direction(scene, self._device)
         notes = [note]
         if not self.settings.scene_filter:
@@ -68,7 +68,7 @@ class Bench:
 
 
 class Run:
-    """A loop that ticks from `start` to `stop`. Of one thread."""
+    """A loop that ticks from `start` to `stop`. Belongs to one thread."""
 
     def __init__(
         self,
@@ -79,11 +79,11 @@ class Run:
         about: dict[str, Any] | None = None,
         pose: Pose | None = None,
     ) -> None:
-        """about: of the recording. pose: of the hand. Raises ConfigurationError, DeviceError, RecordingError."""
+        """about: for the header. pose: of the hand. Raises ConfigurationError, DeviceError, RecordingError."""
         self.number = number
         self.loaded = loaded
         self.pose = pose or resting_pose(loaded.scene)
-        self.scenes = 0  # that have been exchanged
+        self.scenes = 0  # number of exchanged scenes
         self._bench = bench
         device = bench.fresh(loaded.scene, self.pose)
         scene, self.notes = bench.fit(loaded.scene)
@@ -94,15 +94,15 @@ class Run:
         self.recorder = Recorder(self.loop, recording, about=about) if recording else None
 
     def start(self) -> None:
-        """Ticks come; force, too, where the loop was armed, once the tip is outside tissue."""
+        """Starts the ticks. An armed loop gives force once the tip is outside tissue."""
         self.loop.start()
 
     def stop(self) -> None:
-        """Zero force, no tick any more; a recording's file is left to `finish`."""
+        """Sets zero force and ends the ticks; the recording's `finish` completes its file."""
         self.loop.stop()
 
     def exchange(self, loaded: Loaded) -> None:
-        """Another scene between two ticks. Raises ConfigurationError; then nothing has changed."""
+        """Exchanges the scene between two ticks. Raises ConfigurationError; then nothing has changed."""
         scene, _ = self._bench.fit(loaded.scene)
         take: Callable[[Scene], None] = self.recorder.exchange if self.recorder else self.loop.exchange
         take(scene)

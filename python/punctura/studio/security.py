@@ -1,6 +1,6 @@
-"""Who may talk to the studio: this computer, from the studio's own page, with the token of this run.
+"""Access to the studio: only from this computer, from the studio's own page, and with the token of this run.
 
-Pure ASGI, around everything else. Every refusal is a status and a sentence. What each check is for: docs/studio.md.
+ASGI middleware around everything else. A refusal has a status and a sentence. docs/studio.md explains each check.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from punctura.studio.protocols import CONNECTION, CONNECTIONS
 
 PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
-FREE = ("/assets/", "/figures/")  # folders without a secret
+FREE = ("/assets/", "/figures/")  # public folders
 FREE_FILES = ("/icon.svg", "/favicon.ico")
 NO_TOKEN = "This needs the token of this run: open the address that the studio printed."
 
@@ -44,7 +44,7 @@ _PAGE_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; "
     "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-# The page of `punctura reproduce` carries its style and its drawings in itself, and no script.
+# The page of `punctura reproduce` contains its style and its drawings, and no script.
 _FIGURES_POLICY = (
     "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'"
@@ -52,7 +52,7 @@ _FIGURES_POLICY = (
 
 
 class Refused(Exception):
-    """A request that is not let in."""
+    """A request that is refused."""
 
     def __init__(self, status: int, sentence: str) -> None:
         super().__init__(sentence)
@@ -60,11 +60,11 @@ class Refused(Exception):
 
 
 class TooLarge(Exception):
-    """A body that grew beyond its limit while it was read."""
+    """A body that exceeded its limit while it was read."""
 
 
 class Guard:
-    """ASGI middleware. port: the one that is served; token: of this run."""
+    """ASGI middleware. port: the server's; token: of this run."""
 
     def __init__(self, app: ASGIApp, port: int, token: str) -> None:
         self._app, self._token = app, token
@@ -90,7 +90,7 @@ class Guard:
                 await self._serve(scope, receive, send)
 
     def _check(self, scope: Scope, headers: Headers) -> None:
-        """Raises Refused. A request without the token takes nothing from what those with it may do."""
+        """Raises Refused. Requests without the token do not use up the limits of requests with it."""
         try:
             with_token = self._let_in(scope, headers)
         except Refused:
@@ -109,7 +109,7 @@ class Guard:
             raise Refused(429, "Too many requests; wait a second.")
 
     def _let_in(self, scope: Scope, headers: Headers) -> bool:
-        """Whether it has the token. Raises Refused where it may not come in."""
+        """Whether the request has the token. Raises Refused if it is not allowed."""
         client = scope.get("client")
         if not client or not _is_loopback(client[0]):
             raise Refused(403, "The studio serves this computer only.")
@@ -167,12 +167,12 @@ class Guard:
 
 
 def _socket_tokens(scope: Scope) -> list[str]:
-    """The tokens that a websocket's subprotocols carry."""
+    """The tokens in a websocket's subprotocols."""
     return [p.removeprefix(TOKEN_PROTOCOL) for p in scope.get("subprotocols", []) if p.startswith(TOKEN_PROTOCOL)]
 
 
 def _tokens(scope: Scope, headers: Headers) -> list[str]:
-    """From the header; or from the address, which a person opens and a download needs."""
+    """From the header, or from the URL, as for links and downloads."""
     found = []
     scheme, _, value = headers.get("authorization", "").partition(" ")
     if scheme.lower() == "bearer":

@@ -1,4 +1,4 @@
-"""Runs the studio: the worker, and the server on loopback, until a signal or the end of the time that was asked for."""
+"""Runs the studio: the worker, and the server on loopback, until a signal comes or the duration is over."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ TOKEN_VARIABLE = "PUNCTURA_STUDIO_TOKEN"
 
 
 class StudioError(PuncturaError, OSError):
-    """The studio cannot be served; the text says what to do."""
+    """The server cannot start; the text says what to do."""
 
 
 @dataclass(frozen=True)
 class Address:
-    """Where the studio is. port: 0 picks a free one."""
+    """The server's address. port: 0 picks a free one."""
 
     port: int
     token: str
@@ -65,7 +65,7 @@ class StudioServer:
         folder: Path | None = None,
         exercises: Exercises | None = None,
     ) -> None:
-        """Raises StudioError where the port is taken, DeviceError where there is no device, ConfigurationError."""
+        """Raises StudioError if the port is in use, DeviceError if there is no device, ConfigurationError."""
         self._socket = _listening(port)
         try:
             self.hub = Hub()
@@ -100,14 +100,14 @@ class StudioServer:
         )
 
     def start(self) -> None:
-        """Returns when the page can be asked for, and ticks come."""
+        """Returns when the server answers and ticks come."""
         quiet_server()
         self._thread.start()
         while not self._server.started:
             if not self._thread.is_alive():
                 raise StudioError("the server did not start")
             time.sleep(0.01)
-        self._socket.listen(LISTEN_QUEUE)  # uvicorn has given it the length that is meant for the accepting
+        self._socket.listen(LISTEN_QUEUE)  # uvicorn has set it to the backlog for accepting
         self.session.start()
 
     @property
@@ -115,7 +115,7 @@ class StudioServer:
         return self._thread.is_alive() and self.session.running
 
     def stop(self) -> None:
-        """The force first, then the pages."""
+        """Ends the force first, then the pages."""
         self.session.stop()
         self._server.should_exit = True
         if self._thread.is_alive():
@@ -131,7 +131,7 @@ def run_studio(
 ) -> None:
     """Serves until a signal, which raises Ended after the force is off, or for `duration` (s). Raises StudioError.
 
-    A thread of its own ends the run in time, also while `tell` or the browser keeps this one waiting.
+    A separate thread ends the run in time, even while `tell` or the browser blocks this one.
     """
     with ends_on_signals() as signals:
         with signals.raised():
@@ -162,7 +162,7 @@ def need_page(page: Path) -> None:
 
 
 def token_from_environment() -> str:
-    """A token that was chosen beforehand, so that a page finds a studio again that was started anew; else empty."""
+    """A token from the environment, so that a page can reconnect to a restarted studio; else empty."""
     token = os.environ.get(TOKEN_VARIABLE, "")
     if token and (len(token) < 16 or not token.replace("-", "").replace("_", "").isalnum()):
         raise StudioError(f"{TOKEN_VARIABLE} must have 16 or more letters, digits, - or _")
@@ -170,17 +170,17 @@ def token_from_environment() -> str:
 
 
 def open_page(url: str) -> None:
-    """In a browser with a window, if there is one; a text browser would take the terminal."""
+    """Opens a graphical browser, if there is one; a text browser would take over the terminal."""
     windows = sys.platform in ("win32", "darwin") or any(os.environ.get(v) for v in ("DISPLAY", "WAYLAND_DISPLAY"))
     if windows:
         webbrowser.open(url)
 
 
 def _listening(port: int) -> socket.socket:
-    # With the protocol named: only then asyncio turns off the delay that holds back a connection's frames for 40 ms.
+    # The protocol is named because only then asyncio sets TCP_NODELAY; without it frames are up to 40 ms late.
     listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
-        if sys.platform != "win32":  # there it would let another program take the port, too
+        if sys.platform != "win32":  # on Windows it would let another program bind the same port
             listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listening.bind(("127.0.0.1", port))
         listening.listen(128)

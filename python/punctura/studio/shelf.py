@@ -1,4 +1,4 @@
-"""The folder of recordings: what is in it, and nothing outside it."""
+"""The folder of recordings. Nothing outside it is read or written."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from punctura.studio.names import LONGEST, BadName, safe_name
 
 SUFFIX = ".parquet"
 PART = ".part"
-LEFT_OVER_S = 3600.0  # after which nobody writes a hidden file any more
+LEFT_OVER_S = 3600.0  # after this time nobody still writes a hidden file
 _UNFINISHED = re.compile(r"\..+\.parquet\.[0-9a-f]{8}\.part")
 
 
@@ -32,7 +32,7 @@ class Busy(ValueError):
 
 @dataclass(frozen=True)
 class Entry:
-    """A recording as the list has it."""
+    """One entry of the list of recordings."""
 
     name: str
     title: str
@@ -46,23 +46,23 @@ class Entry:
 
 
 def default_folder() -> Path:
-    """Where the operating system wants a person's data of this program."""
+    """The operating system's folder for the user's data of this program."""
     import platformdirs
 
     return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "recordings"
 
 
 class Shelf:
-    """From any thread. Links are not followed: a name is a file of this folder, or nothing."""
+    """Usable from any thread. Links are not followed: a name is a file of this folder, or nothing."""
 
     def __init__(self, folder: Path) -> None:
-        """The folder is made with the first recording. What killed processes left hidden in it is removed."""
+        """The folder is created with the first recording. Hidden files of killed processes are removed."""
         self.folder = folder
         self._sweep()
         self._known: dict[Path, tuple[tuple[int, int], Entry]] = {}  # by size and time of change
 
     def _sweep(self) -> None:
-        """Exports of earlier versions, and finished recordings that had no name yet; none that may still be written."""
+        """Removes hidden files of exports and of unnamed recordings, unless somebody may still write them."""
         for path in self.folder.glob(".*") if self.folder.is_dir() else ():
             with suppress(OSError):
                 if path.is_symlink() or time.time() - path.stat().st_mtime < LEFT_OVER_S:
@@ -73,7 +73,7 @@ class Shelf:
                     path.unlink()
 
     def new_name(self, wish: str | None, scene: str) -> str:
-        """Of a new recording; without a wish, date and scene. Raises BadName."""
+        """A name for a new recording; by default date and scene. Raises BadName."""
         if wish is not None:
             name = safe_name(wish)
             if self._there(name):
@@ -88,13 +88,13 @@ class Shelf:
         return name
 
     def file(self, name: str) -> Path:
-        """Of a new recording. Makes the folder. Raises BadName, OSError."""
+        """The file of a new recording. Creates the folder. Raises BadName, OSError."""
         path = self._file(safe_name(name))
-        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # others who use this computer do not look in
+        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # readable by the user alone
         return path
 
     def find(self, name: str) -> Path:
-        """Its file, finished or not. Raises BadName, Missing."""
+        """The file of a recording, finished or not. Raises BadName, Missing."""
         path = self._file(safe_name(name))
         for candidate in (path, path.with_name(path.name + PART)):
             if candidate.is_file() and not candidate.is_symlink():
@@ -106,9 +106,9 @@ class Shelf:
         return open_recording(self.find(name))
 
     def delete(self, name: str, running: str = "") -> None:
-        """Raises BadName, Missing, Busy, OSError. running: the one that this studio records, by its kept name.
+        """Raises BadName, Missing, Busy, OSError. running: the name of the recording that this studio makes now.
 
-        One that another program records, or that is being finished, is known by its lock.
+        A lock shows that another program records it, or that it is being finished.
         """
         path = self.find(name)
         if safe_name(name) == running or in_use(path):
@@ -116,7 +116,7 @@ class Shelf:
         path.unlink()
 
     def entries(self, but: str = "") -> list[Entry]:
-        """All that can be read, the latest first. but: one that is being made."""
+        """All readable recordings, the latest first. but: the name of the running one, which is left out."""
         found = []
         for path in sorted(self.folder.iterdir()) if self.folder.is_dir() else ():
             name = path.name.removesuffix(PART).removesuffix(SUFFIX)

@@ -1,4 +1,4 @@
-"""Recordings that have ended, while their files are finished: beside the worker, who has the next run to look after."""
+"""Finishes the files of ended recordings in threads of their own, while the worker runs the next run."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from punctura.record import Recorder, RecorderStatus
 
 
 class Takes:
-    """`finish` returns at once; `wait` when all are done."""
+    """`finish` returns at once; `wait` returns when all are done."""
 
     def __init__(self) -> None:
         self._threads: list[threading.Thread] = []
 
     def finish(self, recorder: Recorder, then: Callable[[RecorderStatus], None]) -> None:
-        """Turns the recording of a stopped loop into its last form; `then` is called in a thread of its own."""
+        """Finishes the recording of a stopped loop in a new thread, which then calls `then`."""
         thread = threading.Thread(target=lambda: then(recorder.finish()), name="punctura-finish")
         self._threads = [t for t in self._threads if t.is_alive()] + [thread]
         thread.start()

@@ -1,4 +1,4 @@
-"""A scene as the page draws it."""
+"""Converts a scene to what the page draws."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import numpy as np
 from punctura import Scene, _core
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
+from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
+from punctura.studio.wire.messages import SceneMessage
 
 
 def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | None = None) -> SceneView:
-    """number: of the scenes of this run. rate: Hz, the device's. laws: without them, those of an upright needle."""
+    """number: index of the scene in this run. rate: the device's, Hz. laws: by default those of an upright needle."""
     scene = loaded.scene
     if laws is None:
         laws = law_curves(scene, obliquities(scene, np.array(scene.membranes[0].inward_normal)))
@@ -30,8 +32,14 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
     )
 
 
+def scene_message(run: Run, laws: list[LawCurve], new_run: bool) -> SceneMessage:
+    """The scene of this run for the pages. new_run: the run begins; else its scene has changed."""
+    view = scene_view(run.loaded, run.scenes, run.rate, laws)
+    return SceneMessage(scene=view, new_run=new_run, run=run.number)
+
+
 def membrane_views(scene: Scene) -> list[MembraneView]:
-    """Where the membranes are."""
+    """The places of the membranes."""
     return [
         MembraneView(
             name=placed.name,

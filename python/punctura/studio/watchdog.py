@@ -12,10 +12,10 @@ POLL_S = 0.05
 
 
 class Watchdog:
-    """A thread that does nothing else, so that no file, page or exercise holds it up."""
+    """A thread that does nothing else, so that no file, page or exercise can block it."""
 
     def __init__(self, tell: Callable[[ServoLoop, str], None]) -> None:
-        """tell: called with a loop that is being stopped, and why. It must not wait for anything."""
+        """tell: called with the loop that is being stopped, and the reason. It must not block."""
         self._tell = tell
         self._watched: tuple[ServoLoop, SilenceWatch] | None = None
         self._over = threading.Event()
@@ -25,11 +25,11 @@ class Watchdog:
         self._thread.start()
 
     def end(self) -> None:
-        """Does not wait for the thread: the driver's own stop, in which it may be, may never return."""
+        """Does not wait for the thread: it may be inside the driver's stop, which may never return."""
         self._over.set()
 
     def watch(self, loop: ServoLoop) -> None:
-        """From any thread: this loop, which has been started, in place of the one before."""
+        """From any thread: watches this started loop instead of the one before."""
         self._watched = (loop, SilenceWatch(loop))
 
     def _work(self) -> None:
@@ -42,11 +42,11 @@ class Watchdog:
             if words := self._ceased(watch):
                 stopped = watched
                 self._tell(loop, words)  # first: a driver's stop may never return
-                loop.stop()  # nothing happens to a loop that the worker has stopped meanwhile
+                loop.stop()  # does nothing if the worker has stopped the loop meanwhile
 
     @staticmethod
     def _ceased(watch: SilenceWatch) -> str:
         try:
             return watch.ceased()
-        except Exception as error:  # who cannot see the ticks does not let the force stay
+        except Exception as error:  # without a view of the ticks the force must end
             return f"the ticks cannot be watched, and the run is stopped; a defect, please report it: {error!r}"

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
+from punctura.ticks.columns import Columns
 from punctura.ticks.fields import ABSENT, file_column
 from punctura.ticks.flat import flatten
-from punctura.ticks.ticks import Ticks
 
 WORD = pa.dictionary(pa.int8(), pa.string())
 
@@ -45,7 +45,7 @@ def with_words(column: str, codes: pa.Array) -> pa.Array:
     return pa.DictionaryArray.from_arrays(codes.cast(pa.int8()), pa.array(words), safe=True)
 
 
-def to_arrow(ticks: Ticks, words: bool = True) -> pa.Table:
+def to_arrow(ticks: Columns, words: bool = True) -> pa.Table:
     """See Ticks.to_arrow. Of other columns only those with one number a tick."""
     flat = {name: array(name, values) for name, values in flatten(ticks).items() if values.ndim == 1}
     return pa.table({name: with_words(name, values) if words else values for name, values in flat.items()})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-from punctura.ticks.ticks import Ticks
+from punctura.files.whole_file import whole_file
 
 _ROWS_A_GROUP = 1 << 16
 
@@ -62,31 +61,24 @@ class _Parquet:
 SUFFIXES = (".csv", ".parquet")
 
 
-def save(ticks: Ticks, path: str | os.PathLike[str]) -> None:
+def save(table: pa.Table, path: str | os.PathLike[str]) -> None:
     """See Ticks.save."""
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{target} must end in {' or '.join(SUFFIXES)}")
-    table = ticks.to_arrow()
     with open_output(target, table.schema) as output:
         output.write(table)
 
 
 @contextmanager
 def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
-    """A result file that is renamed to `path` at the end, or, after an error, leaves nothing behind."""
-    # Named before it is made, so that no interrupt can come between the file and the try.
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
-    try:
+    """A result file that gets its name when it is complete; after an error there is none."""
+    with whole_file(path) as place:
         if path.suffix.lower() == ".parquet":
-            with pyarrow.parquet.ParquetWriter(str(temporary), schema) as writer:
+            with pyarrow.parquet.ParquetWriter(place, schema) as writer:
                 parquet = _Parquet(writer)
                 yield parquet
                 parquet.flush()
         else:
-            with pa.OSFile(str(temporary), "wb") as file:
+            with pa.OSFile(place, "wb") as file:
                 yield CsvOutput(file, schema)
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise

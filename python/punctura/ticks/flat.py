@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from punctura.ticks.columns import Array, Columns, membrane_count
 from punctura.ticks.fields import ABSENT, FIELDS, FileColumn, file_column, file_columns
-from punctura.ticks.ticks import Ticks
-
-Array = npt.NDArray[Any]
 
 
-def flatten(ticks: Ticks, membranes: int | None = None) -> dict[str, Array]:
+def flatten(ticks: Columns, membranes: int | None = None) -> dict[str, Array]:
     """One array (n,) for each column of a file, in its order, for so many membranes; as many as there are if None."""
-    membranes = ticks.membrane_count if membranes is None else membranes
+    membranes = membrane_count(ticks) if membranes is None else membranes
     fields = [field for field in FIELDS.values() if field.name in ticks]
     flat = {}
     for column in file_columns(fields, membranes):
@@ -27,7 +23,7 @@ def flatten(ticks: Ticks, membranes: int | None = None) -> dict[str, Array]:
     return flat
 
 
-def _values(ticks: Ticks, column: FileColumn) -> Array | None:
+def _values(ticks: Columns, column: FileColumn) -> Array | None:
     """The numbers of a file's column; None for a component that a proxy on a line does not have."""
     values = ticks[column.field.name]
     line = column.component is not None and (values.ndim == 1 or values.shape[-1] != 3)
@@ -42,8 +38,8 @@ def _values(ticks: Ticks, column: FileColumn) -> Array | None:
     return np.full(len(values), np.nan if values.dtype.kind == "f" else ABSENT, values.dtype)
 
 
-def gather(flat: Mapping[str, Array]) -> Ticks:
-    """The ticks of a file's columns: the fields of the table come back, other columns keep their names."""
+def gather(flat: Mapping[str, Array]) -> dict[str, Array]:
+    """The fields of a file's columns, by their names; other columns keep theirs."""
     parts: dict[str, dict[tuple[int | None, int | None], Array]] = {}
     others = {}
     for name, values in flat.items():
@@ -52,7 +48,7 @@ def gather(flat: Mapping[str, Array]) -> Ticks:
         else:
             others[name] = values
     gathered = {name: _field(name, parts[name]) for name in FIELDS if name in parts}
-    return Ticks({**gathered, **others})
+    return {**gathered, **others}
 
 
 def _field(name: str, parts: dict[tuple[int | None, int | None], Array]) -> Array:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from punctura.ticks.columns import Array, Columns, membrane_count
 from punctura.ticks.fields import FIELDS
-from punctura.ticks.ticks import Array, Ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def plot(ticks: Ticks, x: str | None = None, axes: Axes | None = None) -> Axes:
+def plot(ticks: Columns, names: Sequence[str], x: str | None, axes: Axes | None) -> Axes:
     """See Ticks.plot."""
     x = x or ("time" if "time" in ticks else "depth")
     for name in (x, "axial_force", "lower", "upper"):
@@ -23,15 +24,15 @@ def plot(ticks: Ticks, x: str | None = None, axes: Axes | None = None) -> Axes:
     along = ticks[x]
     if along.ndim > (2 if FIELDS[x].per_membrane else 1):
         raise ValueError(f"{x} is a vector; x must be a field of one number, such as time or depth")
-    for i in range(ticks.membrane_count):
+    for i in range(membrane_count(ticks)):
         at = _of(along, i)
-        name = ticks.membranes[i] if i < len(ticks.membranes) else f"membrane {i}"
-        (line,) = axes.plot(at, _of(ticks.axial_force, i), lw=1, label=name)
-        for edge in (ticks.lower, ticks.upper):
+        name = names[i] if i < len(names) else f"membrane {i}"
+        (line,) = axes.plot(at, _of(ticks["axial_force"], i), lw=1, label=name)
+        for edge in (ticks["lower"], ticks["upper"]):
             axes.plot(at, _of(edge, i), lw=0.6, ls=":", color=line.get_color())
     axes.set_xlabel(_label(x))
     axes.set_ylabel("force along the needle (N), dotted: band")
-    if ticks.membrane_count > 1:
+    if membrane_count(ticks) > 1:
         axes.legend()
     return axes
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Fault, TickArrays, describe
+from punctura.ticks.columns import Array, membrane_count
 from punctura.ticks.fields import FIELDS
 
 if TYPE_CHECKING:
@@ -17,16 +18,6 @@ if TYPE_CHECKING:
     import polars
     import pyarrow
     from matplotlib.axes import Axes
-
-Array = npt.NDArray[Any]
-
-
-class Columns(Protocol):
-    """Arrays by the names of fields, one row a tick: Ticks, or a dict."""
-
-    def __getitem__(self, name: str, /) -> Array: ...
-    def __contains__(self, name: object, /) -> bool: ...
-    def get(self, name: str, otherwise: Any = None, /) -> Any: ...
 
 
 class Ticks(TickArrays):
@@ -100,10 +91,7 @@ class Ticks(TickArrays):
     @property
     def membrane_count(self) -> int:
         """m; 1 for the ticks of a single proxy."""
-        for name, column in self.columns.items():
-            if (field := FIELDS.get(name)) and field.per_membrane:
-                return int(column.shape[1]) if column.ndim > (1 if field.width == 1 else 2) else 1
-        return 0
+        return membrane_count(self)
 
     @property
     def fault_text(self) -> str:
@@ -133,7 +121,7 @@ class Ticks(TickArrays):
         """Writes .csv or .parquet; a file there is replaced once the new one is whole. Raises ValueError, OSError."""
         from punctura.ticks.files import save
 
-        save(self, path)
+        save(self.to_arrow(), path)
 
     def plot(self, x: str | None = None, axes: Axes | None = None) -> Axes:
         """Draws each membrane's force along the needle and its band against "time", "depth" or another field.
@@ -142,4 +130,4 @@ class Ticks(TickArrays):
         """
         from punctura.ticks.plot import plot
 
-        return plot(self, x, axes)
+        return plot(self, self.membranes, x, axes)

@@ -1,29 +1,30 @@
-// What a back-end is to the registry: a name, what it says of itself, and how its device is opened.
+// A back-end as the registry sees it: its name, its status, and a function that opens its device.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/status.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
 struct OpenOptions {
-  double rate = 1600;               ///< Hz, wished for: the device's `info().rate` says what came of it
-  std::string device;               ///< which one, as its maker names it; empty is the first
-  std::string library;              ///< path of the maker's library; empty looks where it usually is
-  os::RealtimeSettings realtime{};  ///< of the thread that ticks, where that is ours and not a maker's
+  double rate = usual_rate;         ///< Hz, requested; `info().rate` of the device is the actual rate
+  std::string device;               ///< the maker's name of it; empty is the first
+  std::string library;              ///< path of the maker's library; empty searches the usual places
+  os::RealtimeSettings realtime{};  ///< of the ticking thread, unless a maker's library owns it
 };
 
 struct Backend {
   const char* name;
-  BackendStatus (*status)();                                ///< moves nothing and gives no force
+  BackendStatus (*status)();                                ///< no motion, no force
   std::shared_ptr<Device> (*open)(const OpenOptions& how);  ///< throws DeviceError
 };
 
-/// Ours: each is defined in its own file, and named once more in the table of registry.cpp. Others come by register_backend().
+/// Built in: each is defined in a file of its own and listed in registry.cpp. register_backend() adds others.
 namespace backends {
 extern const Backend openhaptics;
 extern const Backend force_dimension;

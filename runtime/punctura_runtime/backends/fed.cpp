@@ -9,12 +9,12 @@
 namespace punctura {
 
 namespace {
-constexpr double tolerance = 0.05;  // of the rate, above which the user is told
+constexpr double tolerance = 0.05;  // relative error of the rate above which the user is told
 }
 
 FedDevice::FedDevice(DeviceInfo info, bool real_time) : info_(std::move(info)), real_time_(real_time) {
   if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("a rate of " + std::to_string(info_.rate) + " Hz cannot be fed: it must be above 0");
+    throw DeviceError("the rate of a fed device must be above 0 Hz, not " + std::to_string(info_.rate));
   if (info_.backend.empty()) info_.backend = "fed";
 }
 
@@ -73,7 +73,7 @@ std::vector<std::string> FedDevice::statements() const {
   std::vector<std::string> all = realtime_;
   if (const std::uint64_t n = refused_; n > 0)
     all.push_back(std::to_string(n) +
-                  " readings got no tick and no force: two threads fed the device at the same time");
+                  " readings got no tick and no force, because two threads fed the device at the same time");
   const Span span = latest_span_.read();
   if (!real_time_ || span.readings < 2) return all;
   const double rate =
@@ -83,7 +83,7 @@ std::vector<std::string> FedDevice::statements() const {
   std::snprintf(text, sizeof text, "fed at %.4g Hz%s", rate,
                 off ? ", not at the rate that it was opened with: damping and filters are wrong by as much" : "");
   all.push_back(text);
-  if (realtime_.empty()) all.push_back("the thread that feeds has not asked for real-time priority: make_realtime()");
+  if (realtime_.empty()) all.push_back("the feeding thread has no real-time priority: call make_realtime() on it");
   return all;
 }
 

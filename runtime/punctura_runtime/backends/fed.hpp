@@ -1,4 +1,4 @@
-// A device whose readings somebody else's loop brings: a driver written in Python, a simulator that steps at its own pace.
+// A device whose readings come from another loop: a driver written in Python, or a simulator with its own time.
 #pragma once
 
 #include <atomic>
@@ -6,27 +6,27 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/latest.hpp"
+#include "punctura_runtime/ring/triple_buffer.hpp"
 
 namespace punctura {
 
-/// Request and reply: every reading that is fed is one tick, on the thread that feeds it, and the reply is the force.
+/// Request and reply: each call of feed() is one tick, on the calling thread, and returns the force.
 ///
-/// Who feeds owns the clock, and shall keep to `info().rate`, which is what T is taken from. One thread feeds; it never waits for
-/// another one. All other calls may come from any thread. stop() waits until the tick that is under way has ended: when it returns,
-/// no tick comes any more.
+/// The feeding thread owns the clock. It must keep to `info().rate`, from which T is computed. Only one thread feeds;
+/// it never waits for another one. All other calls are allowed from any thread. stop() waits for the running tick;
+/// after it no tick runs.
 class FedDevice : public Device {
  public:
   struct Reading {
     std::array<double, 3> position;        ///< m
     std::array<double, 3> axis{0, -1, 0};  ///< unit direction in which the needle points
     std::uint32_t buttons = 0;             ///< one bit each
-    bool healthy = true;                   ///< false: who feeds has lost the device
+    bool healthy = true;                   ///< false: the device is lost
     double motor_temperature = 0;          ///< 0 to 1
   };
 
-  /// info: what the device is, its rate among it. real_time: readings get the time at which they are fed; false: k / rate, for
-  /// who simulates and is not bound to the clock. Throws DeviceError where the rate is none.
+  /// real_time: each reading gets the time of its call; false: k / rate, for a simulation that does not follow the
+  /// clock. Throws DeviceError if the rate in `info` is not above 0.
   explicit FedDevice(DeviceInfo info, bool real_time = true);
   ~FedDevice() override { stop(); }
 
@@ -36,12 +36,12 @@ class FedDevice : public Device {
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 
-  /// On the thread that feeds, before it begins: asks the system to wake it on time (os::make_realtime, at this device's rate).
-  /// What was granted and refused is returned, and is in statements().
+  /// To be called on the feeding thread before the first reading: requests real-time scheduling (os::make_realtime) at
+  /// this device's rate. Returns what was granted and what was refused; statements() has it, too.
   std::vector<std::string> make_realtime(const os::RealtimeSettings& settings = {});
 
-  /// A reading in, the force for the device out, N; zero while no loop runs. A reading that comes while another thread's is being
-  /// ticked gets zero and no tick, and statements() says so.
+  /// Takes a reading and returns the force for the device, N; zero while no loop runs. A reading that comes while
+  /// another thread's tick runs gets no tick and zero force, and statements() says so.
   Tick::Force feed(const Reading& reading) noexcept;
   std::uint64_t fed() const noexcept { return fed_; }  ///< readings since start()
 
@@ -55,16 +55,16 @@ class FedDevice : public Device {
 
   DeviceInfo info_;
   bool real_time_;
-  std::mutex starting_or_stopping_;  ///< never of feed()
+  std::mutex starting_or_stopping_;  ///< not used by feed()
   std::atomic<unsigned> state_{
-      0};  ///< open while a loop runs, ticking while a reading is ticked: who feeds has all below then
+      0};  ///< open: a loop runs; ticking: a tick runs, and the feeding thread owns all members below
   Tick tick_{nullptr, nullptr};
   std::int64_t start_ns_ = 0;
   Span span_;
-  mutable Latest<Span> latest_span_;
+  mutable TripleBuffer<Span> latest_span_;
   std::atomic<std::uint64_t> fed_{0}, refused_{0};
   std::atomic<bool> unhealthy_{false};
-  mutable std::mutex words_;  ///< of those who ask, never of feed()
+  mutable std::mutex words_;  ///< guards realtime_; not used by feed()
   std::vector<std::string> realtime_;
 };
 

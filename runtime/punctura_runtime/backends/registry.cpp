@@ -9,7 +9,7 @@ namespace punctura {
 
 namespace {
 
-/// Our own, behind those that were registered.
+/// The registered back-ends, then the built-in ones.
 class Table {
  public:
   static std::vector<const Backend*> all() {
@@ -21,7 +21,7 @@ class Table {
     auto& known = one().backends_;
     const auto same = [&](const Backend* other) { return std::string(other->name) == backend.name; };
     if (std::any_of(known.begin(), known.end(), same))
-      throw DeviceError("a back-end called '" + std::string(backend.name) + "' is there already");
+      throw DeviceError("a back-end called '" + std::string(backend.name) + "' exists already");
     known.insert(known.begin(), &backend);
   }
 
@@ -44,7 +44,7 @@ std::vector<BackendStatus> enumerate_devices() {
   for (const Backend* backend : Table::all()) {
     try {
       all.push_back(backend->status());
-    } catch (const std::exception& error) {  // one that fails must not hide the others
+    } catch (const std::exception& error) {  // the others are listed all the same
       all.push_back({backend->name, BackendStatus::State::fault, error.what(), {}});
     }
   }
@@ -53,13 +53,13 @@ std::vector<BackendStatus> enumerate_devices() {
 
 std::shared_ptr<Device> open_device(const std::string& backend, const OpenOptions& options) {
   if (!(options.rate > 0) || !std::isfinite(options.rate))
-    throw DeviceError("a rate of " + std::to_string(options.rate) + " Hz cannot be asked for: it must be above 0");
+    throw DeviceError("the rate must be above 0 Hz, not " + std::to_string(options.rate));
   std::string known;
   for (const Backend* candidate : Table::all()) {
     if (backend == candidate->name) return candidate->open(options);
     known += (known.empty() ? "" : ", ") + std::string(candidate->name);
   }
-  throw DeviceError("no back-end is called '" + backend + "'; there are " + known);
+  throw DeviceError("no back-end is called '" + backend + "'; available: " + known);
 }
 
 }  // namespace punctura

@@ -1,4 +1,4 @@
-// All back-ends: what is there, and opening one of them.
+// All back-ends.
 #pragma once
 
 #include <memory>
@@ -9,15 +9,14 @@
 
 namespace punctura {
 
-/// Adds a back-end of your own to those of enumerate_devices() and open_device(), before them. It must live as long as the program. Throws
-/// DeviceError where one of that name is there.
+/// Adds your own back-end before the others. It must live as long as the program. Throws DeviceError if its name is
+/// taken.
 void register_backend(const Backend& backend);
 
-/// One entry a back-end, in the order in which somebody who does not care which would try them: hardware first. No force is given, and
-/// nothing stays open.
+/// The status of each back-end, hardware first. Gives no force and leaves no device open.
 std::vector<BackendStatus> enumerate_devices();
 
-/// Throws DeviceError, which says what to do.
+/// Throws DeviceError with a message that says what to do.
 std::shared_ptr<Device> open_device(const std::string& backend, const OpenOptions& options = {});
 
 }  // namespace punctura

@@ -1,13 +1,12 @@
-// A recorded motion as a device: what was in a hand once, through another scene, another solver, or in front of a view.
+// A recorded motion as a device, to run it with another scene or solver, or to show it.
 #pragma once
 
 #include <atomic>
-#include <thread>
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 
 namespace punctura {
 
@@ -16,26 +15,25 @@ struct ReplayOptions {
   os::RealtimeSettings realtime{};
 };
 
-/// Ticks recorded samples, each as it was and none left out, and ends by itself. A recording does not yield: the force goes nowhere.
+/// Ticks every recorded sample, unchanged, and ends by itself. The force has no effect on the motion.
 ///
-/// Samples keep the time at which they were recorded, so that the input gate judges the recording and not the punctuality of its
-/// replay: the scene and the limits of the recording give its forces again, to the last bit. A replay that is held up goes on
-/// where it was, later.
+/// Samples keep their recorded times, so that the input gate checks the recording and not the timing of the replay: the
+/// same scene and limits give the recorded forces, bit for bit. After a delay, the replay continues where it was.
 class ReplayDevice : public Device {
  public:
-  /// recorded: the device that the samples are from; its rate is that of the replay. Throws DeviceError where that is none.
+  /// recorded: the samples' device; its rate is that of the replay. Throws DeviceError if the rate is not above 0.
   ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorded, const ReplayOptions& options = {});
   ~ReplayDevice() override { stop(); }
 
   const DeviceInfo& info() const noexcept override { return info_; }
-  void start(Tick tick) override;  ///< from the first sample on
+  void start(Tick tick) override;  ///< from the first sample
   void stop() noexcept override;
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 
-  bool finished() const noexcept { return finished_; }           ///< the last sample has been
+  bool finished() const noexcept { return finished_; }           ///< the last sample has been ticked
   std::size_t size() const noexcept { return samples_.size(); }  ///< samples
-  std::uint64_t behind() const noexcept { return behind_; }      ///< periods by which it has been held up so far
+  std::uint64_t behind() const noexcept { return behind_; }      ///< the delay so far, in periods
 
  private:
   void run(Tick tick) noexcept;
@@ -43,11 +41,9 @@ class ReplayDevice : public Device {
   std::vector<DeviceSample> samples_;
   DeviceInfo info_;
   ReplayOptions options_;
-  std::atomic<bool> stop_{false}, finished_{false}, unhealthy_{false};
-  Milestone ready_;
+  std::atomic<bool> finished_{false}, unhealthy_{false};
   std::atomic<std::uint64_t> behind_{0};
-  std::vector<os::RealtimeItem> realtime_;
-  std::thread thread_;
+  TickingThread thread_;
 };
 
 }  // namespace punctura

@@ -1,4 +1,4 @@
-// Replay in the registry: there is always one, but never without a recording.
+// Replay in the registry: always listed, but it needs a recording.
 #include "punctura_runtime/backends/backend.hpp"
 
 namespace punctura {
@@ -13,7 +13,7 @@ BackendStatus status() {
           {}};
 }
 
-/// Recordings are Parquet and Arrow files; their reader is Python's.
+/// Recordings are Parquet and Arrow files, which only Python reads.
 std::shared_ptr<Device> open(const OpenOptions&) {
   throw DeviceError(
       "a recording is opened by `--device replay:FILE.parquet` or punctura.record.replay_device(FILE) in Python; in C++, "

@@ -1,6 +1,5 @@
 #include "punctura_runtime/backends/simulated.hpp"
 
-#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura {
@@ -19,28 +18,25 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
       plant_(options.dynamics, options.hand, 1 / options.rate, options.seed),
       wish_{plain(desired_at(motion_, 0).position), options.axis, 0},
       wishes_(wish_) {
-  info_ = {"simulated", "PHANTOM Omni, simulated",     "",          true, 1, options.dynamics.max_force, 0.88,
-           unknown,     options.dynamics.encoder_step, options.rate};
+  info_ = {"simulated", "PHANTOM Omni, simulated", "", true, 1, options.dynamics.max_force, Omni::continuous_force};
+  info_.encoder_step = options.dynamics.encoder_step;
+  info_.rate = options.rate;
   plant_.place(vector(wish_.target));
 }
 
 void SimulatedDevice::start(Tick tick) {
-  refuse_second_loop(thread_.joinable());
-  stop_ = finished_ = false;
+  thread_.refuse_second_loop();
+  finished_ = false;
   missed_ = 0;
-  ready_.set_ahead();
-  thread_ = ticking_thread([this, tick] { run(tick); });
-  ready_.wait();
+  thread_.start(options_.real_time ? std::optional(options_.realtime.at_rate(options_.rate)) : std::nullopt,
+                [this, tick] { run(tick); });
 }
 
-void SimulatedDevice::stop() noexcept {
-  stop_ = true;
-  if (thread_.joinable()) thread_.join();
-}
+void SimulatedDevice::stop() noexcept { thread_.stop(); }
 
 std::vector<std::string> SimulatedDevice::statements() const {
   std::vector<std::string> all;
-  os::add_words(realtime_, all);
+  os::add_words(thread_.realtime(), all);
   return all;
 }
 
@@ -56,12 +52,9 @@ void SimulatedDevice::point(const std::array<double, 3>& axis, std::uint32_t but
 }
 
 void SimulatedDevice::run(Tick tick) noexcept {
-  if (options_.real_time) realtime_ = os::make_realtime(options_.realtime.at_rate(options_.rate));
-  ready_.reach();
-
   Pacer<> pacer(options_.rate);
   const std::int64_t start = os::now_ns();
-  for (std::uint64_t k = 0; !stop_ && (options_.ticks == 0 || k < options_.ticks); ++k) {
+  for (std::uint64_t k = 0; !thread_.stopping() && (options_.ticks == 0 || k < options_.ticks); ++k) {
     if (options_.real_time) {
       missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
       one_tick(tick, k, static_cast<double>(os::now_ns() - start) * 1e-9);

@@ -1,28 +1,28 @@
-// The plant as a device: for those who have no hardware, and for every test of the loop.
+// The plant as a device, for users without hardware and for tests of the loop.
 #pragma once
 
 #include <atomic>
 #include <memory>
-#include <thread>
 #include <variant>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
+#include "punctura_runtime/ring/triple_buffer.hpp"
 
 namespace punctura {
 
 struct SimulatedOptions {
   DeviceDynamics dynamics{};
   Hand hand{};
-  double rate = 1600;  ///< Hz
+  double rate = usual_rate;  ///< Hz
   std::uint64_t seed = 0;
   bool real_time = true;                 ///< false: as fast as possible, on a clock of its own
-  std::uint64_t ticks = 0;               ///< how many ticks there are; 0 is no end
-  std::array<double, 3> axis{0, -1, 0};  ///< where the stylus points
+  std::uint64_t ticks = 0;               ///< number of ticks; 0 is endless
+  std::array<double, 3> axis{0, -1, 0};  ///< direction of the stylus
   os::RealtimeSettings realtime{};
 };
 
@@ -39,16 +39,16 @@ class SimulatedDevice : public Device {
   void stop() noexcept override;
   std::vector<std::string> statements() const override;
 
-  /// Of a Target: where the hand shall go, m. From one thread at a time, at any moment.
+  /// Sets the position that a Target's hand moves to, m. At any time, from one thread at a time.
   void move_to(const std::array<double, 3>& position) noexcept;
-  /// Where the stylus points, and the buttons that are held. From the same thread.
+  /// Sets the direction of the stylus and the pressed buttons. From the same thread.
   void point(const std::array<double, 3>& axis, std::uint32_t buttons = 0) noexcept;
-  bool finished() const noexcept { return finished_; }  ///< all ticks asked for have been
+  bool finished() const noexcept { return finished_; }  ///< all `ticks` are done, or stop()
   std::uint64_t missed() const noexcept { return missed_; }
 
-  /// The next reading is spoilt by this, once: to try what a fault is like.
+  /// Test aid: changes the next reading once, to provoke a fault.
   void spoil(void (*how)(DeviceSample&)) noexcept { spoiler_.store(how); }
-  /// Test aid: the force that the plant was given last, N.
+  /// Test aid: the last force on the plant, N.
   std::array<double, 3> last_force() noexcept { return last_force_.read(); }
 
  private:
@@ -64,14 +64,12 @@ class SimulatedDevice : public Device {
   Motion motion_;
   Plant plant_;
   Wish wish_;
-  Latest<Wish> wishes_;
-  Latest<std::array<double, 3>> last_force_;
+  TripleBuffer<Wish> wishes_;
+  TripleBuffer<std::array<double, 3>> last_force_;
   std::atomic<void (*)(DeviceSample&)> spoiler_{nullptr};
-  std::atomic<bool> stop_{false}, finished_{false};
-  Milestone ready_;
+  std::atomic<bool> finished_{false};
   std::atomic<std::uint64_t> missed_{0};
-  std::vector<os::RealtimeItem> realtime_;
-  std::thread thread_;
+  TickingThread thread_;
 };
 
 }  // namespace punctura

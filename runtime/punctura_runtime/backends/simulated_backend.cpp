@@ -1,4 +1,4 @@
-// The simulated device in the registry: always there, its hand follows a target.
+// The simulated device in the registry: always available; its hand follows a target.
 #include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 

@@ -1,4 +1,4 @@
-// What a back-end says of itself before anything is opened, so that a user can see why a device is not there.
+// The status of a back-end before a device is opened: it shows why a device is missing.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@ namespace punctura {
 struct BackendStatus {
   enum class State {
     available,          ///< it can be opened now
-    library_not_found,  ///< the maker's software is not installed, or not where we look
-    symbol_missing,     ///< it is installed, but of a version that lacks a function
+    library_not_found,  ///< the maker's software is not installed, or not in the searched places
+    symbol_missing,     ///< it is installed, but lacks a function
     no_device,          ///< nothing is plugged in, or nothing answers
-    in_use,             ///< somebody has it open: this process, or another
-    needs_calibration,  ///< its user has to do something first
+    in_use,             ///< this process or another one has it open
+    needs_calibration,  ///< the user must calibrate it first
     fault,              ///< anything else
   };
 
   std::string backend;
   State state;
-  std::string detail;                ///< where it looked, which symbol, what to do: whole sentences
-  std::vector<std::string> devices;  ///< what can be opened, as open_device() takes it or as its maker names it
+  std::string detail;                ///< the reason and what to do, in whole sentences
+  std::vector<std::string> devices;  ///< the devices by the names that open_device() takes, or by the maker's
 };
 
-/// As a program reads it: "available", "library_not_found", ...
+/// For programs: "available", "library_not_found", ...
 constexpr const char* name_of(BackendStatus::State state) noexcept {
   switch (state) {
     case BackendStatus::State::available: return "available";

@@ -1,28 +1,74 @@
-// The thread of a device that Punctura paces.
+// How a device that Punctura paces starts and stops its thread.
 #pragma once
 
+#include <atomic>
+#include <future>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
-/// Throws DeviceError where a device is asked to tick for a second loop: the first would be left without ticks and not know.
-inline void refuse_second_loop(bool ticks_already) {
-  if (ticks_already) throw DeviceError("the device runs in another loop already: stop that one first");
+/// Throws DeviceError if the device runs in a loop: a second one would leave the first without ticks, and that would
+/// not know.
+inline void refuse_second_loop(bool runs) {
+  if (runs) throw DeviceError("the device runs in another loop already: stop that one first");
 }
 
-/// Throws DeviceError where the system has no thread to give.
-template <typename Run>
-std::thread ticking_thread(Run run) {
-  try {
-    return std::thread(std::move(run));
-  } catch (const std::system_error& error) {
-    throw DeviceError(std::string("no thread for the device's ticks: ") + error.what());
+/// One thread, from start() to stop(). It counts as running until stop(), also when its work has ended before.
+class TickingThread {
+ public:
+  TickingThread() = default;
+  TickingThread(const TickingThread&) = delete;
+  TickingThread& operator=(const TickingThread&) = delete;
+  ~TickingThread() { stop(); }
+
+  void refuse_second_loop() const { punctura::refuse_second_loop(thread_.joinable()); }
+
+  /// In the new thread: real-time scheduling where settings are given, prepare(), and, if that gives true, run(), which
+  /// returns soon after stopping(). Returns what prepare() gave, as soon as it has. Throws DeviceError if it runs or
+  /// the system has no thread to give.
+  template <typename Run, typename Prepare = bool (*)()>
+  bool start(const std::optional<os::RealtimeSettings>& realtime, Run run, Prepare prepare = [] { return true; }) {
+    refuse_second_loop();
+    stopping_ = false;
+    std::promise<bool> ready;
+    std::future<bool> prepared = ready.get_future();
+    try {
+      thread_ = std::thread([this, realtime, prepare, run, ready = std::move(ready)]() mutable noexcept {
+        if (realtime) realtime_ = os::make_realtime(*realtime);
+        const bool good = prepare();
+        ready.set_value(good);
+        if (good) run();
+      });
+    } catch (const std::system_error& error) {
+      throw DeviceError(std::string("no thread for the device's ticks: ") + error.what());
+    }
+    const bool good = prepared.get();
+    if (!good) stop();
+    return good;
   }
-}
+
+  /// Waits until run() has returned. Without effect if it does not run.
+  void stop() noexcept {
+    stopping_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  bool stopping() const noexcept { return stopping_; }
+
+  /// What the system granted and what not.
+  const std::vector<os::RealtimeItem>& realtime() const noexcept { return realtime_; }
+
+ private:
+  std::atomic<bool> stopping_{false};
+  std::vector<os::RealtimeItem> realtime_;
+  std::thread thread_;
+};
 
 }  // namespace punctura

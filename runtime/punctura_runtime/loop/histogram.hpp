@@ -1,4 +1,4 @@
-// How long things took, kept while a loop runs at no cost to it.
+// Durations in a running loop.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace punctura {
 
-/// Counts of durations, ns, in bins 1/8 of an octave wide: within 13 % of the truth from 1 ns to 18 s.
+/// Counts of durations, ns, in bins of 1/8 octave: accurate to 13 % from 1 ns to 18 s.
 ///
-/// One thread adds; any other may read meanwhile.
+/// One thread adds; others may read at the same time.
 class Histogram {
  public:
   static constexpr std::size_t bins = 34 * 8;
@@ -30,7 +30,7 @@ class Histogram {
   }
   std::uint64_t largest_ns() const noexcept { return largest_.load(std::memory_order_relaxed); }
 
-  /// The bin of a duration: values below 8 have one each, then eight to an octave.
+  /// The bin of a duration: one for each value below 8, then eight for each octave.
   static constexpr std::size_t bin(std::uint64_t v) noexcept {
     if (v < 8) return static_cast<std::size_t>(v);
     const unsigned octave = static_cast<unsigned>(std::bit_width(v)) - 4;  // 0 for 8..15
@@ -42,7 +42,7 @@ class Histogram {
     if (at < 8) return at;
     return (std::uint64_t{8} + (at - 8) % 8) << ((at - 8) / 8);
   }
-  /// The duration below which a share of all lies, ns; the upper edge of its bin.
+  /// The duration that a share of all does not exceed (a quantile), ns; the upper edge of its bin.
   static std::uint64_t quantile(const Counts& counts, double share) noexcept {
     std::uint64_t total = 0, seen = 0;
     for (auto count : counts) total += count;

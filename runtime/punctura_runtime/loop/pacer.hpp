@@ -1,4 +1,4 @@
-// Absolute-time ticks for devices that have no clock of their own.
+// Periodic wake-ups at absolute times, for devices without a clock of their own.
 #pragma once
 
 #include <cstdint>
@@ -7,25 +7,25 @@
 
 namespace punctura {
 
-/// The system's clock. Tests put one of their own in its place.
+/// The system's clock. Tests replace it.
 struct SystemClock {
   std::int64_t now() const noexcept { return os::now_ns(); }
   void sleep_until(std::int64_t time) const noexcept { os::sleep_until_ns(time); }
 };
 
-/// Wakes at start, start + T, start + 2T, ... A late tick does not move the later ones; ticks whose time has passed altogether are
-/// left out and counted, never made up for in a burst.
+/// Wakes at start, start + T, start + 2T, ... A late tick does not shift the later ones. Ticks whose whole period has
+/// passed are skipped and counted; there is no burst to catch up.
 template <typename Clock = SystemClock>
 class Pacer {
  public:
   Pacer(double rate_hz, Clock clock = {}) noexcept : clock_(clock), rate_(rate_hz), start_(clock_.now()) {}
 
-  /// Sleeps until the next tick is due. How many ticks were left out before it.
+  /// Sleeps until the next tick is due. Returns the number of ticks skipped before it.
   std::uint64_t wait() noexcept {
     ++count_;
     std::uint64_t missed = 0;
     const std::int64_t now = clock_.now();
-    if (due(count_ + 1) <= now) {  // not even the tick after this one is still to come
+    if (due(count_ + 1) <= now) {  // the tick after this one is due, too
       const auto behind = static_cast<std::uint64_t>(static_cast<double>(now - start_) * 1e-9 * rate_);
       missed = behind > count_ ? behind - count_ : 0;
       count_ += missed;
@@ -35,7 +35,7 @@ class Pacer {
   }
 
   double rate() const noexcept { return rate_; }  ///< Hz
-  /// When the present tick was due, ns.
+  /// The time at which the current tick was due, ns.
   std::int64_t due() const noexcept { return due(count_); }
 
  private:

@@ -14,20 +14,20 @@ void copy(const Snapshot& from, Snapshot& to) noexcept {
 
 namespace {
 
-/// A limit is never above what the device's maker allows; NaN (not known) leaves it.
+/// The lower of a limit and the device's rating; the limit if the rating is NaN (not known).
 double tighter(double limit, double rating) noexcept { return rating < limit ? rating : limit; }
 
-/// Every loop of this program. None is destroyed while somebody has the lock.
+/// All loops of this program. No loop is destroyed while the lock is held.
 struct Loops {
   std::mutex mutex;
   std::vector<ServoLoop*> loops;
 };
 Loops& all_loops() {
-  static auto& all = *new Loops;  // outlives every other static object
+  static auto& all = *new Loops;  // never destroyed
   return all;
 }
 
-/// Guards what devices keep between two runs.
+/// Guards `motor_use` of all devices.
 std::mutex& motor_use_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -57,7 +57,7 @@ ServoLoop::~ServoLoop() {
   stop();
   {
     auto& [mutex, loops] = all_loops();
-    const std::lock_guard lock(mutex);  // waits for a stop_all() that may be at this loop
+    const std::lock_guard lock(mutex);  // waits for a stop_all() that may be using this loop
     std::erase(loops, this);
   }
   delete step_;
@@ -89,7 +89,8 @@ void ServoLoop::start() {
     last_begin_ = 0;
     step_->set_spent(rested());
     rest_counted_ = false;
-    if (ticks_ != 0 && step_->fault() == Fault::none) ask(reset_bit);  // no motion of the last run is one of this
+    if (ticks_ != 0 && step_->fault() == Fault::none)
+      ask(reset_bit);  // do not take the motion since the last run for one of this run
   }
   try {
     device_->start({&ServoLoop::call, this});
@@ -104,11 +105,11 @@ void ServoLoop::stop() noexcept {
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
-  asked_.fetch_and(~(arm_bit | pause_bit));  // of the run that is over
+  asked_.fetch_and(~(arm_bit | pause_bit));  // requests of the run that has ended
   end_run();
 }
 
-/// No tick comes any more: a scene that no tick has taken is taken here.
+/// After the last tick. Takes a scene that no tick has taken.
 void ServoLoop::end_run() noexcept {
   const std::lock_guard lock(between_ticks_);
   running_ = false;
@@ -127,8 +128,8 @@ double ServoLoop::spent() {
   return rested();
 }
 
-/// The time since the last run on this device counts as rest, up to the first call. So a recorder that asks before start()
-/// is told what the run begins with.
+/// The time since the last run on this device counts as rest, until the first call. So a recorder that asks before
+/// start() gets the value with which the run begins.
 double ServoLoop::rested() {
   const std::lock_guard lock(motor_use_mutex());
   MotorUse& motors = device_->motor_use;
@@ -149,7 +150,7 @@ void ServoLoop::stop_all() noexcept {
   for (ServoLoop* loop : loops) loop->stop();
 }
 
-/// A new scene, between two ticks or without any.
+/// Takes a new scene, between two ticks or while the loop does not run.
 void ServoLoop::take() noexcept {
   if (ServoStep* next = handover_.take()) {
     next->resume(*step_);
@@ -159,7 +160,7 @@ void ServoLoop::take() noexcept {
 }
 
 void ServoLoop::reset() noexcept {
-  const std::lock_guard lock(readers_);  // nobody reads the history that a reset lets go on
+  const std::lock_guard lock(readers_);  // nobody reads the history while a reset lets it continue
   ask(reset_bit);
 }
 
@@ -172,7 +173,8 @@ void ServoLoop::exchange(Scene scene) {
     handover_.offer(std::move(step));
     if (!running_) take();
   }
-  // A few ticks at most. Without the lock, so that a stop need not wait; a device that has ceased to tick must not hold the caller.
+  // Takes a few ticks at most. Without the lock, so that stop() need not wait; bounded, in case the device no longer
+  // ticks.
   for (int i = 0; i < 200 && handover_.pending(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const std::lock_guard lock(between_ticks_);
   handover_.collect();
@@ -195,7 +197,7 @@ Snapshot ServoLoop::latest() {
 std::vector<Snapshot> ServoLoop::fault_history() {
   const std::lock_guard lock(readers_);
   std::vector<Snapshot> all;
-  // In this order: a tick that obeys a reset takes `frozen_` away before the asking.
+  // In this order: a tick that does a reset clears `frozen_` before it clears the request.
   if ((asked_.load(std::memory_order_acquire) & reset_bit) != 0 || !frozen_.load(std::memory_order_acquire)) return all;
   const std::uint64_t kept = std::min<std::uint64_t>(remembered_, history_.size());
   for (std::uint64_t i = remembered_ - kept; i < remembered_; ++i) all.push_back(history_[i % history_.size()]);
@@ -232,7 +234,7 @@ void ServoLoop::obey() noexcept {
   const std::uint32_t asked = asked_.load(std::memory_order_acquire);
   if (asked == 0) return;
   if (asked & reset_bit)
-    frozen_.store(false, std::memory_order_relaxed);  // before the asking is taken: fault_history()
+    frozen_.store(false, std::memory_order_relaxed);  // before the request is cleared: see fault_history()
   asked_.fetch_and(~asked, std::memory_order_acq_rel);
   if (asked & reset_bit) {
     step_->reset();

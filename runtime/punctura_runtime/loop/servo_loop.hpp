@@ -1,4 +1,4 @@
-// A scene on a device: the servo step, tick after tick, and what other threads may ask of it.
+// Runs the servo step of a scene on a device.
 #pragma once
 
 #include <atomic>
@@ -13,8 +13,8 @@
 #include "punctura_runtime/loop/histogram.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"
-#include "punctura_runtime/ring/latest.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
+#include "punctura_runtime/ring/triple_buffer.hpp"
 
 namespace punctura {
 
@@ -22,70 +22,70 @@ struct LoopSettings {
   GateLimits gate{};
   ForceLimits limits{};
   Placement placement{};
-  std::size_t history = 1000;                      ///< snapshots kept for a fault
-  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests put a clock of their own here
+  std::size_t history = 1000;                      ///< snapshots kept before a fault
+  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
 };
 
-/// What a loop has done so far.
+/// Statistics of a loop.
 struct LoopReport {
   std::uint64_t ticks = 0;
   std::uint64_t late = 0;       ///< ticks that came more than half a period late
-  Histogram::Counts period{};   ///< from one tick's begin to the next's, ns
-  Histogram::Counts compute{};  ///< from a tick's begin to its end, ns
+  Histogram::Counts period{};   ///< from the start of one tick to the start of the next, ns
+  Histogram::Counts compute{};  ///< from the start of a tick to its end, ns
   std::uint64_t largest_period_ns = 0, largest_compute_ns = 0;
 };
 
-/// Copies a snapshot without the membranes that it does not have.
+/// Copies a snapshot without its unused membranes.
 void copy(const Snapshot& from, Snapshot& to) noexcept;
 
-/// Start, arm, pause, reset, stop, and a new scene; the ticks come on the device's thread.
+/// Starts, arms, pauses, resets and stops a run, and changes its scene. The ticks run on the device's thread.
 ///
-/// A tick takes commands and a new scene between two steps, and pays for nothing else: records go to rings that lose rather than
-/// wait, durations to histograms of atomics. It never takes a lock.
+/// A tick takes commands and a new scene, and never takes a lock: snapshots go to rings that drop rather than wait,
+/// durations to histograms of atomics.
 ///
-/// Threads: every call may come from any thread while others call too, except these. listen() comes before start(), from the thread
-/// that starts. What scene() refers to is changed by exchange(): call both from one thread. stop() waits for a start() that is under
-/// way, never for an exchange(). Nothing but stop_all() may still be under way when the loop is destroyed.
+/// Threads: all calls are allowed from any thread at the same time, with these exceptions. listen() must come before
+/// start(), on the same thread. exchange() changes what scene() refers to: call both on one thread. stop() waits for a
+/// running start(), never for an exchange(). While the loop is destroyed, only stop_all() may be running.
 class ServoLoop {
  public:
-  /// The period is that of the device, whatever rate the scene asks for; a device's own force ratings tighten the limits. Throws SceneError.
+  /// The period is the device's, not the scene's. The device's force ratings tighten the limits. Throws SceneError.
   ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings = {});
   ~ServoLoop();
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  static constexpr double listening_s = 8;  ///< of ticks that a ring has room for, where most_bytes suffices
+  static constexpr double listening_s = 8;  ///< default length of a ring, if most_bytes allows
 
-  /// How many ticks of the present scene a ring has room for where nobody asks for another number.
+  /// The default capacity of a ring, in ticks of the present scene.
   std::size_t room() const noexcept;
 
-  /// Before start(): every tick's snapshot goes into this ring, which has room for that many of the present scene, or for as many
-  /// as SnapshotRing::most_bytes hold.
+  /// Before start(). Gives a ring that gets every tick's snapshot. Its capacity is in snapshots of the present scene,
+  /// and at most SnapshotRing::most_bytes.
   SnapshotRing& listen(std::size_t capacity);
   SnapshotRing& listen() { return listen(room()); }
 
-  void start();          ///< ticks come, disarmed. Throws DeviceError
-  void stop() noexcept;  ///< zero force, then no tick any more
+  void start();          ///< disarmed. Throws DeviceError
+  void stop() noexcept;  ///< zero force, then no more ticks
   bool running() const noexcept { return running_; }
-  static void stop_all() noexcept;  ///< every loop of this program: for its end, whoever still holds them
+  static void stop_all() noexcept;  ///< stops all loops at the end of the program
 
-  void arm() noexcept { ask(arm_bit); }      ///< force, once the tip is outside tissue
-  void pause() noexcept { ask(pause_bit); }  ///< no force; ticks go on
-  void reset() noexcept;                     ///< leaves a fault; disarmed
+  void arm() noexcept { ask(arm_bit); }      ///< force from the moment when the tip is outside tissue
+  void pause() noexcept { ask(pause_bit); }  ///< no force; ticks continue
+  void reset() noexcept;                     ///< clears a fault; disarmed
 
-  /// A scene changed while running: built here, taken between two ticks, faded in. Throws SceneError, and then nothing has changed.
+  /// Changes the scene, also while running: builds it here; the next tick takes it and fades it in. Throws SceneError
+  /// and then changes nothing.
   void exchange(Scene scene);
 
   Device& device() noexcept { return *device_; }
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
-  /// What the device's motors have given when the next start() begins, N^2 s: see ForceBudget. Not while the loop runs.
+  /// The force budget that the motors have spent by the next start(), N^2 s: see ForceBudget. Not while the loop runs.
   double spent();
   LoopReport report() const noexcept;
-  Snapshot latest();  ///< the last tick's
-  std::vector<Snapshot>
-  fault_history();  ///< the last snapshots up to the fault that is latched, oldest first; empty without one
+  Snapshot latest();                      ///< of the last tick
+  std::vector<Snapshot> fault_history();  ///< the snapshots up to the latched fault, oldest first; empty without one
 
  private:
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
@@ -106,27 +106,27 @@ class ServoLoop {
   LoopSettings settings_;
   double period_;
   Placer placer_;
-  bool placed_;  ///< a placement other than the default: without one, samples and forces pass to the last bit
+  bool placed_;  ///< false for the default placement: samples and forces then pass unchanged
   std::atomic<bool> running_{false};
-  bool rest_counted_ = false;  ///< the time since the last run; start() begins with what spent() has said
+  bool rest_counted_ = false;  ///< the time since the last run has been counted as rest
 
-  // Of the ticking thread; while none ticks, of whoever has between_ticks_.
+  // Used by the ticking thread; between runs, by the holder of between_ticks_.
   ServoStep* step_;
   std::int64_t last_begin_ = 0;
   std::vector<Snapshot> history_;
   std::uint64_t remembered_ = 0;
 
-  // Between the threads.
+  // Shared between threads.
   std::atomic<std::uint32_t> asked_{0};
-  std::atomic<bool> frozen_{false};  ///< a fault is latched: history_ is not written any more
+  std::atomic<bool> frozen_{false};  ///< a fault is latched: history_ is no longer written
   std::atomic<std::uint64_t> ticks_{0}, late_{0};
   Handover<ServoStep> handover_;
-  Latest<Snapshot> latest_;
+  TripleBuffer<Snapshot> latest_;
   std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;
   std::mutex starting_or_stopping_;  ///< held while the device starts or stops, which may take long
-  std::mutex between_ticks_;         ///< running_ changes under it, and scenes are offered; held for a moment only
-  std::mutex readers_;               ///< of those who ask, never of the tick
+  std::mutex between_ticks_;         ///< guards running_ and the offer of scenes; held for a short time only
+  std::mutex readers_;               ///< guards readers against each other; not used by the tick
 };
 
 }  // namespace punctura

@@ -36,7 +36,8 @@ RealtimeItem item(std::string what, int error, const char* advice) {
   return {std::move(what), false, std::string(std::strerror(error)) + "; " + advice};
 }
 
-/// The kernel keeps processors awake as long as this file is open with a latency of 0 us in it: once a process, for ever.
+/// Keeps the processors awake: the kernel does that while this file is open with a latency of 0 us written to it. Never
+/// closed.
 int keep_awake() {
   static const int result = [] {
     const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
@@ -53,7 +54,7 @@ struct Mapping {
   std::string file;
 };
 
-/// Of files, in this process.
+/// All readable mappings of files in this process.
 std::vector<Mapping> mappings() {
   std::vector<Mapping> all;
   std::ifstream maps("/proc/self/maps");
@@ -71,8 +72,8 @@ std::vector<Mapping> mappings() {
   return all;
 }
 
-/// Program and libraries are brought in whole: what a fault needs is on the disk otherwise, until there is one. What may be refused
-/// is so by lock_memory(), too.
+/// Loads and locks the program and its libraries as a whole: code that only a fault runs would otherwise be on the disk
+/// until then. Errors are ignored here, since lock_memory() reports them.
 void bring_in_programs() {
   const auto all = mappings();
   std::set<std::string> programs;
@@ -82,7 +83,8 @@ void bring_in_programs() {
     if (programs.count(m.file) != 0) mlock(reinterpret_cast<const void*>(m.begin), m.end - m.begin);
 }
 
-/// Beside programs, a page stays from its first use on: allocators of libraries reserve a gigabyte and never use it.
+/// Other pages are locked when they are first used: the allocators of some libraries reserve a gigabyte that they never
+/// use.
 int lock_memory() {
   static const bool once = (bring_in_programs(), true);
   static_cast<void>(once);

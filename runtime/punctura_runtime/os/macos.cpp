@@ -1,4 +1,4 @@
-// macOS. Written by the documents of the system; not run by us yet (docs/realtime.md).
+// macOS. Written from Apple's documents; not yet run (docs/realtime.md).
 #include <mach/mach.h>
 #include <mach/mach_error.h>
 #include <mach/mach_time.h>
@@ -15,7 +15,7 @@ namespace punctura::os {
 
 namespace {
 
-/// Mach's clock counts in units of its own.
+/// The unit of Mach's clock.
 mach_timebase_info_data_t timebase() noexcept {
   static const mach_timebase_info_data_t info = [] {
     mach_timebase_info_data_t i;
@@ -40,7 +40,7 @@ void sleep_until_ns(std::int64_t time) noexcept { mach_wait_until(ticks_from_ns(
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   std::vector<RealtimeItem> items;
   if (settings.priority > 0) {
-    // macOS has no SCHED_FIFO priority for a program's threads; a time-constraint thread is what its audio uses.
+    // macOS has no SCHED_FIFO for a program's threads. Its audio uses time-constraint threads.
     thread_time_constraint_policy_data_t policy{};
     const TimeConstraint wanted = TimeConstraint::of(settings.period);
     policy.period = static_cast<std::uint32_t>(ticks_from_ns(wanted.period));

@@ -1,5 +1,5 @@
-// Everything that differs from one operating system to the next. One file each implements it: linux.cpp, windows.cpp, macos.cpp;
-// what Linux and macOS share stands in posix_*.cpp.
+// All that differs between operating systems. linux.cpp, windows.cpp and macos.cpp implement it; posix_library.cpp is
+// shared by Linux and macOS.
 #pragma once
 
 #include <cmath>
@@ -9,27 +9,27 @@
 
 namespace punctura::os {
 
-/// Nanoseconds on a clock that never goes back.
+/// A monotonic clock, ns.
 std::int64_t now_ns() noexcept;
 
-/// Sleeps until that time on now_ns(). May wake late, never early.
+/// Sleeps until that time of now_ns(). May wake late, never early.
 void sleep_until_ns(std::int64_t time) noexcept;
 
-/// What was asked of the scheduler and what came of it, in words for a person.
+/// A request to the system, and whether it was granted, for the user.
 struct RealtimeItem {
   std::string what;
   bool granted;
-  std::string detail;  ///< why not, and how to allow it
+  std::string detail;  ///< why it was refused, and how to allow it
 };
 
 struct RealtimeSettings {
-  int priority = 80;        ///< real-time priority under SCHED_FIFO, 1 to 99; 0 asks for none
-  int processor = -1;       ///< the one to stay on; -1 is any
-  bool lock_memory = true;  ///< no page of ours is put aside
-  bool awake = true;        ///< the processor does not go to sleep between ticks
-  double period = 1e-3;     ///< s, from one tick to the next; macOS plans the thread by it
+  int priority = 80;        ///< real-time priority under SCHED_FIFO, 1 to 99; 0: none
+  int processor = -1;       ///< the processor to run on; -1: any
+  bool lock_memory = true;  ///< no page of memory is swapped out
+  bool awake = true;        ///< the processor does not sleep between ticks
+  double period = 1e-3;     ///< s, of the ticks; used by macOS only
 
-  /// The same for a loop of this rate, Hz. A rate that is not known leaves the period.
+  /// The same settings for a loop at this rate, Hz. An unknown rate leaves the period.
   RealtimeSettings at_rate(double rate) const noexcept {
     RealtimeSettings settings = *this;
     if (std::isfinite(rate) && rate > 0) settings.period = 1 / rate;
@@ -37,11 +37,12 @@ struct RealtimeSettings {
   }
 };
 
-/// What macOS is told of a thread that ticks, ns: how often, how long it computes, and within what time from its wake-up.
+/// The parameters of a time-constraint thread of macOS, ns: its period, its computing time, and the latest end after
+/// its wake-up.
 struct TimeConstraint {
   std::int64_t period, computation, constraint;
 
-  /// For a period in s. The system refuses a computation below 50 us and a constraint below the computation.
+  /// period: s. The system refuses a computation below 50 us, and a constraint below the computation.
   static TimeConstraint of(double period) noexcept {
     const auto ns = static_cast<std::int64_t>(period * 1e9);
     constexpr std::int64_t computation = 60'000, latest = 300'000;
@@ -50,40 +51,18 @@ struct TimeConstraint {
   }
 };
 
-/// Makes the calling thread as punctual as the system allows. What it does not allow is said, and does no harm.
+/// Requests real-time scheduling for the calling thread. Refused requests are reported and do no harm.
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings);
 
-/// A line each, as Device::statements() has them.
+/// Adds one line for each, for Device::statements().
 inline void add_words(const std::vector<RealtimeItem>& items, std::vector<std::string>& lines) {
   for (const RealtimeItem& item : items)
     lines.push_back(item.what + (item.granted ? ": granted" : ": not granted, " + item.detail));
 }
 
-// Of a shared library: the system's own calls. nullptr says that there is none, and `error` why.
+/// Loads a shared library for the rest of the process. nullptr if it does not load; `error` then says why.
 void* load_library(const char* name, std::string& error);
-void unload_library(void* handle) noexcept;
-void* library_symbol(void* handle, const char* name) noexcept;
-
-/// A shared library found at run time.
-class Library {
- public:
-  Library() = default;
-  /// Tries each name in turn. error() says what was tried when none opens.
-  static Library open(const std::vector<std::string>& names);
-  Library(Library&& other) noexcept;
-  Library& operator=(Library&& other) noexcept;
-  ~Library();
-
-  explicit operator bool() const noexcept { return handle_ != nullptr; }
-  const std::string& path() const noexcept { return path_; }
-  const std::string& error() const noexcept { return error_; }
-
-  /// nullptr where the library has no such symbol.
-  void* symbol(const char* name) const noexcept;
-
- private:
-  void* handle_ = nullptr;
-  std::string path_, error_;
-};
+/// nullptr if the library has no such symbol.
+void* library_symbol(void* library, const char* name) noexcept;
 
 }  // namespace punctura::os

@@ -6,14 +6,12 @@
 namespace punctura::os {
 
 void* load_library(const char* name, std::string& error) {
-  // Global, since some makers' libraries look for symbols in others that they do not name.
+  // Global, since some makers' libraries use symbols of others that they do not name.
   void* handle = dlopen(name, RTLD_LAZY | RTLD_GLOBAL);
   if (!handle) error = dlerror();
   return handle;
 }
 
-void unload_library(void* handle) noexcept { dlclose(handle); }
-
-void* library_symbol(void* handle, const char* name) noexcept { return dlsym(handle, name); }
+void* library_symbol(void* library, const char* name) noexcept { return dlsym(library, name); }
 
 }  // namespace punctura::os

@@ -4,7 +4,7 @@
 #endif
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
-// After windows.h, which they need.
+// These need windows.h before them.
 #include <avrt.h>
 #include <timeapi.h>
 
@@ -41,8 +41,8 @@ void WINAPI close_timer(void* timer) {
   if (timer) CloseHandle(timer);
 }
 
-/// This thread's timer, which wakes within a fraction of a millisecond; nullptr before Windows 10, version 1803. It is closed when
-/// the thread ends: by Windows itself, since mingw-w64 destroys a thread_local object when its memory has been freed already.
+/// This thread's high-resolution timer; nullptr before Windows 10, version 1803. Windows closes it when the thread
+/// ends: a thread_local object would not do, since mingw-w64 destroys it after its memory has been freed.
 HANDLE precise_timer() noexcept {
   static const DWORD slot = FlsAlloc(close_timer);
   if (slot == FLS_OUT_OF_INDEXES) return nullptr;
@@ -54,7 +54,7 @@ HANDLE precise_timer() noexcept {
   return timer;
 }
 
-/// Without a precise timer Windows wakes at its 15.6 ms, or at 1 ms where somebody asks for that.
+/// Without a high-resolution timer Windows wakes every 15.6 ms, or every 1 ms on request.
 void sleep_for(std::int64_t ns) noexcept {
   HANDLE timer = precise_timer();
   LARGE_INTEGER due;
@@ -86,7 +86,7 @@ void sleep_until_ns(std::int64_t time) noexcept {
     if (left > 100'000)
       sleep_for(left - 50'000);
     else
-      YieldProcessor();  // the last tenth of a millisecond, which no timer hits
+      YieldProcessor();  // the last tenth of a millisecond: no timer is that accurate
   }
 }
 
@@ -102,7 +102,7 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   if (settings.processor >= 0) {
     const auto wanted = static_cast<unsigned>(settings.processor);
     const DWORD_PTR mask =
-        wanted < 8 * sizeof(DWORD_PTR) ? DWORD_PTR{1} << wanted : 0;  // beyond: another processor group
+        wanted < 8 * sizeof(DWORD_PTR) ? DWORD_PTR{1} << wanted : 0;  // higher numbers are in another processor group
     items.push_back(item("processor " + std::to_string(wanted), SetThreadAffinityMask(GetCurrentThread(), mask) != 0));
   }
   if (settings.lock_memory)
@@ -114,7 +114,8 @@ std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
 }
 
 void* load_library(const char* name, std::string& error) {
-  // The loader takes backslashes only, and looks beside a library for what that one needs only where it has the whole path.
+  // The loader takes backslashes only. It finds a library's dependencies beside the library only if it gets the
+  // absolute path.
   std::string path = name;
   std::replace(path.begin(), path.end(), '/', '\\');
   DWORD flags = 0;
@@ -122,7 +123,7 @@ void* load_library(const char* name, std::string& error) {
     const DWORD length = GetFullPathNameA(path.c_str(), MAX_PATH, whole, nullptr);
     if (length > 0 && length < MAX_PATH) path.assign(whole, length), flags = LOAD_WITH_ALTERED_SEARCH_PATH;
   }
-  DWORD mode = 0;  // no window that asks the user to press a button
+  DWORD mode = 0;  // no error dialog
   SetThreadErrorMode(SEM_FAILCRITICALERRORS | SEM_NOOPENFILEERRORBOX, &mode);
   HMODULE handle = LoadLibraryExA(path.c_str(), nullptr, flags);
   if (!handle) error = std::string(name) + ": " + windows_words(GetLastError());
@@ -130,10 +131,8 @@ void* load_library(const char* name, std::string& error) {
   return reinterpret_cast<void*>(handle);
 }
 
-void unload_library(void* handle) noexcept { FreeLibrary(reinterpret_cast<HMODULE>(handle)); }
-
-void* library_symbol(void* handle, const char* name) noexcept {
-  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(handle), name));
+void* library_symbol(void* library, const char* name) noexcept {
+  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(library), name));
 }
 
 }  // namespace punctura::os

@@ -1,11 +1,11 @@
-// What Windows says of an error, for the files that ask it. windows.cpp implements it.
+// The text of a Windows error. Implemented in windows.cpp.
 #pragma once
 
 #include <string>
 
 namespace punctura::os {
 
-/// Of GetLastError() or WSAGetLastError(), without the full stop and the line's end that Windows adds.
+/// error: of GetLastError() or WSAGetLastError(). Without the full stop and the line break that Windows adds.
 std::string windows_words(unsigned long error);
 
 }  // namespace punctura::os

@@ -1,4 +1,4 @@
-// A whole new object for a running thread, and the old one back, without a lock.
+// Replaces an object of a running thread, without a lock.
 #pragma once
 
 #include <atomic>
@@ -6,7 +6,7 @@
 
 namespace punctura {
 
-/// One thread offers, the other takes between two of its ticks. Nothing is ever freed on the taking side.
+/// One thread offers, the other takes between two of its ticks. The taking thread never frees memory.
 template <typename T>
 class Handover {
  public:
@@ -18,17 +18,17 @@ class Handover {
     delete retired_.load();
   }
 
-  /// Offering side. An older offer that was not taken yet is dropped.
+  /// Offering thread. Drops an older offer that was not taken.
   void offer(std::unique_ptr<T> object) noexcept {
     collect();
     delete offered_.exchange(object.release(), std::memory_order_acq_rel);
   }
   bool pending() const noexcept { return offered_.load(std::memory_order_acquire) != nullptr; }
-  /// Offering side: frees what was retired.
+  /// Offering thread. Frees the retired object.
   void collect() noexcept { delete retired_.exchange(nullptr, std::memory_order_acq_rel); }
 
-  /// Taking side: the new object, or nullptr. The caller then retires its old one. Waits for nothing: while the last retired
-  /// object has not been collected, an offer stays where it is.
+  /// Taking thread. The new object, or nullptr; after it, the caller retires its old one. Never waits: an offer stays
+  /// until the last retired object has been collected.
   T* take() noexcept {
     if (retired_.load(std::memory_order_acquire) != nullptr) return nullptr;
     return offered_.exchange(nullptr, std::memory_order_acq_rel);

@@ -1,4 +1,4 @@
-// Snapshots from the tick to one other thread, without a lock.
+// A queue of snapshots from the tick to one other thread, without a lock.
 #pragma once
 
 #include <algorithm>
@@ -12,36 +12,37 @@
 
 namespace punctura {
 
-/// Bytes of a snapshot with that many membranes: those that it does not have come last.
+/// The size of a snapshot with that many membranes, bytes. Unused membranes are at its end.
 constexpr std::size_t used_bytes(std::size_t membranes) noexcept {
   return offsetof(Snapshot, membranes) + membranes * sizeof(MembraneRecord);
 }
 
-/// A ring between one writer and one reader. The writer never waits: a snapshot that finds no room is lost, and counted.
+/// A ring between one writer and one reader. The writer never waits: if the ring is full, the snapshot is lost and
+/// counted.
 ///
-/// A snapshot lies there only as long as its membranes make it, or seconds of them would take a hundred megabytes, of which each
-/// tick would touch pages that no cache knows any more.
+/// Snapshots are stored without their unused membranes: in full length, a few seconds would take 100 MB, and each tick
+/// would touch pages that are in no cache.
 class SnapshotRing {
  public:
-  /// A ring takes this at most, however many membranes and ticks a second there are.
+  /// The largest ring, whatever the number of membranes and the rate.
   static constexpr std::size_t most_bytes = std::size_t{32} << 20;
 
-  /// How many snapshots of that many membranes such a ring has room for.
+  /// The number of snapshots with that many membranes in the largest ring.
   static constexpr std::size_t most_snapshots(std::size_t membranes) noexcept {
     return most_bytes / used_bytes(membranes);
   }
 
-  /// Room for `capacity` snapshots of that many membranes, but for no more than most_bytes; for more with fewer membranes and for
-  /// fewer with more; for two of the longest at least, so that one always fits behind what is skipped.
+  /// Room for `capacity` snapshots with that many membranes, but at most most_bytes. At least two of the longest
+  /// snapshots fit, so that one always fits after a skipped end of the ring.
   SnapshotRing(std::size_t capacity, std::size_t membranes)
       : capacity_(std::min(capacity, most_snapshots(membranes))),
         words_(std::max(capacity_ * words(membranes), 2 * words(max_membranes))) {}
 
-  /// Writer. False: there was no room.
+  /// Writer. False if the ring is full.
   bool push(const Snapshot& snapshot) noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     const std::size_t at = head % words_.size(), to_end = words_.size() - at, length = words(snapshot.membrane_count);
-    const std::size_t skipped = length > to_end ? to_end : 0;  // a snapshot lies in one piece
+    const std::size_t skipped = length > to_end ? to_end : 0;  // a snapshot is stored in one piece
     if (head + skipped + length - tail_.load(std::memory_order_acquire) > words_.size()) {
       lost_.fetch_add(1, std::memory_order_relaxed);
       return false;
@@ -52,7 +53,7 @@ class SnapshotRing {
     return true;
   }
 
-  /// Reader. Hands at most `limit` snapshots, oldest first, to `take(snapshot)`. How many there were.
+  /// Reader. Passes at most `limit` snapshots, oldest first, to `take(snapshot)`. Returns their number.
   template <typename Take>
   std::size_t pop(std::size_t limit, Take&& take) {
     std::uint64_t tail = tail_.load(std::memory_order_relaxed);
@@ -79,7 +80,7 @@ class SnapshotRing {
 
  private:
   using Word = std::uint64_t;
-  static constexpr Word nothing = ~Word{0};  ///< in place of a tick: the next snapshot is at the beginning
+  static constexpr Word nothing = ~Word{0};  ///< instead of a tick: the next snapshot is at the start of the ring
   static_assert(offsetof(Snapshot, tick) == 0 && sizeof(Snapshot::tick) == sizeof(Word));
 
   static constexpr std::size_t words(std::size_t membranes) noexcept { return used_bytes(membranes) / sizeof(Word); }
@@ -87,9 +88,8 @@ class SnapshotRing {
 
   std::size_t capacity_;
   std::vector<Word> words_;
-  Snapshot read_{};  ///< the reader's
-  // Words written and read since the beginning; each on a cache line of its own, so that the two threads do not take it from each
-  // other.
+  Snapshot read_{};  ///< used by the reader
+  // Words written and read in total. Each has its own cache line, so that the two threads do not contend for one.
   alignas(64) std::atomic<std::uint64_t> head_{0};
   alignas(64) std::atomic<std::uint64_t> tail_{0};
   alignas(64) std::atomic<std::uint64_t> lost_{0};

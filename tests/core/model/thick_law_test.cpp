@@ -5,6 +5,7 @@
 #include "../support/cases.hpp"
 #include "../support/random_law.hpp"
 #include "punctura/model/law.hpp"
+#include "punctura/model/thin_law.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

@@ -7,7 +7,7 @@
 
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
-#include "punctura/proxy/insertion.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 
 using namespace punctura;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/allocations.hpp"
+#include "../support/cut_law.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
 #include "punctura/proxy/mixed_law.hpp"
@@ -15,19 +16,6 @@ namespace {
 
 constexpr double T = 1 / 1600.0;
 
-struct Cut {
-  double cut = 0;  ///< the deepest point, m
-};
-/// One newton to cut further than the deepest point cut so far; nothing in the hole.
-struct CutLaw {
-  using Scalar = double;
-  using Memory = Cut;
-  PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
-    return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
-  }
-  PiecewiseBand<double, 3> pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
-  bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
-};
 static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
 
 /// A law that came with any number of pieces.

@@ -9,6 +9,7 @@
 #include "../support/allocations.hpp"
 #include "../support/cases.hpp"
 #include "../support/paper_scene.hpp"
+#include "punctura/model/thin_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "../support/encoder.hpp"
 #include "../support/paper_scene.hpp"
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

@@ -1,7 +1,7 @@
 // What the fake library exports: the maker's functions, by their names and types, and the tests' own.
 //
-// As the real one: a device's number is a char and -1 is the default device; a bool comes back in the low byte of a register whose rest
-// is anything; the last error is that of the calling thread.
+// As the real one: a device's number is a char and -1 is the default device; a bool comes back in the low byte of a
+// register whose rest is anything; the last error is that of the calling thread.
 #include "controller.hpp"
 
 #if defined(_WIN32)

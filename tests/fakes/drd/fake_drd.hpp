@@ -1,7 +1,7 @@
 // A Force Dimension library that is none: what tests can ask of it, beside the maker's own functions that it exports.
 //
-// Plain C underneath, so that a test takes them out of the loaded library as the back-end takes the others. Everything is in the
-// device's own axes: x to the user, y right, z up.
+// Plain C underneath, so that a test takes them out of the loaded library as the back-end takes the others. Everything
+// is in the device's own axes: x to the user, y right, z up.
 #pragma once
 
 #include <cstdint>

@@ -15,29 +15,23 @@ namespace punctura::test {
 
 /// The controls of a fake library. One that lacks a control was not built from tests/fakes/drd.
 struct FakeDrd : fake_drd::Control {
-  explicit FakeDrd(const std::string& path) : library(os::Library::open({path})) {
-    take(reset, "fake_drd_reset");
-    take(virtual_time, "fake_drd_virtual_time");
-    take(now, "fake_drd_now");
-    take(advance, "fake_drd_advance");
-    take(strokes, "fake_drd_strokes");
-    take(target, "fake_drd_target");
-    take(buttons, "fake_drd_buttons");
-    take(inject, "fake_drd_inject");
-    take(report, "fake_drd_report");
+  explicit FakeDrd(const std::string& path) {
+    const LoadedLibrary loaded = load_makers_library({}, path,
+                                                     {{"fake_drd_reset", reset},
+                                                      {"fake_drd_virtual_time", virtual_time},
+                                                      {"fake_drd_now", now},
+                                                      {"fake_drd_advance", advance},
+                                                      {"fake_drd_strokes", strokes},
+                                                      {"fake_drd_target", target},
+                                                      {"fake_drd_buttons", buttons},
+                                                      {"fake_drd_inject", inject},
+                                                      {"fake_drd_report", report}});
+    if (loaded.state != BackendStatus::State::available) throw std::runtime_error(loaded.detail);
   }
   fake_drd::Report state() const {
     fake_drd::Report report_now{};
     report(&report_now);
     return report_now;
-  }
-  os::Library library;
-
- private:
-  template <typename Function>
-  void take(Function*& function, const char* name) {
-    function = reinterpret_cast<Function*>(library.symbol(name));
-    if (!function) throw std::runtime_error(library.error() + " has no " + name);
   }
 };
 

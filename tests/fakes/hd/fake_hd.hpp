@@ -1,4 +1,5 @@
-// The inside of the fake: one device, one scheduler, one stack of errors. It may lock and allocate; who calls it may not know.
+// The inside of the fake: one device, one scheduler, one stack of errors. It may lock and allocate; who calls it may
+// not know.
 #pragma once
 
 #include <array>

@@ -9,7 +9,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from importlib.metadata import version
 
 import pytest
@@ -17,6 +16,7 @@ from heed import heed_signals
 from punctura import scene_names
 from punctura.cli import _progress
 from punctura.cli._status import CALLED_WRONGLY, DONE, FAILED
+from waiting import wait_until
 
 HEADER = "time_s,x_m,y_m,z_m\n"
 
@@ -185,9 +185,8 @@ def test_a_signal_leaves_nothing_behind(tmp_path, name):
     slow.write_text(HEADER + "".join(f"{k / 10},0,0,0\n" for k in range(400_000)))  # 64 million ticks
     command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals)
-    while len(list(tmp_path.iterdir())) < 2:
-        assert process.poll() is None
-        time.sleep(0.01)
+    wait_until(lambda: len(list(tmp_path.iterdir())) > 1 or process.poll() is not None)
+    assert process.poll() is None
     process.send_signal(getattr(signal, name))
     said = "interrupted" if name == "SIGINT" else f"ended by {name}"
     assert process.communicate(timeout=60)[1] == f"punctura: {said}\n"

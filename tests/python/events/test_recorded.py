@@ -1,7 +1,5 @@
 """Events live and from the recording of the same run."""
 
-import time
-
 import numpy as np
 import punctura as pn
 import pytest
@@ -9,6 +7,7 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.events import EventFinder, find_events
 from punctura.record import Recorder, open_recording
 from punctura.record.schema import ticks_of
+from waiting import wait_until
 
 STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
 
@@ -23,8 +22,7 @@ def record(path, scene, ticks, exchange=None):
     if exchange:
         recorder.exchange(exchange)
     loop.start()
-    while not device.finished:
-        time.sleep(1e-3)
+    wait_until(lambda: device.finished)
     loop.stop()
     recorder.finish()
     batches = []

@@ -122,7 +122,7 @@ def test_each_pop_of_a_membrane_is_judged(write, cuts):
 
 
 def test_goals_in_ones_own_words(write):
-    exercise = load_exercise(write(goal("reach", text="Into it"), goal("attempts", at_most=1)))
+    exercise = load_exercise(write(goal("reach", text="Into it"), goal("entries", at_most=1)))
     attempt = judged(exercise, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE)
     assert [g.text for g in attempt.goals] == ["Into it", "Enter the skin no more than once"]
 
@@ -133,7 +133,7 @@ def test_an_attempt_that_begins_inside_begins_when_the_needle_is_out():
     columns["phase"][: int((columns["tip"][:, 1] > 0).argmax())] = Phase.barred.value
     attempt = judged(exercise, columns, scene=SCENE)
     assert not attempt.over  # behind the back wall at first: no fault of theirs
-    assert attempt.finish().metrics.attempts == 1
+    assert attempt.finish().metrics.entries == 1
 
 
 def test_a_way_around_through_barred_membranes_reaches_nothing(write):
@@ -149,7 +149,7 @@ def test_columns_without_numbers_do_no_harm():
     columns = hand_run(*RUNS["passed"])
     nothing = {**columns, "depth": np.full_like(columns["depth"], np.nan)}
     result = judged(exercise, nothing).finish()
-    assert (result.passed, result.metrics.attempts) == (False, 0)
+    assert (result.passed, result.metrics.entries) == (False, 0)
     torn = {name: column.copy() for name, column in columns.items()}
     torn["depth"][1000:1050] = np.nan
     torn["model_force"][2000:2010] = np.nan

@@ -30,7 +30,7 @@ def problem(path):
         (goal("time_limit", seconds=1e300), "seconds", 1e300, "must be at most 3600 s"),
         (goal("peak_force", at_most_N=1e-9), "at_most_N", 1e-9, "must be at least 0.001 N"),
         (goal("peak_force", at_most_N=1e9), "at_most_N", 1e9, "must be at most 1000 N"),
-        (goal("attempts", at_most=1001), "at_most", 1001, "must be at most 1000"),
+        (goal("entries", at_most=1001), "at_most", 1001, "must be at most 1000"),
     ],
 )
 def test_a_limit_that_nobody_can_mean_is_refused(write, goals, path, value, bound):

@@ -50,7 +50,7 @@ def test_everything_that_is_wrong_is_told_at_once(write):
         goal("stay", seconds=-1),
         goal("fly"),
         goal("never_pass"),
-        goal("attempts", at_most=0),
+        goal("entries", at_most=0),
         goal("reach", whole_tip="yes"),
         "[[goal]]\nseconds = 3\n",
         head=head,
@@ -71,7 +71,7 @@ def test_everything_that_is_wrong_is_told_at_once(write):
 def test_names_and_depths_are_checked_beside_keys_that_are_wrong(write):
     head = HEAD.replace('"front vein wall"', '"vein"').replace("[space]", "x = 1\n[space]\nsigns = 3\ndepth_mm = 3")
     head = head.replace("[0, 5, 0]", "[0, -9, 0]").replace('title = "Test"\n', "") + "deepest_mm = 2\n"
-    goals = goal("never_pass", membrane="dura", whole=3), goal("peak_force", at_most_N="x"), goal("attempts", at_most=0)
+    goals = goal("never_pass", membrane="dura", whole=3), goal("peak_force", at_most_N="x"), goal("entries", at_most=0)
     assert problems(write(*goals, head=head)).keys() == {
         "title", "start.x", "start.position_mm", "space.signs", "space.behind", "space.deepest_mm", "goal[0].whole",
         "goal[0].membrane", "goal[1].at_most_N", "goal[2].at_most", "goal",
@@ -80,7 +80,7 @@ def test_names_and_depths_are_checked_beside_keys_that_are_wrong(write):
 
 def test_what_needs_no_scene_is_checked_beside_a_scene_that_is_not_there(write):
     head = HEAD.replace('"venipuncture"', '"none.toml"') + "depth_mm = 3\ndeepest_mm = 2\n"
-    assert problems(write(goal("attempts", at_most=1), head=head)).keys() == {"scene", "space.deepest_mm", "goal"}
+    assert problems(write(goal("entries", at_most=1), head=head)).keys() == {"scene", "space.deepest_mm", "goal"}
 
 
 @pytest.mark.parametrize(
@@ -156,6 +156,6 @@ def test_goals_that_are_no_tables_are_told(tmp_path, text):
 
 def test_the_schema_names_every_kind_of_goal():
     text = json.dumps(exercise_json_schema())
-    for kind in ("reach", "stay", "never_pass", "stop_after_pop", "time_limit", "peak_force", "attempts"):
+    for kind in ("reach", "stay", "never_pass", "stop_after_pop", "time_limit", "peak_force", "entries"):
         assert f'"const": "{kind}"' in text
     assert exercise_json_schema() != scene_json_schema()

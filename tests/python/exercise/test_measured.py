@@ -119,7 +119,7 @@ LIMITS = {
     "never_pass": goal("never_pass", membrane="back vein wall"),
     "stop_after_pop": goal("stop_after_pop", membrane="skin", within_mm=9.0),
     "peak_force": goal("peak_force", at_most_N=9.0),
-    "attempts": goal("attempts", at_most=3),
+    "entries": goal("entries", at_most=3),
     "time_limit": goal("time_limit", seconds=60),
 }
 

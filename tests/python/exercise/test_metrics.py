@@ -30,7 +30,7 @@ def test_times_and_stays(write):
     assert m.total_time == pytest.approx(1.521, abs=3 * TICK)
     assert m.dwell == m.longest_stay == pytest.approx(1.0, abs=3 * TICK)
     assert result.reasons == [
-        "You reached the vein 0.5 s after touching the skin, at the first attempt.",
+        "You reached the vein 0.5 s after touching the skin, at the first entry.",
         "You stayed in it for 1.0 s.",
     ]
 
@@ -117,12 +117,12 @@ def test_each_entry_is_an_attempt_and_the_path_begins_with_the_last(write):
     corners = [(0, 5, 0), (0, -2, 0), (0, 2, 0), (1, 2, 0), (1, -6, 0)]
     result = measured(write, ideal(SCENE, *corners), goal("reach"))
     m = result.metrics
-    assert m.attempts == 2
+    assert m.entries == 2
     # Down 2, up 2, up 2 outside, across 1, down 2 outside and 5.21: all at 10 mm/s.
     assert m.time_to_target == pytest.approx(1.421, abs=4 * TICK)
     assert m.path_length == pytest.approx(5.21e-3, abs=2 * STEP)
     assert m.lateral_deviation == pytest.approx(0, abs=1e-9)
-    assert "with 2 attempts" in result.reasons[0]
+    assert "with 2 entries" in result.reasons[0]
 
 
 def test_the_angle_of_entry_is_that_to_the_skin(write):
@@ -157,7 +157,7 @@ def test_nothing_at_all_gives_a_result_without_metrics(write):
     exercise = load_exercise(write(NEVER))
     m = judged(exercise, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE).finish().metrics
     assert m.model_dump() == {
-        "attempts": 0, "peak_force": 0, "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None,
+        "entries": 0, "peak_force": 0, "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None,
         "net_distance": None, "straightness": None, "lateral_deviation": None, "entry_angle": None,
         "time_to_target": None, "total_time": 0, "lost_ticks": 0, "force_cut": {},
     }  # fmt: skip

@@ -30,9 +30,9 @@ def test_venipuncture_can_be_passed(seed):
     assert result.passed, result.reasons
     assert set(states(result).values()) == {"met"}
     assert [e.name for e in result.events if e.what == "pop"] == ["skin", "front vein wall"]
-    assert "You reached the vein" in said(result) and "at the first attempt" in said(result)
+    assert "You reached the vein" in said(result) and "at the first entry" in said(result)
     assert "stayed in it for 3.0 s" in said(result)
-    assert result.metrics.attempts == 1
+    assert result.metrics.entries == 1
     assert 3.0 <= result.metrics.dwell < 8
     assert 0.5 < result.metrics.peak_force < 1.2
     assert result.metrics.straightness == pytest.approx(1.0, abs=0.01)
@@ -70,7 +70,7 @@ def test_the_vein_is_never_reached():
 def test_the_skin_is_never_touched():
     result = tried("venipuncture", WAIT, (1.0, 5.0))
     assert said(result) == "You did not touch the skin."
-    assert (result.metrics.attempts, result.metrics.total_time, result.events) == (0, 0.0, [])
+    assert (result.metrics.entries, result.metrics.total_time, result.events) == (0, 0.0, [])
 
 
 def test_not_staying_in_the_vein():
@@ -94,11 +94,11 @@ def test_an_upright_needle_is_longer_than_the_vein_is_wide():
     assert states(result)["Bring the whole tip into the vein, and hold it there for 3 s"] != "met"
 
 
-def test_too_many_attempts():
+def test_too_many_entries():
     tries = [leg for _ in range(4) for leg in ((1.0, 14.0), (1.0, 0.0))]
     result = tried("venipuncture", WAIT, *tries)
     assert not result.passed
-    assert result.metrics.attempts == 4
+    assert result.metrics.entries == 4
     assert said(result) == "You went in more often than the 3 times that are allowed."
 
 
@@ -135,7 +135,7 @@ def test_the_epidural_space_is_never_reached():
 def test_who_has_gone_too_far_may_draw_back():
     result = tried("venipuncture", *INTO_THE_VEIN[:2], (3.0, 29.3), (2.0, 29.3), (1.0, 25.0), (5.0, 25.0))
     assert result.passed, result.reasons
-    assert result.metrics.attempts == 1
+    assert result.metrics.entries == 1
 
 
 def test_the_person_is_told_what_to_do_next():

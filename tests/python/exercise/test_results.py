@@ -118,7 +118,7 @@ def test_results_saved_at_the_same_time_are_all_kept(tmp_path, result):
 def test_the_table_has_one_row_a_result_in_units_for_people(tmp_path, result):
     rows = list(csv.DictReader(io.StringIO(to_csv([of(result, "Ada"), of(result, "=cmd()")]))))
     assert list(rows[0]) == list(COLUMNS)
-    assert (rows[0]["person"], rows[0]["passed"], rows[0]["attempts"]) == ("Ada", "yes", "1")
+    assert (rows[0]["person"], rows[0]["passed"], rows[0]["entries"]) == ("Ada", "yes", "1")
     assert float(rows[0]["peak_force_N"]) == pytest.approx(result.metrics.peak_force, rel=1e-5)
     assert float(rows[0]["entry_angle_deg"]) == pytest.approx(30, abs=0.01)
     largest = max(one.distance for one in result.metrics.overshoot)
@@ -140,3 +140,11 @@ def test_the_json_is_a_list_of_whole_results(result):
 def test_the_usual_folder_is_the_persons_own():
     assert default_folder().name == "results"
     assert "punctura" in str(default_folder())
+
+
+def test_a_result_of_an_earlier_version_that_counts_attempts_is_read(tmp_path, result):
+    store = ResultStore(tmp_path)
+    kept = store.save(result)
+    path = tmp_path / f"{kept.name}.json"
+    path.write_text(path.read_text(encoding="utf-8").replace('"entries"', '"attempts"'), encoding="utf-8")
+    assert store.load(kept.name) == kept

@@ -4,20 +4,19 @@ import io
 import os
 import subprocess
 import sys
-import time
 
 import pytest
 from punctura.live import DroppingStream
 from punctura.live.dropping_stream import CUT
 from terminals import BLOCKED, go_on, read_until, stop, terminal
+from waiting import wait_until
 
 
 def stuck(file, room):
     """A stream whose thread waits for the reader with the first line."""
     stream = DroppingStream(file, room)
     print("line 0", file=stream)
-    while stream._pieces:
-        time.sleep(1e-3)
+    wait_until(lambda: not stream._pieces)
     return stream
 
 
@@ -81,10 +80,7 @@ def test_a_terminal_that_comes_back_is_told_what_it_has_missed():
         assert said[:at] + said[at + 1 :] == shown and at == 1 and dropped > 100
         print("and on", file=stream)
         assert read_until(master, b"and on\n") == "and on\n"
-        end = time.monotonic() + 20
-        while not stream.offer("status"):  # what was read may not be counted as written yet
-            assert time.monotonic() < end
-            time.sleep(1e-3)
+        wait_until(lambda: stream.offer("status"))  # what was read may not be counted as written yet
         assert read_until(master, b"status") == "status"
         stream.end()
 

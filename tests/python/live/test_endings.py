@@ -17,6 +17,7 @@ from punctura.cli._headless import Tape
 from punctura.live import SilenceWatch, run_live
 from punctura.live.supervisor import Supervisor
 from punctura.record import open_recording
+from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
@@ -31,10 +32,8 @@ def running(path, *options, **more):
         **({"stderr": subprocess.PIPE, "stdout": subprocess.PIPE, "preexec_fn": heed_signals} | more),
     )
     part = path.with_name(path.name + ".part")
-    begun = time.monotonic()
-    while not part.exists() or part.stat().st_size < 60_000:
-        assert process.poll() is None and time.monotonic() - begun < 30
-        time.sleep(0.01)
+    wait_until(lambda: (part.exists() and part.stat().st_size >= 60_000) or process.poll() is not None)
+    assert process.poll() is None
     return process
 
 

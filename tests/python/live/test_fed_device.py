@@ -8,6 +8,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.live import DeviceInfo, FedDevice, GateLimits, Pacer, ReplayDevice, ServoLoop, make_realtime, run_live
+from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 # Outside of tissue for the ramp, then through the membrane.
@@ -31,8 +32,7 @@ def test_the_reply_to_a_reading_is_the_force_of_its_tick():
     listener = other.listen(len(PATH))
     other.arm()
     other.start()
-    while not replayed.finished:
-        time.sleep(1e-3)
+    wait_until(lambda: replayed.finished)
     other.stop()
     assert np.array_equal(forces, listener.read()["force"])
     assert forces[:, 1].max() == pytest.approx(0.73, abs=0.01)

@@ -69,7 +69,10 @@ def test_all_that_is_wrong_is_told_at_once_by_the_files_own_names(tmp_path):
     assert told["max_force_N"] == -1 and told["stale_ms"] == 0
     with pytest.raises(pn.ConfigurationError) as error:
         limits_of(tmp_path, 'max_force = 1\nramp_time_s = "long"\ndead_man_buttons = [0]\nwarm_motor = true\n')
-    assert [p.path for p in error.value.problems] == ["max_force", "ramp_time_s", "warm_motor", "dead_man_buttons"]
+    assert [p.path for p in error.value.problems] == ["max_force", "ramp_time_s", "dead_man_buttons", "warm_motor"]
+    reasons = [p.reason for p in error.value.problems]
+    assert reasons[0] == "unknown key; did you mean max_force_N?" and reasons[1] == "must be a number (s)"
+    assert reasons[2:] == ["must be a list of buttons, each 1 to 32", "must be a number"]
     for text, reason in (
         ("max_force_N = ", "is not TOML"),
         ("max_force_N = inf", "finite"),

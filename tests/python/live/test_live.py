@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import punctura as pn
@@ -15,6 +14,7 @@ from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedD
 from punctura.cli._headless import in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
+from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -43,8 +43,7 @@ def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
     listener = loop.listen(4096)
     loop.arm()
     loop.start()
-    while not loop.device.finished:
-        time.sleep(0.001)
+    wait_until(lambda: loop.device.finished)
     loop.stop()
     live = listener.read()
     offline = pn.Experiment(SCENE, STROKES, seed=3).run(2.5)
@@ -101,15 +100,11 @@ def test_an_encoder_that_fails_once_is_a_fault_that_stays_until_a_reset():
     loop.arm()
     loop.start()
     loop.device.trip()
-    end = time.monotonic() + 10
-    while not len(loop.fault_history()["tick"]) and time.monotonic() < end:
-        time.sleep(0.001)
+    wait_until(lambda: len(loop.fault_history()["tick"]))
     assert loop.fault_history()["fault"][-1] == int(Fault.non_finite_input)
     assert list(loop.device.last_force) == [0.0, 0.0, 0.0]
     loop.reset()
-    while loop.latest()["fault"][0] and time.monotonic() < end:
-        time.sleep(0.001)
-    assert loop.latest()["fault"][0] == 0
+    wait_until(lambda: loop.latest()["fault"][0] == 0)
     loop.stop()
 
 
@@ -143,8 +138,7 @@ def test_the_summary_counts_snapshots_that_never_came():
     loop = ServoLoop(simulated(ticks=1000), SCENE)
     listener = loop.listen(64)
     loop.start()
-    while not loop.device.finished:
-        time.sleep(0.001)
+    wait_until(lambda: loop.device.finished)
     loop.stop()
     summary.add(listener.read())
     assert summary.ticks == 64

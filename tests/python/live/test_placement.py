@@ -53,7 +53,10 @@ def test_all_that_is_wrong_with_a_file_is_told_at_once(tmp_path):
     path.write_text('rotation = [1, 2]\nscale = "big"\noffset = [1, 2, 3]\n')
     with pytest.raises(pn.ConfigurationError) as error:
         load_placement(path)
-    assert [p.path for p in error.value.problems] == ["offset", "rotation", "scale"]
+    assert [p.path for p in error.value.problems] == ["rotation", "scale", "offset"]
+    assert [p.reason for p in error.value.problems] == [
+        "must be four numbers, [w, x, y, z]", "must be a number", "unknown key; did you mean offset_mm?"
+    ]  # fmt: skip
     path.write_text("scale = 0\ntip_offset_mm = inf\n")
     with pytest.raises(pn.ConfigurationError) as error:
         load_placement(path)

@@ -3,13 +3,13 @@
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import punctura as pn
 import pytest
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import open_device, open_for
+from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 LAST = sorted(os.sched_getaffinity(0))[-1]
@@ -31,9 +31,7 @@ def test_the_thread_that_ticks_stays_on_its_processor(how):
     before = processors_of_threads()
     loop.start()
     try:
-        deadline = time.monotonic() + 20
-        while loop.latest()["tick"][0] == 0 and time.monotonic() < deadline:
-            time.sleep(1e-3)
+        wait_until(lambda: loop.latest()["tick"][0] > 0)
         after = processors_of_threads()
         assert after.count({LAST}) == before.count({LAST}) + 1
         assert f"processor {LAST}: granted" in device.statements()
@@ -45,8 +43,7 @@ def test_one_that_does_not_exist_does_no_harm_and_is_said():
     device = SimulatedDevice(pn.Target([0, 5e-3, 0]), ticks=16, processor=4095)
     loop = ServoLoop(device, SCENE)
     loop.start()
-    while not device.finished:
-        time.sleep(1e-3)
+    wait_until(lambda: device.finished)
     loop.stop()
     assert any(text.startswith("processor 4095: not granted") for text in device.statements())
 

@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import time
 
 import pytest
 from punctura import Scene, load_scene
@@ -11,6 +10,7 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import room_note, run_live, strokes_through
 from punctura.record import Recorder, open_recording
 from punctura.scene import save_scene
+from waiting import wait_until
 
 MOST_BYTES = 32 << 20
 SCENE = load_scene("k06-fig10")
@@ -40,8 +40,7 @@ def test_one_read_takes_all_that_is_there():
     loop = ServoLoop(device_for(SCENE, 80_000), SCENE)
     listener = loop.listen(80_000)
     loop.start()
-    while loop.report()["ticks"] < 80_000:
-        time.sleep(1e-3)
+    wait_until(lambda: loop.report()["ticks"] >= 80_000)
     loop.stop()
     assert len(listener.read(5)["tick"]) == 5
     assert len(listener.read()["tick"]) == 79_995 and listener.lost == 0

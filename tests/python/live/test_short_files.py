@@ -6,9 +6,9 @@ import sys
 import pytest
 from punctura import ConfigurationError, load_scene
 from punctura.exercise import load_exercise
+from punctura.files.toml_bounds import MOST_BYTES
 from punctura.live import load_limits, load_placement
 from punctura.live.limits import Limits
-from punctura.scene.limits import MOST_BYTES
 
 READERS = {"limits": load_limits, "placement": load_placement, "exercise": load_exercise, "scene": load_scene}
 SOUND = {"limits": "max_force_N = 0.5", "placement": "scale = 0.5"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import pytest
 from punctura import Scene, Strokes, load_scene
 from punctura._core import ForceLimits, GateLimits, Listener, ServoLoop, SimulatedDevice
 from punctura.record import Recorder
+from waiting import wait_until
 
 STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
 
@@ -59,12 +59,7 @@ class Run:
         self.recorder.finish()
         return kept
 
-    @staticmethod
-    def wait(done: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + 120
-        while not done():
-            assert time.monotonic() < deadline, "waited in vain"
-            time.sleep(1e-3)
+    wait = staticmethod(wait_until)
 
 
 Start = Callable[..., Run]

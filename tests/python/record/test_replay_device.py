@@ -73,7 +73,7 @@ def test_a_live_run_on_it_ends_by_itself_and_has_every_tick(start):
     run = start(ticks=800).record()
     summary = run_live(open_for(run.loop.scene, f"replay:{run.path}"), run.loop.scene)
     assert (summary.ticks, summary.gaps, summary.fault) == (800, 0, "")
-    assert summary.statements[0] == "a recorded motion does not yield to the force"
+    assert summary.statements[0] == "the force has no effect on a recorded motion"
 
 
 def test_the_command_line_runs_a_recorded_motion_and_records_the_same_forces(start, tmp_path, capsys):

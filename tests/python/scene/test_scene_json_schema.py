@@ -7,7 +7,7 @@ import math
 
 from punctura import ServoSettings, scene_json_schema
 from punctura._core import fields
-from punctura.scene.units import split_key
+from punctura.files.units import split_key
 
 
 def properties(table):

@@ -18,7 +18,7 @@ from punctura import (
     save_scene,
     scene_names,
 )
-from punctura.scene.units import UNITS, from_si, to_si
+from punctura.files.units import UNITS, from_si, to_si
 from punctura.scene.write import _number as toml_number
 
 

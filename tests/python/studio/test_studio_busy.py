@@ -74,7 +74,7 @@ def watch_arming(session):
 
     def watched():
         arm()
-        seen.append(session.armed)
+        seen.append(session.arming.armed)
 
     session.arm = watched
     return seen

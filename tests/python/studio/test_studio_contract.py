@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from punctura._core import Limit
+from punctura.live.limit_words import CUTS, LIMIT_WORDS
 from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.schema import wire_schema
@@ -104,3 +106,10 @@ def test_a_frame_holds_no_gap_and_no_nothing():
         encode_ticks(Ticks(columns), 0)
     with pytest.raises(FrameError):
         encode_ticks(Ticks(columns)[:0], 0)
+
+
+def test_the_page_has_the_words_of_every_limit():
+    page = json.loads((ROOT / "web/src/wire/limit_words.json").read_text(encoding="utf-8"))
+    assert page == {"words": LIMIT_WORDS, "cuts": list(CUTS)}
+    codes = sorted((limit for limit in Limit.__members__.values()), key=int)
+    assert list(page["words"]) == [limit.name for limit in codes] and [int(limit) for limit in codes] == [*range(5)]

@@ -99,7 +99,7 @@ def playing(folder):
 
 
 def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 0.1)
+    monkeypatch.setattr("punctura.studio.rounds.REST_S", 0.1)
     with playing(tmp_path) as (_, page):
         page.wait(lambda: page.last)
         assert "recorded" in page.of("hello")[0]["device"]["model"]
@@ -109,7 +109,7 @@ def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monke
 
 def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())  # as hardware, whose driver calls no more
-    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 1e9)
+    monkeypatch.setattr("punctura.studio.rounds.REST_S", 1e9)
     asked = []
     with playing(tmp_path) as (server, page):
         loop = server.session.run.loop
@@ -126,7 +126,7 @@ def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monke
 
 def test_ticks_that_cease_end_the_run_while_the_worker_waits_for_a_file(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
-    monkeypatch.setattr("punctura.studio.session.ROUND_REST_S", 1e9)
+    monkeypatch.setattr("punctura.studio.rounds.REST_S", 1e9)
     over = threading.Event()
     with playing(tmp_path) as (server, page):
         loop = server.session.run.loop

@@ -18,6 +18,7 @@ from punctura.record.pieces import PIECE_BYTES, export_pieces
 from punctura.studio import connections, download
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
+from waiting import wait_until
 
 TICKS = 40_000  # 30 MB as CSV: more than what the system keeps of a connection
 
@@ -29,8 +30,7 @@ def make(path, ticks):
     with Recorder(loop, path, ticks) as recorder:
         loop.arm()
         loop.start()
-        while loop.report()["ticks"] < ticks:
-            time.sleep(1e-3)
+        wait_until(lambda: loop.report()["ticks"] >= ticks)
         loop.stop()
     return recorder.status()
 

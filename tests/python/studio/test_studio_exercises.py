@@ -121,7 +121,7 @@ def test_a_warning_is_printed_and_listed(tmp_path, own, capsys, monkeypatch):
     _, said = told(capsys, "--exercise", str(own), "--page", str(tmp_path))
     assert f"punctura: warning: {own}: goal[2]: is met before the front vein wall pops" in said
     (entry, *_) = Exercises([own]).overviews()
-    assert [warning["path"] for warning in entry["warnings"]] == ["goal[2]"] and entry["problems"] == []
+    assert [warning.path for warning in entry.warnings] == ["goal[2]"] and entry.problems == []
 
 
 @pytest.mark.parametrize(("scene", "runs"), [((), "Somebody"), (("k06-fig12",), "K06 Fig. 12")])
@@ -148,11 +148,11 @@ def test_without_a_scene_that_of_the_exercise_runs(tmp_path, own, monkeypatch, s
 def test_the_depths_of_the_space_are_listed(tmp_path):
     text = HEAD.replace('in_front_of = "back vein wall"', "depth_mm = 1\ndeepest_mm = 2.5") + goal("reach")
     (entry, *_) = Exercises([own_file(tmp_path, text)]).overviews()
-    assert entry["space"] == [1] and np.allclose([entry["space_from"], entry["space_to"]], [1e-3, 2.5e-3])
-    assert entry["goal_from"] == entry["space_from"]
+    assert entry.space == [1] and np.allclose([entry.space_from, entry.space_to], [1e-3, 2.5e-3])
+    assert entry.goal_from == entry.space_from
 
 
 def test_the_depth_of_the_reach_goal_is_listed(tmp_path):
     text = HEAD.replace("[space]", "[space]\ndepth_mm = 1") + goal("stay", seconds=1) + goal("reach", depth_mm=2)
     (entry, *_) = Exercises([own_file(tmp_path, text)]).overviews()
-    assert np.allclose([entry["space_from"], entry["goal_from"]], [1e-3, 2e-3])
+    assert np.allclose([entry.space_from, entry.goal_from], [1e-3, 2e-3])

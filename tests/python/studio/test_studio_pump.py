@@ -1,6 +1,5 @@
 """From snapshots to frames: nothing is lost, and what is missing is counted."""
 
-import time
 from itertools import pairwise
 
 import numpy as np
@@ -10,6 +9,7 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.studio.compare import OtherSolver
 from punctura.studio.pump import MOST_TICKS, Pump
 from punctura.studio.wire import decode_ticks
+from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig12")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -20e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -40,8 +40,7 @@ class Run:
         listener = self.loop.listen(1 << 14)
         self.loop.arm()
         self.loop.start()
-        while not self.loop.device.finished:
-            time.sleep(0.001)
+        wait_until(lambda: self.loop.device.finished)
         self.loop.stop()
         self.columns = listener.read()
         self.batches = []

@@ -9,7 +9,7 @@ from punctura.exercise.result import Metrics, Result
 
 def result(person):
     metrics = dict.fromkeys(Metrics.model_fields) | {
-        "attempts": 1, "peak_force": 0.9, "overshoot": [], "dwell": 0.0, "longest_stay": 0.0, "total_time": 2.0,
+        "entries": 1, "peak_force": 0.9, "overshoot": [], "dwell": 0.0, "longest_stay": 0.0, "total_time": 2.0,
         "lost_ticks": 0, "force_cut": {},
     }  # fmt: skip
     return Result(

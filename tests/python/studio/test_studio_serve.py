@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 
 import pytest
 from heed import heed_signals
@@ -16,6 +15,7 @@ from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioError, StudioServer, token_from_environment
 from punctura.studio.shelf import default_folder
+from waiting import wait_until
 
 
 def start(tmp_path, *more, **environment):
@@ -104,11 +104,9 @@ def test_no_force_is_left_when_it_stops_nor_when_the_worker_fails(served, page):
     def fail():
         raise SystemExit("a defect")
 
-    served.session._jobs.post(fail)
-    end = time.monotonic() + 20
-    while served.session.running and time.monotonic() < end:
-        time.sleep(0.01)
-    assert not served.session.running and not served.running
+    served.session.jobs.post(fail)
+    wait_until(lambda: not served.session.running)
+    assert not served.running
     assert tuple(device.last_force) == (0.0, 0.0, 0.0)
     assert not page.ask(do="arm")["ok"]
 

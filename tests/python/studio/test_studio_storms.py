@@ -17,6 +17,7 @@ from punctura.studio import protocols
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE, STRANGER_S
 from punctura.studio.wire.messages import Notice
+from waiting import wait_until
 
 PING, PONG, TEXT = b"\x89\x80\0\0\0\0", b"\x8a\x80\0\0\0\0", b"\x81\x80\0\0\0\0"
 FRAGMENT, BEGINNING = b"\x00\x80\0\0\0\0", b"\x01\x80\0\0\0\0"
@@ -81,13 +82,6 @@ class Patience:
         assert time.monotonic() < self._end, "it has not come to that"
 
 
-def until(true):
-    patience = Patience()
-    while not true():
-        patience.check()
-        time.sleep(0.005)
-
-
 def test_a_refused_socket_is_no_socket_and_its_pings_get_no_answer(guarded):
     with tcp(guarded) as raw:
         raw.sendall(upgrade(guarded, token="wrong"))
@@ -127,7 +121,7 @@ def test_a_page_that_does_not_read_is_ended_and_the_others_see_every_tick(guarde
     monkeypatch.setattr(rules, "UNREAD_S", 0.2)
     with StudioClient(guarded.address.url) as other, reads_little(guarded) as raw:
         raw.sendall(upgrade(guarded))
-        until(lambda: len(guarded.hub.viewers) == 2)
+        wait_until(lambda: len(guarded.hub.viewers) == 2)
         silent = list(guarded.connections.known)[-1]
         assert silent.socket
         silent.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4096)
@@ -147,7 +141,7 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
     monkeypatch.setattr(rules, "UNREAD_S", 0.2)
     with reads_little(guarded) as raw:
         raw.sendall(request(guarded, "/api/schema?token=TOKEN"))
-        until(lambda: guarded.connections.known)
+        wait_until(lambda: guarded.connections.known)
         (connection,) = guarded.connections.known
         connection.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4096)
         raw.setblocking(False)
@@ -167,10 +161,10 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
 def test_silent_connections_are_ended_and_told_why(guarded, monkeypatch, begin):
     now = [0.0]
     monkeypatch.setattr(guarded.connections, "_clock", lambda: now[0])
-    until(lambda: not guarded.connections.strangers)  # those of the test before
+    wait_until(lambda: not guarded.connections.strangers)  # those of the test before
     with tcp(guarded) as raw:
         raw.sendall(begin)
-        until(lambda: guarded.connections.strangers)
+        wait_until(lambda: guarded.connections.strangers)
         now[0] = STRANGER_S
         answer = everything(raw)
         assert answer.startswith(b"HTTP/1.1 408 ") and answer.endswith(b".\n")

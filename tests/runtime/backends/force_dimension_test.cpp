@@ -6,7 +6,7 @@
 
 #include "core/support/allocations.hpp"
 #include "fakes/drd/rig.hpp"
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

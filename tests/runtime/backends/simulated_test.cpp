@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/support/paper_scene.hpp"
-#include "punctura/experiment/experiment.hpp"
+#include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 
 using namespace punctura;

@@ -158,7 +158,8 @@ TEST_CASE("limits are never wider than the device's own ratings") {
 }
 
 TEST_CASE("a device that stands elsewhere, turned and scaled, feels the same force in its own axes") {
-  // The device points along its +x where the scene points down, is 0.1 m away, moves half as far, and its tip is 20 mm ahead.
+  // The device points along its +x where the scene points down, is 0.1 m away, moves half as far, and its tip is 20 mm
+  // ahead.
   LoopSettings settings;
   settings.placement.rotation = {std::sqrt(0.5), 0, 0, -std::sqrt(0.5)};  // a quarter turn about z: x to -y
   settings.placement.scale = 2;

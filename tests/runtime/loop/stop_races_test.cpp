@@ -31,7 +31,8 @@ class SlowToStop : public HandCranked {
   std::promise<void> stopping, may_stop;
 };
 
-/// Of a loop that runs no more: starts it, pushes the needle in, and says whether the force is inside this friction's band.
+/// Of a loop that runs no more: starts it, pushes the needle in, and says whether the force is inside this friction's
+/// band.
 bool slides_with(HandCranked& device, ServoLoop& loop, double friction) {
   const Scene scene = with_friction(friction);
   loop.reset();

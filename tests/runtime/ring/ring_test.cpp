@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "punctura_runtime/ring/handover.hpp"
-#include "punctura_runtime/ring/latest.hpp"
-#include "punctura_runtime/ring/milestone.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
+#include "punctura_runtime/ring/triple_buffer.hpp"
 
 using namespace punctura;
 
@@ -126,7 +125,7 @@ TEST_CASE("the latest value is never half of one and half of another, and never 
   struct Value {
     std::uint64_t a = 0, b = 0;
   };
-  Latest<Value> latest;
+  TripleBuffer<Value> latest;
   std::atomic<bool> done{false};
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= 300000; ++i) latest.write([&](Value& to) { to = {i, ~i}; });
@@ -180,19 +179,4 @@ TEST_CASE("what is handed over arrives once, and what it replaces is freed by th
     CHECK(last_taken == 19999);
   }
   CHECK(Counted::alive == 0);
-}
-
-TEST_CASE("who waits for a milestone goes on when it is reached, however soon that is, each time anew") {
-  Milestone milestone;
-  for (int i = 0; i < 2000; ++i) {
-    milestone.set_ahead();
-    std::atomic<bool> there{false};
-    std::thread other([&] {
-      there = true;
-      milestone.reach();
-    });
-    milestone.wait();
-    CHECK(there);
-    other.join();
-  }
 }

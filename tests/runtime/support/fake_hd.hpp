@@ -18,11 +18,12 @@ namespace punctura::test {
 
 /// What the fake exports for us.
 struct FakeHdControls {
-  os::Library library = os::Library::open({FAKE_HD});
+  std::string error;
+  void* library = os::load_library(FAKE_HD, error);
   template <typename Function>
   Function* find(const char* name) const {
-    void* symbol = library.symbol(name);
-    REQUIRE_MESSAGE(symbol, library.error());
+    void* symbol = library ? os::library_symbol(library, name) : nullptr;
+    REQUIRE_MESSAGE(symbol, error);
     return reinterpret_cast<Function*>(symbol);
   }
   decltype(&fake_hd_defaults) defaults = find<decltype(fake_hd_defaults)>("fake_hd_defaults");

@@ -8,26 +8,28 @@ import { goalList } from "./exercises/goals.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personField } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
+import { titleAmong } from "./exercises/title.ts";
 
-/** Exercises to do, how the present one goes, and what came of those before. */
+/** The list of exercises, the running one, and past results. */
 export const exercisesPanel: Panel = (host, app) => {
   host.classList.add("exercises-panel");
   const person = new Person();
   let known: readonly ExerciseOverview[] = [];
   let running = false;
   const of = (name: string): ExerciseOverview | null => known.find((exercise) => exercise.name === name) ?? null;
+  const titleOf = (name: string, title = of(name)?.title ?? name): string => titleAmong({ name, title }, known);
   const start = async (name: string): Promise<void> => {
     const reply = await app.ask({ do: "start_exercise", exercise: name, person: person.name.value });
     if (reply && !reply.ok && reply.problems?.length)
-      app.say(`${of(name)?.title ?? name} cannot start: ${reply.problems.map(sentence).join(" ")}`);
-    await readList(); // an exercise of one's own was read anew: it may be another now
+      app.say(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
+    await readList(); // an exercise file may have changed
   };
   const open = (result: ExerciseResult): void => {
     const again = app.control.value.you && of(result.exercise) ? () => void start(result.exercise) : null;
-    openResult(app, result, of(result.exercise), again);
+    openResult(app, result, titleOf(result.exercise, result.title), of(result.exercise), again);
   };
-  const past = pastResults(app, open);
-  const now = runningPart(app, (name) => of(name)?.title ?? name);
+  const past = pastResults(app, open, (result) => titleOf(result.exercise, result.title));
+  const now = runningPart(app, titleOf);
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
     element(
@@ -42,7 +44,9 @@ export const exercisesPanel: Panel = (host, app) => {
   );
 
   const showList = (): void => {
-    list.replaceChildren(...known.map((exercise) => card(exercise, () => void start(exercise.name))));
+    list.replaceChildren(
+      ...known.map((exercise) => card(exercise, titleOf(exercise.name), () => void start(exercise.name))),
+    );
   };
   const readList = async (): Promise<void> => {
     try {
@@ -75,9 +79,9 @@ export const exercisesPanel: Panel = (host, app) => {
     running = status?.running ?? false;
     if (!ended || !status.result) return;
     await past.show(person.name.value);
-    // Who only looks on is told, not interrupted.
+    // A page without control gets a notice instead of a dialog.
     if (!app.control.value.you) {
-      app.say(`${of(status.exercise)?.title ?? status.exercise}: the attempt is over.`);
+      app.say(`${titleOf(status.exercise)}: the attempt is over.`);
       return;
     }
     try {
@@ -88,7 +92,7 @@ export const exercisesPanel: Panel = (host, app) => {
   });
 };
 
-function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
+function card(exercise: ExerciseOverview, title: string, start: () => void): HTMLElement {
   const wrong = exercise.problems.length > 0;
   return element(
     "article",
@@ -96,8 +100,8 @@ function card(exercise: ExerciseOverview, start: () => void): HTMLElement {
     element(
       "header",
       {},
-      element("h3", {}, exercise.title),
-      // A file with a problem can be started, too: it is read anew then, and may have been mended.
+      element("h3", {}, title),
+      // A file with a problem can be started, too: it is read again, and may be correct by then.
       element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
     ),
     ...(wrong ? [problemList("problems", exercise.problems)] : []),
@@ -116,7 +120,7 @@ function problemList(kind: "problems" | "warnings", problems: readonly ProblemPa
   );
 }
 
-/** What to do now, and how the goals stand. Hidden while no exercise runs. */
+/** The present instruction and the state of the goals. Hidden while no exercise runs. */
 function runningPart(app: App, titleOf: (name: string) => string): { root: HTMLElement } {
   const title = element("h3", {});
   const instruction = element("p", { class: "instruction", role: "status" });

@@ -1,12 +1,12 @@
+import { handOf } from "../hand/hand.ts";
 import type { Panel } from "../panel.ts";
-import { angleRow } from "./hand_angle.ts";
-import { whyBarred } from "./hand_barred.ts";
-import { handOf } from "./hand_model.ts";
-import { keyHelp, placeRows } from "./hand_place.ts";
-import { scriptRows } from "./hand_scripts.ts";
-import { senseRows } from "./hand_senses.ts";
+import { angleRow } from "./hand/angle.ts";
+import { whyBarred } from "./hand/barred.ts";
+import { keyHelp, placeRows } from "./hand/place.ts";
+import { scriptRows } from "./hand/scripts.ts";
+import { senseRows } from "./hand/senses.ts";
 
-/** The simulated hand: where it is led, its angle, scripts, gamepad and sound. */
+/** The tab of the simulated hand: its place, angle, strokes, gamepad and sound. */
 export const handPanel: Panel = (host, app) => {
   const hand = handOf(app);
   const fields = document.createElement("fieldset");

@@ -16,7 +16,8 @@ export const logPlace = (time: number, from: number, to: number): number =>
   Math.min(1, Math.max(0, Math.log(time / from) / Math.log(to / from)));
 
 /**
- * Bars of a spread between `from` and `to` (s). Heights are logarithmic too, so that the one late tick in a million is to be
+ * Bars of a spread between `from` and `to` (s). Heights are logarithmic too, so that the one late tick in a million
+ * is to be
  * seen: a count of one is a tenth of the box. Bins beyond the ends are added to the first and the last.
  */
 export function bars({ edges, counts }: Spread, from: number, to: number): Bar[] {

@@ -26,7 +26,8 @@ const THROUGH: readonly PhaseWords[] = MOTIONS.map((detail) => ({
 }));
 
 /**
- * phase: 0 to 4, Phase of core/punctura/proxy/solver.hpp. A tip inside and at least `through` deep has the membrane behind
+ * phase: 0 to 4, Phase of core/punctura/proxy/solver.hpp. A tip inside and at least `through` deep has the membrane
+ * behind
  * it, whatever it does there.
  */
 export function phaseWords(phase: number, depth: number, through: number): PhaseWords {

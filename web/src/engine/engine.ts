@@ -1,7 +1,7 @@
 import type { Message, Request } from "../wire/messages.ts";
 import type { TickBatch } from "../wire/ticks.ts";
 
-/** How the page stands with what makes the ticks. */
+/** The state of the connection to the source of ticks. */
 export type Connection =
   | { readonly state: "connecting"; readonly attempt: number }
   | { readonly state: "open" }
@@ -14,7 +14,7 @@ type Without<T> = T extends { id: number } ? Omit<T, "id"> : never;
 export type Ask = Without<Request>;
 export type Triple = readonly [number, number, number];
 
-/** What an engine tells the page. Batches follow one another by tick, with every tick there is. */
+/** What an engine sends to the page. Batches come in the order of ticks, and contain every tick. */
 export interface EngineListener {
   connection(now: Connection): void;
   message(message: Exclude<Message, Reply>): void;
@@ -22,17 +22,18 @@ export interface EngineListener {
 }
 
 /**
- * Whatever runs a scene: the studio's server over a socket is one, a core in WebAssembly can be another.
+ * A source of ticks: the studio's server over a socket is one, a core in WebAssembly can be another.
  * SI units; axes right-handed, x right, y up, z towards the user.
  */
 export interface Engine {
   start(listener: EngineListener): void;
   stop(): void;
-  /** Resolves with the reply, also with a refusal (`ok` false); rejects where the connection goes before it. */
+  /** Resolves with the reply, also with a refusal (`ok` false); rejects if the connection is lost before it. */
   ask(request: Ask): Promise<Reply>;
   /**
-   * Where the simulated hand shall go in this run, m, and where the stylus points. At most one a frame is sent: the last. In
-   * another run it is ignored.
+   * Moves the simulated hand in this run: position, m, and direction of the stylus. Per animation frame only the
+   * last is sent.
+   * The server ignores it in another run.
    */
   target(run: number, position: Triple, axis: Triple, buttons?: number): void;
 }

@@ -6,7 +6,10 @@ import { Polyline } from "./polyline.ts";
 const MM = 1e3;
 const path = new Polyline();
 
-/** The friction band of a membrane, from Phi_I (up: what the hand feels going in) to Phi_O: any force in it holds the needle. */
+/**
+ * The friction band of a membrane, from Phi_I (up: what the hand feels going in) to Phi_O: any force in it holds
+ * the needle.
+ */
 export function drawBand(pen: Pen, { x, y }: Pane, law: LawCurve, colour: string): void {
   const { depth, lower, upper } = law;
   if (!depth.length) return;

@@ -2,7 +2,8 @@ import { FONT, type Lettering, type Pen, type Stroke } from "./pen.ts";
 import type { Polyline } from "./polyline.ts";
 
 const SOLID: number[] = [];
-// Without a GPU a long line that crosses itself costs more than its parts: 14 ms instead of 4 for 2000 points of chatter.
+// Without a GPU a long line that crosses itself costs more than its parts: 14 ms instead of 4 for 2000 points of
+// chatter.
 const CHUNK = 32;
 
 /** Draws on a canvas that is `ratio` device pixels to a CSS pixel. */

@@ -1,7 +1,8 @@
 import type { Polyline } from "./polyline.ts";
 
 /**
- * A line through `xs`, `ys` (pixels) with at most four points for every stay in a pixel column: the first, the lowest, the
+ * A line through `xs`, `ys` (pixels) with at most four points for every stay in a pixel column: the first, the
+ * lowest, the
  * highest and the last, in the order in which they came. To the pixel the picture of all points, so that a spike of one
  * tick is drawn at its full height; nothing is skipped by a stride. NaN is a gap.
  */

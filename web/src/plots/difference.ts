@@ -9,7 +9,10 @@ export interface Difference {
   readonly largest: number;
 }
 
-/** |force of the other solver - force of this one| over the ticks from `first` to before `end`; null where nothing compares. */
+/**
+ * |force of the other solver - force of this one| over the ticks from `first` to before `end`; null where nothing
+ * compares.
+ */
 export function difference(history: History, first: number, end: number): Difference | null {
   const model = history.column("model_force");
   const other = history.column("other_force");

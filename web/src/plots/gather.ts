@@ -58,8 +58,10 @@ export function isCompared(history: History, first: number, end: number): boolea
 }
 
 /**
- * The axial force of a membrane as the other solver would have it, N: where the tip is in that membrane, this solver's plus
- * the difference of the two whole forces along b. With one membrane at the needle that is the other's axial force itself.
+ * The axial force of a membrane as the other solver would have it, N: where the tip is in that membrane, this
+ * solver's plus
+ * the difference of the two whole forces along b. With one membrane at the needle that is the other's axial force
+ * itself.
  */
 export function gatherOther(
   history: History,
@@ -92,7 +94,8 @@ export function gatherOther(
 }
 
 /**
- * What goes to the hand, N: the size of the device's force after all limits, negative where it pulls the needle in. While
+ * What goes to the hand, N: the size of the device's force after all limits, negative where it pulls the needle in.
+ * While
  * nothing limits it, that is the size of the model's force, by which exercises are judged.
  */
 export function gatherSent(

@@ -13,7 +13,10 @@ export interface Label {
   readonly weight: number;
 }
 
-/** Which labels fit into a row from `left` to `right` (px) so that none lies on another: the weightiest are never left out. */
+/**
+ * Which labels fit into a row from `left` to `right` (px) so that none lies on another: the weightiest are never
+ * left out.
+ */
 export function labelsThatFit(labels: readonly Label[], left: number, right: number): boolean[] {
   const taken: Array<readonly [from: number, to: number]> = [];
   const fit = new Array<boolean>(labels.length).fill(false);

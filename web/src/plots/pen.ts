@@ -17,7 +17,8 @@ export interface Lettering {
 }
 
 /**
- * What a plot draws with: a canvas on the screen, or an SVG file. One drawing serves both, so that what is saved is what was
+ * What a plot draws with: a canvas on the screen, or an SVG file. One drawing serves both, so that what is saved is
+ * what was
  * seen. Lengths are CSS pixels from the top left; text stands with its middle at y.
  */
 export interface Pen {

@@ -28,8 +28,10 @@ export class Window {
   end = 0;
 
   /**
-   * The last `seconds` up to the tick that is shown. A run shorter than that fills the window from the left; a recording
-   * shows a little of what comes after, too. The window goes on in steps of `pixel` seconds: within a step, what is drawn
+   * The last `seconds` up to the tick that is shown. A run shorter than that fills the window from the left; a
+   * recording
+   * shows a little of what comes after, too. The window goes on in steps of `pixel` seconds: within a step, what is
+   * drawn
    * already may stay where it is.
    */
   follow(history: History, shown: number | null, seconds: number, live: boolean, pixel: number): void {

@@ -27,7 +27,8 @@ export class ForceArrow {
   }
 
   /**
-   * from: mm; force: N; mmPerNewton: its scale; thick: mm, the shaft's radius. `real` is false for a force that the model
+   * from: mm; force: N; mmPerNewton: its scale; thick: mm, the shaft's radius. `real` is false for a force that the
+   * model
    * has and the hand does not get.
    */
   place(from: Vector3, force: Vector3, mmPerNewton: number, thick: number, real: boolean): void {

@@ -142,8 +142,10 @@ export class OrbitCamera {
   }
 
   /**
-   * Where the pixel lies in a plane through `point`: the one that holds `axis` and faces the view as far as that allows, so that
-   * a drag along the needle on the screen is one along the needle in the scene. Along the needle it is the view's own plane.
+   * Projects a pixel to a plane through `point`. The plane contains `axis` and faces the camera as far as possible,
+   * so that a
+   * drag along the needle on the screen moves along the needle. If the camera looks along the needle, it is the view
+   * plane.
    */
   inPlaneOf(point: Vector3, axis: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
     const at = new Vector2((2 * x) / width - 1, 1 - (2 * y) / height);

@@ -5,7 +5,10 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 
 const UP = new Vector3(0, 1, 0);
 
-/** A straight line of a width in pixels, which may be dashed (mm). It is one line, put in its place: nothing is made anew. */
+/**
+ * A straight line of a width in pixels, which may be dashed (mm). It is one line, put in its place: nothing is
+ * made anew.
+ */
 export class FatLine {
   readonly line: Line2;
   private readonly material: LineMaterial;

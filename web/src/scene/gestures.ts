@@ -15,7 +15,8 @@ type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
 const MM_PER_WHEEL_PIXEL = 0.004;
 
 /**
- * One finger or the left button is the needle's; the right button, Shift, or two fingers are the camera's. Thus no gesture means
+ * One finger or the left button is the needle's; the right button, Shift, or two fingers are the camera's. Thus no
+ * gesture means
  * two things.
  */
 export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel(): void } {

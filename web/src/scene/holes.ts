@@ -11,7 +11,8 @@ export interface Hole {
 }
 
 /**
- * Where each membrane was pierced, from the source's events. A hole's place is read once, while its tick is still in the history,
+ * Where each membrane was pierced, from the source's events. A hole's place is read once, while its tick is still in
+ * the history,
  * and then kept as long as the run.
  */
 export class Holes {

@@ -1,12 +1,12 @@
 import { Vector3 } from "three";
-import type { Hand } from "../controls/hand_model.ts";
+import type { Hand } from "../hand/hand.ts";
 import type { OrbitCamera } from "./camera.ts";
 import type { GestureHandler } from "./gestures.ts";
 import { MM } from "./moment.ts";
 import type { Stage } from "./stage.ts";
 import type { World } from "./world.ts";
 
-/** Gestures as moves of the hand and of the camera. The hand keeps the distance to the pointer at which it was taken. */
+/** Turns gestures into moves of the hand and the camera. The hand keeps its offset to the pointer. */
 export function needleGrip(hand: Hand, orbit: OrbitCamera, world: World, stage: Stage): GestureHandler {
   const plane = new Vector3();
   const offset = new Vector3();

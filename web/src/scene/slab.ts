@@ -25,7 +25,8 @@ export interface FaceState {
 export const untouched = (): FaceState => ({ centre: new Vector3(), hole: 0, shift: new Vector3() });
 
 /**
- * A slab of tissue: two faces of rings round the needle, fine at it and coarse at the border, a rim, and the wall of the hole.
+ * A slab of tissue: two faces of rings round the needle, fine at it and coarse at the border, a rim, and the wall of
+ * the hole.
  * A face gives way as a half-space does under a point, and is held at the border.
  */
 export class Slab {
@@ -60,7 +61,8 @@ export class Slab {
 
   /**
    * Lays the slab anew; false where nothing differs from the last time.
-   * middle: of the front face; normal: inward, of length 1; size: half the side; needle: its direction, for a slanted hole.
+   * middle: of the front face; normal: inward, of length 1; size: half the side; needle: its direction, for a
+   * slanted hole.
    */
   lay(
     middle: Vector3,
@@ -95,7 +97,10 @@ export class Slab {
     return true;
   }
 
-  /** Light from above, laid into the colours: a translucent face of many pixels is then cheap to draw, also without a graphics card. */
+  /**
+   * Light from above, laid into the colours: a translucent face of many pixels is then cheap to draw, also without
+   * a graphics card.
+   */
   private shade(): void {
     const normals = this.mesh.geometry.getAttribute("normal").array;
     const colors = this.colors.array;

@@ -5,7 +5,10 @@ export const RINGS = 15;
 /** Of the rounded square that a slab is: 2 would be a circle. */
 export const CORNERS = 5;
 
-/** How much of the needle's way the tissue at a distance (mm) goes along: as the surface of a half-space under a point. */
+/**
+ * How much of the needle's way the tissue at a distance (mm) goes along: as the surface of a half-space under a
+ * point.
+ */
 export const carried = (distance: number, width: number): number => (1 + (Math.max(0, distance) / width) ** 2) ** -1.5;
 
 /** Two directions in a face: as far as possible the first to the right. */

@@ -2,7 +2,10 @@ import { CanvasTexture, MeshMatcapMaterial, SRGBColorSpace } from "three";
 
 const SIZE = 128;
 
-/** What a polished ball of steel looks like in a bright room: three soft lamps over a horizon. Costs no light and no reflection. */
+/**
+ * What a polished ball of steel looks like in a bright room: three soft lamps over a horizon. Costs no light and
+ * no reflection.
+ */
 function ball(shade: number): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = SIZE;

@@ -1,9 +1,9 @@
-import { viewKeys } from "../controls/hand_keys.ts";
-import { handOf } from "../controls/hand_model.ts";
+import { handOf } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { gestures } from "./gestures.ts";
+import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
 import { needleGrip } from "./needle_grip.ts";
 import { presets } from "./presets.ts";

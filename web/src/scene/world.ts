@@ -1,6 +1,6 @@
 import { type Camera, Vector3 } from "three";
-import type { Pose } from "../controls/hand_model.ts";
 import { newton } from "../format.ts";
+import type { Pose } from "../hand/hand.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { type Extent, extentOf } from "./anatomy.ts";

@@ -15,7 +15,7 @@ import { Source } from "./source.ts";
 
 const LIVE_TICKS = 1 << 17; // 82 s at 1600 Hz
 
-/** All that the page knows. Panels read it, watch it, and ask through it. */
+/** The state of the page. Panels read it, watch it, and send requests through it. */
 export class App {
   readonly connection = new Signal<Connection>({ state: "connecting", attempt: 1 });
   readonly hello = new Signal<Hello | null>(null);
@@ -26,7 +26,7 @@ export class App {
   readonly exercise = new Signal<ExerciseStatus | null>(null);
   /** The number of the live run. */
   readonly run = new Signal(0);
-  /** Sentences for the person, the last first. */
+  /** Sentences for the user, the last first. */
   readonly notices = new Signal<readonly string[]>([]);
   readonly live = new Source("live", true, LIVE_TICKS);
   /** What the panels draw. */
@@ -50,7 +50,7 @@ export class App {
     });
   }
 
-  /** Asks, and tells the person where it is refused. */
+  /** Sends a request, and tells the user if it is refused. */
   async ask(request: Ask): Promise<Reply | null> {
     try {
       const reply = await this.engine.ask(request);

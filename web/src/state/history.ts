@@ -13,7 +13,7 @@ const KEPT: readonly Exclude<FloatColumn, "time">[] = [
 export class History {
   first = 0;
   end = 0;
-  /** Counts up whenever ticks of another run replace these. */
+  /** Increases when ticks of another run replace these. */
   generation = 0;
   membranes = 0;
   lost = 0;
@@ -73,7 +73,7 @@ export class History {
   push(batch: TickBatch): void {
     if (batch.membranes !== this.membranes || this.time.length === 0) this.clear(batch.membranes, batch.firstTick);
     if (batch.firstTick !== this.end) {
-      // A page that was too slow: what it shows begins anew.
+      // The page was too slow: the history starts again.
       this.first = batch.firstTick;
       this.end = batch.firstTick;
     }

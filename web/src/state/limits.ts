@@ -1,21 +1,17 @@
+import limits from "../wire/limit_words.json";
 import { wordsOf } from "../wire/ticks.ts";
 import type { History } from "./history.ts";
 
+/** By the codes of the `limit` column. */
 export const LIMITS = wordsOf("limit");
+/** Recordings of earlier versions do not say which limit acted. */
 export type Limit = (typeof LIMITS)[number] | "unknown";
 
 /** The limit that cut the force, in a word or two. */
-export const LIMIT_WORDS: Readonly<Record<Limit, string>> = {
-  none: "",
-  ramp: "growing after it was turned on",
-  peak: "peak limit",
-  continuous: "long-run limit",
-  temperature: "warm motors",
-  unknown: "",
-};
+export const LIMIT_WORDS: Readonly<Record<Limit, string>> = { ...limits.words, unknown: "" };
 
 /** Whether a limit holds the force below the model's. A force that grows after arming is no news. */
-export const cuts = (limit: Limit): boolean => limit === "peak" || limit === "continuous" || limit === "temperature";
+export const cuts = (limit: Limit): boolean => limits.cuts.includes(limit);
 
 /** The limit that acted in a tick; recordings of earlier versions do not say. */
 export const limitOf = (history: History, tick: number): Limit =>

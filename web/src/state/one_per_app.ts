@@ -1,6 +1,6 @@
 import type { App } from "./app.ts";
 
-/** What several panels share without knowing each other: made for the page by whoever asks first. */
+/** An object that several panels share: the first panel that asks creates it. */
 export function onePerApp<T>(make: (app: App) => T): (app: App) => T {
   const made = new WeakMap<App, { readonly it: T }>();
   return (app) => {

@@ -1,4 +1,4 @@
-/** A value that tells when it changes. */
+/** A value with listeners for changes. */
 export class Signal<T> {
   private readonly listeners = new Set<(value: T) => void>();
   constructor(private current: T) {}
@@ -12,7 +12,7 @@ export class Signal<T> {
     for (const listener of [...this.listeners]) listener(next);
   }
 
-  /** Calls now and at every change; what it returns ends that. */
+  /** Calls the listener now and at every change; the returned function ends that. */
   watch(listener: (value: T) => void): () => void {
     this.listeners.add(listener);
     listener(this.current);

@@ -2,13 +2,13 @@ import type { LawCurve, MembraneEvent, SceneView } from "../wire/messages.ts";
 import { History } from "./history.ts";
 import { Signal } from "./signal.ts";
 
-/** One run to look at: the live one, or a recording. All panels draw a source and do not ask which it is. */
+/** One run to show: the live one or a recording. Panels draw any source alike. */
 export class Source {
   readonly scene = new Signal<SceneView | null>(null);
   readonly laws = new Signal<readonly LawCurve[]>([]);
   readonly events = new Signal<readonly MembraneEvent[]>([]);
   readonly history: History;
-  /** The tick that is shown, or null for the last there is. */
+  /** The tick that is shown; null for the last one. */
   readonly cursor = new Signal<number | null>(null);
 
   /** capacity: ticks that are kept. */

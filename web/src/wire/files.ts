@@ -80,7 +80,7 @@ export interface ExerciseResult {
 }
 
 export interface ExerciseMetrics {
-  readonly attempts: number;
+  readonly entries: number;
   readonly peak_force: number;
   readonly overshoot: readonly {
     readonly membrane: number;

@@ -2,7 +2,10 @@ import { FrameError } from "./ticks.ts";
 
 const LARGEST = 1 << 26; // bytes of one frame
 
-/** Cuts a stream of bytes into frames: a u32 of the length, the frame, zeros until the next length is at a multiple of 4. */
+/**
+ * Cuts a stream of bytes into frames: a u32 of the length, the frame, zeros until the next length is at a multiple
+ * of 4.
+ */
 export class FrameSplitter {
   private rest = new Uint8Array(0);
 

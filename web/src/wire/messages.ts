@@ -57,7 +57,7 @@ export interface DevicePart {
   rate: number;
 }
 /**
- * The limits between the model and the hand, as all runs of this studio have them: docs/safety.md.
+ * The limits between the model and the hand, for all runs of this studio: docs/safety.md.
  */
 export interface LimitsPart {
   max_force: number;
@@ -72,7 +72,7 @@ export interface LimitsPart {
   dead_man_buttons: number[];
 }
 /**
- * Something to pick from a list.
+ * An entry of a list.
  */
 export interface Choice {
   name: string;
@@ -88,7 +88,7 @@ export interface SceneMessage {
   run: number;
 }
 /**
- * A scene as the page draws it, SI; `tables` is the same scene as its file has it, for the editor.
+ * A scene as the page draws it, SI; `tables` has the same scene in the file's keys and units, for the editor.
  */
 export interface SceneView {
   number: number;
@@ -123,7 +123,7 @@ export interface MembraneView {
   thickness: number;
 }
 /**
- * Phi_I and Phi_O of one membrane along the depth: K06 (18), (19). Arrays of one length.
+ * Phi_I and Phi_O of one membrane over the depth: K06 (18), (19). All arrays have the same length.
  */
 export interface LawCurve {
   name: string;
@@ -148,7 +148,7 @@ export interface Control {
   hand: HandPose | null;
 }
 /**
- * Where the simulated hand is led to.
+ * The target of the simulated hand.
  */
 export interface HandPose {
   /**
@@ -202,7 +202,7 @@ export interface FaultMessage {
   kept: number;
 }
 /**
- * Something that happened at a membrane.
+ * An event at a membrane.
  */
 export interface MembraneEvent {
   kind: "event";
@@ -225,7 +225,7 @@ export interface RecordingStatus {
   trouble: string;
 }
 /**
- * How an exercise goes; `running` is false without one and after its end.
+ * The state of an exercise; `running` is false without one and after its end.
  */
 export interface ExerciseStatus {
   kind: "exercise";
@@ -240,7 +240,7 @@ export interface ExerciseGoal {
   state: "open" | "met" | "missed" | "not measured";
 }
 /**
- * To one request, by its id.
+ * The reply to the request with this id.
  */
 export interface Reply {
   kind: "reply";
@@ -249,11 +249,11 @@ export interface Reply {
   text?: string;
   problems?: ProblemPart[];
   data?: {
-    [k: string]: unknown;
+    [k: string]: string | number;
   };
 }
 /**
- * One thing wrong with a scene: where, and why. punctura.errors.Problem.
+ * One problem of a scene or an exercise: where, and why. punctura.errors.Problem.
  */
 export interface ProblemPart {
   path: string;
@@ -261,42 +261,42 @@ export interface ProblemPart {
   reason: string;
 }
 /**
- * A sentence for the person.
+ * A sentence for the user.
  */
 export interface Notice {
   kind: "notice";
   text: string;
 }
 /**
- * Control, from whoever has it. Everything below needs it.
+ * Takes control from the page that has it. All other requests need control.
  */
 export interface TakeControl {
   id: number;
   do: "take_control";
 }
 /**
- * Force, once the tip is outside tissue.
+ * Allows force once the tip is outside tissue.
  */
 export interface Arm {
   id: number;
   do: "arm";
 }
 /**
- * No force; ticks go on.
+ * Ends the force; ticks continue.
  */
 export interface Pause {
   id: number;
   do: "pause";
 }
 /**
- * Leaves a fault; disarmed.
+ * Clears a fault; the loop stays disarmed.
  */
 export interface Reset {
   id: number;
   do: "reset";
 }
 /**
- * Where the simulated hand shall go. Not answered; the last one counts; one of another run is ignored.
+ * Moves the simulated hand. No reply; a later target replaces it; a target of another run is ignored.
  */
 export interface Target {
   do: "target";
@@ -314,7 +314,7 @@ export interface Target {
   buttons?: number;
 }
 /**
- * The simulated hand strokes to and fro through all membranes, until the next target.
+ * The simulated hand strokes through all membranes and back, until the next target.
  */
 export interface Strokes {
   id: number;
@@ -330,7 +330,7 @@ export interface PlayMotion {
   recording: string;
 }
 /**
- * Another scene in place of the present one, taken between two ticks and faded in. A bad one changes nothing.
+ * Exchanges the scene between two ticks; the force fades over. A scene with errors changes nothing.
  */
 export interface Edit {
   id: number;
@@ -340,7 +340,7 @@ export interface Edit {
   };
 }
 /**
- * A ready scene by name, as a new run.
+ * Starts a new run with a ready scene.
  */
 export interface Load {
   id: number;
@@ -348,7 +348,7 @@ export interface Load {
   scene: string;
 }
 /**
- * A scene file's text, as a new run.
+ * Starts a new run with the text of a scene file.
  */
 export interface LoadText {
   id: number;
@@ -356,7 +356,7 @@ export interface LoadText {
   toml: string;
 }
 /**
- * Runs the other solver beside the present one, for the eye only.
+ * Runs the other solver in parallel, for display only.
  */
 export interface Compare {
   id: number;
@@ -364,7 +364,7 @@ export interface Compare {
   on: boolean;
 }
 /**
- * Records from a new run on, so that it can be run again to the last bit. Without a name it gets date and time.
+ * Starts a new run and records it, so that it can be replayed bit for bit. The default name is date and scene.
  */
 export interface StartRecording {
   id: number;
@@ -376,7 +376,7 @@ export interface StopRecording {
   do: "stop_recording";
 }
 /**
- * A new run with the exercise's scene, recorded.
+ * Starts a recorded run with the exercise's scene.
  */
 export interface StartExercise {
   id: number;
@@ -389,7 +389,7 @@ export interface EndExercise {
   do: "end_exercise";
 }
 /**
- * Makes the gate see a position that is no number: to try what a fault is like. Simulated device only.
+ * Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only.
  */
 export interface TripFault {
   id: number;

@@ -14,7 +14,10 @@ const KINDS: Readonly<Record<Message["kind"], true>> = {
   notice: true,
 };
 
-/** A message of the server's, or a sentence saying why it is none. The server holds the types; the page looks at the kind. */
+/**
+ * A message of the server's, or a sentence saying why it is none. The server holds the types; the page looks at
+ * the kind.
+ */
 export function parseMessage(text: string): Message | string {
   let value: unknown;
   try {

@@ -1,26 +1,26 @@
-"""What messages in both directions are made of. SI, as in the core, unless a key ends in another unit."""
+"""Parts of messages in both directions. SI, unless a key ends in another unit."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-# JSON has no NaN and no infinity: numbers that may lack are left out or null.
+# JSON has no NaN and no infinity: missing numbers are left out or null.
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Vector = Annotated[list[Finite], Field(min_length=3, max_length=3)]
 Name = Annotated[str, Field(min_length=1, max_length=80)]
-Tables = dict[str, Any]  # a scene file's tables, with its keys and units: docs/scene-file.md
+Tables = dict[str, object]  # a scene file's tables, with its keys and units: docs/scene-file.md
 
 
 class Part(BaseModel):
-    """Anything in a message: unknown keys and wrong types are errors."""
+    """The base of all parts: unknown keys and wrong types are errors."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
 class ProblemPart(Part):
-    """One thing wrong with a scene: where, and why. punctura.errors.Problem."""
+    """One problem of a scene or an exercise: where, and why. punctura.errors.Problem."""
 
     path: str
     value: str
@@ -28,12 +28,12 @@ class ProblemPart(Part):
 
 
 class LawCurve(Part):
-    """Phi_I and Phi_O of one membrane along the depth: K06 (18), (19). Arrays of one length."""
+    """Phi_I and Phi_O of one membrane over the depth: K06 (18), (19). All arrays have the same length."""
 
     name: str
     obliquity: Finite  # rad, between the needle and the inward normal
-    far_face: Finite  # m of depth from which the tip's point is behind the membrane: U = H / cos(obliquity)
-    through: Finite  # m of depth from which the whole tip is: X + U
+    far_face: Finite  # m, the depth at which the tip's point is behind the membrane: U = H / cos(obliquity)
+    through: Finite  # m, the depth at which the whole tip is behind the membrane: X + U
     depth: list[Finite]  # m
     lower: list[Finite]  # N, Phi_I
     upper: list[Finite]  # N, Phi_O
@@ -49,9 +49,9 @@ class MembraneView(Part):
 
 
 class SceneView(Part):
-    """A scene as the page draws it, SI; `tables` is the same scene as its file has it, for the editor."""
+    """A scene as the page draws it, SI; `tables` has the same scene in the file's keys and units, for the editor."""
 
-    number: int  # of the scenes of this run, from 0
+    number: int  # index of the scene in this run, from 0
     name: str
     diameter: Finite  # m
     tip_length: Finite  # m, of the slanted face along the needle: X
@@ -61,4 +61,4 @@ class SceneView(Part):
     membranes: list[MembraneView]
     laws: list[LawCurve]
     tables: Tables
-    lumen: list[int]  # the two membranes between which blood is; empty for none
+    lumen: list[int]  # indices of the two membranes with blood between them; empty without blood

@@ -1,15 +1,15 @@
-"""What the server says to its pages."""
+"""Messages from the server to its pages."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView, Vector
 from punctura.studio.wire.requests import Request, parse_request
 
-PROTOCOL = 2  # counts up when an old page could not read a new server
+PROTOCOL = 2  # increased when an old page cannot read a new server
 
 
 class DevicePart(Part):
@@ -17,12 +17,12 @@ class DevicePart(Part):
     model: str
     simulated: bool  # the page may move its hand
     has_orientation: bool
-    max_force: Finite  # N, the strongest that a run gives: by the device's rating, or a limit that was chosen
+    max_force: Finite  # N, the greatest force of a run: the device's rating, or a chosen limit
     rate: Finite  # Hz
 
 
 class LimitsPart(Part):
-    """The limits between the model and the hand, as all runs of this studio have them: docs/safety.md."""
+    """The limits between the model and the hand, for all runs of this studio: docs/safety.md."""
 
     max_force: Finite  # N
     continuous_force: Finite  # N rms in any continuous_time
@@ -33,11 +33,11 @@ class LimitsPart(Part):
     stale: Finite  # s of the same reading
     deadline: Finite  # s from one tick to the next
     axis_tolerance: Finite  # by which the length of the needle's direction may differ from 1
-    dead_man_buttons: list[int]  # one of which must be held; the device's first is 1
+    dead_man_buttons: list[int]  # one of them must be held; the device's first button is 1
 
 
 class Choice(Part):
-    """Something to pick from a list."""
+    """An entry of a list."""
 
     name: str
     title: str
@@ -62,7 +62,7 @@ class SceneMessage(Part):
 
     kind: Literal["scene"] = "scene"
     scene: SceneView
-    new_run: bool  # ticks begin at 0 again
+    new_run: bool  # ticks start at 0 again
     run: int  # its number, from 0, as frames and targets have it
 
 
@@ -74,7 +74,7 @@ class LawsMessage(Part):
 
 
 class HandPose(Part):
-    """Where the simulated hand is led to."""
+    """The target of the simulated hand."""
 
     position: Vector  # m
     axis: Vector  # of length 1
@@ -84,7 +84,7 @@ class Control(Part):
     kind: Literal["control"] = "control"
     holder: int | None  # a viewer
     you: bool
-    hand: HandPose | None  # for the holder, who leads it on from there; null while something else leads it
+    hand: HandPose | None  # for the holder of control, who moves it on from there; null during strokes or a motion
 
 
 class Spread(Part):
@@ -104,12 +104,12 @@ class Status(Part):
     kind: Literal["status"] = "status"
     ticks: int
     late: int
-    lost: int  # snapshots that never came to the pages
+    lost: int  # snapshots that the pages never got
     period: Spread
     compute: Spread
     viewers: int
     dropped: int  # batches that this page was too slow for
-    armed: bool  # asked for; each tick says what is
+    armed: bool  # requested; each tick has the actual state
     hand: Literal["target", "strokes", "motion", "device"]
     compare: bool
     statements: list[str]
@@ -127,7 +127,7 @@ class FaultMessage(Part):
 
 
 class MembraneEvent(Part):
-    """Something that happened at a membrane."""
+    """An event at a membrane."""
 
     kind: Literal["event"] = "event"
     what: Literal["touch", "pop", "out"]  # the tip comes in; is through; has left it
@@ -136,14 +136,14 @@ class MembraneEvent(Part):
     tick: int
     time: Finite  # s
     depth: Finite  # m
-    force_before: Finite  # N, the largest resistance on the way to the pop
+    force_before: Finite  # N, the largest resistance before the pop
     force_after: Finite  # N, of the shaft alone
     drop: Finite  # N
 
 
 class RecordingStatus(Part):
     kind: Literal["recording"] = "recording"
-    name: str  # empty: none is being made
+    name: str  # empty without a recording
     rows: int
     lost: int
     seconds: Finite
@@ -156,29 +156,29 @@ class ExerciseGoal(Part):
 
 
 class ExerciseStatus(Part):
-    """How an exercise goes; `running` is false without one and after its end."""
+    """The state of an exercise; `running` is false without one and after its end."""
 
     kind: Literal["exercise"] = "exercise"
     exercise: str
     running: bool
     instruction: str
     goals: list[ExerciseGoal]
-    result: str  # the name under which the result is kept, once it is over
+    result: str  # the name of the saved result, after the end
 
 
 class Reply(Part):
-    """To one request, by its id."""
+    """The reply to the request with this id."""
 
     kind: Literal["reply"] = "reply"
     id: int
     ok: bool
     text: str = ""
     problems: list[ProblemPart] = Field(default_factory=list)
-    data: dict[str, Any] = Field(default_factory=dict)
+    data: dict[str, str | int] = Field(default_factory=dict)
 
 
 class Notice(Part):
-    """A sentence for the person."""
+    """A sentence for the user."""
 
     kind: Literal["notice"] = "notice"
     text: str

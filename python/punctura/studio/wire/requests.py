@@ -1,4 +1,4 @@
-"""What a page may ask. Each is answered by a Reply with the same id; a target is not answered."""
+"""Requests of a page. Each gets a Reply with the same id, except a target."""
 
 from __future__ import annotations
 
@@ -14,41 +14,41 @@ class _Request(Part):
 
 
 class TakeControl(_Request):
-    """Control, from whoever has it. Everything below needs it."""
+    """Takes control from the page that has it. All other requests need control."""
 
     do: Literal["take_control"] = "take_control"
 
 
 class Arm(_Request):
-    """Force, once the tip is outside tissue."""
+    """Allows force once the tip is outside tissue."""
 
     do: Literal["arm"] = "arm"
 
 
 class Pause(_Request):
-    """No force; ticks go on."""
+    """Ends the force; ticks continue."""
 
     do: Literal["pause"] = "pause"
 
 
 class Reset(_Request):
-    """Leaves a fault; disarmed."""
+    """Clears a fault; the loop stays disarmed."""
 
     do: Literal["reset"] = "reset"
 
 
 class Target(Part):
-    """Where the simulated hand shall go. Not answered; the last one counts; one of another run is ignored."""
+    """Moves the simulated hand. No reply; a later target replaces it; a target of another run is ignored."""
 
     do: Literal["target"] = "target"
-    run: Annotated[int, Field(ge=0, le=2**53 - 1)]  # as the last scene message has it
+    run: Annotated[int, Field(ge=0, le=2**53 - 1)]  # from the last scene message
     position: Vector  # m
-    axis: Vector  # where the stylus points, of any length but 0
+    axis: Vector  # direction of the stylus, of any length but 0
     buttons: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
 
 
 class Strokes(_Request):
-    """The simulated hand strokes to and fro through all membranes, until the next target."""
+    """The simulated hand strokes through all membranes and back, until the next target."""
 
     do: Literal["strokes"] = "strokes"
     period: Annotated[float, Field(ge=0.5, le=60, allow_inf_nan=False)] = 4.0  # s, in and out
@@ -62,35 +62,35 @@ class PlayMotion(_Request):
 
 
 class Edit(_Request):
-    """Another scene in place of the present one, taken between two ticks and faded in. A bad one changes nothing."""
+    """Exchanges the scene between two ticks; the force fades over. A scene with errors changes nothing."""
 
     do: Literal["edit"] = "edit"
     tables: Tables
 
 
 class Load(_Request):
-    """A ready scene by name, as a new run."""
+    """Starts a new run with a ready scene."""
 
     do: Literal["load"] = "load"
     scene: Name
 
 
 class LoadText(_Request):
-    """A scene file's text, as a new run."""
+    """Starts a new run with the text of a scene file."""
 
     do: Literal["load_text"] = "load_text"
     toml: Annotated[str, Field(max_length=200_000)]
 
 
 class Compare(_Request):
-    """Runs the other solver beside the present one, for the eye only."""
+    """Runs the other solver in parallel, for display only."""
 
     do: Literal["compare"] = "compare"
     on: bool
 
 
 class StartRecording(_Request):
-    """Records from a new run on, so that it can be run again to the last bit. Without a name it gets date and time."""
+    """Starts a new run and records it, so that it can be replayed bit for bit. The default name is date and scene."""
 
     do: Literal["start_recording"] = "start_recording"
     name: Name | None = None
@@ -101,7 +101,7 @@ class StopRecording(_Request):
 
 
 class StartExercise(_Request):
-    """A new run with the exercise's scene, recorded."""
+    """Starts a recorded run with the exercise's scene."""
 
     do: Literal["start_exercise"] = "start_exercise"
     exercise: Name
@@ -113,11 +113,15 @@ class EndExercise(_Request):
 
 
 class TripFault(_Request):
-    """Makes the gate see a position that is no number: to try what a fault is like. Simulated device only."""
+    """Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only."""
 
     do: Literal["trip_fault"] = "trip_fault"
 
 
+NumberedRequest = (
+    TakeControl | Arm | Pause | Reset | Strokes | PlayMotion | Edit | Load | LoadText | Compare
+    | StartRecording | StopRecording | StartExercise | EndExercise | TripFault
+)  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
     | StartRecording | StopRecording | StartExercise | EndExercise | TripFault,
@@ -128,5 +132,5 @@ _ADAPTER: TypeAdapter[Request] = TypeAdapter(Request)
 
 
 def parse_request(text: str | bytes) -> Request:
-    """Raises pydantic.ValidationError for anything that is no request."""
+    """Raises pydantic.ValidationError for anything that is not a request."""
     return _ADAPTER.validate_json(text)

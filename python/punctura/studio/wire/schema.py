@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 from pydantic import TypeAdapter
+from pydantic.json_schema import JsonSchemaValue
 
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.requests import Request, Target
 
 
-def wire_schema() -> dict[str, Any]:
+def wire_schema() -> JsonSchemaValue:
     """JSON Schema (2020-12) with a definition for every message and request; `kind` and `do` tell them apart."""
     sent = TypeAdapter(Message).json_schema(mode="serialization", ref_template="#/$defs/{model}")
     asked = TypeAdapter(Request | Target).json_schema(ref_template="#/$defs/{model}")
@@ -35,8 +35,8 @@ def wire_schema() -> dict[str, Any]:
     }
 
 
-def _union(schema: dict[str, Any]) -> dict[str, Any]:
-    parts: list[dict[str, Any]] = []
+def _union(schema: JsonSchemaValue) -> JsonSchemaValue:
+    parts: list[JsonSchemaValue] = []
     for entry in schema.get("oneOf") or schema["anyOf"]:
         parts += _union(entry)["oneOf"] if "$ref" not in entry else [entry]
     return {"oneOf": parts}

@@ -1,4 +1,5 @@
-// Force Dimension's axes and ours: theirs are x to the user, y right, z up; ours x right, y up, z to the user. Both are right-handed.
+// Force Dimension's axes and ours: theirs are x to the user, y right, z up; ours x right, y up, z to the user. Both are
+// right-handed.
 #pragma once
 
 #include <array>
@@ -10,10 +11,10 @@ using Triple = std::array<double, 3>;
 /// A position, a direction or a force of the device in Punctura's axes.
 constexpr Triple to_ours(const Triple& device) noexcept { return {device[1], device[2], device[0]}; }
 
-/// And back: the inverse of a rotation.
+/// The inverse rotation.
 constexpr Triple to_device(const Triple& ours) noexcept { return {ours[2], ours[0], ours[1]}; }
 
-/// The direction that is `tool` in the axes of the handle, in the device's axes. frame: rows of the handle's rotation matrix.
+/// Rotates `tool` from the axes of the handle to those of the device. frame: rows of the handle's rotation matrix.
 constexpr Triple turned(const double (&frame)[3][3], const Triple& tool) noexcept {
   Triple d{};
   for (int row = 0; row < 3; ++row)

@@ -9,12 +9,6 @@ namespace {
 using namespace force_dimension;
 constexpr const char* name = "force_dimension";
 
-std::string joined(const std::vector<std::string>& all) {
-  std::string text;
-  for (const auto& one : all) text += (text.empty() ? "" : ", ") + one;
-  return text;
-}
-
 BackendStatus status() {
   using State = BackendStatus::State;
   const Loaded library = load();

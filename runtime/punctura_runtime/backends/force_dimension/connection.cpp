@@ -12,14 +12,14 @@ namespace {
 
 using State = BackendStatus::State;
 
-/// The numbers of the devices that this program has open. Asked to open one of them again, the library gives the same number, and
-/// whoever closed it then would take it from under the other.
+/// The numbers of the devices that this program has open. The library gives the same number if it opens one of them
+/// again; closing that one would close both.
 struct Ours {
   std::mutex mutex;
   std::set<std::pair<const void*, char>> ids;  // by library
 };
 Ours& ours() {
-  static auto& all = *new Ours;  // for good: a device may be closed while the program ends
+  static auto& all = *new Ours;  // never destroyed: a device may be closed at the end of the program
   return all;
 }
 const void* library_of(const Api& api) { return reinterpret_cast<const void*>(api.open); }
@@ -33,7 +33,7 @@ State state_for(int error) {
 }
 
 Refusal refusal(const Api& api, const std::string& what) {
-  const int error = api.last_error();  // of this thread
+  const int error = api.last_error();  // the last error of this thread
   return {state_for(error), what + ": " + words_for(api, error)};
 }
 
@@ -93,7 +93,7 @@ Connection::Connection(Connection&& other) noexcept
 Connection::~Connection() {
   if (!open_) return;
   const std::lock_guard lock(ours().mutex);
-  api_.close(id_);  // nothing can be done where it fails
+  api_.close(id_);  // nothing can be done if it fails
   ours().ids.erase({library_of(api_), id_});
 }
 

@@ -1,4 +1,4 @@
-// A Force Dimension device while it is open: found, asked about itself, closed.
+// An open Force Dimension device.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace punctura::force_dimension {
 
-/// Why a device does not open, as a state and in words.
+/// Why a device does not open: a state and a message.
 class Refusal : public DeviceError {
  public:
   Refusal(BackendStatus::State why, const std::string& detail) : DeviceError(detail), state(why) {}
   BackendStatus::State state;
 };
 
-/// Open from construction on. To open gives no force and moves nothing.
+/// The constructor opens the device. That gives no force and moves nothing.
 class Connection {
  public:
-  /// index: counted from 0. Throws Refusal, also where this program has it open already.
+  /// index: counted from 0. Throws Refusal, also if this program has it open already.
   Connection(const Api& api, int index);
   ~Connection();
   Connection(Connection&& other) noexcept;
@@ -29,7 +29,7 @@ class Connection {
   char id() const noexcept { return id_; }
   std::string model() const;
   std::string serial() const;
-  std::string label() const { return model() + " " + serial(); }  ///< the name by which it is chosen
+  std::string label() const { return model() + " " + serial(); }  ///< the name to open it by
   bool calibrated() const;                                        ///< Throws Refusal
   DeviceInfo info() const;                                        ///< all but the rate
 
@@ -39,22 +39,22 @@ class Connection {
   bool open_ = false;
 };
 
-/// The device called so: by label, model or serial number; the first that opens where the name is empty. Throws Refusal.
+/// Opens the device with this label, model or serial number; with an empty name, the first that opens. Throws Refusal.
 Connection connect(const Api& api, const std::string& name);
 
-/// Has the arm find its zero by itself: it moves. Throws Refusal.
+/// Lets the arm calibrate itself. THE ARM MOVES. Throws Refusal.
 void auto_init(const Api& api, const std::string& name);
 
-/// All that open, by label, and what stands against each that does not; throws Refusal where none is plugged in.
+/// The labels of all devices that open, and why each of the others does not. Throws Refusal if none is plugged in.
 struct Survey {
   std::vector<std::string> ready, uncalibrated;
   std::vector<Refusal> refusals;
 };
 Survey survey(const Api& api);
 
-/// What an error number means and what to do; the library's own text where we have none.
+/// What an error number means and what to do; the library's own text for numbers that are not known here.
 std::string words_for(const Api& api, int error);
-/// What to do with a device that does not know where it is.
+/// How to calibrate a device.
 std::string calibration_advice(const std::string& label);
 
 }  // namespace punctura::force_dimension

@@ -4,17 +4,16 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/force_dimension/measured_rate.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::force_dimension {
 
 namespace {
 
-/// Whether asking for the status costs a transfer is not known, so not every tick asks: by then the device itself has cut the force,
-/// and what is left to do is to say so and to keep it away.
+/// A status query may cost a USB transfer, so not every tick makes one. That is early enough: the device itself has cut
+/// the force by then; Punctura only reports it and keeps the force off.
 constexpr double status_interval = 0.004;  // s
-constexpr double time_for_force = 0.5;     // s after start() in which the device must have switched its force on
+constexpr double time_for_force = 0.5;     // s after start() within which the device must switch its force on
 
 }  // namespace
 
@@ -46,21 +45,20 @@ void ForceDimensionDevice::open() {
     connection_.reset();
     throw;
   }
-  options_.device = label;  // after stop() it is this one again
+  options_.device = label;  // start() after stop() opens the same device
   id_ = connection_->id();
   info_.rate = std::min(options_.rate, fastest);
   if (const double measured = measured_rate(api, id_, options_.clock); measured < info_.rate) info_.rate = measured;
 }
 
 void ForceDimensionDevice::start(Tick tick) {
-  refuse_second_loop(thread_.joinable());
+  thread_.refuse_second_loop();
   if (!connection_) open();
-  stop_ = finished_ = false;
-  ready_.set_ahead();
+  finished_ = false;
   trouble_ = Trouble::none;
   saturated_ = repeated_ = missed_ = 0;
   sample_ = {};
-  sample_.axis = to_ours(options_.tool);  // of a device without a wrist: as if its handle stood straight
+  sample_.axis = to_ours(options_.tool);  // for a device without a wrist: as if the handle were straight
   sample_.healthy = true;
   ticks_ = 0;
   force_seen_ = false;
@@ -70,28 +68,20 @@ void ForceDimensionDevice::start(Tick tick) {
   int status[status_size] = {};
   if (api.status(status, id_) < 0) throw DeviceError(info_.model + ": " + words_for(api, api.last_error()));
   error_at_start_ = status[status_error] != 0;
-  thread_ = ticking_thread([this, tick] { run(tick); });
-  ready_.wait();
-  if (!refused_) return;
-  thread_.join();
-  throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
+  if (!thread_.start(
+          options_.realtime.at_rate(info_.rate), [this, tick] { run(tick); }, [this] { return switch_on(); }))
+    throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
 }
 
 void ForceDimensionDevice::stop() noexcept {
-  stop_ = true;
-  if (thread_.joinable()) thread_.join();  // it leaves the device silent
+  thread_.stop();  // run() switches the force off before it returns
   connection_.reset();
 }
 
 void ForceDimensionDevice::run(Tick tick) noexcept {
-  realtime_ = os::make_realtime(options_.realtime.at_rate(info_.rate));
-  switch_on();
-  ready_.reach();
-  if (refused_) return;
-
   Pacer<LoopClock> pacer(info_.rate, options_.clock);
   const std::int64_t start = options_.clock.now();
-  while (!stop_) {
+  while (!thread_.stopping()) {
     missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (!one_tick(tick, static_cast<double>(options_.clock.now() - start) * 1e-9)) break;
   }
@@ -99,23 +89,23 @@ void ForceDimensionDevice::run(Tick tick) noexcept {
   finished_ = true;
 }
 
-/// Not before locking memory, which may take longer than the device's watchdog waits for a command.
-void ForceDimensionDevice::switch_on() noexcept {
-  library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, and is harmless then
-  refused_ = library_.api.enable_force(1, id_) < 0;
-  if (!refused_) return;
+/// After memory is locked: that may take longer than the device's watchdog waits for a command.
+bool ForceDimensionDevice::switch_on() noexcept {
+  library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, without harm
+  if (library_.api.enable_force(1, id_) >= 0) return true;
   code_ = library_.api.last_error();
   silence();
   finished_ = true;
+  return false;
 }
 
-/// Zero force, then force off. Each is tried whatever became of the other.
+/// Zero force, then force off: both, even if the first fails.
 void ForceDimensionDevice::silence() noexcept {
   library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);
   library_.api.enable_force(0, id_);
 }
 
-/// Whether there will be another tick. The loop is told of a fault in one last tick, whose force goes nowhere.
+/// False after the last tick. A fault is reported to the loop in one last tick, whose force is not used.
 bool ForceDimensionDevice::one_tick(Tick tick, double time) noexcept {
   const Api& api = library_.api;
   sample_.time = time;
@@ -159,7 +149,7 @@ bool ForceDimensionDevice::read() noexcept {
   return true;
 }
 
-/// What the device says of its own state. False where it cannot be asked.
+/// Checks the device's status. False if the query fails.
 bool ForceDimensionDevice::watch(double time) noexcept {
   const Api& api = library_.api;
   int status[status_size] = {};
@@ -167,7 +157,7 @@ bool ForceDimensionDevice::watch(double time) noexcept {
     fail(Trouble::reading, api.last_error());
     return false;
   }
-  // It is in one of four modes: reset, idle, force, brake.
+  // The device is in one of four modes: reset, idle, force, brake.
   const bool force = status[status_force] != 0 && status[status_brake] == 0;
   if (status[status_reset] != 0) {
     fail(Trouble::calibration_lost, 0);
@@ -182,7 +172,7 @@ bool ForceDimensionDevice::watch(double time) noexcept {
   return true;
 }
 
-/// The first trouble is the one that is told.
+/// Keeps the first trouble only.
 void ForceDimensionDevice::fail(Trouble what, int code) noexcept {
   if (trouble_.load(std::memory_order_relaxed) != Trouble::none) return;
   code_.store(code, std::memory_order_relaxed);

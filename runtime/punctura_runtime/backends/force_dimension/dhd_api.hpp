@@ -1,5 +1,5 @@
-// The part of Force Dimension's C interface that is used here, in our own declarations: names of functions, their types and their
-// numbers are facts about the library, and nothing of its maker's is needed to build.
+// The part of Force Dimension's C interface that is used here, in our own declarations: names of functions, their types
+// and their numbers are facts about the library, and nothing of its maker's is needed to build.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ enum StatusIndex : std::size_t {
 
 enum class ForceOffCause : int { none, button, velocity, watchdog, software, unplugged, dead_man };
 
-/// The functions. A device's number is a `char` in every one; their own `bool` comes back in the low byte of a register of which
-/// the rest means nothing, so it is taken as one byte here.
+/// The functions. A device's number is a `char` in every one; their own `bool` comes back in the low byte of a register
+/// of which the rest means nothing, so it is taken as one byte here.
 struct Api {
   int (*device_count)();     ///< all that are plugged in
   int (*available_count)();  ///< those that nobody has open

@@ -1,6 +1,5 @@
-// Where Force Dimension's library may be.
+// The places where Force Dimension's library may be.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -20,12 +19,7 @@ namespace fs = std::filesystem;
 [[maybe_unused]] constexpr const char *linux_machine = "x86_64", *mac_machine = "x86_64";
 #endif
 
-fs::path from_environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? fs::path(value) : fs::path();
-}
-
-/// What a folder holds whose name begins so, the newest version first: 3.17.5 before 3.9.0.
+/// The entries of a folder whose names have this prefix, the newest version first: 3.17.5 before 3.9.0.
 std::vector<fs::path> matching(const fs::path& folder, const std::string& beginning) {
   std::vector<fs::path> found;
   std::error_code nothing;
@@ -48,29 +42,29 @@ std::vector<fs::path> matching(const fs::path& folder, const std::string& beginn
 
 struct Places {
   std::vector<fs::path> folders;
-  std::string suffix;              ///< of a library's file: drd + this, with anything behind it
-  std::vector<std::string> names;  ///< for the system to find, after `lib` or not
+  std::string suffix;              ///< of a library's file name: drd + suffix + anything
+  std::vector<std::string> names;  ///< endings of the names that the system looks up
 };
 
 Places places() {
-  const fs::path sdk = from_environment("FDSDK");
+  const fs::path sdk = environment("FDSDK");
   Places all;
 #if defined(_WIN32)
   if (!sdk.empty()) all.folders.push_back(sdk / "bin");
   for (const char* base : {"LOCALAPPDATA", "ProgramFiles"})
-    for (const auto& version : matching(from_environment(base) / "Force Dimension", "sdk-"))
+    for (const auto& version : matching(fs::path(environment(base)) / "Force Dimension", "sdk-"))
       all.folders.push_back(version / "bin");
   all.suffix = "64.dll";
   all.names = {"64.dll"};
 #elif defined(__APPLE__)
   if (!sdk.empty()) all.folders.push_back(sdk / "lib/release" / (std::string("mac-") + mac_machine + "-clang"));
-  if (const auto home = from_environment("HOME"); !home.empty()) all.folders.push_back(home / ".local/lib");
+  if (const auto home = fs::path(environment("HOME")); !home.empty()) all.folders.push_back(home / ".local/lib");
   all.folders.push_back("/usr/local/lib");
   all.suffix = ".";
   all.names = {".3.dylib", ".dylib"};
 #else
   if (!sdk.empty()) all.folders.push_back(sdk / "lib/release" / (std::string("lin-") + linux_machine + "-gcc"));
-  if (const auto home = from_environment("HOME"); !home.empty()) all.folders.push_back(home / ".local/lib");
+  if (const auto home = fs::path(environment("HOME")); !home.empty()) all.folders.push_back(home / ".local/lib");
   all.folders.push_back("/usr/local/lib");
   all.suffix = ".so";
   all.names = {".so.3", ".so"};

@@ -1,4 +1,4 @@
-// How fast a device can be read at all.
+// The highest rate at which a device can be read.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace punctura::force_dimension {
 
-inline constexpr double for_the_rest = 0.05;  ///< of a period: what a tick does beside reading
+inline constexpr double for_the_rest = 0.05;  ///< share of a period for all that a tick does beside reading
 
-/// Hz: how many new readings come in a second when one follows the other almost at once, by the median, so that a computer that is held
-/// up for a moment counts for nothing. `unknown` where they take no time, or fail: then the first tick tells why. No force.
+/// Hz. Reads as fast as possible, without force, and takes the median time between new readings, so that a short delay
+/// of the computer has no effect. `unknown` if readings take no time or fail; the first tick then reports why.
 template <typename Clock>
 double measured_rate(const Api& api, char id, const Clock& clock) {
   constexpr int enough = 50, most = 100'000;

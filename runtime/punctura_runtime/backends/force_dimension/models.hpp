@@ -1,11 +1,11 @@
-// What Force Dimension's libraries do not say of a device, by its type.
+// Data of Force Dimension's devices, by type, that their libraries do not give.
 #pragma once
 
 #include "punctura/device/device.hpp"
 
 namespace punctura::force_dimension {
 
-/// As its maker rates the family; NaN where that is not known here. Continuous ratings are not published.
+/// The maker's ratings of the family; NaN if not known. Continuous ratings are not published.
 struct Model {
   double max_force = unknown;      ///< N
   double max_stiffness = unknown;  ///< N/m
@@ -14,7 +14,7 @@ struct Model {
 
 inline constexpr Model omega{12, 5000, 1}, sigma{12, 4000, 1}, lambda{12, 8000, 1}, falcon{8, 3000, 4};
 
-/// The type numbers of the library. Two numbers of one name are the right and the left hand's.
+/// The library's type numbers. Two numbers with the same name are the right-handed and the left-handed device.
 struct NumberedModel {
   int system_type;
   Model model;
@@ -28,7 +28,7 @@ inline constexpr NumberedModel models[] = {
     {60, falcon},                                              // Novint Falcon
 };
 
-/// Of another type, delta.3 (63) among them, nothing is known.
+/// Nothing is known of other types, for example delta.3 (63).
 constexpr Model model_of(int system_type) noexcept {
   for (const NumberedModel& known : models)
     if (known.system_type == system_type) return known.model;

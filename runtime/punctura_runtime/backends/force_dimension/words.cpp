@@ -1,4 +1,4 @@
-// What a Force Dimension device tells people: what went wrong, and how it runs.
+// Messages of a Force Dimension device: its trouble and its statements.
 #include <cstdio>
 
 #include "punctura_runtime/backends/force_dimension/device.hpp"
@@ -59,8 +59,8 @@ std::vector<std::string> ForceDimensionDevice::statements() const {
     all.push_back("no wrist: set direction = \"motion\" in the scene, or the needle points away from you");
   if (const auto count = saturated(); count > 0)
     all.push_back("the motors could not give the whole force in " + std::to_string(count) + " ticks");
-  if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were left out");
-  os::add_words(realtime_, all);
+  if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were skipped");
+  os::add_words(thread_.realtime(), all);
   return all;
 }
 

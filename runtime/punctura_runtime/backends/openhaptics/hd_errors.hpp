@@ -1,5 +1,5 @@
-// The library's stack of errors, one a process: whoever polls it takes them from everybody else. So while ticks come, only the tick
-// does.
+// The library's error stack. There is one for the process, and reading it empties it. So while ticks run, only the tick
+// reads it.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace punctura::hd {
 
-/// How often the device limited its own force: warm motors, force, rise of force, speed.
+/// Counts how often the device limited its own force: warm motors, force, rise of force, speed.
 struct Warnings {
   std::array<std::atomic<std::uint64_t>, 4> counts{};
 
   void count(std::uint32_t code) noexcept { counts[code - warm_motors].fetch_add(1, std::memory_order_relaxed); }
 };
 
-/// Takes all errors off the stack, the newest first. The oldest that is not a warning is the cause of the others and is given back.
+/// Empties the stack, newest error first. Returns the oldest that is not a warning: it caused the others.
 inline ErrorInfo take_errors(const Interface& hd, Warnings& warnings) noexcept {
   ErrorInfo cause{success, 0, no_device};
-  for (int i = 0; i < 64; ++i) {  // a library that never says success must not hold the tick
+  for (int i = 0; i < 64; ++i) {  // bounded, in case the library never returns `success`
     const ErrorInfo error = hd.get_error();
     if (error.code == success) break;
     if (is_warning(error.code))

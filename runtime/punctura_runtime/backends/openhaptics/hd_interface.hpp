@@ -1,5 +1,6 @@
-// The C interface of the HD library of OpenHaptics, as far as we call it: our own declarations and names. The numbers are facts of that
-// interface, known to hold for its versions 3.0 and 3.4. 64-bit only: there is one calling convention there.
+// The C interface of the HD library of OpenHaptics, as far as we call it: our own declarations and names. The numbers
+// are facts of that interface, known to hold for its versions 3.0 and 3.4. 64-bit only: there is one calling convention
+// there.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ constexpr const char* default_name = "Default Device";
 
 std::atomic<bool> taken{false};
 
-/// A device that must not be closed, between two sessions. Guarded by `taken`.
+/// A device that stays open between two sessions. Guarded by `taken`.
 struct Kept {
   const Interface* hd = nullptr;
   std::string asked, name;
@@ -42,7 +42,7 @@ std::string text(const Interface& hd, Quantity which) {
 }
 
 double number(const Interface& hd, Quantity which) {
-  std::array<double, 16> answer{};  // room enough for any quantity, should one be longer than we know
+  std::array<double, 16> answer{};  // large enough for any quantity, also a longer one than documented
   hd.get_doubles(which, answer.data());
   return take_errors(hd).code == success && answer[0] > 0 ? answer[0] : unknown;
 }
@@ -74,7 +74,7 @@ Session::~Session() {
 }
 
 void Session::open(const std::string& wish) {
-  // As a device is listed that answered to no name at all.
+  // This name stands for a device that opened without a name.
   const std::string name = wish == default_name ? "" : wish;
   if (Kept& k = kept(); k.handle != no_device && k.hd == &hd_ && (k.asked == name || k.name == name)) {
     handle_ = k.handle;
@@ -82,7 +82,7 @@ void Session::open(const std::string& wish) {
     k.handle = no_device;
     return;
   }
-  // Which of these the default device answers to differs from one driver to the next.
+  // The default device's name depends on the driver.
   const std::array<const char*, 3> usual{nullptr, default_name, "Default PHANToM"};
   const std::array<const char*, 1> wanted{name.c_str()};
   const char* const* first = name.empty() ? usual.data() : wanted.data();
@@ -118,7 +118,7 @@ void Session::ask() {
   int axes = 6;
   hd_.get_integers(input_dof, &axes);
   info_.has_orientation = take_errors(hd_).code != success || axes >= 6;
-  info_.button_count = 4;  // as many as it has bits for; the library does not say how many there are
+  info_.button_count = 4;  // the number of bits; the library does not give the number of buttons
   info_.max_force = number(hd_, nominal_max_force);
   info_.continuous_force = number(hd_, nominal_max_continuous_force);
   info_.max_stiffness = number(hd_, nominal_max_stiffness) * 1e3;

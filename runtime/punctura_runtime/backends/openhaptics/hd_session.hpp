@@ -1,4 +1,4 @@
-// An open device of the HD library, and what it says of itself. No force, no thread.
+// An open device of the HD library and its data. No force, no thread.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace punctura::hd {
 
-/// A device that cannot be had, with the state under which enumerate_devices() lists it.
+/// Why a device does not open, with the state that enumerate_devices() gives.
 class Refused : public DeviceError {
  public:
   Refused(BackendStatus::State as, const std::string& why) : DeviceError(why), state(as) {}
   BackendStatus::State state;
 };
 
-/// Opens in the constructor, closes in the destructor. One at a time in a process: the library has one scheduler and one stack of
-/// errors.
+/// Opens in the constructor, closes in the destructor. One at a time in a process: the library has one scheduler and
+/// one stack of errors.
 class Session {
  public:
-  /// name: as the maker's setup tool shows it; empty tries the default device under its usual names. keep: never close the device but
-  /// hand it to the next session, since some FireWire drivers crash when it is closed. Throws Refused.
+  /// name: as the maker's setup tool shows it; empty tries the usual names of the default device. keep: leaves the device
+  /// open for the next session, since some FireWire drivers crash when it is closed. Throws Refused.
   Session(const Interface& hd, const std::string& name, bool keep);
   ~Session();
   Session(const Session&) = delete;
@@ -31,12 +31,12 @@ class Session {
   const Interface& hd() const noexcept { return hd_; }
   DeviceHandle handle() const noexcept { return handle_; }
   const DeviceInfo& info() const noexcept { return info_; }
-  const std::string& name() const noexcept { return name_; }  ///< under which it opened
+  const std::string& name() const noexcept { return name_; }  ///< the name that it opened with
   bool tells_temperature() const noexcept { return tells_temperature_; }
   bool tells_calibration() const noexcept { return tells_calibration_; }
 
  private:
-  /// The process's only place, given back on the way out of a constructor that throws too.
+  /// The only session of the process; released also if the constructor throws.
   struct Place {
     Place();
     ~Place();

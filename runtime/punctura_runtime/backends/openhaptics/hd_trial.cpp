@@ -15,7 +15,7 @@ namespace {
 
 using State = BackendStatus::State;
 
-/// What the scheduler's thread and the one that waits for it share.
+/// Shared by the scheduler's thread and the thread that waits for it.
 struct Counting {
   const Session& session;
   std::int64_t duration_ns;
@@ -34,7 +34,7 @@ struct Counting {
     last = now_ns();
     if (ticks++ == 0) first = last;
     hd.begin_frame(session.handle());
-    // A calibration may take a while to show: looked at now and then, and renewed a few times at most.
+    // A calibration may take some time to show: check it every 32 ticks, renew it four times at most.
     if (ticks % 32 == 1 && session.tells_calibration()) {
       calibration = hd.check_calibration();
       if (calibration == calibration_needs_update && renewals < 4) {
@@ -42,7 +42,7 @@ struct Counting {
         hd.update_calibration(hd.check_calibration_style());
       }
     }
-    hd.end_frame(session.handle());  // no force was set in it: zero goes out
+    hd.end_frame(session.handle());  // a frame without a force sends zero
     error = take_errors(hd, warnings);
     return error.code == success && last - first < duration_ns;
   }
@@ -75,7 +75,7 @@ double run_once(std::unique_ptr<Counting>& counting, double patience) {
   hd.unschedule(operation);
   const ErrorInfo after = take_errors(hd);
   if (!over) {
-    counting.release();  // should the scheduler wake up one day, it finds what it was given
+    counting.release();  // never freed, in case the scheduler calls later
     const std::string why = after.code != success && after.code != bad_handle ? " " + describe(after) + "." : "";
     throw Refused(State::fault, "The HD scheduler does not call: check the device's power and cable." + why);
   }
@@ -83,7 +83,7 @@ double run_once(std::unique_ptr<Counting>& counting, double patience) {
   return static_cast<double>(c.ticks - 1) * 1e9 / static_cast<double>(c.last - c.first);
 }
 
-/// Asks for the rate; where the library refuses it, 1000 Hz, the one that every device has.
+/// Requests the rate; if the library refuses it, 1000 Hz, which every device has.
 void set_rate(const Interface& hd, double wanted, Trial& trial) {
   trial.set = static_cast<unsigned long>(std::lround(std::fmin(wanted, 1e5)));
   hd.set_scheduler_rate(trial.set);
@@ -110,7 +110,7 @@ Trial try_out(const Session& session, double wanted_rate, double duration, std::
   hd.get_integers(update_rate, &said);
   if (take_errors(hd).code != success) said = 0;
 
-  // Once more where the machine was busy just then: the rate stays for the whole run.
+  // The rate counts for the whole run, so measure again if the computer was busy.
   int renewals = 0;
   for (int attempt = 0; attempt < 3; ++attempt) {
     std::unique_ptr<Counting> counting(new Counting{session, static_cast<std::int64_t>(duration * 1e9), now_ns});

@@ -1,4 +1,4 @@
-// The scheduler, run for a short time without force: at what rate it really calls, and whether the device knows where it is.
+// Runs the scheduler for a short time without force: measures its rate and checks the calibration.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 namespace punctura::hd {
 
 struct Trial {
-  unsigned long set;              ///< Hz, as the library took it
+  unsigned long set;              ///< Hz, as accepted by the library
   double rate;                    ///< measured, Hz
   std::vector<std::string> told;  ///< for the user
 };
 
-/// Sets the rate, measures it over `duration` (s), and renews the calibration where that needs no hand. Throws Refused.
+/// Sets the rate, measures it over `duration` (s), and renews the calibration if that needs no user. Throws Refused.
 Trial try_out(const Session& session, double wanted_rate, double duration, std::int64_t (*now_ns)() noexcept);
 
-/// Throws Refused where the device does not know where it is and needs a hand.
+/// Throws Refused if the user must calibrate the device.
 void require_calibration(const Interface& hd, std::uint32_t status);
 
 }  // namespace punctura::hd

@@ -1,4 +1,4 @@
-// What the HD library's codes mean, and what to do, in words.
+// Messages for the HD library's error codes.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace punctura::hd {
 
-/// The device limits its own force and goes on: counted, and no reason to stop.
+/// The device limits its own force and continues: counted, not a reason to stop.
 constexpr bool is_warning(std::uint32_t code) noexcept { return code >= warm_motors && code <= exceeded_max_velocity; }
 
 /// "COMM_ERROR (0x302, internal -28): the link to the device broke ..."
 std::string describe(const ErrorInfo& error);
 
-/// What the user has to do before such a device knows where it is.
+/// How the user calibrates such a device.
 std::string how_to_calibrate(std::uint32_t styles);
 
 }  // namespace punctura::hd

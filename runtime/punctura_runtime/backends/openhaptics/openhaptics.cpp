@@ -17,7 +17,7 @@ const hd::Interface& loaded(const std::string& library) {
   return *result.functions;
 }
 
-/// Waits for the scheduler's thread, on the wall's clock: a dead one must not hold us.
+/// Waits for the scheduler's thread. Bounded, in case it hangs.
 template <typename Condition>
 bool soon(std::chrono::milliseconds patience, Condition&& condition) noexcept {
   const auto until = std::chrono::steady_clock::now() + patience;
@@ -40,7 +40,7 @@ OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
       info_(session_.info()) {
   info_.rate = trial_.rate;
   begin_ns_ = options.now_ns();
-  sample_.axis = {0, 0, -1};  // where there is no other: away from the user
+  sample_.axis = {0, 0, -1};  // without orientation: away from the user
 }
 
 void OpenHapticsDevice::start(Tick tick) {
@@ -57,7 +57,7 @@ void OpenHapticsDevice::start(Tick tick) {
   hd::take_errors(hd_);
   hd_.enable(hd::force_output);
   operation_ = hd_.schedule(&OpenHapticsDevice::call, this, hd::highest_priority);
-  hd_.set_scheduler_rate(trial_.set);  // should it have been forgotten since the trial
+  hd_.set_scheduler_rate(trial_.set);  // in case the library has lost it since the trial
   const hd::ErrorInfo refusal = hd::take_errors(hd_);
   if (refusal.code == hd::success) {
     hd_.start_scheduler();
@@ -72,14 +72,14 @@ void OpenHapticsDevice::start(Tick tick) {
 
 void OpenHapticsDevice::stop() noexcept {
   if (running_ && ticking_thread_.load() == std::this_thread::get_id() && inside_) {
-    stopping_ = true;  // by the tick itself: the rest is done when another thread stops
+    stopping_ = true;  // called by the tick itself: the next stop() from another thread does the rest
     return;
   }
   const std::lock_guard lock(control_);
   if (running_) halt();
 }
 
-/// Zero force goes out in a frame of the scheduler's own, its last one for us.
+/// The scheduler's last frame for this device sends zero force.
 void OpenHapticsDevice::halt() noexcept {
   stopping_ = true;
   soon(last_call, [&] { return ended_.load(); });
@@ -87,7 +87,7 @@ void OpenHapticsDevice::halt() noexcept {
   hd_.unschedule(operation_);
   soon(leaving, [&] { return !inside_; });
   if (!ended_.exchange(true))
-    zero_frame();  // it had ceased to call; with it stopped, a frame of this thread's is allowed
+    zero_frame();  // the scheduler did not call any more; once it is stopped, this thread may send a frame
   hd_.disable(hd::force_output);
   hd::take_errors(hd_, warnings_);
   running_ = false;

@@ -1,5 +1,5 @@
-// A device of 3D Systems (Touch, Touch X, PHANTOM Omni ...) through the HD library of OpenHaptics, which calls us at its own rate.
-// Tested against simulated libraries only.
+// A device of 3D Systems (Touch, Touch X, PHANTOM Omni ...) through the HD library of OpenHaptics, which calls us at
+// its own rate. Tested against simulated libraries only.
 #pragma once
 
 #include <atomic>
@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
@@ -16,17 +17,18 @@
 namespace punctura {
 
 struct OpenHapticsOptions {
-  double rate = 1600;                              ///< Hz, wished for
+  double rate = usual_rate;                        ///< Hz, requested
   std::string device;                              ///< empty is the default device
-  std::string library;                             ///< empty looks where it usually is
+  std::string library;                             ///< empty searches the usual places
   bool keep_device = false;                        ///< never closes it: some FireWire drivers crash when it is closed
-  double trial = 0.25;                             ///< s, over which the rate is measured
-  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests put a clock of their own here
+  double trial = 0.25;                             ///< s: duration of the measurement of the rate
+  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
 };
 
 class OpenHapticsDevice : public Device {
  public:
-  /// Loads the library, opens the device, renews its calibration, measures its rate. Throws hd::Refused, which is a DeviceError.
+  /// Loads the library, opens the device, renews its calibration, measures its rate. Throws hd::Refused, which is a
+  /// DeviceError.
   explicit OpenHapticsDevice(const OpenHapticsOptions& options);
   ~OpenHapticsDevice() override { stop(); }
 
@@ -39,10 +41,10 @@ class OpenHapticsDevice : public Device {
  private:
   enum class Ending { none, error, calibration };
 
-  // openhaptics.cpp: of the thread that starts and stops.
+  // openhaptics.cpp: on the thread that starts and stops.
   void halt() noexcept;
 
-  // openhaptics_tick.cpp: of the scheduler's thread.
+  // openhaptics_tick.cpp: on the scheduler's thread.
   static std::uint32_t call(void* self) noexcept;
   bool one_tick() noexcept;
   hd::ErrorInfo read() noexcept;
@@ -57,16 +59,16 @@ class OpenHapticsDevice : public Device {
   const hd::Interface& hd_;
   hd::Trial trial_;
   DeviceInfo info_;
-  std::mutex control_;  ///< of start() and stop(), never of the tick
+  std::mutex control_;  ///< held by start() and stop(), never by the tick
   hd::OperationHandle operation_ = 0;
 
-  // Of the scheduler's thread, while it calls.
+  // Used by the scheduler's thread while it calls.
   Tick tick_{nullptr, nullptr};
-  std::int64_t begin_ns_ = 0;  ///< when it was opened: sample times count from there, whatever stops and starts
+  std::int64_t begin_ns_ = 0;  ///< when it was opened: the zero of all sample times
   DeviceSample sample_{};
   int farewells_ = 0;
 
-  // Between the threads.
+  // Shared between threads.
   std::atomic<bool> running_{false}, stopping_{false}, inside_{false}, ended_{true};
   std::atomic<std::thread::id> ticking_thread_{};
   std::atomic<std::int64_t> last_call_{0};

@@ -1,7 +1,4 @@
 // OpenHaptics in the registry.
-#include <cstdlib>
-#include <cstring>
-
 #include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
@@ -14,8 +11,8 @@ namespace {
 constexpr const char* name = "openhaptics";
 
 bool keep_device() {
-  const char* value = std::getenv("PUNCTURA_HD_KEEP_DEVICE");
-  return value && std::strcmp(value, "") != 0 && std::strcmp(value, "0") != 0;
+  const std::string value = environment("PUNCTURA_HD_KEEP_DEVICE");
+  return !value.empty() && value != "0";
 }
 
 BackendStatus status() {
@@ -28,10 +25,10 @@ BackendStatus status() {
     return {
         name,
         BackendStatus::State::available,
-        info.model + (info.serial.empty() ? "" : ", serial number " + info.serial) + ", through " + loaded.detail + ".",
+        info.model + (info.serial.empty() ? "" : ", serial number " + info.serial) + ", through " + loaded.path + ".",
         {session.name()}};
   } catch (const hd::Refused& refused) {
-    return {name, refused.state, refused.what() + std::string(" (Library: ") + loaded.detail + ".)", {}};
+    return {name, refused.state, refused.what() + std::string(" (Library: ") + loaded.path + ".)", {}};
   }
 }
 

@@ -1,5 +1,5 @@
-// The tick within the HD scheduler: begin frame, read, compute, set force, end frame, errors. Nothing here throws, allocates, locks or
-// logs.
+// The tick within the HD scheduler: begin frame, read, compute, set force, end frame, errors. Nothing here throws,
+// allocates, locks or logs.
 #include <cmath>
 
 #include "punctura_runtime/backends/openhaptics/openhaptics.hpp"
@@ -8,11 +8,10 @@ namespace punctura {
 
 namespace {
 
-constexpr double metre = 1e-3;  // of a millimetre
+constexpr double metre = 1e-3;  // per millimetre
 
-/// The direction in which the stylus points: against the third column of its rotation. That column is where making the matrix a
-/// rotation again, after rounding in the library, begins: so it is only brought to length 1. One that is far from it stays, for the
-/// input gate to see.
+/// The direction of the stylus: the negative third column of its rotation matrix. The library rounds the matrix, so the
+/// column is scaled to length 1. One that is far from that length is left for the input gate to refuse.
 std::array<double, 3> stylus_axis(const std::array<double, 16>& columns) noexcept {
   const double x = columns[8], y = columns[9], z = columns[10];
   const double length = std::sqrt(x * x + y * y + z * z);
@@ -26,7 +25,7 @@ std::uint32_t OpenHapticsDevice::call(void* self) noexcept {
   auto* device = static_cast<OpenHapticsDevice*>(self);
   device->inside_ = true;
   const bool more = !device->ended_ && device->one_tick();
-  device->inside_ = false;  // from here on the device may be gone
+  device->inside_ = false;  // from here on the device may be destroyed
   return more ? hd::again : hd::done;
 }
 
@@ -35,7 +34,7 @@ bool OpenHapticsDevice::one_tick() noexcept {
   last_call_.store(now, std::memory_order_relaxed);
   ticking_thread_.store(std::this_thread::get_id(), std::memory_order_relaxed);
   if (stopping_ || ending_ != Ending::none) {
-    // Until one has gone out: a broken link may be back in a moment.
+    // Repeated until one was sent: a broken link may recover.
     if (!zero_frame() && ++farewells_ < most_farewells) return true;
     ended_ = true;
     return false;
@@ -49,12 +48,11 @@ bool OpenHapticsDevice::one_tick() noexcept {
   sample_.time = static_cast<double>(now - begin_ns_) * 1e-9;
   sample_.healthy = error.code == hd::success && !lost;
   const Tick::Force force = tick_(sample_);
-  if (sample_.healthy) give(force);  // a frame in which none is given gives zero
+  if (sample_.healthy) give(force);  // a frame without a force sends zero
   hd_.end_frame(session_.handle());
   const hd::ErrorInfo after = hd::take_errors(hd_, warnings_);
 
-  if (sample_.healthy &&
-      after.code != hd::success) {  // too late for this tick: the step hears of it at once, in one more
+  if (sample_.healthy && after.code != hd::success) {  // too late for this tick: reported to the step in one more tick
     error = after;
     ++sample_.sequence;
     sample_.healthy = false;
@@ -66,11 +64,11 @@ bool OpenHapticsDevice::one_tick() noexcept {
   return true;
 }
 
-/// Reads into sample_, which keeps what it has where the library reports an error.
+/// Reads into sample_. It keeps its old values if the library reports an error.
 hd::ErrorInfo OpenHapticsDevice::read() noexcept {
   std::array<double, 3> position{unknown, unknown, unknown};
   std::array<double, 16> transform{};
-  std::array<double, 16> temperatures{};  // six at most, by what is known
+  std::array<double, 16> temperatures{};  // documented: six at most
   int buttons = 0;
   hd_.get_doubles(hd::current_position, position.data());
   if (info_.has_orientation) hd_.get_doubles(hd::current_transform, transform.data());
@@ -80,7 +78,7 @@ hd::ErrorInfo OpenHapticsDevice::read() noexcept {
 
   const hd::ErrorInfo error = hd::take_errors(hd_, warnings_);
   if (error.code != hd::success) return error;
-  for (std::size_t i = 0; i < 3; ++i) sample_.position[i] = metre * position[i];  // its axes are ours
+  for (std::size_t i = 0; i < 3; ++i) sample_.position[i] = metre * position[i];  // same axes as Punctura
   if (info_.has_orientation) sample_.axis = stylus_axis(transform);
   sample_.buttons = static_cast<std::uint32_t>(buttons);
   if (warmth) {
@@ -91,14 +89,14 @@ hd::ErrorInfo OpenHapticsDevice::read() noexcept {
   return error;
 }
 
-/// Inside a frame only. The last line of defence against a tick that is not ours.
+/// Inside a frame only. The last guard before the device, whatever the tick returns.
 void OpenHapticsDevice::give(const Tick::Force& force) noexcept {
   const bool sound = std::isfinite(force[0]) && std::isfinite(force[1]) && std::isfinite(force[2]);
   const Tick::Force zero{0, 0, 0};
   hd_.set_doubles(hd::current_force, sound ? force.data() : zero.data());
 }
 
-/// Whether it went out.
+/// True if it was sent.
 bool OpenHapticsDevice::zero_frame() noexcept {
   hd_.begin_frame(session_.handle());
   give({0, 0, 0});
@@ -106,7 +104,7 @@ bool OpenHapticsDevice::zero_frame() noexcept {
   return hd::take_errors(hd_, warnings_).code == hd::success;
 }
 
-/// No more force; the next call sends a frame of zeros and is the last.
+/// Ends the force. The next call sends a frame of zeros and is the last.
 void OpenHapticsDevice::leave(Ending why, const hd::ErrorInfo& error) noexcept {
   hd_.disable(hd::force_output);
   error_code_ = error.code;

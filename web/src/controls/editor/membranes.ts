@@ -75,7 +75,8 @@ export class MembraneList {
     const summary = element("span", { class: "summary" });
     const bodyId = `membrane-${index}-fields`;
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" }, String(index + 1));
-    swatch.style.setProperty("--swatch", `var(--data-${(index % 5) + 1})`); // as an attribute the page's policy forbids it
+    // as an attribute the page's policy forbids it
+    swatch.style.setProperty("--swatch", `var(--data-${(index % 5) + 1})`);
     const head = element(
       "button",
       { type: "button", class: "card-head", "aria-controls": bodyId, onclick: () => this.open(index) },

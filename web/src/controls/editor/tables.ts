@@ -61,7 +61,10 @@ export function moved<T>(items: readonly T[], from: number, to: number): T[] {
   return rest;
 }
 
-/** A copy right behind the one at `at`, with a name of its own and, where it has a place, behind it along its normal. */
+/**
+ * A copy right behind the one at `at`, with a name of its own and, where it has a place, behind it along its
+ * normal.
+ */
 export function duplicated(items: readonly Tables[], at: number): Tables[] {
   const original = items[at];
   if (!original) return [...items];

@@ -19,7 +19,7 @@ export const peakText = ({ metrics }: { readonly metrics: Pick<ExerciseMetrics, 
 export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
   const { entry_angle: angle, straightness } = metrics;
   return [
-    { label: "Attempts", value: String(metrics.attempts), help: "How often the first membrane was entered." },
+    { label: "Entries", value: String(metrics.entries), help: "How often the first membrane was entered." },
     {
       label: "Peak model force",
       value: peakText({ metrics }),

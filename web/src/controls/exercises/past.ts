@@ -9,6 +9,7 @@ import { verdict } from "./goals.ts";
 export function pastResults(
   app: App,
   open: (result: ExerciseResult) => void,
+  titleOf: (result: ExerciseResult) => string,
 ): { root: HTMLElement; show(person: string): Promise<void> } {
   const body = element("tbody", {});
   const note = element("p", { class: "quiet" });
@@ -34,15 +35,15 @@ export function pastResults(
       try {
         results = await app.api.json<ExerciseResult[]>(`/api/results?${query}`);
         note.textContent = results.length
-          ? `Of ${person || "attempts without a name"}, kept on this computer.`
-          : "There is none yet.";
+          ? `Results of ${person || "attempts without a name"}, kept on this computer.`
+          : "No results yet.";
       } catch (error) {
         note.textContent = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
       }
       if (mine !== asked) return;
       table.hidden = results.length === 0;
       exports.hidden = results.length === 0;
-      body.replaceChildren(...results.map((result) => row(result, open)));
+      body.replaceChildren(...results.map((result) => row(result, titleOf(result), open)));
       exports.replaceChildren("Save all as");
       for (const format of ["json", "csv"])
         exports.append(
@@ -61,13 +62,13 @@ export function pastResults(
   };
 }
 
-function row(result: ExerciseResult, open: (result: ExerciseResult) => void): HTMLElement {
+function row(result: ExerciseResult, title: string, open: (result: ExerciseResult) => void): HTMLElement {
   const when = element("button", { type: "button", class: "link", onclick: () => open(result) }, dateText(result.date));
   return element(
     "tr",
     {},
     element("td", {}, when),
-    element("td", {}, result.title),
+    element("td", {}, title),
     element("td", { class: result.passed ? "passed" : "failed" }, verdict(result)),
   );
 }

@@ -17,10 +17,14 @@ import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
 import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 
-/** The page of one result: passed or not and why, the measures, the attempt drawn. `again` starts it anew. */
+/**
+ * The dialog of one result: passed or not and why, the measures, a drawing of the attempt. `again` starts another
+ * attempt.
+ */
 export function openResult(
   app: App,
   result: ExerciseResult,
+  title: string,
   exercise: ExerciseOverview | null,
   again: (() => void) | null,
 ): void {
@@ -39,7 +43,7 @@ export function openResult(
       element(
         "h2",
         { id: "result-title" },
-        result.title,
+        title,
         " ",
         element("span", { class: result.passed ? "passed" : "failed" }, verdict(result)),
       ),
@@ -100,7 +104,7 @@ function table(result: ExerciseResult): HTMLElement {
   return element("table", { class: "metrics" }, element("tbody", {}, ...rows));
 }
 
-/** Draws the attempt from a thinned trace. Gives its recording; null where there is none any more. */
+/** Draws the attempt from a thinned trace. Returns its recording; null if it no longer exists. */
 async function drawTrace(
   app: App,
   result: ExerciseResult,
@@ -128,7 +132,7 @@ async function drawTrace(
   }
 }
 
-/** Every tick of the attempt, to look at it again; null where that failed or was given up. */
+/** Fetches every tick of the attempt for playback; null if that failed or was cancelled. */
 async function fetchWhole(
   app: App,
   entry: RecordingEntry,

@@ -50,7 +50,8 @@ export function spaceOf(
 }
 
 /**
- * A curve in as few points as a drawing of `columns` pixels can show: of each column its first, lowest, highest and last
+ * A curve in as few points as a drawing of `columns` pixels can show: of each column its first, lowest, highest and
+ * last
  * value, in their order. Places without a number break the curve.
  */
 export function envelope(

@@ -23,7 +23,10 @@ const scale =
   (value) =>
     start + ((value - from) / (to - from)) * length;
 
-/** Depth and model force of an attempt along its time, with layers, the space to reach, pops, and the peak as measured. */
+/**
+ * Depth and model force of an attempt along its time, with layers, the space to reach, pops, and the peak as
+ * measured.
+ */
 export function traceDrawing(
   trace: Trace,
   layers: readonly Layer[],

@@ -8,7 +8,8 @@ export interface Box {
 const GAP = 12;
 
 /**
- * Where a popover of this size goes: beside the box where there is room, right, left, below, above; else inside its lower
+ * Where a popover of this size goes: beside the box where there is room, right, left, below, above; else inside its
+ * lower
  * right corner. Always within the window.
  */
 export function placed(

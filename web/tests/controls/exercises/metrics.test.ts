@@ -3,7 +3,7 @@ import { metricRows } from "../../../src/controls/exercises/metrics.ts";
 import type { ExerciseMetrics } from "../../../src/wire/files.ts";
 
 const metrics: ExerciseMetrics = {
-  attempts: 2,
+  entries: 2,
   peak_force: 0.9041,
   overshoot: [{ membrane: 0, name: "skin", time: 1, distance: 0.00213, seconds: 0.5 }],
   dwell: 5.26,
@@ -25,7 +25,7 @@ test("the help of an overshoot names the time in which it was measured", () => {
 test("measures are told in units for people; what there was not is a dash", () => {
   const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
   expect(Object.fromEntries(rows)).toMatchObject({
-    Attempts: "2",
+    Entries: "2",
     "Peak model force": "0.90 N",
     "Overshoot after skin": "2.1 mm",
     "Path straightness": "–",

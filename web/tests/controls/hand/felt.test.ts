@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { Felt } from "../../../src/controls/felt.ts";
+import { Felt } from "../../../src/controls/hand/felt.ts";
 import { Source } from "../../../src/state/source.ts";
 import type { MembraneEvent } from "../../../src/wire/messages.ts";
 import { decodeTicks } from "../../../src/wire/ticks.ts";

@@ -1,0 +1,65 @@
+// Where the classes that run keep what they have several of: on the heap, or inside themselves.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace punctura {
+
+/// A vector of at most N elements, all inside itself. More than N end the program: a tissue with a membrane left out would give a hand
+/// a wrong force.
+template <typename T, std::size_t N>
+class FixedVector {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+ public:
+  FixedVector() = default;
+  explicit FixedVector(std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) emplace_back();
+  }
+  void reserve(std::size_t n) const noexcept {
+    if (n > N) std::abort();
+  }
+  template <typename... Args>
+  T& emplace_back(Args&&... args) noexcept {
+    reserve(size_ + 1);
+    return *std::construct_at(begin() + size_++, std::forward<Args>(args)...);
+  }
+  void swap(FixedVector& other) noexcept { std::swap(*this, other); }
+
+  std::size_t size() const noexcept { return size_; }
+  T* begin() noexcept { return std::launder(reinterpret_cast<T*>(bytes_)); }
+  const T* begin() const noexcept { return std::launder(reinterpret_cast<const T*>(bytes_)); }
+  T* end() noexcept { return begin() + size_; }
+  const T* end() const noexcept { return begin() + size_; }
+  T& operator[](std::size_t i) noexcept { return begin()[i]; }
+  const T& operator[](std::size_t i) const noexcept { return begin()[i]; }
+
+ private:
+  alignas(T) std::byte bytes_[N * sizeof(T)]{};
+  std::size_t size_ = 0;
+};
+
+/// As much as is wanted, taken from the heap at construction.
+struct HeapStorage {
+  template <typename T>
+  using Membranes = std::vector<T>;
+  template <typename T>
+  using Samples = std::vector<T>;
+};
+
+/// No heap. most_in_10_ms: samples that conditioning and the direction from motion look back at: 10 ms of them and one, 17 at 1600 Hz.
+template <std::size_t most_membranes, std::size_t most_in_10_ms = 17>
+struct FixedStorage {
+  template <typename T>
+  using Membranes = FixedVector<T, most_membranes>;
+  template <typename T>
+  using Samples = FixedVector<T, 2 * most_in_10_ms>;  // LineFit writes each sample twice
+};
+
+}  // namespace punctura

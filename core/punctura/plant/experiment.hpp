@@ -1,0 +1,60 @@
+// K06 section 4 without hardware: plant and servo step in lockstep.
+#pragma once
+
+#include <cstdint>
+
+#include "punctura/plant/experiment_table.hpp"
+#include "punctura/plant/motion.hpp"
+#include "punctura/plant/plant.hpp"
+#include "punctura/scene/build.hpp"
+
+namespace punctura {
+
+/// A simulated operator at a simulated device, through the very step that drives a real one.
+///
+/// Motion: StrokesMotion, RecordedMotion, Target, or anything with `Desired at(double time)`, time from 0.
+template <typename Motion>
+class Experiment {
+ public:
+  /// axis: the direction in which the stylus points, constant. Throws SceneError.
+  Experiment(const Scene& scene, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {},
+             const Hand& hand = {}, std::uint64_t seed = 0)
+      : servo_(build(scene)),
+        plant_(device, hand, 1 / scene.servo.rate, seed),
+        motion_(std::move(motion)),
+        axis_(plain(axis.stableNormalized())),
+        period_(1 / scene.servo.rate) {
+    plant_.place(motion_.at(0).position);
+    servo_.arm();
+  }
+
+  /// One servo period: read the encoders, compute, hold the force while the hand moves on.
+  const Snapshot& step() noexcept {
+    const double time = static_cast<double>(tick_) * period_;
+    desired_ = motion_.at(time);
+    const Snapshot& snapshot = servo_.step({tick_, time, plain(plant_.measured()), axis_, 0, true});
+    tip_ = plant_.tip();
+    plant_.step(vector(snapshot.force), desired_);
+    ++tick_;
+    return snapshot;
+  }
+
+  /// Of the last step.
+  ExperimentExtra extra() const noexcept { return {plain(tip_), plain(desired_.position)}; }
+  const Desired& desired() const noexcept { return desired_; }  ///< of the last step
+  const Vector3d& tip() const noexcept { return tip_; }         ///< true position at the last step, m
+  Motion& motion() noexcept { return motion_; }
+  ServoStep& servo() noexcept { return servo_; }
+
+ private:
+  ServoStep servo_;
+  Plant plant_;
+  Motion motion_;
+  std::array<double, 3> axis_;
+  double period_;
+  std::uint64_t tick_ = 0;
+  Desired desired_{Vector3d::Zero(), Vector3d::Zero()};
+  Vector3d tip_ = Vector3d::Zero();
+};
+
+}  // namespace punctura

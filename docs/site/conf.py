@@ -1,0 +1,70 @@
+"""Sphinx's settings. Sphinx runs on the folder that build.py lays out, never on docs/ itself."""
+
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import punctura
+
+sys.path.insert(0, str(Path(__file__).parent))
+from text import docstring_rst
+
+project = "Punctura"
+author = "the Punctura authors"
+version = release = punctura.__version__
+html_title = f"Punctura {release}"
+
+extensions = ["myst_nb", "sphinx.ext.autodoc"]
+root_doc = "index"
+include_patterns = ["*.md", "docs/*.md", "docs/notebooks/*.md", "examples/README.md", "reference/**", "gallery/*"]
+exclude_patterns = ["core/**", "runtime/**", "python/**"]
+source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
+
+myst_enable_extensions = ["attrs_inline"]
+myst_heading_anchors = 4  # so that page.md#a-heading works as it does on a code host
+suppress_warnings = ["misc.highlighting_failure"]  # an output or a shortened listing need not be valid code
+highlight_language = "text"
+default_role = "code"  # `name` in a docstring
+
+autoclass_content = "both"  # the docstring of the class, and of its constructor
+autodoc_docstring_signature = True  # the compiled functions carry their signatures in their docstrings
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_default_options = {"members": True, "imported-members": True, "undoc-members": True}
+
+nb_execution_mode = "force"
+nb_execution_show_tb = True
+nb_execution_timeout = 120
+
+html_theme = "furo"
+html_show_sphinx = html_show_copyright = False
+html_copy_source = False
+html_theme_options = {"navigation_with_keys": True}
+
+
+def short(signature: str) -> str:
+    """A compiled function's signature without the name of the module; a default that is an object as `...`."""
+    plain = re.sub(r"^\(self(, )?", "(", signature)
+    plain = re.sub(r"punctura\._core\.|collections\.abc\.|numpy\.typing\.", "", plain)
+    return re.sub(r"= \w+\((?:[^()]|\([^()]*\))*\)", "= ...", plain)
+
+
+def setup(app: Any) -> None:
+    def docstring(app: Any, what: str, name: str, item: object, options: Any, lines: list[str]) -> None:
+        if what == "property" and lines and (kind := re.fullmatch(r"\(self\) -> (.+)", lines[0])):
+            lines[:] = [f"`{short(kind[1])}`", *lines[1:]]  # a compiled property without words of its own
+        base = ", ".join(f"`{kind.__name__}`" for kind in item.__bases__) if isinstance(item, type) else ""
+        lines[:] = docstring_rst([*lines, *([f"Derives from {base}."] if what == "exception" else [])])
+
+    def signature(
+        app: Any, what: str, name: str, item: object, options: Any, arguments: str | None, result: str | None
+    ) -> tuple[str, str | None] | None:
+        return (short(arguments), result and short(result)) if arguments else None
+
+    def skip(app: Any, what: str, name: str, item: object, *others: Any) -> bool | None:
+        return True if name == "unchecked" else None  # for what builds a whole scene at once
+
+    app.connect("autodoc-process-docstring", docstring)
+    app.connect("autodoc-process-signature", signature)
+    app.connect("autodoc-skip-member", skip)

@@ -1,0 +1,160 @@
+"""The gallery: each numbered example is run, and its picture is drawn from what the run gave.
+
+The pictures are made at every build and committed nowhere, because that is cheap: 8 s, of which 5 s are those of the
+two examples that run in real time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import re
+import runpy
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from layout import ROOT
+from matplotlib.axes import Axes
+from punctura import live
+
+EXAMPLES = ROOT / "examples"
+INKS = {"light": "#1f2328", "dark": "#d8dee4"}
+LINE = "#2f81f7"
+PRINTED = re.compile(r"(?:depth|y) +(-?[\d.]+) mm +force +(-?[\d.]+) N")
+
+
+class Run:
+    """An example that has run: its variables, its output, the ticks of its servo loops."""
+
+    def __init__(self, variables: dict[str, Any], output: str, ticks: list[Any]) -> None:
+        self.variables, self.output, self.ticks = variables, output, ticks
+
+    def __getitem__(self, name: str) -> Any:
+        return self.variables[name]
+
+
+def run_python(path: Path) -> Run:
+    """Runs an example here; every servo loop that it starts is listened to."""
+    said, listeners = io.StringIO(), []
+    start = live.ServoLoop.start
+
+    def start_and_listen(loop: live.ServoLoop) -> None:
+        listeners.append(loop.listen())
+        start(loop)
+
+    live.ServoLoop.start = start_and_listen  # type: ignore[method-assign]
+    try:
+        with contextlib.redirect_stdout(said):
+            variables = runpy.run_path(str(path), run_name="__main__")
+        return Run(variables, said.getvalue(), [listener.read() for listener in listeners])
+    finally:
+        live.ServoLoop.start = start  # type: ignore[method-assign]
+
+
+def run_cpp(path: Path, folder: Path) -> Run:
+    program = folder / path.stem
+    subprocess.run(
+        [os.environ.get("CXX", "c++"), "-std=c++20", "-ffp-contract=off", f"-I{ROOT / 'core'}", path, "-o", program],
+        check=True,
+    )
+    output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    program.unlink()
+    return Run({}, output, [])
+
+
+def depth_and_force(axes: Axes, depth: Any, force: Any, style: str = "-") -> None:
+    axes.plot(np.asarray(depth), np.asarray(force), style, color=LINE, lw=1.5, ms=4)
+    axes.set(xlabel="depth of the tip, mm", ylabel="force on the device, N")
+
+
+def pop(axes: Axes, run: Run) -> None:
+    depth_and_force(axes, run["depth"] * 1e3, run["ticks"].force)
+
+
+def two_walls(axes: Axes, run: Run) -> None:
+    along = (run["tip"] - run["tip"][0]) @ run["axis"]
+    depth_and_force(axes, along * 1e3, run["trace"].force @ run["axis"])
+    axes.set(xlabel="way of the tip along the needle, mm", ylabel="force along the needle, N")
+
+
+def experiment(axes: Axes, run: Run) -> None:
+    trace = run["trace"]
+    depth_and_force(axes, -trace.position[:, 1] * 1e3, trace.force[:, 1])
+    axes.set(ylabel="force on the device, upwards, N")
+
+
+def printed(axes: Axes, run: Run) -> None:
+    depth_and_force(axes, *np.array(PRINTED.findall(run.output), float).T, "o-")
+
+
+def servo_loop(axes: Axes, run: Run) -> None:
+    [ticks] = run.ticks
+    time = ticks.time - ticks.time[0]
+    axes.plot(time, ticks.force[:, 1], color=LINE, lw=1.5)
+    axes.set(xlabel="time, s", ylabel="force on the device, upwards, N")
+
+
+PICTURES: dict[str, Callable[[Axes, Run], None]] = {
+    "01_pop": pop,
+    "02_scene": two_walls,
+    "03_simulated_device": experiment,
+    "04_own_law": printed,
+    "05_servo_loop": servo_loop,
+    "06_own_device": servo_loop,
+}
+
+
+def draw(run: Run, stem: str, folder: Path) -> None:
+    """One picture for light pages and one for dark ones."""
+    for theme, ink in INKS.items():
+        colours = dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), ink)
+        with plt.rc_context({**colours, "svg.hashsalt": "punctura", "font.size": 9}):
+            figure, axes = plt.subplots(figsize=(6.4, 2.8), layout="constrained")
+            PICTURES[stem](axes, run)
+            axes.grid(alpha=0.25)
+            axes.spines[["top", "right"]].set_visible(False)
+            figure.savefig(folder / f"{stem}-{theme}.svg", transparent=True, metadata={"Date": None})
+            plt.close(figure)
+
+
+def write(folder: Path) -> None:
+    """Runs every numbered example and writes the gallery's page and pictures."""
+    matplotlib.use("agg")
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [
+        "# Gallery of examples",
+        "",
+        "The numbered [examples](../examples/README.md). The pictures were drawn from their results at this build.",
+        "",
+    ]
+    told = dict(re.findall(r"^\| (\d\d) \| (.*?) \|", (EXAMPLES / "README.md").read_text(encoding="utf-8"), re.M))
+    for stem in sorted({path.stem for path in EXAMPLES.glob("*/[0-9][0-9]_*.*")}):
+        python, cpp = EXAMPLES / "python" / f"{stem}.py", EXAMPLES / "cpp" / f"{stem}.cpp"
+        if stem not in PICTURES:
+            sys.exit(f"example {stem} has no picture: add a function for it to PICTURES in docs/site/gallery.py")
+        draw(run_python(python) if python.exists() else run_cpp(cpp, folder), stem, folder)
+        words = re.sub(r": \[.*$", "", told[stem[:2]])
+        lines += [f"## {stem[:2]} {words[0].upper()}{words[1:]}", ""]
+        lines += [f"![Force of example {stem}]({stem}-{theme}.svg){{.only-{theme}}}" for theme in INKS]
+        for language, path in (("python", python), ("cpp", cpp)):
+            if path.exists():
+                title = f"{'Python' if language == 'python' else 'C++'}: examples/{path.parent.name}/{path.name}"
+                lines += [
+                    "",
+                    f"<details><summary>{title}</summary>",
+                    "",
+                    f"```{{literalinclude}} ../examples/{path.parent.name}/{path.name}",
+                    f":language: {language}",
+                    "```",
+                    "",
+                    "</details>",
+                    "",
+                ]
+    (folder / "index.md").write_text("\n".join(lines), encoding="utf-8")

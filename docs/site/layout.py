@@ -1,0 +1,49 @@
+"""Lays the folder out that Sphinx reads: the tree as it is, as links, and what is generated beside it.
+
+The pages stand where they stand in the tree, so that a link which works on a code host works in the site, too.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = Path(__file__).resolve().parent
+# Files that a page links to. Sphinx offers a linked file that is no page for download.
+LINKED = (
+    "CITATION.cff",
+    "LICENSE",
+    "docs/images",
+    "examples/cpp",
+    "examples/python",
+    "core",
+    "runtime",
+    "python/punctura",
+)
+PAGES = ("*.md", "docs/*.md", "docs/notebooks/*.md", "examples/*")
+HEADER = re.compile(r"\]\((?:\.\./)*((?:core|runtime)/[\w/]+\.hpp)\)")
+FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(\w+)/?\)")
+
+
+def page(text: str) -> str:
+    """A page whose links to headers lead to the C++ reference."""
+    return FOLDER.sub(r"](\1reference/cpp/\2.rst)", HEADER.sub(r"](#\1)", text))
+
+
+def lay_out(folder: Path) -> None:
+    """Makes the folder anew. The pages are copies; all else is linked."""
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in LINKED:
+        place = folder / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.symlink_to(ROOT / name)
+    for path in [p for pattern in PAGES for p in ROOT.glob(pattern) if p.is_file()]:
+        place = folder / path.relative_to(ROOT)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if path.suffix == ".md":
+            place.write_text(page(path.read_text(encoding="utf-8")), encoding="utf-8")
+        else:
+            place.symlink_to(path)
+    shutil.copy(SITE / "index.md", folder / "index.md")

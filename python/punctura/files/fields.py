@@ -1,0 +1,80 @@
+"""The kinds of values in a file, as types of a pydantic schema.
+
+They check only the type of a value. The core checks its bounds.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Annotated, Any
+
+from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+
+def _as_decimal(value: object) -> Decimal | None:
+    if isinstance(value, bool) or not isinstance(value, (int, float, Decimal)):
+        return None
+    return value if isinstance(value, Decimal) else Decimal(repr(value))
+
+
+def _number(value: object) -> Decimal:
+    number = _as_decimal(value)
+    if number is None:
+        raise PydanticCustomError("number", "must be a number")
+    return number
+
+
+def _numbers(value: object, names: str) -> tuple[Decimal, ...]:
+    """names: of the numbers, "x, y, z"."""
+    given = [_as_decimal(v) for v in value] if isinstance(value, (list, tuple)) else []
+    numbers = tuple(n for n in given if n is not None)
+    count = names.count(",") + 1
+    if len(given) != count or len(numbers) != count:
+        words = {3: "three", 4: "four"}[count]
+        raise PydanticCustomError("vector", f"must be {words} numbers, [{names}]")
+    return numbers
+
+
+def _vector(value: object) -> tuple[Decimal, ...]:
+    return _numbers(value, "x, y, z")
+
+
+def _quaternion(value: object) -> tuple[Decimal, ...]:
+    return _numbers(value, "w, x, y, z")
+
+
+def _buttons(value: object) -> list[int]:
+    given = value if isinstance(value, list) else []
+    numbers = [n for n in given if isinstance(n, int) and not isinstance(n, bool) and 1 <= n <= 32]
+    if not isinstance(value, list) or len(numbers) != len(given):
+        raise PydanticCustomError("buttons", "must be a list of buttons, each 1 to 32")
+    return numbers
+
+
+def _whole_number(value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise PydanticCustomError("whole_number", "must be a whole number")
+    return value
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise PydanticCustomError("text", "must be text, in quotes")
+    return value
+
+
+def _plain(value: Any) -> Any:
+    return [float(v) for v in value] if isinstance(value, tuple) else float(value)
+
+
+_VECTOR_SCHEMA = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
+# Numbers are decimals, as they were written, until they are converted to SI (files/units.py).
+_AS_FLOAT = PlainSerializer(_plain, when_used="json")
+Number = Annotated[Decimal, PlainValidator(_number), _AS_FLOAT, WithJsonSchema({"type": "number"})]
+Vector = Annotated[tuple[Decimal, Decimal, Decimal], PlainValidator(_vector), _AS_FLOAT, WithJsonSchema(_VECTOR_SCHEMA)]
+Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator(_quaternion)]
+Buttons = Annotated[list[int], PlainValidator(_buttons)]
+WholeNumber = Annotated[int, PlainValidator(_whole_number), WithJsonSchema({"type": "integer"})]
+Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": "string"})]

@@ -1,0 +1,101 @@
+"""What is wrong with the keys and the types of a TOML table, in plain words. The schema is a pydantic model."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+from collections.abc import Mapping
+from decimal import Decimal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic_core import ErrorDetails
+
+from punctura.errors import MISSING, Problem
+from punctura.files.units import split_key
+
+Location = tuple[int | str, ...]  # of a value in the file: ("membrane", 1, "friction")
+
+
+class Table(BaseModel):
+    """A table of a file: unknown keys and wrong types are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class Schema:
+    """A file's schema: its root, and the tables in it by their keys."""
+
+    def __init__(
+        self,
+        root: type[BaseModel],
+        tables: Mapping[str, type[BaseModel]] | None = None,
+        lists: Mapping[str, type[BaseModel]] | None = None,
+    ) -> None:
+        """tables: written [key]. lists: lists of tables, each written [[key]]."""
+        self._root = root
+        self._tables = dict(tables or {}) | dict(lists or {})
+        self.heads = {key: f"[{key}]" for key in tables or {}} | {key: f"[[{key}]]" for key in lists or {}}
+
+    def problems(self, error: ValidationError) -> list[tuple[Location, Problem]]:
+        """Each problem with its place in the file."""
+        return [(e["loc"], self._problem(e)) for e in error.errors(include_url=False)]
+
+    def _problem(self, error: ErrorDetails) -> Problem:
+        location, given = error["loc"], shown(error["input"])
+        path = path_of(location)
+        if error["type"] == "missing":
+            return Problem(path, MISSING, missing(self.heads.get(path)))
+        return Problem(path, given, self._reason(error, location))
+
+    def _reason(self, error: ErrorDetails, location: Location) -> str:
+        kind, key = error["type"], str(location[-1])
+        if kind == "extra_forbidden":
+            names = [part for part in location if isinstance(part, str)]
+            return unknown_key(names[-1], self._root if len(names) == 1 else self._tables[names[0]])
+        if kind == "literal_error":
+            return f"must be {error['ctx']['expected']}"
+        if kind in ("model_type", "model_attributes_type"):
+            return f"must be a table, {self.heads.get(str(location[0]), f'[{key}]')}"
+        if kind == "list_type":
+            return f"must be a list of tables; begin each with [[{key}]]"
+        unit = split_key(key)[1].name
+        return error["msg"] + (f" ({unit})" if unit else "")
+
+
+def missing(head: str | None) -> str:
+    """The reason for a key that is missing. head: of a table, such as "[needle]"."""
+    return f"is missing; write a table {head}" if head else "is missing"
+
+
+def unknown_key(key: str, table: type[BaseModel]) -> str:
+    """The reason for a key that the table does not have, with the key that was meant, if one is similar."""
+    known = list(table.model_fields)
+    near = difflib.get_close_matches(key, known, n=1) or [k for k in known if split_key(k)[0] == key]
+    return f"unknown key; did you mean {near[0]}?" if near else f"unknown key; known here: {', '.join(known)}"
+
+
+def path_of(location: Location) -> str:
+    """`membrane[1].friction`. A key that needs quotes in TOML has them here, because its dots are its own."""
+    text = ""
+    for part in location:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            key = part if re.fullmatch("[A-Za-z0-9_-]+", part) else json.dumps(part, ensure_ascii=False)
+            text += f".{key}" if text else key
+    return text
+
+
+def location_of(path: str) -> Location:
+    """The reverse of path_of, for paths without quotes."""
+    return tuple(int(part) if part.isdigit() else part for part in re.findall(r"[^.\[\]]+", path))
+
+
+def shown(value: object) -> object:
+    """A value as a message shows it: tables and lists of tables are too long."""
+    if isinstance(value, Decimal):
+        return float(value)
+    if isinstance(value, list) and not any(isinstance(v, (dict, list)) for v in value):
+        return [shown(v) for v in value]
+    return MISSING if isinstance(value, (dict, list)) else value

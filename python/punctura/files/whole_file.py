@@ -1,0 +1,104 @@
+"""Writes a file under a temporary name, and renames it when it is complete and on the disk.
+
+On every error (a full disk is one) nothing is left behind, and a file that was at the path before is unchanged.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+_NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
+
+
+@contextmanager
+def whole_file(path: Path, replace: bool = True) -> Iterator[str]:
+    """Gives the place to write to; at the end the file gets the name `path`.
+
+    replace: whether another file at `path` may be replaced; its permissions are kept. If not, and there is one, raises
+    FileExistsError. Raises OSError with `path` as its filename. On systems with unnamed files, a killed process leaves
+    nothing; on others it leaves a hidden file.
+    """
+    hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    place, descriptor = str(hidden), None
+    try:
+        descriptor = unnamed_file(path.parent)
+        if descriptor is not None:
+            place = f"/proc/self/fd/{descriptor}"
+        yield place
+        if replace and path.is_file():
+            os.chmod(place, stat.S_IMODE(path.stat().st_mode))
+        _sync(hidden) if descriptor is None else os.fsync(descriptor)
+        if descriptor is not None and not give_name(descriptor, hidden):
+            raise OSError(errno.EOPNOTSUPP, os.strerror(errno.EOPNOTSUPP), str(path))
+        if replace:
+            os.replace(hidden, path)
+        else:
+            rename_new(hidden, path)
+    except OSError as error:
+        internal = error.filename is None or str(error.filename) in (place, str(hidden), str(path.parent))
+        if error.errno is None or not internal:
+            raise
+        raise type(error)(error.errno, error.strerror, str(path)) from None
+    finally:
+        if descriptor is not None:
+            os.close(descriptor)
+        hidden.unlink(missing_ok=True)
+
+
+def write_whole(path: Path, data: bytes, replace: bool = True) -> None:
+    """Writes all of a file at once. See whole_file."""
+    with whole_file(path, replace) as place, open(place, "wb") as file:
+        file.write(data)
+
+
+def rename_new(file: Path, path: Path) -> None:
+    """Renames without overwriting, even if another program creates `path` at the same moment.
+
+    Raises FileExistsError.
+    """
+    try:
+        os.link(file, path)
+    except FileExistsError:
+        raise
+    except OSError:  # this file system has no hard links
+        if path.exists():
+            raise FileExistsError(path) from None
+        os.replace(file, path)
+
+
+def unnamed_file(folder: Path) -> int | None:
+    """The descriptor of a file without a name, which is gone when it is closed; None if the system has none."""
+    if not hasattr(os, "O_TMPFILE") or not os.path.isdir("/proc/self/fd"):
+        return None
+    try:
+        return os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
+    except OSError as error:
+        if error.errno in _NO_UNNAMED:
+            return None
+        raise
+
+
+def give_name(descriptor: int, path: Path) -> bool:
+    """Gives an unnamed file a name. False if the system cannot. Raises FileExistsError."""
+    try:
+        # With src_dir_fd, though an absolute path has no use for it: only then Python follows the link in /proc.
+        os.link(f"/proc/self/fd/{descriptor}", path, src_dir_fd=descriptor)
+    except FileExistsError:
+        raise
+    except OSError:
+        return False
+    return True
+
+
+def _sync(file: Path) -> None:
+    descriptor = os.open(file, os.O_RDWR)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

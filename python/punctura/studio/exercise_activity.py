@@ -1,0 +1,65 @@
+"""An attempt at an exercise as an activity: its messages for the pages, and its result."""
+
+from __future__ import annotations
+
+from punctura import Scene
+from punctura.exercise import Attempt, Exercise, ResultStore
+from punctura.studio.activity import Outcome
+from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
+from punctura.ticks import Ticks
+
+LINGER_S = 1.0  # the recording goes on for this long after the decision and the last overshoot
+
+
+class ExerciseActivity:
+    """One attempt."""
+
+    what = "exercise"
+
+    def __init__(self, exercise: Exercise, person: str, recording: str, results: ResultStore) -> None:
+        """recording: the name of the run's recording. results: where the result is saved."""
+        self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
+        self._attempt: Attempt
+        self._told: ExerciseStatus | None = None
+        self.end_at: float | None = None
+
+    def begin(self, scene: Scene) -> None:
+        self._attempt = Attempt(self._exercise, scene)
+
+    def ticks(self, ticks: Ticks, now: float) -> list[ExerciseStatus]:
+        """Returns the status if it has changed."""
+        self._attempt.add(ticks)
+        if self._attempt.settled and self.end_at is None:
+            self.end_at = now + LINGER_S
+        status = self._status(running=True)
+        if status == self._told:
+            return []
+        self._told = status
+        return [status]
+
+    def scene_change(self) -> None:
+        raise ValueError("end the exercise before you change its scene")
+
+    def stop(self) -> None:
+        """The result waits for the recording: `finish`."""
+
+    def finish(self) -> Outcome:
+        """Saves the result, unless the needle has never entered and nothing was decided."""
+        result = self._attempt.finish(self._person, self._recording)
+        if not self._attempt.over and result.metrics.entries == 0:
+            return Outcome(self._status(running=False))
+        try:
+            name = self._results.save(result).name
+        except OSError as error:
+            return Outcome(self._status(running=False), trouble=f"The result cannot be saved: {error}")
+        return Outcome(self._status(running=False, result=name), f"The result of the last exercise is saved as {name}.")
+
+    def _status(self, running: bool, result: str = "") -> ExerciseStatus:
+        status = self._attempt.status
+        return ExerciseStatus(
+            exercise=self._exercise.name,
+            running=running,
+            instruction=status.instruction,
+            goals=[ExerciseGoal(text=goal.text, state=goal.state) for goal in status.goals],
+            result=result,
+        )

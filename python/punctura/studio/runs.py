@@ -1,0 +1,142 @@
+"""One run after another on one device, each with its recording and its activity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from punctura.record import RecorderStatus
+from punctura.studio.activity import Activities, Activity
+from punctura.studio.arming import Arming
+from punctura.studio.defects import Defects
+from punctura.studio.hand import Hand, Pose
+from punctura.studio.health import no_recording
+from punctura.studio.jobs import Jobs
+from punctura.studio.loaded import Loaded
+from punctura.studio.pump import Publisher, Pump, no_fault
+from punctura.studio.run import Bench, Run, Settings
+from punctura.studio.shelf import Shelf
+from punctura.studio.takes import Takes
+from punctura.studio.view import scene_message
+from punctura.studio.wire.messages import Notice
+
+Then = Callable[[str, RecorderStatus], None]  # name of a recording, and how it ended
+
+
+class Runs:
+    """Belongs to one thread, the worker's."""
+
+    def __init__(self, loaded: Loaded, settings: Settings, out: Publisher, shelf: Shelf) -> None:
+        """Raises DeviceError, ConfigurationError; then nothing runs."""
+        self.out, self.shelf = out, shelf
+        self.jobs = Jobs()
+        self.bench = Bench(settings, loaded.scene)
+        self.hand = Hand()
+        self.run = Run(0, self.bench, loaded)
+        self.pump = Pump(self.run, out)
+        self.arming = Arming()
+        self.activities = Activities(out, self.jobs.post)
+        self.defects = Defects(out)
+        self.recording = ""  # the name of the present recording
+        self.compare = False
+        self.takes = Takes()
+
+    def watch(self) -> None:
+        """The present run has started."""
+
+    def begin(
+        self, loaded: Loaded, pose: Pose | None = None, record: str | None = None, about: dict[str, Any] | None = None
+    ) -> None:
+        """Starts a new run. record: the name of its recording. If it fails, the present scene runs again, and the
+        error is raised."""
+        path = self.shelf.file(record) if record else None
+        self.end_run()
+        try:
+            self.run = Run(self.run.number + 1, self.bench, loaded, path, about, pose)
+        except Exception:
+            self.run = Run(self.run.number + 1, self.bench, self.run.loaded, pose=self.run.pose)
+            self.start_run()
+            raise
+        self.recording = record or ""
+        try:
+            self.start_run()
+        except Exception:  # the device does not start again: there is no tick, and nothing to record
+            self.end_run()
+            raise
+
+    def begin_activity(
+        self,
+        activity: Activity,
+        loaded: Loaded,
+        pose: Pose | None = None,
+        record: str | None = None,
+        about: dict[str, Any] | None = None,
+    ) -> None:
+        """Starts a new run with this activity. Raises what `begin` and the activity's own `begin` raise."""
+        self.begin(loaded, pose, record, about)
+        self.activities.begin(activity, self.run.loop.scene)
+
+    def begin_again(self) -> None:
+        """Runs the present scene again, without a recording, from the pose in which the hand began."""
+        self.begin(self.run.loaded, self.run.pose)
+
+    def edit(self, loaded: Loaded) -> None:
+        """Sets another scene in the present run. Raises ConfigurationError, ValueError; then nothing has changed."""
+        self.activities.scene_change()
+        self.turn()
+        self.run.exchange(loaded)
+        say = lambda: self.out.say(scene_message(self.run, self.pump.laws(), new_run=False))  # noqa: E731
+        self.activities.ticks(self.pump.change(self.run.loop.scene, say))
+
+    def arm(self) -> None:
+        """Allows force once the tip is outside tissue, unless a pause came after the present request."""
+        self.arming.arm(self.run.loop)
+
+    def reset(self) -> None:
+        """Clears a fault. If the ticks had ceased, a new run begins, which is armed only if the user asks for it."""
+        if not self.run.loop.running:
+            self.begin_again()
+            self.run.loop.pause()
+        self.run.loop.reset()
+        self.arming.armed = False
+
+    def set_compare(self, on: bool) -> None:
+        self.compare = on
+        self.pump.compare(on)
+
+    def end_run(self, then: Then | None = None) -> None:
+        """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
+        self.run.stop()
+        self.turn()
+        finish_activity = self.activities.stop()
+        name, self.recording = self.recording, ""
+        recorder, self.run.recorder = self.run.recorder, None
+        if recorder is None:
+            self.defects.guard(finish_activity)
+            return
+        self.out.say(no_recording())
+
+        def tell(status: RecorderStatus) -> None:
+            if status.words:
+                self.out.say(Notice(text=f"Recording {name}: {status.words}"))
+            self.defects.guard(finish_activity)
+            if then:
+                then(name, status)
+
+        self.takes.finish(recorder, tell)
+
+    def start_run(self) -> None:
+        """Starts the present run, which has not ticked yet."""
+        self.pump = Pump(self.run, self.out)
+        self.pump.compare(self.compare)
+        self.hand.take(self.run.loop.device, self.run.pose)
+        self.arm()
+        self.out.say(no_fault())
+        self.activities.tell_idle()
+        self.out.say(scene_message(self.run, self.pump.laws(), new_run=True))
+        self.run.start()
+        self.watch()
+
+    def turn(self) -> None:
+        """Sends all ticks that wait to the pages and to the activity."""
+        self.activities.ticks(self.pump.turn())

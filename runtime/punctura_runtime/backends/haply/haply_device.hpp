@@ -1,0 +1,75 @@
+// A Haply Inverse3 behind the Inverse Service: each message to the service has a force, each answer a position.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "punctura/device/device.hpp"
+#include "punctura/model/omni.hpp"
+#include "punctura_runtime/backends/haply/service.hpp"
+#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/os/os.hpp"
+
+namespace punctura::haply {
+
+struct HaplyOptions {
+  std::string url = default_url();
+  std::string device;        ///< its device_id; empty is the first
+  double rate = usual_rate;  ///< Hz, requested; the service's round trip may allow less
+  double max_force = 5;      ///< N. The maker publishes no limit; this is the lowest in public use
+  double stale = 0.015;      ///< s: timeout of an answer
+  double no_grip = 0.25;     ///< s for which a grip may be missing from the answers
+  bool real_time = true;     ///< false: as fast as answers come, on a clock of its own
+  os::RealtimeSettings realtime{};
+  std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< the clock that measures the rate; tests replace it
+};
+
+class HaplyDevice : public Device {
+ public:
+  /// Connects, determines the format of the force, and measures the rate of the service. Throws DeviceError.
+  explicit HaplyDevice(HaplyOptions options);
+  ~HaplyDevice() override { stop(); }
+
+  const DeviceInfo& info() const noexcept override { return info_; }
+  void start(Tick tick) override;
+  void stop() noexcept override;
+  std::string trouble() const override;
+  std::vector<std::string> statements() const override;
+
+ private:
+  /// Why ticks have ended.
+  enum class Trouble : std::uint8_t {
+    none,
+    no_answer,
+    closed,
+    not_json,
+    broken,
+    too_big,
+    failed,
+    gone,
+    no_position,
+    unready,
+    no_grip
+  };
+
+  void open();
+  double measured_rate();
+  void run(Tick tick) noexcept;
+  Trouble next(const Tick::Force& force) noexcept;
+  Trouble read(DeviceSample& sample) noexcept;
+  Vector bounded(const Tick::Force& force) const noexcept;
+
+  HaplyOptions options_;
+  Url url_;
+  DeviceInfo info_;
+  Service service_;
+  bool paced_ = true, was_in_use_ = false;
+  double fastest_ = unknown;                     ///< round trips a second
+  std::uint64_t gripless_ = 0;                   ///< answers in a row without a grip
+  std::atomic<Trouble> trouble_{Trouble::none};  ///< once it is not `none`, close_reason() may be read
+  TickingThread thread_;
+};
+
+}  // namespace punctura::haply

@@ -1,0 +1,146 @@
+// The whole tick, gate and limits included, around laws of another author.
+#include <doctest/doctest.h>
+
+#include "../support/allocations.hpp"
+#include "../support/cut_law.hpp"
+#include "../support/paper_scene.hpp"
+#include "punctura/proxy/mixed_law.hpp"
+#include "punctura/scene/build.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+using Mixed = MixedLaw<ThickLaw, CutLaw>;
+using OwnStep = ServoStepOf<InsertionOf<Mixed>>;
+
+/// The wall of K06 at y = 0, and 4 mm behind it the membrane that remembers its cut.
+Scene wall_and_cut(double stiffness = 570) {
+  Scene scene = paper_scene(1e-3);
+  scene.membranes[0].membrane.stiffness = stiffness;
+  scene.membranes.push_back({"cut", paper_membrane(1e-3), {0, -4e-3, 0}, {0, -1, 0}});
+  return scene;
+}
+Mixed own_law(const Needle& needle, const Membrane& membrane, std::size_t i) {
+  return i == 0 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
+}
+static_assert(std::same_as<decltype(build<double>(Scene{}, own_law)), OwnStep>);
+static_assert(std::same_as<ServoStepOf<Insertion>, ServoStep>);
+static_assert(noexcept(std::declval<OwnStep&>().step(std::declval<const DeviceSample&>())) &&
+              noexcept(std::declval<OwnStep&>().resume(std::declval<OwnStep&>())));
+
+double cut_of(const OwnStep& step) {
+  const auto& memory = step.insertion().proxies()[1].state().law;
+  const auto* cut = std::get_if<1>(static_cast<const Mixed::Memory::Each*>(&memory));
+  return cut ? cut->cut : 0;
+}
+
+/// A hand that moves along y at 20 mm/s, one healthy sample a tick. No tick may take memory.
+struct Driver {
+  double y = 2e-3;
+  std::uint64_t k = 0;
+
+  template <typename Check>
+  Snapshot move_to(OwnStep& step, double goal, Check check) {
+    Snapshot last{};
+    do {
+      y += std::clamp(goal - y, -20e-3 / 1600, 20e-3 / 1600);
+      const auto before = allocations();
+      const Snapshot& s = step.step(reading(k++, y));
+      REQUIRE(allocations() == before);
+      check(s);
+      last = s;
+    } while (y != goal);
+    return last;
+  }
+  Snapshot move_to(OwnStep& step, double goal) {
+    return move_to(step, goal, [](const Snapshot&) {});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
+  OwnStep step = build<double>(wall_and_cut(), own_law);
+  auto model = build_insertion<double>(wall_and_cut(), own_law);
+  Driver hand;
+
+  // disarmed: the model runs, the device gets nothing
+  hand.move_to(step, 1e-3, [&](const Snapshot& s) {
+    model.step(vector(s.sample.position), vector(s.sample.axis));
+    CHECK(s.force == std::array<double, 3>{});
+  });
+
+  // armed: the force is the model's share by the ramp, then the model's own
+  step.arm();
+  int ramped = 0;
+  Snapshot last = hand.move_to(step, -10e-3, [&](const Snapshot& s) {
+    const Vector3d force = model.step(vector(s.sample.position), vector(s.sample.axis));
+    REQUIRE(vector(s.model_force) == force);
+    REQUIRE(std::abs(s.force[1]) <= std::abs(s.model_force[1]));
+    ramped += s.limit == Limit::ramp;
+  });
+  CHECK(ramped > 100);
+  CHECK(last.state == ServoState::active);
+  CHECK(last.force == last.model_force);
+  CHECK(last.membranes[1].axial_force == doctest::Approx(-1));  // what CutLaw gives
+  CHECK(last.membrane_count == 2);
+
+  // another scene while the hand holds on: the cut stays, and the force does not jump
+  const double cut = cut_of(step);
+  CHECK(cut > 3e-3);
+  OwnStep next = build<double>(wall_and_cut(300), own_law);
+  next.resume(step);
+  CHECK(cut_of(next) == cut);
+  const Snapshot first = hand.move_to(next, hand.y);
+  CHECK(first.commands == command_scene);
+  CHECK(std::abs(first.force[1] - last.force[1]) < 1e-3);
+  CHECK(std::abs(first.model_force[1] - last.model_force[1]) > 0.05);
+  for (int k = 0; k < 400; ++k) hand.move_to(next, hand.y);
+  CHECK(next.snapshot().force == next.snapshot().model_force);
+
+  // a fault is latched; reset forgets the cut, too, and is disarmed
+  DeviceSample broken = reading(hand.k++, hand.y);
+  broken.healthy = false;
+  CHECK(next.step(broken).fault == Fault::device);
+  last = hand.move_to(next, -9e-3, [](const Snapshot& s) { CHECK(s.force == std::array<double, 3>{}); });
+  CHECK(last.state == ServoState::faulted);
+  next.reset();
+  CHECK(cut_of(next) == 0);
+  CHECK(next.state() == ServoState::disarmed);
+
+  // armed in the tissue: no force before the tip has been outside
+  next.arm();
+  hand.move_to(next, 2e-3, [](const Snapshot& s) {
+    CHECK((s.state == ServoState::waiting || s.membranes[0].phase == Phase::outside));
+  });
+  CHECK(next.state() == ServoState::active);
+  last = hand.move_to(next, -10e-3);
+  CHECK(last.membranes[1].axial_force == doctest::Approx(-1));
+  CHECK(last.force[1] > 1);
+}
+
+TEST_CASE("a peak limit acts on the force of an own law") {
+  ForceLimits limits;
+  limits.max_force = 0.5;
+  OwnStep step = build<double>(wall_and_cut(), own_law, {}, limits);
+  step.arm();
+  Driver hand;
+  const Snapshot last = hand.move_to(step, -10e-3);
+  CHECK(last.model_force[1] > 1);
+  CHECK(std::hypot(last.force[0], last.force[1], last.force[2]) == doctest::Approx(0.5));
+  CHECK(last.limits.peak > 0);
+}
+
+TEST_CASE("problems of scene and limits are returned, with an own law as with K06's") {
+  Scene scene = wall_and_cut(-1);
+  ForceLimits limits;
+  limits.max_force = 0;
+  std::vector<Problem> problems;
+  CHECK(!try_build<double>(scene, problems, own_law, {}, limits));
+  REQUIRE(problems.size() == 2);
+  CHECK(problems[0].path == "membrane[0].stiffness");
+  CHECK(problems[1].path == "limits.max_force");
+  CHECK_THROWS_AS(build<double>(scene, own_law), SceneError);
+}

@@ -1,0 +1,22 @@
+// A law with memory, as another author may write one: it remembers the deepest point cut.
+#pragma once
+
+#include "punctura/model/law.hpp"
+
+namespace punctura::test {
+
+struct Cut {
+  double cut = 0;  ///< the deepest point, m
+};
+/// One newton to cut further than the deepest point cut so far; nothing in the hole.
+struct CutLaw {
+  using Scalar = double;
+  using Memory = Cut;
+  PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
+    return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
+  }
+  PiecewiseBand<double, 3> pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
+  bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
+};
+
+}  // namespace punctura::test

@@ -1,9 +1,0 @@
-// The parsers of the Inverse Service's messages under libFuzzer: tools/fuzz_inverse.sh.
-#include <cstdint>
-
-#include "fuzz/inverse_inputs.hpp"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  punctura::test::read_anything({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

@@ -1,0 +1,124 @@
+"""The Inverse3 back-end against a service whose WebSocket is the library websockets, not ours."""
+
+import importlib.util
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from punctura import _core
+from waiting import wait_until
+
+FAKES = Path(__file__).parents[2] / "fakes"
+
+
+def _load(name):
+    spec = importlib.util.spec_from_file_location(name, FAKES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+fake = _load("inverse_service")
+
+
+@pytest.mark.parametrize(("version", "takes"), [("3.5.2", "vector"), ("3.4.1", "values"), ("4.0.0", "vector")])
+def test_each_generation_of_the_protocol_is_opened_with_its_own_key(version, takes):
+    service = fake.InverseService(version, takes, strict=True)
+    with fake.Running(service) as url:
+        device = _core.open_device("haply", library=url)
+        assert device.info.model == "Inverse3"
+        assert device.info.serial == "049D"
+        assert device.info.has_orientation
+        assert 0 < device.info.rate <= 1600
+        del device
+        assert service.idle.wait(5)
+    first = service.messages[0]
+    assert ("session" in first) == (takes == "vector")
+    largest = max(
+        abs(force[axis])
+        for message in service.messages
+        for arm in message["inverse3"]
+        for force in arm.get("commands", {}).get("set_cursor_force", {}).values()
+        for axis in "xyz"
+    )
+    assert largest <= 0.05  # nobody feels that it was opened
+
+
+@pytest.mark.parametrize("strict", [True, False])
+def test_a_service_that_wants_the_other_key_is_refused_in_words(strict):
+    with fake.Running(fake.InverseService("3.5.0", "values", strict=strict)) as url:
+        words = "takes 'values'" if strict else "did not take a force by"
+        with pytest.raises(_core.DeviceError, match=words):
+            _core.open_device("haply", library=url)
+
+
+@pytest.mark.parametrize("fault", ["removed", "silent", "garbled", "oversized"])
+def test_after_a_fault_the_arm_is_idle_and_the_trouble_is_in_words(fault):
+    service = fake.InverseService()
+    with fake.Running(service) as url:
+        device = _core.open_device("haply", library=url)
+        loop = _core.ServoLoop(device, paper_scene())
+        loop.start()
+        wait_until(lambda: loop.report()["ticks"] > 20 or device.trouble())
+        setattr(service, fault, True)
+        wait_until(lambda: device.trouble())
+        assert service.idle.wait(5)
+        assert service.arm.force == [0, 0, 0]
+        loop.stop()
+
+
+def test_after_a_stop_it_is_the_same_arm_again_or_none():
+    service = fake.InverseService()
+    with fake.Running(service) as url:
+        device = _core.open_device("haply", library=url)
+        loop = _core.ServoLoop(device, paper_scene())
+        for _ in range(2):
+            loop.start()
+            wait_until(lambda: loop.report()["ticks"] > 0 and loop.latest()["sequence"][0] > 20)
+            assert loop.latest()["fault"][0] == 0
+            loop.stop()
+        service.id = "BEEF"
+        with pytest.raises(_core.DeviceError, match="049D"):
+            loop.start()
+        assert service.idle.wait(5)
+
+
+def paper_scene():
+    from punctura import Coupling, Membrane, Needle, PlacedMembrane, Scene
+
+    wall = PlacedMembrane("wall", Membrane(570, 0.41, 0.2, 1e-3), [0, 0, 0], [0, -1, 0])
+    return Scene("K06", Needle(1.08e-3, 0.28), Coupling(400, 1), [wall])
+
+
+def test_the_list_of_devices_says_what_the_service_has(monkeypatch):
+    def haply():
+        return next(status for status in _core.enumerate_devices() if status["backend"] == "haply")
+
+    service = fake.InverseService()
+    with fake.Running(service) as url:
+        monkeypatch.setenv("PUNCTURA_INVERSE_URL", url)
+        assert haply()["state"] == "available"
+        assert haply()["devices"] == ["049D"]
+        service.removed = True
+        assert haply()["state"] == "no_device"
+        service.missing = frozenset({"inverse3", "wireless_verse_grip"})
+        assert haply()["state"] == "no_device"
+        assert not service.messages  # it only looked
+    assert haply()["state"] == "library_not_found"
+    assert url in haply()["detail"]
+
+
+def test_the_simulated_service_keeps_to_the_contract_of_one_state_a_message():
+    from websockets.sync.client import connect
+
+    with fake.Running(fake.InverseService(persists=60)) as url, connect(url, compression=None) as client:
+        assert "config" in json.loads(client.recv())["inverse3"][0]
+        with pytest.raises(TimeoutError):
+            client.recv(timeout=0.05)
+        for _ in range(5):
+            client.send("{}")
+            assert "config" not in json.loads(client.recv())["inverse3"][0]
+        with pytest.raises(TimeoutError):
+            client.recv(timeout=0.05)

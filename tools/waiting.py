@@ -1,0 +1,22 @@
+"""Waits for a condition, with an end: for tests and tools."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+T = TypeVar("T")
+
+PATIENCE_S = 120.0  # long enough for a busy computer
+POLL_S = 1e-3
+
+
+def wait_until(condition: Callable[[], T], seconds: float = PATIENCE_S, poll: float = POLL_S) -> T:
+    """Returns what `condition` returns as soon as that is true. Raises TimeoutError after `seconds`."""
+    end = time.monotonic() + seconds
+    while not (found := condition()):
+        if time.monotonic() > end:
+            raise TimeoutError(f"the condition did not become true within {seconds:g} s")
+        time.sleep(poll)
+    return found

@@ -1,0 +1,59 @@
+import type { Source } from "../../state/source.ts";
+import type { MembraneEvent } from "../../wire/messages.ts";
+
+const SLIDING_IN = 2;
+const SLIDING_OUT = 3;
+const WINDOW_TICKS = 40; // 25 ms at 1600 Hz
+const LATE_TICKS = 800; // an event may come a little after its tick
+
+/** What can be heard and felt of a source as its shown tick goes on: dry friction, and pops. */
+export class Felt {
+  private source: Source | null = null;
+  private generation = -1;
+  private last = -1;
+  private readonly known = new Set<string>();
+
+  /** Power that dry friction takes in the shown tick, W: force times the speed of the proxy in the tissue. */
+  power(source: Source): number {
+    const tick = source.shown();
+    const { history } = source;
+    if (tick === null) return 0;
+    const from = Math.max(history.first, tick - WINDOW_TICKS);
+    const seconds = history.timeOf(tick) - history.timeOf(from);
+    if (!(seconds > 0)) return 0;
+    const phase = history.byteRow("phase", tick);
+    const depth = history.row("depth", tick);
+    const before = history.row("depth", from);
+    const force = history.row("axial_force", tick);
+    let sum = 0;
+    for (let i = 0; i < history.membranes; i++) {
+      if (phase[i] !== SLIDING_IN && phase[i] !== SLIDING_OUT) continue;
+      const power = Math.abs((force[i]! * (depth[i]! - before[i]!)) / seconds);
+      if (Number.isFinite(power)) sum += power;
+    }
+    return sum;
+  }
+
+  /** The pops since the last call. None after a jump to another place, or another run. */
+  pops(source: Source): MembraneEvent[] {
+    const tick = source.shown();
+    if (tick === null) return [];
+    const events = source.events.value;
+    const { generation } = source.history;
+    const jumped = source !== this.source || generation !== this.generation || tick < this.last;
+    if (jumped) this.known.clear();
+    const found: MembraneEvent[] = [];
+    for (let i = events.length - 1; i >= 0; i--) {
+      const event = events[i]!;
+      if (event.tick < tick - LATE_TICKS) break;
+      const key = `${event.tick} ${event.membrane} ${event.what}`;
+      if (event.tick > tick || event.what !== "pop" || this.known.has(key)) continue;
+      this.known.add(key);
+      if (!jumped) found.push(event);
+    }
+    this.source = source;
+    this.generation = generation;
+    this.last = tick;
+    return found;
+  }
+}

@@ -1,0 +1,56 @@
+import { firstGamepad, rumble, Sticks } from "../../hand/gamepad.ts";
+import type { Hand } from "../../hand/hand.ts";
+import { element, everyFrame } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import { Felt } from "./felt.ts";
+import { Sound } from "./sound.ts";
+
+/** Gamepad and sound; sound also works for recordings. */
+export function senseRows(app: App, hand: Hand): HTMLElement {
+  const sound = new Sound();
+  const felt = new Felt();
+  const sticks = new Sticks(hand);
+  const pad = element("output", { class: "pad-name" });
+  const loud = element("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.6, "aria-label": "Loudness" });
+  const toggle = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Sound is off");
+  loud.addEventListener("input", () => {
+    sound.loudness = Number(loud.value);
+  });
+  const show = (): void => {
+    toggle.setAttribute("aria-pressed", String(sound.on));
+    toggle.textContent = sound.on ? "Sound is on" : "Sound is off";
+  };
+  toggle.addEventListener("click", () => {
+    const done = sound.on ? sound.switchOff() : sound.switchOn();
+    void done.then(show, () => app.say("This browser gives the page no sound."));
+  });
+
+  let before = performance.now();
+  let name = "";
+  everyFrame((now) => {
+    const seconds = Math.min(0.1, (now - before) / 1000);
+    before = now;
+    const source = app.source.value;
+    const found = firstGamepad();
+    if (found) sticks.lead(found, seconds);
+    for (const pop of felt.pops(source)) {
+      sound.click(pop.drop);
+      if (found) rumble(found, pop.drop);
+    }
+    if (sound.on) sound.setFriction(source.cursor.value === null || !source.live ? felt.power(source) : 0);
+    const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press one of its buttons";
+    if (words === name) return;
+    name = words;
+    pad.textContent = words;
+    pad.title = found
+      ? "Left stick: along the needle, to the side. Right stick: tilt, nearer. It vibrates at a pop."
+      : "";
+  });
+  return element(
+    "section",
+    { class: "rows" },
+    element("h3", {}, "Sound and gamepad"),
+    element("div", { class: "row" }, toggle, loud),
+    element("div", { class: "row" }, element("span", {}, "Gamepad"), pad),
+  );
+}

@@ -1,0 +1,81 @@
+const LOUD_WATT = 0.012; // friction of half a newton at 25 mm/s
+const FOLLOW_S = 0.03;
+const CLICK_S = 0.09;
+const FULL_DROP = 0.5; // N
+
+/**
+ * Friction as noise, as loud as the power that it takes; a pop as a click, as loud as its drop. Made when first
+ * switched on.
+ */
+export class Sound {
+  private context: AudioContext | null = null;
+  private friction: GainNode | null = null;
+  private tone: BiquadFilterNode | null = null;
+  private master: GainNode | null = null;
+  private noise: AudioBuffer | null = null;
+  private volume = 0.6;
+
+  get on(): boolean {
+    return this.context?.state === "running";
+  }
+
+  /** From a click only: browsers let no page sound by itself. */
+  async switchOn(): Promise<void> {
+    if (!this.context) this.make();
+    await this.context?.resume();
+  }
+  async switchOff(): Promise<void> {
+    await this.context?.suspend();
+  }
+
+  /** 0 to 1. */
+  set loudness(volume: number) {
+    this.volume = volume;
+    if (this.master && this.context) this.master.gain.setTargetAtTime(volume ** 2, this.context.currentTime, FOLLOW_S);
+  }
+
+  private make(): void {
+    const context = new AudioContext();
+    const noise = context.createBuffer(1, 2 * context.sampleRate, context.sampleRate);
+    const samples = noise.getChannelData(0);
+    for (let i = 0; i < samples.length; i++) samples[i] = 2 * Math.random() - 1;
+    this.master = new GainNode(context, { gain: this.volume ** 2 });
+    this.tone = new BiquadFilterNode(context, { type: "bandpass", frequency: 700, Q: 0.7 });
+    this.friction = new GainNode(context, { gain: 0 });
+    const source = new AudioBufferSourceNode(context, { buffer: noise, loop: true });
+    source.connect(this.tone).connect(this.friction).connect(this.master).connect(context.destination);
+    source.start();
+    this.context = context;
+    this.noise = noise;
+  }
+
+  /** power: W. */
+  setFriction(power: number): void {
+    if (!this.context || !this.friction || !this.tone) return;
+    const loud = Math.min(1, power / LOUD_WATT) ** 0.6;
+    this.friction.gain.setTargetAtTime(0.5 * loud, this.context.currentTime, FOLLOW_S);
+    this.tone.frequency.setTargetAtTime(500 + 1300 * loud, this.context.currentTime, FOLLOW_S);
+  }
+
+  /** drop: N. */
+  click(drop: number): void {
+    if (!this.context || !this.noise || !this.master || !this.on) return;
+    const now = this.context.currentTime;
+    const loud = 0.25 + 0.75 * Math.min(1, Math.abs(drop) / FULL_DROP);
+    const burst = new AudioBufferSourceNode(this.context, { buffer: this.noise });
+    const body = new BiquadFilterNode(this.context, { type: "lowpass", frequency: 1800 });
+    const fade = new GainNode(this.context, { gain: loud });
+    fade.gain.setValueAtTime(loud, now);
+    fade.gain.exponentialRampToValueAtTime(0.001, now + CLICK_S);
+    burst.connect(body).connect(fade).connect(this.master);
+    burst.start(now, Math.random());
+    burst.stop(now + CLICK_S);
+    const thump = new OscillatorNode(this.context, { frequency: 150 });
+    const low = new GainNode(this.context, { gain: 0.7 * loud });
+    low.gain.exponentialRampToValueAtTime(0.001, now + CLICK_S);
+    thump.frequency.exponentialRampToValueAtTime(60, now + CLICK_S);
+    thump.connect(low).connect(this.master);
+    thump.start(now);
+    thump.stop(now + CLICK_S);
+  }
+}

@@ -1,0 +1,161 @@
+import type { Triple } from "../engine/engine.ts";
+import type { App } from "../state/app.ts";
+import { onePerApp } from "../state/one_per_app.ts";
+import { Signal } from "../state/signal.ts";
+import type { HandPose } from "../wire/messages.ts";
+import { aiming, heightOver } from "./aim.ts";
+import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
+
+const FARTHEST = 0.25; // m from the scene's origin: nobody means more
+const STEEPEST = 1.3; // rad from the normal: the model takes no flatter entry than 80 degrees
+
+export interface Pose {
+  readonly position: Triple;
+  readonly axis: Triple;
+}
+
+const poseOf = ({ position: [x = 0, y = 0, z = 0], axis: [a = 0, b = -1, c = 0] }: HandPose): Pose => ({
+  position: [x, y, z],
+  axis: unit([a, b, c]),
+});
+
+/** The simulated hand as this page moves it: its target, m, and the direction of the needle. */
+export class Hand {
+  /** The target from this page; null while something else moves the hand. */
+  readonly target = new Signal<Pose | null>(null);
+  /** Why this page cannot move the hand, in words; null if it can. */
+  readonly barred = new Signal<string | null>("The studio is not connected yet.");
+
+  constructor(private readonly app: App) {
+    const look = (): void => {
+      this.barred.value = this.reason();
+      if (this.barred.value) this.target.value = null;
+    };
+    app.hello.watch(look);
+    let you = false;
+    app.control.watch((control) => {
+      look();
+      // A page that gets control continues from the hand, which may be ahead of the needle in tissue.
+      if (control.you && !you && control.hand && !this.barred.value) this.target.value = poseOf(control.hand);
+      you = control.you;
+    });
+    app.connection.watch(look);
+    app.source.watch(look);
+    // A new run begins at the pose that the server chooses.
+    app.run.watch(() => {
+      this.target.value = null;
+    });
+    app.status.watch((status) => {
+      if (status && (status.hand === "strokes" || status.hand === "motion") && !this.fresh) this.target.value = null;
+    });
+  }
+  private touched = Number.NEGATIVE_INFINITY;
+  /** A status message sent before this page moved the hand must not undo that. */
+  private get fresh(): boolean {
+    return performance.now() - this.touched < 600;
+  }
+
+  /** The number of the live run: keys and sticks held since an earlier run do not count. */
+  get run(): number {
+    return this.app.run.value;
+  }
+
+  private reason(): string | null {
+    const { connection, hello, control, source } = this.app;
+    if (connection.value.state !== "open" || !hello.value) return "The studio is not connected.";
+    if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
+    if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
+    if (!control.value.you) return "Another page has control.";
+    return null;
+  }
+
+  /** The present target, or else the pose of the needle. */
+  pose(): Pose | null {
+    if (this.target.value) return this.target.value;
+    const { history } = this.app.live;
+    if (history.length === 0) return null;
+    const tick = history.end - 1;
+    const [x = 0, y = 0, z = 0] = history.row("position", tick);
+    const axis = history.row("axis", tick);
+    return { position: [x, y, z], axis: unit([axis[0] ?? 0, axis[1] ?? -1, axis[2] ?? 0]) };
+  }
+
+  moveTo(position: Triple, axis?: Triple): void {
+    const now = this.pose();
+    if (this.barred.value || !now || !position.every(Number.isFinite)) return;
+    const away = length(position);
+    const to: Pose = {
+      position: away > FARTHEST ? scaled(position, FARTHEST / away) : position,
+      axis: axis ?? now.axis,
+    };
+    this.touched = performance.now();
+    this.target.value = to;
+    this.app.engine.target(this.run, to.position, to.axis);
+  }
+
+  /** Gives up the target: something else moves the hand now. */
+  release(): void {
+    this.touched = Number.NEGATIVE_INFINITY;
+    this.target.value = null;
+  }
+  /** Makes the present pose of the needle the target. */
+  hold(): void {
+    this.release();
+    const now = this.pose();
+    if (now) this.moveTo(now.position, now.axis);
+  }
+
+  /** Moves along the needle, m; positive is inward. */
+  push(depth: number): void {
+    const now = this.pose();
+    if (now) this.moveTo(add(now.position, scaled(now.axis, depth)));
+  }
+
+  moveBy(step: Triple): void {
+    const now = this.pose();
+    if (now) this.moveTo(add(now.position, step));
+  }
+
+  /** rad between the needle and the first membrane's inward normal, leaning along +x; 0 before the first tick. */
+  tilt(): number {
+    const now = this.pose();
+    return now ? tiltOf(now.axis, this.normal()) : 0;
+  }
+  /**
+   * In tissue the needle turns about its tip. In front of it, it aims at the middle of the scene and keeps its
+   * height.
+   */
+  setTilt(angle: number): void {
+    const now = this.pose();
+    if (!now) return;
+    const axis = tilted(Math.max(-STEEPEST, Math.min(STEEPEST, angle)), this.normal());
+    const scene = this.app.live.scene.value;
+    const before = scene ? heightOver(scene, now.position) : 0;
+    this.moveTo(scene && before > 0 ? aiming(scene, axis, before) : now.position, axis);
+  }
+
+  /** Moves in front of the first membrane, `height` (m) away, aiming at the middle of the scene. */
+  home(height = 0.005): void {
+    const now = this.pose();
+    const scene = this.app.live.scene.value;
+    if (now && scene) this.moveTo(aiming(scene, now.axis, height));
+  }
+
+  normal(): Triple {
+    return this.app.live.scene.value?.membranes[0]?.inward_normal ?? [0, -1, 0];
+  }
+  /** The direction in the first surface towards which the needle leans. */
+  side(): Triple {
+    return alongSkin(this.normal());
+  }
+  /** The distance from the tip to the target, m; null without a target. */
+  lag(): number | null {
+    const { history } = this.app.live;
+    if (!this.target.value || history.length === 0) return null;
+    const [x = 0, y = 0, z = 0] = history.row("tip", history.end - 1);
+    return length(sub(this.target.value.position, [x, y, z]));
+  }
+}
+
+/** The hand of this page; there is one per app. */
+export const handOf = onePerApp((app) => new Hand(app));

@@ -1,0 +1,48 @@
+import type { Hand } from "../hand/hand.ts";
+import { scaled } from "../hand/vectors.ts";
+import type { OrbitCamera } from "./camera.ts";
+
+const STEP = 0.25e-3; // m
+const LONG = 4;
+const TURN = Math.PI / 90;
+
+/** The keys and what they do, for the list on the page. */
+export const KEYS: readonly (readonly [keys: string, what: string])[] = [
+  ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
+  ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
+  ["Q E", "tilt by 2°"],
+  ["Home", "in front of the first membrane, aiming at the middle"],
+  ["+ −", "nearer, farther"],
+  ["A D W S", "go round the scene"],
+];
+
+/** Handles keys while the view has the focus. */
+export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
+  let run = hand.run; // in which the last key was pressed
+  canvas.addEventListener("keydown", (event) => {
+    if (!event.repeat) run = hand.run;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = STEP * (event.shiftKey ? LONG : 1);
+    const actions: Readonly<Record<string, () => void>> = {
+      ArrowDown: () => hand.push(step),
+      ArrowUp: () => hand.push(-step),
+      ArrowLeft: () => hand.moveBy(scaled(hand.side(), -step)),
+      ArrowRight: () => hand.moveBy(scaled(hand.side(), step)),
+      q: () => hand.setTilt(hand.tilt() - TURN),
+      e: () => hand.setTilt(hand.tilt() + TURN),
+      Home: () => hand.home(),
+      "+": () => orbit.zoom(1.15),
+      "=": () => orbit.zoom(1.15),
+      "-": () => orbit.zoom(1 / 1.15),
+      a: () => orbit.orbit(-12, 0),
+      d: () => orbit.orbit(12, 0),
+      w: () => orbit.orbit(0, 12),
+      s: () => orbit.orbit(0, -12),
+    };
+    const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act) return;
+    event.preventDefault();
+    // A key held since an earlier run must be released first.
+    if (!event.repeat || run === hand.run) act();
+  });
+}
