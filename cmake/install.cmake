@@ -1,6 +1,6 @@
 # Installs the headers of core and, where it is built, the runtime: find_package(punctura) gives punctura::punctura,
 # find_package(punctura COMPONENTS runtime) gives punctura::loop and punctura::runtime as well.
-include(GNUInstallDirs)
+# A wheel has the headers of both, but no compiled runtime: a static library of one compiler's may not link with another's.
 include(CMakePackageConfigHelpers)
 
 set(punctura_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/punctura)
@@ -9,9 +9,11 @@ set(PUNCTURA_HAS_RUNTIME OFF)
 install(DIRECTORY core/punctura DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS punctura EXPORT punctura)
 if(TARGET punctura_runtime)
+  install(DIRECTORY runtime/punctura_runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+endif()
+if(TARGET punctura_runtime AND NOT PUNCTURA_PYTHON)
   set(architecture "")
   set(PUNCTURA_HAS_RUNTIME ON)
-  install(DIRECTORY runtime/punctura_runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
   install(TARGETS punctura_loop punctura_runtime EXPORT punctura)
 endif()
 install(EXPORT punctura NAMESPACE punctura:: FILE punctura-targets.cmake DESTINATION ${punctura_config_dir})

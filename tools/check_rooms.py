@@ -27,6 +27,7 @@ ROOMS = (
     "python/bindings",
     "python/punctura/restore.py",
     "python/punctura/errors.py",
+    "python/punctura/paths.py",
     "python/punctura/files",
     "python/punctura/ticks",
     "python/punctura/scene",

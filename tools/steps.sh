@@ -113,8 +113,8 @@ step_tsan() {
   $run
 }
 
-# An external project in three ways: with the core installed, with core and runtime installed, with Punctura as a
-# subfolder.
+# An external project: with the core installed, with core and runtime installed, with the Python package, and with
+# Punctura as a subfolder.
 step_consumer() {
   local way prefix=$root/build/consumer/prefix
   rm -rf build/consumer
@@ -122,8 +122,9 @@ step_consumer() {
     compile dev && cmake --install build/dev --prefix "$prefix/runtime" &&
     use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
     use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON &&
+    use_it from-wheel -Dpunctura_DIR="$(punctura paths --cmake)" &&
     use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON || return
-  for way in from-core from-runtime subfolder; do "build/consumer/$way/consumer" || return; done
+  for way in from-core from-runtime from-wheel subfolder; do "build/consumer/$way/consumer" || return; done
   for way in from-runtime subfolder; do "build/consumer/$way/own_device" || return; done
   build/consumer/from-runtime/devices
 }

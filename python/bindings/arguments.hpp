@@ -12,6 +12,8 @@ namespace punctura::bindings {
 /// "; did you mean friction?", or empty if no word is similar.
 std::string nearest(const std::string& word, const nb::list& words);
 
+inline constexpr const char* three_numbers = "Sequence[float]";  ///< in messages; a _Vector in the stub
+
 struct Argument {
   const char* name;
   const char* type;        ///< in the notation of type hints
@@ -51,7 +53,8 @@ void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...),
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
   std::string parameters;
   for (const Argument& a : wanted)
-    parameters += std::string(", ") + a.name + ": " + a.type + (a.otherwise ? " = ..." : "");
+    parameters += std::string(", ") + a.name + ": " + (a.type == std::string(three_numbers) ? "_Vector" : a.type) +
+                  (a.otherwise ? " = ..." : "");
   const std::string signature = "def __init__(self" + parameters + ") -> None";
   cls.def(
       "__init__",

@@ -47,12 +47,7 @@ Input input(const nb::object& array_like);
 Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);
 using Triple = std::array<double, 3>;
-
-/// A vector argument of a call. A NumPy vector is read as a buffer, not element by element.
-struct Point {
-  Triple numbers;
-  Vector3d vector() const noexcept { return Vector3d(numbers); }
-};
+bool is_numpy_array(nb::handle object) noexcept;  ///< false for a subclass of numpy.ndarray
 
 /// Passes a buffer to NumPy without a copy, in the given shape.
 template <typename T>
@@ -93,6 +88,12 @@ struct GivenTableLaw : TableLaw {
   std::vector<double> depth, lower, upper;
 };
 
+/// format: of Python's str.format, with the object as {0}: "<{0.__class__.__name__} of {0.scene.name!r}>".
+template <typename T, typename... Options>
+void def_repr(nb::class_<T, Options...>& cls, const char* format) {
+  cls.def("__repr__", [format](nb::handle self) { return nb::str(nb::str(format).attr("format")(self)); });
+}
+
 /// All problems of a needle, a membrane, and their combination.
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
 /// Throws punctura.ConfigurationError with all problems, if there are any.
@@ -109,19 +110,17 @@ Vector3d unit(const Triple& direction, const std::string& path);
 
 }  // namespace punctura::bindings
 
+/// Three numbers. A NumPy vector is read at once, not element by element; stub_patterns.txt says what _Vector is.
 template <>
-struct nanobind::detail::type_caster<punctura::bindings::Point> {
-  NB_TYPE_CASTER(punctura::bindings::Point,
-                 const_name("Sequence[float] | numpy.typing.NDArray[numpy.floating | numpy.integer]"))
+struct nanobind::detail::type_caster<punctura::bindings::Triple>
+    : nanobind::detail::array_caster<punctura::bindings::Triple, double, 3> {
+  static constexpr auto Name = io_name("_Vector", "list[float]");
 
-  bool from_python(handle from, std::uint8_t flags, cleanup_list* cleanup) noexcept {
+  bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
     // Only a plain ndarray: the buffer of a subclass, such as a masked array, may not hold its element values.
-    if (std::strcmp(Py_TYPE(from.ptr())->tp_name, "numpy.ndarray") == 0 && read_buffer(from.ptr())) return true;
+    if (punctura::bindings::is_numpy_array(from) && read_buffer(from.ptr())) return true;
     if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;
-    make_caster<punctura::bindings::Triple> triple;
-    if (!triple.from_python(from, flags, cleanup)) return false;
-    value.numbers = triple.value;
-    return true;
+    return array_caster::from_python(from, flags, cleanup);
   }
 
  private:
@@ -136,8 +135,7 @@ struct nanobind::detail::type_caster<punctura::bindings::Point> {
         view.ndim == 1 && view.shape[0] == 3 && view.format != nullptr && view.format[0] == 'd' && view.format[1] == 0;
     if (fits)
       for (std::size_t i = 0; i < 3; ++i)
-        std::memcpy(&value.numbers[i],
-                    static_cast<const char*>(view.buf) + static_cast<std::ptrdiff_t>(i) * view.strides[0],
+        std::memcpy(&value[i], static_cast<const char*>(view.buf) + static_cast<std::ptrdiff_t>(i) * view.strides[0],
                     sizeof(double));
     PyBuffer_Release(&view);
     return fits;

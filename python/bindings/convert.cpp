@@ -10,6 +10,18 @@ Input input(const nb::object& array_like) {
   return nb::cast<Input>(numpy.attr("ascontiguousarray")(array_like, numpy.attr("float64")));
 }
 
+bool is_numpy_array(nb::handle object) noexcept {
+  // Never freed. The stable ABI tells a type by its address only, without a string made for each call.
+  static const PyObject* const type = []() noexcept -> PyObject* {
+    try {
+      return nb::object(nb::module_::import_("numpy").attr("ndarray")).release().ptr();
+    } catch (const nb::python_error&) {
+      return nullptr;
+    }
+  }();
+  return reinterpret_cast<PyObject*>(Py_TYPE(object.ptr())) == type;
+}
+
 Input input_1d(const nb::object& array_like, const char* name) {
   Input array = input(array_like);
   if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must have shape (n,)").c_str());

@@ -156,8 +156,11 @@ void bind_events(nb::module_& m) {
   m.def("crossing", &crossing_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("cos_beta"),
         "The values of punctura.events.Crossing: cosine, depths (m) and force (N). Raises IndexError.");
 
-  nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.")
-      .def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
+  auto finder =
+      nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.");
+  def_repr(finder, "<EventFinder at {0.rate:g} Hz>");
+  finder.def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
+      .def_ro("rate", &BatchFinder::rate, "Ticks a second of a run that does not tell the time, Hz")
       .def(
           "change",
           [](BatchFinder& finder, const Scene& scene) {

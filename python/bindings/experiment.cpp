@@ -17,7 +17,7 @@ class AnyExperiment {
  public:
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
                 const Hand& hand, std::uint64_t seed)
-      : rate_(scene.servo.rate) {
+      : scene_(scene) {
     if (const auto* strokes = std::get_if<Strokes>(&motion)) {
       StrokesMotion laid_out(*strokes, seed);
       duration_ = laid_out.duration();
@@ -30,7 +30,7 @@ class AnyExperiment {
     }
   }
 
-  double rate() const noexcept { return rate_; }
+  const Scene& scene() const noexcept { return scene_; }
   double duration() const noexcept { return duration_; }
 
   void move_to(const Triple& position) {
@@ -39,9 +39,11 @@ class AnyExperiment {
     with_target->motion().move_to(vector(position));
   }
 
+  std::uint64_t ticks() const noexcept { return ticks_; }
+
   nb::object run(double duration) {
     if (!(duration >= 0 && std::isfinite(duration))) throw nb::value_error("duration must be 0 s or more");
-    const auto n = static_cast<std::size_t>(std::llround(duration * rate_));
+    const auto n = static_cast<std::size_t>(std::llround(duration * scene_.servo.rate));
     return std::visit([&](auto& experiment) { return run(experiment, n); }, experiment_);
   }
 
@@ -54,21 +56,26 @@ class AnyExperiment {
     columns.reserve(n, experiment.servo().snapshot().membrane_count);
     make_ticks(n, [&](std::size_t) {
       const Snapshot& snapshot = experiment.step();
+      ++ticks_;
       columns.add(snapshot, experiment.extra());
     });
     return columns.to_ticks();
   }
 
-  double rate_, duration_ = 0;
+  Scene scene_;
+  double duration_ = 0;
+  std::uint64_t ticks_ = 0;
   std::variant<std::monostate, Experiment<StrokesMotion>, Experiment<RecordedMotion>, Experiment<Target>> experiment_;
 };
 
 }  // namespace
 
 void bind_experiment(nb::module_& m) {
-  nb::class_<AnyExperiment>(
+  auto experiment = nb::class_<AnyExperiment>(
       m, "Experiment",
-      "A simulated operator at a simulated device, run through the servo step that drives a real device. K06 section 4")
+      "A simulated operator at a simulated device, run through the servo step that drives a real device. K06 section 4");
+  def_repr(experiment, "<Experiment in {0.scene.name!r}: {0.ticks} ticks>");
+  experiment
       .def(
           "__init__",
           [](AnyExperiment* self, const Scene& scene, const AnyMotion& motion, const DeviceDynamics& plant,
@@ -79,13 +86,16 @@ void bind_experiment(nb::module_& m) {
           },
           nb::arg("scene"), nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("seed") = 0, nb::arg("axis") = nb::none(),
-          nb::sig("def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., "
-                  "hand: Hand = ..., seed: int = 0, axis: Sequence[float] | None = None) -> None"),
+          nb::sig(
+              "def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., hand: Hand = ..., "
+              "seed: int = 0, axis: _Vector | None = None) -> None"),
           "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
       .def(
           "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),
           nb::sig("def run(self, duration: float) -> Ticks"),
           "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.")
+      .def_prop_ro("scene", &AnyExperiment::scene)
+      .def_prop_ro("ticks", &AnyExperiment::ticks, "Number of ticks so far")
       .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")
       .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m.");
 }

@@ -123,21 +123,21 @@ void bind_given_devices(nb::module_& m) {
   const FedDevice::Reading reading{};
   nb::class_<FedDevice, Device>(
       m, "FedDevice", nb::is_weak_referenceable(),
-      "A device driven by a loop in Python: each call of feed() is one tick and returns its force.")
-      .def("__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
-           nb::arg("real_time") = true,
-           nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
-           "rate: readings per second, Hz; T is 1 / rate. info: description of the device; its force ratings tighten\n"
-           "the limits. real_time: False gives reading k the time k / rate, for simulations that do not run in real\n"
-           "time. Raises ConfigurationError.")
-      .def("feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
-           nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
-           nb::sig(
-               "def feed(self, position: collections.abc.Sequence[float], axis: collections.abc.Sequence[float] = ..., "
-               "buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
-           "Feeds one reading and returns the force for the device, N; zero while no loop runs.\n\n"
-           "position: m. axis: direction of the needle, a unit vector. buttons: bits. healthy: False reports a\n"
-           "device fault. motor_temperature: 0 to 1.")
+      "A device that a loop in Python drives: each reading that is fed is a tick, its force the reply.")
+      .def(
+          "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
+          nb::arg("real_time") = true,
+          nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
+          "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten the\n"
+          "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not bound\n"
+          "to the clock. Raises ConfigurationError.")
+      .def(
+          "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
+          nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
+          nb::sig(
+              "def feed(self, position: _Vector, axis: _Vector = ..., buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
+          "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
+          "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
       .def(
           "make_realtime",
           [](FedDevice& device, int priority, int processor) {
@@ -160,8 +160,11 @@ void bind_given_devices(nb::module_& m) {
       "for a CPU, and the feeding thread does not wait for the GIL. Returns one line for each request: granted, or\n"
       "not and why.");
 
-  nb::class_<Pacer<>>(m, "Pacer",
-                      "Wakes one thread periodically: at start, start + T, start + 2 T, ..., by a monotonic clock.")
+  auto pacer = nb::class_<Pacer<>>(
+      m, "Pacer",
+      "Wakes one thread at a rate: at start, start + T, start + 2 T, ..., on a clock that never goes back.");
+  def_repr(pacer, "<Pacer at {0.rate:g} Hz>");
+  pacer.def_prop_ro("rate", &Pacer<>::rate, "Hz")
       .def("__init__", &make_pacer, nb::arg("rate"),
            "rate: Hz. The first period begins now. Raises ConfigurationError.")
       .def("wait", &Pacer<>::wait, nb::call_guard<WithoutLock>(),

@@ -21,9 +21,9 @@ struct SceneInsertion : Insertion, OneThread {
   nb::tuple arguments() const { return nb::make_tuple(scene); }
 };
 
-std::array<double, 3> step(Insertion& insertion, const Point& p, const Point& axis) {
-  check_places(p.numbers.data(), 3, "p");
-  return plain(insertion.step(p.vector(), insertion.uses_axis() ? direction(axis.numbers) : Vector3d()));
+std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& axis) {
+  check_places(p.data(), 3, "p");
+  return plain(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
 }
 
 nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
@@ -60,6 +60,7 @@ void bind_insertion(nb::module_& m) {
       "(41), Fig. 8\n\n"
       "Gives the model's force without safety limits.");
   def_state(insertion);
+  def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
   insertion
       .def(
           "__init__",
@@ -78,7 +79,7 @@ void bind_insertion(nb::module_& m) {
           "Resets to the state before the first tick.")
       .def(
           "step",
-          [](SceneInsertion& self, const Point& p, const Point& axis) {
+          [](SceneInsertion& self, const Triple& p, const Triple& axis) {
             self.must_rest();
             return step(self, p, axis);
           },
@@ -87,7 +88,7 @@ void bind_insertion(nb::module_& m) {
           "p: measured position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
       .def(
           "peek",
-          [](const SceneInsertion& self, const Point& p, const Point& axis) {
+          [](const SceneInsertion& self, const Triple& p, const Triple& axis) {
             self.must_rest();
             Insertion copy = self;
             return step(copy, p, axis);

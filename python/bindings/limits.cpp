@@ -109,8 +109,13 @@ void bind_limits(nb::module_& m) {
           .def_ro("tip_offset", &Placement::tip_offset, "m");
   def_value(placement, {"rotation", "offset", "scale", "tip_offset"});
 
-  nb::class_<DeviceInfo>(m, "DeviceInfo", "Description of a device. Unknown numbers are NaN.")
-      .def(
+  auto info = nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.");
+  def_repr(info,
+           "DeviceInfo(backend={0.backend!r}, model={0.model!r}, serial={0.serial!r}, "
+           "has_orientation={0.has_orientation}, button_count={0.button_count}, max_force={0.max_force}, "
+           "continuous_force={0.continuous_force}, max_stiffness={0.max_stiffness}, encoder_step={0.encoder_step}, "
+           "rate={0.rate})");
+  info.def(
           "__init__",
           [](DeviceInfo* self, const std::string& backend, const std::string& model, const std::string& serial,
              bool has_orientation, unsigned button_count, double max_force, double continuous_force,

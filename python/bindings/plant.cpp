@@ -86,8 +86,9 @@ void bind_plant(nb::module_& m) {
   def_value(hand_class, {"mass", "damping", "stiffness", "tremor_rms", "tremor_hz"});
 
   const Strokes strokes{};
-  nb::class_<Strokes>(m, "Strokes",
-                      "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.")
+  auto strokes_class = nb::class_<Strokes>(
+      m, "Strokes", "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.");
+  strokes_class
       .def(
           "__init__",
           [](Strokes* self, const Triple& start, const Triple& end, std::size_t count, double duration, double rest,
@@ -110,9 +111,23 @@ void bind_plant(nb::module_& m) {
           "variation: relative standard deviation of depth and duration between strokes. Raises ConfigurationError.")
       .def(
           "duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); },
-          nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.");
+          nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.")
+      .def_prop_ro(
+          "start", [](const Strokes& s) { return as_tuple(plain(s.start)); },
+          nb::sig("def start(self) -> tuple[float, float, float]"), "m")
+      .def_prop_ro(
+          "end", [](const Strokes& s) { return as_tuple(plain(s.end)); },
+          nb::sig("def end(self) -> tuple[float, float, float]"), "m")
+      .def_ro("count", &Strokes::count, "Number of strokes there and back")
+      .def_ro("duration", &Strokes::duration, "One way, s")
+      .def_ro("rest", &Strokes::rest, "s")
+      .def_ro("variation", &Strokes::variation, "Relative standard deviation of depth and duration");
+  def_value(strokes_class, {"start", "end", "count", "duration", "rest", "variation"});
 
-  nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, with linear interpolation.")
+  auto recorded_class =
+      nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, with linear interpolation.");
+  def_repr(recorded_class, "<RecordedMotion of {0.duration:g} s>");
+  recorded_class
       .def(
           "__init__",
           [](RecordedMotion* self, const nb::object& time, const nb::object& position) {
@@ -123,10 +138,15 @@ void bind_plant(nb::module_& m) {
           "time (n,): s, ascending. position (n, 3): m. Raises ValueError, which names the sample.")
       .def_prop_ro("duration", &RecordedMotion::duration, "s");
 
-  nb::class_<Target>(m, "Target", "A target position that move_to() changes in steps. The hand follows smoothly.")
+  auto target =
+      nb::class_<Target>(m, "Target", "A target position that move_to() changes in steps. The hand follows smoothly.");
+  def_repr(target, "<Target at {0.position} m>");
+  target
       .def(
           "__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); },
           nb::arg("position"), "position: m")
+      .def_prop_ro(
+          "position", [](const Target& t) { return plain(t.position()); }, "Where it was moved last, m")
       .def(
           "move_to", [](Target& t, const Triple& position) { t.move_to(vector(position)); }, nb::arg("position"),
           "position: m");

@@ -198,6 +198,7 @@ void bind_proxy(nb::module_& m) {
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
            &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
   def_state(line);
+  def_repr(line, "<Proxy1d {0.phase.name}: depth {0.depth:g} m, force {0.force:g} N>");
   line.def(
           "reset",
           [](LineProxy& p) {
@@ -227,8 +228,8 @@ void bind_proxy(nb::module_& m) {
   def_init(space,
            {{"needle", "Needle"},
             {"membrane", "Membrane"},
-            {"point", "Sequence[float]"},
-            {"inward_normal", "Sequence[float]"},
+            {"point", three_numbers},
+            {"inward_normal", three_numbers},
             {"coupling", "Coupling"},
             {"period", "float"},
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
@@ -236,6 +237,7 @@ void bind_proxy(nb::module_& m) {
            "point: a, any point of the surface, m. inward_normal: direction of any length but 0. period: T, s. Raises\n"
            "ConfigurationError.");
   def_state(space);
+  def_repr(space, "<Proxy3d {0.phase.name}: depth {0.depth:g} m, force {0.force} N>");
   space
       .def(
           "reset",
@@ -246,20 +248,20 @@ void bind_proxy(nb::module_& m) {
           "Resets to the state before the first tick. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
-          [](SpaceProxy& proxy, const Point& p, const Point& axis) {
+          [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
-            check_places(p.numbers.data(), 3, "p");
-            return plain(proxy.step(p.vector(), direction(axis.numbers)));
+            check_places(p.data(), 3, "p");
+            return plain(proxy.step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"),
           "Makes one tick. Returns the force on the device, N.\n\n"
           "p: position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
       .def(
           "peek",
-          [](const SpaceProxy& proxy, const Point& p, const Point& axis) {
+          [](const SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
-            check_places(p.numbers.data(), 3, "p");
-            return plain(Proxy3d<ThickLaw>(proxy).step(p.vector(), direction(axis.numbers)));
+            check_places(p.data(), 3, "p");
+            return plain(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),

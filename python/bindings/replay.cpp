@@ -63,6 +63,8 @@ class Replay {
     return columns.to_ticks();
   }
 
+  double rate() const noexcept { return rate_; }
+
  private:
   std::unique_ptr<ServoStep> built(Scene scene) const {
     scene.servo.rate = rate_;  // the device's rate, as in the loop
@@ -85,7 +87,9 @@ class Replay {
 void bind_replay(nb::module_& m) {
   m.def("compiler", &compiler, "Name and version of the compiler of the core.");
 
-  nb::class_<Replay>(m, "Replay", "Runs recorded inputs through the servo step of a loop again.")
+  auto replay = nb::class_<Replay>(m, "Replay", "Runs recorded inputs through the servo step of a loop again.");
+  def_repr(replay, "<Replay at {0.rate:g} Hz>");
+  replay
       .def(
           "__init__",
           [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent) {
@@ -95,6 +99,7 @@ void bind_replay(nb::module_& m) {
           nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0,
           "Starts in the state of a loop before its first tick. scene: at the device's rate. spent: motor load\n"
           "before the run, N^2 s.")
+      .def_prop_ro("rate", &Replay::rate, "Hz")
       .def("run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
            nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),
            "Computes ticks from inputs. ticks: Ticks or a mapping with all input fields. scenes: a list of the taken\n"

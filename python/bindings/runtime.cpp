@@ -71,8 +71,9 @@ nb::object as_ticks(const std::vector<Snapshot>& snapshots) {
 void bind_runtime(nb::module_& m) {
   nb::exception<DeviceError>(m, "DeviceError", nb::make_tuple(m.attr("PuncturaError"), nb::borrow(PyExc_RuntimeError)));
 
-  nb::class_<Device>(m, "Device", "An open haptic device. It makes the ticks on its own thread.")
-      .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
+  auto device = nb::class_<Device>(m, "Device", "An open haptic device. It makes the ticks on its own thread.");
+  def_repr(device, "<{0.__class__.__name__} {0.info.model!r} at {0.info.rate:g} Hz>");
+  device.def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_rw(
           "spent", [](const Device& d) { return d.motor_use.spent; },
           [](Device& d, double spent) { d.motor_use = {spent, unknown}; },
@@ -134,7 +135,9 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("missed", &SimulatedDevice::missed, "Number of ticks skipped because their time had passed.")
       .def_prop_ro("last_force", &SimulatedDevice::last_force, "The last force on the plant, N.");
 
-  nb::class_<Listener>(m, "Listener", "A ring with the snapshot of every tick, for one reader.")
+  auto listener = nb::class_<Listener>(m, "Listener", "A ring with the snapshot of every tick, for one reader.");
+  def_repr(listener, "<Listener with room for {0.capacity} ticks, {0.lost} lost>");
+  listener
       .def("read", &Listener::read, nb::arg("limit") = nb::none(),
            nb::sig("def read(self, limit: int | None = None) -> Ticks"),
            "Removes and returns the oldest snapshots. limit: maximum number; None for all that are in the ring now.")
@@ -145,8 +148,10 @@ void bind_runtime(nb::module_& m) {
           "capacity", [](const Listener& l) { return l.ring->capacity(); },
           "Number of snapshots that fit in the ring, counted for the first scene.");
 
-  nb::class_<ServoLoop>(m, "ServoLoop", "Runs a scene on a device: one servo step per tick, on the device's thread.")
-      .def(
+  auto loop = nb::class_<ServoLoop>(m, "ServoLoop",
+                                    "Runs a scene on a device: one servo step per tick, on the device's thread.");
+  def_repr(loop, "<ServoLoop of {0.scene.name!r} on {0.device}: running={0.running}, {0.ticks} ticks>");
+  loop.def(
           "__init__",
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
              const ForceLimits& limits, const Placement& placement) {
@@ -200,6 +205,8 @@ void bind_runtime(nb::module_& m) {
           "room", [](const ServoLoop& loop) { return loop.room(); },
           "Default capacity of a listener for the present scene: 8 s of snapshots, at most 32 MB.")
       .def_prop_ro("running", &ServoLoop::running)
+      .def_prop_ro(
+          "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks since the last start")
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "The running scene, at the device's rate.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)

@@ -175,8 +175,8 @@ void bind_scene(nb::module_& m) {
       placed,
       {{"name", "str"},
        {"membrane", "Membrane"},
-       {"point", "Sequence[float]"},
-       {"inward_normal", "Sequence[float]"},
+       {"point", three_numbers},
+       {"inward_normal", three_numbers},
        {"behind", "typing.Literal['tissue', 'blood']", nb::str("tissue")}},
       &make_placed,
       "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"

@@ -86,6 +86,7 @@ void bind_tick_table(nb::module_& m) {
   auto arrays = nb::class_<TickArrays>(
       m, "TickArrays",
       "The columns of punctura.Ticks by name: n ticks, m membranes. A missing field raises AttributeError.");
+  def_repr(arrays, "TickArrays({0.columns})");
   arrays
       .def(nb::init<nb::dict>(), nb::arg("columns"),
            nb::sig("def __init__(self, columns: dict[str, numpy.typing.NDArray[typing.Any]]) -> None"))

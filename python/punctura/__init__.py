@@ -28,6 +28,7 @@ from punctura._core import (
     version as _version,
 )
 from punctura.errors import ConfigurationError, Problem
+from punctura.paths import cmake_dir, include_dir
 from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
 from punctura.simulation import MotionError, SimulationSummary, simulate
 from punctura.ticks import Ticks
@@ -63,6 +64,8 @@ __all__ = [
     "ThinLaw",
     "Ticks",
     "__version__",
+    "cmake_dir",
+    "include_dir",
     "load_scene",
     "save_scene",
     "scene_json_schema",

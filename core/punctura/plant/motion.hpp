@@ -97,6 +97,7 @@ class Target {
       : lag_(lag), target_(position), first_(position), second_(position) {}
 
   void move_to(const Vector3d& position) noexcept { target_ = position; }
+  const Vector3d& position() const noexcept { return target_; }
 
   /// Ever later times only: a target has no past to go back to.
   Desired at(double time) noexcept {

@@ -42,6 +42,12 @@ class BasicForceBudget {
   Scalar spent() const noexcept { return spent_; }
   void set_spent(Scalar spent) noexcept { spent_ = spent > 0 ? spent : 0; }
 
+  static void archive(auto& self, auto& state) {
+    state.numbers(self.spent_);
+    state.require(self.spent_ >= 0);
+  }
+  void describe(auto& parameters) const { parameters.numbers(depth_, rate_); }
+
  private:
   /// More is not remembered: it comes back within `window`, whatever was given.
   Scalar most() const noexcept { return depth_ / burst_share; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
@@ -109,6 +110,21 @@ class BasicForceLimiter {
   const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
   /// Goes on with a device whose motors have given that much, N^2 s, see ForceBudget::spent.
   void set_spent(Scalar spent) noexcept { budget_.set_spent(spent); }
+
+  static void archive(auto& self, auto& state) {
+    BasicForceBudget<Scalar>::archive(self.budget_, state);
+    state.numbers(self.gain_, self.ceiling_, self.held_square_);
+    state.require(self.gain_ >= 0 && self.gain_ <= 1 && self.held_square_ >= 0);
+    state.choice(self.limit_, Limit::temperature);
+    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
+    for (auto* counter :
+         {&self.counters_.peak, &self.counters_.continuous, &self.counters_.temperature, &self.counters_.ramp})
+      state.index(*counter, any);
+  }
+  void describe(auto& parameters) const {
+    budget_.describe(parameters);
+    parameters.numbers(max_force_, warm_motor_, period_, steady_, hold_, ramp_step_);
+  }
 
  private:
   /// By how much warm motors bring the ceiling down: 1 is not at all.

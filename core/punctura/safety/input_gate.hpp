@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "punctura/device/sample.hpp"
 #include "punctura/model/vector3.hpp"
@@ -70,6 +71,17 @@ class BasicInputGate {
     position_ = position;
     sequence_ = s.sequence;
     return Fault::none;
+  }
+
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started_);
+    state.numbers(self.time_, self.fresh_time_, self.position_);
+    state.index(self.sequence_, std::numeric_limits<std::uint64_t>::max());
+  }
+  void describe(auto& parameters) const {
+    parameters.numbers(limits_.max_speed, limits_.stale, limits_.deadline, limits_.axis_tolerance, period_);
+    parameters.index(limits_.dead_man, 0);
+    parameters.flag(axis_is_used_);
   }
 
  private:

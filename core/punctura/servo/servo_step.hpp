@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "punctura/insertion/insertion.hpp"
@@ -133,6 +134,33 @@ class ServoStepOf {
   const Insertion& insertion() const noexcept { return insertion_; }
   ServoState state() const noexcept { return state_; }
   Fault fault() const noexcept { return fault_; }
+
+  /// For save_state() and load_state() (state/archive.hpp). The snapshot stays that of this object's last tick.
+  /// A loaded step may be active: it gives force in its first tick.
+  static void archive(auto& self, auto& state) {
+    Insertion::archive(self.insertion_, state);
+    BasicInputGate<Scalar>::archive(self.gate_, state);
+    BasicForceLimiter<Scalar>::archive(self.limiter_, state);
+    state.choice(self.state_, ServoState::faulted);
+    state.choice(self.fault_, Fault::device);
+    state.require((self.state_ == ServoState::faulted) == (self.fault_ != Fault::none));
+    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
+    state.index(self.commands_, std::numeric_limits<std::uint32_t>::max());
+    bool timed = std::isfinite(self.time_);
+    double time = timed ? self.time_ : 0;
+    state.flag(timed);
+    state.numbers(time, self.fade_, self.wanted_, self.offset_);
+    state.flag(self.fade_starts_);
+    state.require(self.fade_ >= 0 && self.fade_ <= 1);
+    if constexpr (std::remove_reference_t<decltype(state)>::reading)
+      self.time_ = timed ? time : std::numeric_limits<double>::quiet_NaN();
+  }
+  void describe(auto& parameters) const {
+    insertion_.describe(parameters);
+    gate_.describe(parameters);
+    limiter_.describe(parameters);
+    parameters.numbers(fade_step_);
+  }
 
  private:
   /// The model's force, on its way from what the hand felt before resume().

@@ -22,6 +22,9 @@ class EventFinder:
         """rate: ticks per second, for runs without a time column; default: the scene's rate."""
         self._finder = _core.EventFinder(scene, rate or scene.servo.rate)
 
+    def __repr__(self) -> str:
+        return repr(self._finder)
+
     def change(self, scene: Scene) -> None:
         """Sets the new scene. It applies from the next tick whose commands say that it took a scene."""
         self._finder.change(scene)

@@ -55,6 +55,9 @@ class Attempt:
         self._spoilt = ""  # why it cannot be judged
         self._too_deep = False  # in the last tick
 
+    def __repr__(self) -> str:
+        return f"<Attempt at {self.exercise.file.title!r}: {self._rows} ticks, over={self.over}>"
+
     @property
     def over(self) -> bool:
         """Success or failure is decided."""

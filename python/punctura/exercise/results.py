@@ -48,6 +48,9 @@ class ResultStore:
         """The folder is made with the first result."""
         self.folder = Path(folder)
 
+    def __repr__(self) -> str:
+        return f"ResultStore({str(self.folder)!r})"
+
     def save(self, result: Result) -> Result:
         """Keeps a result under a new name, and gives it with that name. Raises OSError."""
         self.folder.mkdir(0o700, parents=True, exist_ok=True)  # names of persons are nobody else's

@@ -46,6 +46,9 @@ class DroppingStream(io.TextIOBase):
         self._thread: threading.Thread | None = None
         atexit.register(self._leave)
 
+    def __repr__(self) -> str:
+        return f"<DroppingStream to {self.stream}: {self._dropped} lines dropped>"
+
     def write(self, text: str) -> int:
         if not isinstance(text, str):
             raise TypeError(f"text is needed, not {type(text).__name__}")

@@ -23,6 +23,9 @@ class SilenceWatch:
         self._longest = max(LONGEST_S, 5 * loop.gate.deadline)
         self._ticks, self._since = -1, time.monotonic()
 
+    def __repr__(self) -> str:
+        return f"<SilenceWatch of {self._loop}>"
+
     def ceased(self) -> str:
         """Why the loop must be stopped, in words; empty while ticks come."""
         if not self._of_hardware:

@@ -92,6 +92,9 @@ class Recorder:
             self._file.discard()
             raise
 
+    def __repr__(self) -> str:
+        return f"<Recorder of {str(self.path)!r}: {self.status()}>"
+
     def exchange(self, scene: Scene) -> None:
         """Calls loop.exchange(scene), and records the scene with the tick that takes it."""
         self._scenes.exchange(scene)

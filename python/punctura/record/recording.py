@@ -37,6 +37,9 @@ class Recording:
         )
         self.notes: tuple[str, ...] = tuple(source.notes) + tuple(self._earlier_notes())
 
+    def __repr__(self) -> str:
+        return f"<Recording {str(self.path)!r}: {self.rows} ticks, {self.lost} lost, finished={self.finished}>"
+
     @property
     def rows(self) -> int:
         """Number of ticks in the file."""

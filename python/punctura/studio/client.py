@@ -64,6 +64,9 @@ class StudioClient:
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
 
+    def __repr__(self) -> str:  # without the token
+        return f"<StudioClient of {self.host}: {self.ticks} ticks, closed={self.closed}>"
+
     def send(self, text: str | bytes) -> None:
         self._socket.send(text)
 

@@ -34,6 +34,7 @@ class Pacer {
     return missed;
   }
 
+  double rate() const noexcept { return rate_; }  ///< Hz
   /// The time at which the current tick was due, ns.
   std::int64_t due() const noexcept { return due(count_); }
 
