@@ -164,8 +164,8 @@ describe("what comes in", () => {
 
   it.each([
     ["ticks cut off", makeFrame({ count: 3, membranes: 1 }).slice(0, 200), "ends within"],
-    ["ticks with a tail", new Uint8Array(new ArrayBuffer(48)).fill(0).buffer, "begins with"],
-    ["an empty frame", new ArrayBuffer(0), "too few"],
+    ["ticks with a tail", new Uint8Array(new ArrayBuffer(48)).fill(0).buffer, "wrong magic number"],
+    ["an empty frame", new ArrayBuffer(0), "too short"],
     ["no JSON", "{", "no JSON"],
     ["a number", "7", "without a kind"],
     ["an unknown kind", '{"kind":"toString"}', "unknown kind"],
