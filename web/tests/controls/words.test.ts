@@ -27,7 +27,7 @@ describe("what happened in words", () => {
   }); // biome-ignore format: one line
   it("a pop says what the force lost", () => {
     expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });
-    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newton.");
+    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newtons.");
     expect(eventWords(event(1, "touch")).force).toBe("");
   });
   it("only what is new is added; another run begins anew", () => {

@@ -169,7 +169,7 @@ describe("what comes in", () => {
     ["no JSON", "{", "no JSON"],
     ["a number", "7", "without a kind"],
     ["an unknown kind", '{"kind":"toString"}', "unknown kind"],
-    ["a reply to nobody", '{"kind":"reply","id":77,"ok":true}', "reply to nothing"],
+    ["a reply to an unknown request", '{"kind":"reply","id":77,"ok":true}', "unknown request 77"],
   ])("is reported, once, and not fatal where it is %s", (_name, data, words) => {
     const { socket, messages, batches, connections } = bench();
     socket().opens();

@@ -42,5 +42,5 @@ test("pairs of which exactly one is given are found, and what the gauges are in 
 
 test("what is no schema is refused", () => {
   expect(() => sceneForm(null)).toThrow(SchemaError);
-  expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x is of no kind");
+  expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x has a type");
 });
