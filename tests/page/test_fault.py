@@ -1,10 +1,10 @@
-"""A fault ends the force, says why, and is left by a reset."""
+"""A fault ends the force, shows its reason, and is cleared by a reset."""
 
 from person import PATIENCE, ready, tab
 from playwright.sync_api import expect
 
 
-def test_a_fault_is_told_with_its_reason_and_left_by_reset(page):
+def test_a_fault_shows_its_reason_and_reset_clears_it(page):
     ready(page)
     tab(page, "Loop")
     page.get_by_role("button", name="Try a fault").click()

@@ -1,4 +1,4 @@
-"""Record, look again, export."""
+"""Record, replay, export."""
 
 import numpy as np
 import pyarrow.parquet as parquet
@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 from punctura.record import replay
 
 
-def test_a_run_is_recorded_looked_at_again_and_exported(page, tmp_path):
+def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     ready(page)
     tab(page, "Recordings")
     page.get_by_role("textbox", name="Name of the recording").fill("first try")

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { connectionWords, STATES } from "../../src/controls/words.ts";
 
 describe("the connection in words", () => {
-  it("says what is, and when the page tries again", () => {
+  it("tells the state, and when the page retries", () => {
     expect(connectionWords({ state: "open" }, false, 0)).toBe("Connected");
     expect(connectionWords({ state: "open" }, true, 0)).toBe("Connected, but no ticks");
     expect(connectionWords({ state: "connecting", attempt: 1 }, false, 0)).toBe("Connecting");

@@ -20,7 +20,7 @@ function begin(): { app: App; engine: FakeEngine; draft: Draft } {
   return { app, engine, draft };
 }
 
-test("a drag sends the whole tables, few of them, the last for certain", async () => {
+test("a drag sends whole tables, only some of them, but always the last", async () => {
   const { engine, draft, app } = begin();
   for (let i = 1; i <= 50; i++) draft.set(FRICTION, 0.08 + i / 1000);
   await settle();
@@ -37,7 +37,7 @@ test("a drag sends the whole tables, few of them, the last for certain", async (
   expect(draft.can.value).toEqual({ undo: false, redo: true, reset: false });
 });
 
-test("a refused change stays, with its problem, until it is put right", async () => {
+test("a refused change stays, with its problem, until it is corrected", async () => {
   const { draft, app } = begin();
   draft.set(FRICTION, 3.6);
   await settle();

@@ -8,7 +8,7 @@ test("a point and a comma are both a decimal mark", () => {
   expect(parseNumber("−3e-2")).toEqual({ value: -0.03 });
 });
 
-test("everything else is told in words", () => {
+test("anything else gives a message", () => {
   expect(parseNumber("")).toEqual({ wrong: "Enter a number." });
   expect(parseNumber("1,600.5")).toHaveProperty("wrong", expect.stringContaining("more than one point or comma"));
   expect(parseNumber("3,6 N")).toHaveProperty("wrong", "Enter only the number, 3,6, without a unit.");
