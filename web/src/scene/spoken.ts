@@ -11,7 +11,7 @@ const SPOKEN: Readonly<Record<Phase, string>> = {
   sticking: "sticking in",
   sliding_in: "sliding into",
   sliding_out: "sliding out of",
-  barred: "in, without force,",
+  barred: "without force in",
 };
 
 /** The state of the needle in one sentence, for a screen reader. */

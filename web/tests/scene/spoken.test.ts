@@ -23,6 +23,6 @@ describe("the sentence", () => {
 
   it("says that a barred membrane gives no force", () => {
     const barred = wordsOf("phase").indexOf("barred");
-    expect(sentence(moment([barred, 2], [0, 0]), scene)).toBe("The tip is in, without force, skin at 2.0 mm.");
+    expect(sentence(moment([barred, 2], [0, 0]), scene)).toBe("The tip is without force in skin at 2.0 mm.");
   });
 });
