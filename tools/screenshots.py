@@ -39,7 +39,7 @@ def popped(page: Page) -> None:
 def editor(page: Page) -> None:
     popped(page)
     tab(page, "Scene")
-    page.get_by_text("draw the other solver").click()
+    page.get_by_text("Compare with the other solver").click()
 
 
 def wrong_value(page: Page) -> None:
@@ -66,7 +66,7 @@ def replay(page: Page) -> None:
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     drag_in(page, pops=1)
     page.get_by_role("button", name="Stop", exact=True).click()
-    page.locator(".recording").first.get_by_role("button", name="Look").click()
+    page.locator(".recording").first.get_by_role("button", name="Replay").click()
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible(timeout=PATIENCE)
     for _ in range(2):

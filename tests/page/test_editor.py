@@ -38,5 +38,5 @@ def test_the_other_solver_is_one_click_away(page):
     ready(page)
     tab(page, "Scene")
     page.get_by_role("radio", name="Paper").or_(page.get_by_role("button", name="Paper")).first.click()
-    page.get_by_text("draw the other solver").click()
+    page.get_by_text("Compare with the other solver").click()
     expect(page.locator(".force-depth")).to_contain_text("solver", timeout=PATIENCE)

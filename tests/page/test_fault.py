@@ -1,10 +1,10 @@
-"""A fault ends the force, says why, and is left by a reset."""
+"""A fault ends the force, shows its reason, and is cleared by a reset."""
 
 from person import PATIENCE, ready, tab
 from playwright.sync_api import expect
 
 
-def test_a_fault_is_told_with_its_reason_and_left_by_reset(page):
+def test_a_fault_shows_its_reason_and_reset_clears_it(page):
     ready(page)
     tab(page, "Loop")
     page.get_by_role("button", name="Try a fault").click()
@@ -13,5 +13,5 @@ def test_a_fault_is_told_with_its_reason_and_left_by_reset(page):
     expect(page.locator(".header")).to_contain_text("Fault")
     page.get_by_role("button", name="Reset", exact=True).first.click()
     expect(page.locator(".fault")).to_be_empty(timeout=PATIENCE)
-    page.get_by_role("button", name="Arm").click()
+    page.get_by_role("button", name="Turn force on").click()
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""Record, look again, export."""
+"""Record, replay, export."""
 
 import numpy as np
 import pyarrow.parquet as parquet
@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 from punctura.record import replay
 
 
-def test_a_run_is_recorded_looked_at_again_and_exported(page, tmp_path):
+def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     ready(page)
     tab(page, "Recordings")
     page.get_by_role("textbox", name="Name of the recording").fill("first try")
@@ -25,11 +25,11 @@ def test_a_run_is_recorded_looked_at_again_and_exported(page, tmp_path):
     again = replay(file)
     assert again.identical and again.complete
 
-    entry.get_by_role("button", name="Look").click()
+    entry.get_by_role("button", name="Replay").click()
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible(timeout=PATIENCE)
-    expect(page.locator("body")).to_contain_text("Looking at")
-    bar.get_by_role("button", name="To the next event").click()
+    expect(page.locator("body")).to_contain_text("Replay of")
+    bar.get_by_role("button", name="Next event").click()
     assert events(page, "pop").first.inner_text().split("s", 1)[1] == drop.split("s", 1)[1]
     page.get_by_role("button", name="Back to live").first.click()
     expect(page.get_by_role("group", name="Replay")).to_have_count(0)

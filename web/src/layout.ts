@@ -35,7 +35,7 @@ export function layout(root: HTMLElement, app: App): void {
   root.append(
     place("header", "Run", headerBar),
     place("fault", "Fault", faultBanner),
-    place("view", "The needle and the membranes", view),
+    place("view", "Needle and membranes", view),
     place("phases", "Membranes", phasesPanel),
     place("force-depth", "Force against depth", forceDepthPlot),
     place("time-plots", "Force and depth against time", timePlots),
@@ -50,7 +50,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["health", "Loop", both(healthPanel, faultTrial)],
       ]),
     ),
-    place("player", "Recording that is looked at", playerBar),
+    place("player", "Replay", playerBar),
     place("notices", "Messages", notices),
   );
   tour(root, app);

@@ -6,7 +6,10 @@ export type Panel = (host: HTMLElement, app: App) => void;
 type Child = Node | string;
 type Attributes = Readonly<Record<string, string | number | boolean | ((event: Event) => void)>>;
 
-/** An element: `on…` attributes are listeners, true is an empty attribute, false none. Text is text, never markup. */
+/**
+ * Creates an element. `on…` attributes are listeners; true is an empty attribute, false omits it. Strings are text,
+ * never markup.
+ */
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},

@@ -1,4 +1,4 @@
-"""Exercises: files that say what to do in a scene and by what it is judged, attempts, results (docs/exercises.md)."""
+"""Exercises: files with a task in a scene and its goals; attempts; results (docs/exercises.md)."""
 
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise

@@ -1,4 +1,4 @@
-"""Goals that are achieved: to reach the space, and to stay in it."""
+"""Goals to achieve: reach the space, stay in the space."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from punctura.exercise.ticks import Flags, Ticks
 
 
 class Achievement:
-    """Met at a tick; open again where the needle leaves the space while a limit is still being measured."""
+    """Met at a tick. Open again if the needle leaves the space while a limit is still being measured."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.met: Moment | None = None
-        self.left = False  # met once, and open again
-        self.done = np.zeros(0, dtype=np.bool_)  # in which ticks of the batch it is met
+        self.left = False  # it was met and is open again
+        self.done = np.zeros(0, dtype=np.bool_)  # the ticks of the batch in which it is met
 
     def add(self, ticks: Ticks, busy: Flags) -> None:
-        """The next ticks. busy: in which of them a limit is still being measured."""
+        """Takes the next ticks. busy: the ticks in which a limit is still being measured."""
         raise NotImplementedError
 
     def state(self, until: Moment | None) -> str:
-        """open or met; until: as it was then."""
+        """ "open" or "met". until: the state at that moment."""
         return "met" if by(self.met, until) else "open"
 
     def _follow(self, ticks: Ticks, good: Flags, here: Flags, busy: Flags) -> None:
@@ -68,7 +68,7 @@ def _reach_text(goal: Reach, space: TargetSpace, behind: str) -> str:
 
 
 def achievement_of(goal: AnyGoal, space: TargetSpace, behind: str) -> Achievement:
-    """behind: the name of the membrane behind which the space is."""
+    """behind: name of the membrane in front of the space."""
     if isinstance(goal, Stay):
         return StayJudge(goal, space)
     assert isinstance(goal, Reach)

@@ -1,4 +1,4 @@
-"""One attempt at an exercise, followed tick by tick: live, or from a recording."""
+"""One attempt at an exercise, judged tick by tick: live, or from a recording."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ from punctura.exercise.ticks import Flags, Geometry, Ticks
 
 
 class Attempt:
-    """Fed with batches of snapshots, cut anywhere; decided at the first tick at which a limit is missed, or at which
-    all is achieved and no limit is still being measured.
+    """Takes snapshots in batches of any size. It is decided at the first tick at which a limit is missed, or at which
+    everything is achieved and no limit is still being measured.
 
-    It begins at the first tick at which the tip is in front of all membranes. After the decision only the overshoots
-    whose time is not over are followed to their end.
+    It begins at the first tick with the tip in front of all membranes. After the decision, only open overshoots are
+    still measured.
     """
 
     def __init__(self, exercise: Exercise, scene: Scene) -> None:
-        """scene: as it runs, at the device's rate. Raises ConfigurationError where the exercise does not fit it."""
+        """scene: the running scene, at the device's rate. Raises ConfigurationError if the exercise does not fit it."""
         self.exercise, self.scene = exercise, scene
         need_membranes(exercise.file, scene)
         self._space = space_of(exercise.file, scene)
@@ -52,24 +52,24 @@ class Attempt:
         self._rows = 0
         self._decision: Moment | None = None
         self._passed = False
-        self._spoilt = ""  # why it cannot be judged
-        self._too_deep = False  # in the last tick
+        self._invalid = ""  # why the attempt cannot be judged
+        self._too_deep = False  # at the last tick
 
     def __repr__(self) -> str:
         return f"<Attempt at {self.exercise.file.title!r}: {self._rows} ticks, over={self.over}>"
 
     @property
     def over(self) -> bool:
-        """Success or failure is decided."""
+        """Whether success or failure is decided."""
         return self._decision is not None
 
     @property
     def settled(self) -> bool:
-        """Decided, and nothing is measured any more."""
+        """Whether it is decided and all measurements have ended."""
         return self.over and self._measures.settled
 
     def add(self, columns: ticks.Ticks | dict[str, NDArray[Any]]) -> None:
-        """The next ticks, as Listener.read() gives them."""
+        """Takes the next ticks, as Listener.read() returns them."""
         if self.settled or len(columns["depth"]) == 0:
             return
         ticks = self._geometry.ticks(columns, self._rows)
@@ -79,7 +79,7 @@ class Attempt:
             return
         events = self._finder.add(columns)
         if not self._begun:
-            # Where a membrane is not known, its depth says nothing.
+            # The depth of an unknown membrane means nothing.
             ready = ~(ticks.below > 0).any(axis=1) & np.isfinite(ticks.below).any(axis=1)
             if not ready.any():
                 return
@@ -107,7 +107,7 @@ class Attempt:
             when = first_of(ticks, flags)
             if when is not None:
                 if all(when.tick <= other.tick for other in failures):
-                    self._spoilt = words.spoilt(why, Fault(int(ticks.fault[int(flags.argmax())])))
+                    self._invalid = words.invalid(why, Fault(int(ticks.fault[int(flags.argmax())])))
                 failures.append(when)
         failure = min(failures, default=None)
         end = len(ticks) if failure is None else int(np.searchsorted(ticks.tick, failure.tick)) + 1
@@ -115,10 +115,10 @@ class Attempt:
         self._decision = min((one for one in (failure, success) if one is not None), default=None)
         self._passed = success is not None and (failure is None or success.tick < failure.tick)
         if self._passed:
-            self._spoilt = ""
+            self._invalid = ""
 
     def _success(self, ticks: Ticks) -> Moment | None:
-        """The first tick at which all is achieved, and no limit is still being measured."""
+        """The first tick at which everything is achieved and no limit is still being measured."""
         busy: Flags = np.zeros(len(ticks), dtype=np.bool_)
         for limit in self._limits:
             if limit.busy is not None:
@@ -131,12 +131,12 @@ class Attempt:
 
     @property
     def _achieved(self) -> bool:
-        """Decided or not: whatever is still open is a limit that is being measured."""
+        """Whether everything is achieved; a limit may still be open."""
         return all(one.met is not None for one in self._achievements)
 
     @property
     def passed(self) -> bool:
-        """Everything was achieved, no limit was missed, and none was still being measured."""
+        """Whether everything was achieved, no limit was missed, and no limit was still being measured."""
         return self._passed
 
     def _goals(self, ended: bool) -> list[GoalState]:
@@ -151,12 +151,12 @@ class Attempt:
 
     @property
     def goals(self) -> list[GoalState]:
-        """All goals as they stand."""
+        """All goals with their present states."""
         return self._goals(ended=False)
 
     @property
     def status(self) -> Status:
-        """What to do now, and the goals."""
+        """The present instruction and the goals."""
         return Status(instruction=self._instruction(), goals=self.goals)
 
     def _instruction(self) -> str:
@@ -176,8 +176,8 @@ class Attempt:
 
     def _reasons(self) -> list[str]:
         first = self.scene.membranes[0].name
-        if self._spoilt:
-            return [self._spoilt]
+        if self._invalid:
+            return [self._invalid]
         if self._decision is not None and not self._passed:
             now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
             return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
@@ -189,7 +189,7 @@ class Attempt:
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
 
     def finish(self, person: str = "", recording: str = "", date: datetime | None = None) -> Result:
-        """The result as it stands: decided, or given up. date: of the attempt; now if not given."""
+        """The present result; an undecided attempt counts as given up. date: of the attempt; default now."""
         when = (date or datetime.now(timezone.utc)).astimezone(timezone.utc)
         return Result(
             exercise=self.exercise.name,
@@ -208,7 +208,7 @@ class Attempt:
 
 
 def _windows(limits: list[Limit]) -> dict[int, float]:
-    """The seconds after a pop in which each membrane's overshoot is measured: as its goals judge it."""
+    """By membrane: the time after a pop in which the overshoot is measured, s. The stop_after_pop goals set it."""
     windows: dict[int, float] = {}
     for limit in limits:
         if isinstance(limit, StopJudge):

@@ -1,15 +1,15 @@
-"""The bounds of an exercise file's numbers, in the file's units. The schema and the checks take them from here."""
+"""The bounds of the numbers in exercise files, in the file's units, for the schema and the checks."""
 
-# A desktop device moves a needle by 0.4 m at most, so a start or a depth beyond these is a slip of the keyboard.
+# A desktop device moves a needle by at most 0.4 m, so values beyond these bounds are typing errors.
 FARTHEST_START_MM = 500.0  # from the scene's origin
-DEEPEST_MM = 200.0  # of every depth and distance in tissue; the longest spinal needles have 180 mm
+DEEPEST_MM = 200.0  # for every depth and distance in tissue; the longest spinal needles have 180 mm
 
-# Two steps of the encoders of a desktop device: what is shorter cannot be told from their noise.
-LEAST_MM = 0.1  # of every depth and distance, of the width of a space, and between the start and a membrane
+# Two encoder steps of a desktop device: shorter lengths are lost in the encoder noise.
+LEAST_MM = 0.1  # for every depth and distance, the width of a space, and the distance from the start to a membrane
 
-LEAST_S, MOST_S = 0.01, 3600.0  # of every time
-LEAST_N, MOST_N = 0.001, 1000.0  # of a force
+LEAST_S, MOST_S = 0.01, 3600.0  # for every time
+LEAST_N, MOST_N = 0.001, 1000.0  # for a force
 MOST_ENTRIES = 1000
 
-# A heading is a direction. Outside these lengths, computing with it loses digits or overflows.
+# Bounds of a heading vector's length. Beyond them, computing with it loses digits or overflows.
 LEAST_HEADING, MOST_HEADING = 1e-3, 1e3

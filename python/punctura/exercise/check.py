@@ -1,7 +1,7 @@
-"""Everything that is wrong with an exercise file, at once.
+"""Finds all problems of an exercise file at once.
 
-The keys are checked by the schema, and what goes together by the functions below. These look at every value that is
-sound by itself, also where others in the same table are not.
+The schema checks single keys. The functions below check combinations of keys. They use every value that is valid by
+itself, even if other values in the same table are not.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ from punctura.files.toml import Tables
 
 
 class Sound(NamedTuple):
-    """The values that are sound by themselves, and the defaults of keys that were left out."""
+    """The values that are valid by themselves, and the defaults of missing keys."""
 
     start: Table
     space: Table
-    goals: dict[int, Table]  # by their place; a goal whose kind is not known is left out
+    goals: dict[int, Table]  # by index; goals of an unknown kind are left out
 
 
 def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | None, list[Problem]]:
-    """The exercise file of these tables, if it is sound, and every problem if it is not. scene: None if it is not."""
+    """The exercise file of these tables if it is valid, and all problems. scene: None if the scene is invalid."""
     file, problems, unsound = None, [], set[Location]()
     try:
         file = ExerciseFile.model_validate(tables)
@@ -74,7 +74,9 @@ def _kinds(given: object, goals: dict[int, Table]) -> Iterator[Problem]:
     if not isinstance(given, list) or not given or len(goals) < len(given):
         return
     if not any(goal["kind"] in ("reach", "stay") for goal in goals.values()):
-        yield Problem("goal", MISSING, "one at least must be of kind reach or stay: without it nothing can be achieved")
+        yield Problem(
+            "goal", MISSING, "at least one goal must be of kind reach or stay, else there is nothing to achieve"
+        )
 
 
 def _start(start: Table, scene: Scene | None) -> Iterator[Problem]:
@@ -100,7 +102,7 @@ def _start(start: Table, scene: Scene | None) -> Iterator[Problem]:
 
 
 def _in_front(position_mm: list[float], scene: Scene) -> Iterator[Problem]:
-    """An attempt begins in front of all membranes, so the needle must wait there."""
+    """The start must lie in front of all membranes, because an attempt starts there."""
     depths = []
     for placed in scene.membranes:
         normal = np.asarray(placed.inward_normal) / np.linalg.norm(placed.inward_normal)

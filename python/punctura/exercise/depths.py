@@ -1,4 +1,4 @@
-"""Whether the depths of an exercise file leave a space that a needle can come to."""
+"""Checks that the depths of an exercise file leave a space that a needle can reach."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from punctura.errors import Problem
 from punctura.exercise.bounds import LEAST_MM
 
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
-ROUNDING_MM = 1e-9  # of sums and differences of numbers that were written in decimals
+ROUNDING_MM = 1e-9  # rounding error of sums and differences of decimal numbers
 
-Table = dict[str, Any]  # of an exercise file; only values that are sound by themselves
+Table = dict[str, Any]  # a table of an exercise file with only the values that are valid by themselves
 
 
 def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -> Iterator[Problem]:
-    """Depths that lie behind the space's end, and a space that is too narrow.
+    """Problems: a depth behind the space's end, and a space that is too narrow.
 
-    Membranes that are not parallel leave room for any depth.
+    Between membranes that are not parallel, any depth is allowed.
     """
     if "in_front_of" in space and space["in_front_of"] is None and space.get("press_mm", 0) > 0:
-        yield Problem("space.press_mm", space["press_mm"], "needs space.in_front_of: the membrane that may be pressed")
+        yield Problem(
+            "space.press_mm", space["press_mm"], "needs space.in_front_of, the membrane that the tip may press"
+        )
     begins = space.get("depth_mm")
     if begins is None:
         return
@@ -44,10 +46,10 @@ def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -
         if depth is None:
             continue
         if depth < begins:
-            reason = f"must be at least {begins:g} mm: there the space begins, by space.depth_mm"
+            reason = f"must be at least {begins:g} mm, where the space begins (space.depth_mm)"
             yield Problem(f"goal[{i}].depth_mm", depth, reason)
         elif depth >= end:
-            yield Problem(f"goal[{i}].depth_mm", depth, f"must be less than {end:g} mm: there the space ends, by {by}")
+            yield Problem(f"goal[{i}].depth_mm", depth, f"must be less than {end:g} mm, where the space ends ({by})")
 
 
 def _too_narrow(space: Table, begins: float, end: float, by: str) -> Problem:
@@ -56,12 +58,12 @@ def _too_narrow(space: Table, begins: float, end: float, by: str) -> Problem:
         place = f"begins {end:.4g} mm behind" if end > 0 else "does not begin behind"
         reason = f"{place} the {space['behind']}; the space between them {wide}"
         return Problem("space.in_front_of", space["in_front_of"], reason)
-    reason = f"must be at most {end - LEAST_MM:g} mm: the space ends at {end:g} mm, by {by}, and {wide}"
+    reason = f"must be at most {end - LEAST_MM:g} mm: the space ends at {end:g} mm ({by}) and {wide}"
     return Problem("space.depth_mm", begins, reason)
 
 
 def space_end_mm(space: Table, scene: Scene | None) -> tuple[float, str]:
-    """How far behind the far face of `behind` the space ends, and what ends it; infinite where nothing does."""
+    """Distance from the far face of `behind` to the end of the space, mm, and its cause; infinite without an end."""
     ends = [(np.inf, "")]
     if space.get("deepest_mm") is not None:
         ends.append((space["deepest_mm"], "space.deepest_mm"))
@@ -72,9 +74,9 @@ def space_end_mm(space: Table, scene: Scene | None) -> tuple[float, str]:
 
 
 def _gap_mm(space: Table, scene: Scene) -> float | None:
-    """From the far face of `behind` to the near face of `in_front_of`.
+    """Distance from the far face of `behind` to the near face of `in_front_of`, mm.
 
-    None where there are no two membranes of these names, or they are not parallel.
+    None if the scene does not have both membranes, or if they are not parallel.
     """
     names = [placed.name for placed in scene.membranes]
     pair = [space.get("behind"), space.get("in_front_of")]

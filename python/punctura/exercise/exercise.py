@@ -1,4 +1,4 @@
-"""An exercise that was read and checked."""
+"""An exercise after reading and checking."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Exercise:
-    """What `load_exercise` gives. SI."""
+    """An exercise, as `load_exercise` returns it. SI."""
 
-    name: str  # the file's, without its ending
+    name: str  # name of the file without its suffix
     path: Path
     file: ExerciseFile
-    scene: Scene  # as its file has it; a device may run it at another rate
-    scene_name: str  # a ready scene's name, or a path: load_scene takes it
-    warnings: tuple[Problem, ...] = ()  # what is allowed, but seldom meant
+    scene: Scene  # as in its file; a device can run it at another rate
+    scene_name: str  # a ready scene's name or a path, for load_scene
+    warnings: tuple[Problem, ...] = ()  # allowed values that are usually a mistake
 
     @property
     def title(self) -> str:
@@ -44,40 +44,40 @@ class Exercise:
 
     @property
     def space(self) -> tuple[int, ...]:
-        """The membrane behind which the space is and, if there is one, that in front of which it ends."""
+        """Index of the membrane in front of the space, and of the membrane behind the space if there is one."""
         names = (self.file.space.behind, self.file.space.in_front_of)
         return tuple(self.membrane(name) for name in names if name is not None)
 
     @property
     def space_depth(self) -> tuple[float, float | None]:
-        """Where the space begins behind the far face of the first, m, and where it ends, if at a depth."""
+        """Distances from the first membrane's far face to the start and the end of the space, m; None: no such end."""
         space = self.file.space
         return space.depth_mm * 1e-3, None if space.deepest_mm is None else space.deepest_mm * 1e-3
 
     @property
     def goal_depth(self) -> float:
-        """How deep behind the far face of the first the needle must come, m: by its reach goal, or into the space."""
+        """Depth behind the first membrane's far face to reach, m: of the reach goal, or of the space."""
         reach = next((goal for goal in self.file.goal if isinstance(goal, Reach)), None)
         return self.space_depth[0] if reach is None or reach.depth_mm is None else reach.depth_mm * 1e-3
 
     def membrane(self, name: str) -> int:
-        """A membrane's place in the scene."""
+        """A membrane's index in the scene."""
         return [placed.name for placed in self.scene.membranes].index(name)
 
     @property
     def start_position(self) -> Triple:
-        """Where the tip waits, m."""
+        """Position of the tip at the start, m."""
         x, y, z = (v * 1e-3 for v in self.file.start.position_mm)
         return x, y, z
 
     @property
     def start_axis(self) -> Triple:
-        """Where the needle points, of length 1: at `angle_deg` to the surface of the first membrane."""
+        """Direction of the needle at the start, of length 1, at `angle_deg` to the surface of the first membrane."""
         return start_axis(self.scene, self.file.start.angle_deg, self.file.start.heading)
 
 
 def start_axis(scene: Scene, angle_deg: float, heading: list[float]) -> Triple:
-    """Raises ValueError where the heading has no direction along the surface, and the angle asks for one."""
+    """Raises ValueError if a slanted needle needs a heading along the surface, but the heading has none."""
     normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
     normal = normal / np.linalg.norm(normal)
     angle = math.radians(angle_deg)

@@ -1,4 +1,4 @@
-"""What all judges have in common: one judge a goal."""
+"""The common part of all judges of limits. Each goal has one judge."""
 
 from __future__ import annotations
 
@@ -25,31 +25,31 @@ def first_of(ticks: Ticks, flags: Flags) -> Moment | None:
 
 
 def by(when: Moment | None, until: Moment | None) -> bool:
-    """Whether it has happened; until: by then."""
+    """Whether `when` exists and is not after `until`."""
     return when is not None and (until is None or when.tick <= until.tick)
 
 
 class Limit:
-    """A goal that holds until it is missed. It is met only where it was measured to the end."""
+    """A goal that holds until it is missed. It is met only if it was measured to the end."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.missed: Moment | None = None
-        self.unseen: Moment | None = None  # when readings that it needs had been missing for too long
-        self.busy: Flags | None = None  # the ticks of the batch in which a measurement is still open
-        self.waits_for = ""  # what an open measurement waits for at the last tick: "pop", "rest"
+        self.unseen: Moment | None = None  # when needed readings had been missing for too long
+        self.busy: Flags | None = None  # the ticks of the batch in which a measurement is open
+        self.waits_for = ""  # the end of an open measurement at the last tick: "pop" or "rest"
         self._seen_at: float | None = None
 
     def add(self, ticks: Ticks, events: list[Event]) -> None:
-        """The next ticks of the attempt, with the events among them."""
+        """Takes the next ticks of the attempt and their events."""
         raise NotImplementedError
 
     def measured(self, until: Moment | None) -> bool:
-        """Whether enough was seen to call it met; until: as it was then."""
+        """Whether the readings up to `until` are enough to call it met."""
         return not by(self.unseen, until)
 
     def state(self, until: Moment | None, complete: bool) -> str:
-        """open, met, missed or not measured. until: as it was then. complete: nothing more will be measured."""
+        """open, met, missed or not measured, at `until`. complete: nothing more will be measured."""
         if by(self.missed, until):
             return "missed"
         if not complete:
@@ -61,7 +61,7 @@ class Limit:
             self.missed = first_of(ticks, flags)
 
     def _watch(self, ticks: Ticks, seen: Flags) -> None:
-        """seen: in which ticks there is a reading of what it judges."""
+        """Notes missing readings. seen: the ticks that have a reading."""
         if self.unseen is not None:
             return
         times = np.where(seen, ticks.time, -np.inf)

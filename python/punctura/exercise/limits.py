@@ -1,4 +1,4 @@
-"""The limits of an exercise, each followed by a judge of its own."""
+"""The judges of an exercise's limits."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class NeverPassJudge(Limit):
 
 
 class TimeJudge(Limit):
-    """Counts by the ticks' own times, so that ticks that never came do not stop it."""
+    """Uses the ticks' own times, so lost ticks do not stop the time."""
 
     def __init__(self, goal: TimeLimit) -> None:
-        super().__init__(goal.text or f"Be done within {goal.seconds:g} s of the first touch")
+        super().__init__(goal.text or f"Finish within {goal.seconds:g} s of the first contact")
         self.seconds = goal.seconds
         self._began: Moment | None = None
 
@@ -71,7 +71,7 @@ class EntriesJudge(Limit):
 
 
 def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
-    """None for a goal that is achieved. The scene has the membrane that the goal names."""
+    """The judge of a limit; None for a reach or stay goal. The scene must have the goal's membrane."""
     if isinstance(goal, Reach | Stay):
         return None
     if isinstance(goal, NeverPass):

@@ -1,4 +1,4 @@
-"""Exercise files: reading and checking."""
+"""Reads and checks exercise files."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FOLDER = Path(__file__).parents[1] / "exercises"
 
 
 def exercise_names() -> list[str]:
-    """Names of the ready exercises, as load_exercise takes them."""
+    """Names of the ready exercises, for load_exercise."""
     return sorted(file.stem for file in _FOLDER.glob("*.toml"))
 
 
@@ -27,7 +27,7 @@ def exercises() -> list[Exercise]:
 
 
 def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
-    """A ready exercise by its name, or one from a file. Raises ConfigurationError with everything that is wrong."""
+    """Loads a ready exercise by its name, or a file. Raises ConfigurationError with all problems."""
     path = _path_of(name_or_path)
     tables = read_tables(path, "exercise", float)
     scene, scene_name, scene_problems = _scene_of(tables.get("scene"), path)

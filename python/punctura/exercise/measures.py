@@ -1,4 +1,4 @@
-"""What is measured in an attempt: each number once, for goals, sentences, tables and plots (docs/exercises.md)."""
+"""Measures an attempt. Goals, sentences, tables and plots use the same numbers (docs/exercises.md)."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
-OVERSHOOT_S = 0.3  # after a pop, where no goal says otherwise: a hand's own reaction comes later
+OVERSHOOT_S = 0.3  # window after a pop, unless a goal sets it: a hand reacts later than this
 
 
 class Measures:
-    """Fed with all ticks up to the decision, and their events."""
+    """Takes all ticks up to the decision, and their events."""
 
     def __init__(
         self, scene: Scene, geometry: Geometry, space: TargetSpace, windows: Mapping[int, float] | None = None
     ) -> None:
-        """windows: s after a pop in which a membrane's overshoot is measured, where it is not OVERSHOOT_S."""
+        """windows: by membrane, the time after a pop in which the overshoot is measured, s; default OVERSHOOT_S."""
         self._windows = dict(windows or {})
         self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
@@ -39,7 +39,7 @@ class Measures:
         self.dwell = 0.0
         self._overshoots: list[Overshoot] = []
         self._path: Path | None = None
-        self._way: PathSoFar | None = None  # to the space, once it was reached
+        self._way: PathSoFar | None = None  # the path to the space, once it was reached
         self._entry_angle: float | None = None
         self._next_tick: int | None = None
         self._lost = 0
@@ -67,7 +67,7 @@ class Measures:
         self.dwell = float(ticks.dwell[-1, kind])
 
     def settle(self, ticks: Ticks) -> None:
-        """Overshoots are measured to the end of their windows, also after the decision."""
+        """Measures overshoots to the end of their windows, also after the decision."""
         for k, one in enumerate(self._overshoots):
             rows = (ticks.time >= one.time) & (ticks.time <= one.time + one.seconds)
             if rows.any():
@@ -78,7 +78,7 @@ class Measures:
 
     @property
     def settled(self) -> bool:
-        """No overshoot's window is open."""
+        """Whether all windows of overshoots have ended."""
         return all(self._seen_to > one.time + one.seconds for one in self._overshoots)
 
     def _count(self, ticks: Ticks) -> None:
@@ -92,7 +92,7 @@ class Measures:
         return Overshoot(membrane=pop.membrane, name=pop.name, time=pop.time, distance=0.0, seconds=seconds)
 
     def _follow(self, ticks: Ticks, touches: list[Event], arrived: int | None) -> None:
-        """The path from the last entry to the space; what comes after its first arrival is no part of it."""
+        """Follows the path from the last entry to the first arrival in the space."""
         if self._way is not None:
             return
         end = len(ticks) if arrived is None else arrived + 1
@@ -115,7 +115,7 @@ class Measures:
 
     @property
     def force_cut(self) -> dict[str, float]:
-        """How long each limit cut the force that the device got, s."""
+        """Time in which each limit cut the device's force, s."""
         return {LIMIT_WORDS[name]: ticks / self._rate for name, ticks in self._cut.items() if ticks}
 
     def metrics(self) -> Metrics:

@@ -1,4 +1,4 @@
-"""How straight the tip came."""
+"""Measures how straight the tip's path is."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from punctura.exercise.ticks import Numbers
 
-RULER = 0.5e-3  # m; shorter moves are a hand's tremor and an encoder's steps, and are not added up
+RULER = 0.5e-3  # m; shorter moves, from tremor and encoder steps, are not added up
 
 
 class PathSoFar(NamedTuple):
@@ -18,10 +18,10 @@ class PathSoFar(NamedTuple):
 
 
 class Path:
-    """The tip's way from an entry on, up to its deepest point so far."""
+    """The tip's path from an entry to its deepest point so far."""
 
     def __init__(self, entry: Numbers, direction: Numbers) -> None:
-        """entry: m. direction: the needle's, of length 1."""
+        """entry: position, m. direction: of the needle, of length 1."""
         self._entry, self._direction = entry, direction
         self._anchor = entry
         self._length = self._deviation = 0.0
@@ -29,7 +29,7 @@ class Path:
         self.deepest = PathSoFar(0.0, 0.0, 0.0)
 
     def add(self, tip: Numbers) -> None:
-        """The next ticks, (n, 3), m."""
+        """Takes the next positions of the tip, (n, 3), m."""
         tip = tip[np.isfinite(tip).all(axis=1)]
         if len(tip) == 0:
             return
@@ -43,7 +43,7 @@ class Path:
         self._walk(tip)
 
     def at(self, tip: Numbers) -> PathSoFar:
-        """Up to here."""
+        """The path up to this position."""
         rest = float(np.linalg.norm(tip - self._anchor))
         return PathSoFar(self._length + rest, float(np.linalg.norm(tip - self._entry)), self._deviation)
 

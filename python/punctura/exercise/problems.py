@@ -1,4 +1,4 @@
-"""What is wrong with the keys and values of an exercise file, each by itself, in plain words."""
+"""Messages for single keys and values of an exercise file that are wrong."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ GOALS: dict[str, type[BaseModel]] = {
 }
 _TABLES: dict[str, type[BaseModel]] = {"start": Start, "space": Space}
 _HEADS = {"start": "[start]", "space": "[space]", "goal": "[[goal]]"}
-_UNITS = {"seconds": "s"}  # of keys that do not end in their unit
+_UNITS = {"seconds": "s"}  # for keys that do not end in their unit
 
 _TYPES = {
     "string_type": "must be text, in quotes",
@@ -34,7 +34,7 @@ _TYPES = {
 
 
 def located(error: ErrorDetails) -> tuple[Location, str]:
-    """Where the value stands in the file, and the kind of the goal that it is in, or "".
+    """The value's location in the file, and the kind of its goal, or "".
 
     Pydantic names the kind within the location.
     """
@@ -45,7 +45,7 @@ def located(error: ErrorDetails) -> tuple[Location, str]:
 
 
 def problem(error: ErrorDetails) -> Problem:
-    """What is wrong, where, and what would be right."""
+    """The problem: where it is, and what the value must be."""
     location, goal = located(error)
     path = path_of(location)
     given = error["input"]

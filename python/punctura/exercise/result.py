@@ -1,4 +1,4 @@
-"""What came out of an attempt at an exercise."""
+"""The result of an attempt at an exercise."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class _Part(BaseModel):
 
 
 class GoalState(_Part):
-    """A goal in words.
+    """A goal as a sentence, and its state.
 
     At the end a limit that was kept is met, if it was measured; else it is `not measured`, and a reason says why. What
     was not decided is open.
@@ -28,43 +28,43 @@ class GoalState(_Part):
 
 
 class Status(_Part):
-    """How an attempt stands."""
+    """The present state of an attempt."""
 
     instruction: str  # what to do now
     goals: list[GoalState]
 
 
 class Overshoot(_Part):
-    """How far the tip ran on behind a membrane in the seconds after its pop."""
+    """How far the tip moved on behind a membrane in the seconds after its pop."""
 
     membrane: int
     name: str
-    time: Finite  # s, of the pop
+    time: Finite  # time of the pop, s
     distance: Finite  # m along the needle
-    seconds: Finite = 0.3  # after the pop: as the membrane's stop_after_pop says
+    seconds: Finite = 0.3  # length of the measurement, from the membrane's stop_after_pop goal
 
 
 class Metrics(_Part):
-    """Of the attempt up to its decision (an overshoot to the end of its seconds), SI. None: there was none."""
+    """Measures up to the decision (overshoots: to the end of their seconds), SI. None: not available."""
 
     entries: int = Field(validation_alias=AliasChoices("entries", "attempts"))  # into the first membrane
-    peak_force: Finite  # N, of the model, all membranes together
+    peak_force: Finite  # N, largest total force of the model
     overshoot: list[Overshoot]
-    dwell: Finite  # s in the space, in all; of the whole tip where a stay goal asks for it, else of the point
-    longest_stay: Finite  # s, at a time, of the same
-    path_length: Finite | None  # m of the tip, from the last entry to the space, else to the deepest point
-    net_distance: Finite | None  # m, straight from the one to the other
+    dwell: Finite  # s, total time in the space: of the whole tip if a stay goal asks for it, else of the point
+    longest_stay: Finite  # s, longest time in the space without a break
+    path_length: Finite | None  # m, tip's path from the last entry to the space, else to the deepest point
+    net_distance: Finite | None  # m, straight distance between the same two points
     straightness: Finite | None  # path_length / net_distance: 1 is straight
-    lateral_deviation: Finite | None  # m, the largest distance from the line of entry
+    lateral_deviation: Finite | None  # m, largest distance from the line of entry
     entry_angle: Finite | None  # rad, between the needle and the first surface at the last entry
-    time_to_target: Finite | None  # s from the first touch to the first arrival, as the reach goal wants it
-    total_time: Finite  # s from the first touch to the decision
-    lost_ticks: int  # that never came
-    force_cut: dict[str, Finite] = {}  # s in which the device got less than peak_force counts, by limit, in words
+    time_to_target: Finite | None  # s, from the first contact to the first arrival, as the reach goal defines it
+    total_time: Finite  # s, from the first contact to the decision
+    lost_ticks: int
+    force_cut: dict[str, Finite] = {}  # s, time in which the device's force was below the model's, by limit
 
 
 class Result(_Part):
-    """To be kept: punctura.exercise.results. `name` is under which it is kept, and empty before."""
+    """A result; punctura.exercise.results saves it. `name` is the name of the saved file, empty before."""
 
     format: int = FORMAT
     name: str = ""
@@ -88,7 +88,7 @@ class Result(_Part):
 
     @property
     def verdict(self) -> str:
-        """In words: a pass says if something was not measured."""
+        """The verdict in words. A pass tells if something was not measured."""
         if not self.passed:
             return "not passed"
         return "passed, but not everything was measured" if self.unmeasured else "passed"

@@ -1,4 +1,4 @@
-"""Results, kept as JSON files in one folder."""
+"""Saves results as JSON files in one folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from punctura.files.whole_file import write_whole
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
 _LARGEST = 20_000_000  # bytes; a result has some kilobytes
 
-# A row of the table: its column's name, and where it stands in a result. Units for people, as in `punctura simulate`.
+# Columns of the CSV table, with the unit in the name, as in `punctura simulate`.
 COLUMNS = (
     "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
     "reasons", "entries",
@@ -31,29 +31,29 @@ COLUMNS = (
 
 
 class ResultsError(PuncturaError, ValueError):
-    """A result that is not there or cannot be read, a name that is none."""
+    """A result does not exist or cannot be read, or a name is invalid."""
 
 
 def default_folder() -> Path:
-    """Where the operating system wants a person's data of this program."""
+    """The operating system's folder for the user's data of this program."""
     import platformdirs
 
     return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "results"
 
 
 class ResultStore:
-    """A folder of results. Nothing is read or written outside it; what is in it and is no result is left alone."""
+    """A folder of results. Nothing outside it is read or written; other files in it are not touched."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
-        """The folder is made with the first result."""
+        """The folder is created with the first result."""
         self.folder = Path(folder)
 
     def __repr__(self) -> str:
         return f"ResultStore({str(self.folder)!r})"
 
     def save(self, result: Result) -> Result:
-        """Keeps a result under a new name, and gives it with that name. Raises OSError."""
-        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # names of persons are nobody else's
+        """Saves a result under a new name, and returns it with that name. Raises OSError."""
+        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # private: it contains names of persons
         stem = "-".join(filter(None, (_slug(result.date[:19]), _slug(result.exercise)[:40], _slug(result.person)[:40])))
         while True:
             kept = result.model_copy(update={"name": f"{stem}-{secrets.token_hex(3)}"})
@@ -68,7 +68,7 @@ class ResultStore:
         return self._read(self._path(name), name)
 
     def all(self, person: str | None = None) -> list[Result]:
-        """All results, of one person or of all, the latest first; files that are no result are passed over."""
+        """All results, or those of one person, latest first. Files that are not results are skipped."""
         results = []
         for path in self.folder.glob("*.json") if self.folder.is_dir() else ():
             try:
@@ -80,7 +80,7 @@ class ResultStore:
         return sorted(results, key=lambda result: (result.date, result.name), reverse=True)
 
     def people(self) -> list[str]:
-        """Everybody who has a result, by name."""
+        """The names of all persons with a result, sorted."""
         return sorted({result.person for result in self.all()} - {""}, key=str.casefold)
 
     def delete(self, name: str) -> None:
@@ -92,7 +92,7 @@ class ResultStore:
 
     def _path(self, name: str) -> Path:
         if not _NAME.fullmatch(name):
-            raise ResultsError(f"{name!r} is no name of a result")
+            raise ResultsError(f"{name!r} is not a valid name of a result")
         return self.folder / f"{name}.json"
 
     def _read(self, path: Path, name: str) -> Result:
@@ -100,7 +100,7 @@ class ResultStore:
             if path.is_symlink() or not path.is_file():
                 raise ResultsError(f"there is no result {name!r}")
             if path.stat().st_size > _LARGEST:
-                raise ResultsError(f"{name}: is too large for a result")
+                raise ResultsError(f"{name} is too large for a result")
             result = Result.model_validate_json(path.read_bytes())
         except (OSError, ValidationError) as bad:
             raise ResultsError(f"{name} cannot be read as a result: {bad}") from None
@@ -108,7 +108,7 @@ class ResultStore:
 
 
 def to_csv(results: Iterable[Result]) -> str:
-    """One row a result. A cell that a spreadsheet would take for a formula begins with an apostrophe."""
+    """One row per result. A cell that a spreadsheet could take for a formula gets an apostrophe in front."""
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
@@ -118,7 +118,7 @@ def to_csv(results: Iterable[Result]) -> str:
 
 
 def to_json(results: Iterable[Result]) -> str:
-    """All that is in them, as a list."""
+    """The complete results as a JSON list."""
     return "[" + ",\n".join(result.model_dump_json(indent=1) for result in results) + "]\n"
 
 

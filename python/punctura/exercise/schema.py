@@ -1,4 +1,4 @@
-"""The exercise file, described once (docs/exercises.md). A number's unit stands in its key."""
+"""The schema of exercise files (docs/exercises.md). Keys end in the unit of their number."""
 
 from __future__ import annotations
 
@@ -21,42 +21,42 @@ Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
 class Start(Table):
-    """Where the needle waits, and where it points."""
+    """Position and direction of the needle at the start."""
 
     position_mm: Vector
     angle_deg: Annotated[float, Field(gt=10, le=90)] = 90.0  # between the needle and the first membrane's surface
-    heading: Vector = Field([1.0, 0.0, 0.0])  # where a slanted needle points, seen from in front of the surface
+    heading: Vector = Field([1.0, 0.0, 0.0])  # direction of a slanted needle along the surface
 
 
 class Space(Table):
-    """The space to reach: behind one membrane. It may end in front of another, at a depth, or nowhere.
+    """The space to reach, behind one membrane. It ends in front of another membrane, at a depth, or not at all.
 
     Depths are measured from the far face of `behind`, along that membrane's normal.
     """
 
-    name: Word  # as sentences have it: "the vein"
-    behind: Word  # names of membranes of the scene
+    name: Word  # name for sentences, such as "the vein"
+    behind: Word  # name of a membrane of the scene, as is in_front_of
     in_front_of: Word | None = None
     depth_mm: Depth = 0.0  # where the space begins
     deepest_mm: Distance | None = None  # where it ends
-    sign: Word | None = None  # by which one knows: "the flash-back"
+    sign: Word | None = None  # sign of the arrival, such as "the flash-back"
     press_mm: Depth = 0.0  # how deep the point may be in the second membrane
 
 
 class _Goal(Table):
-    text: Word | None = None  # in place of the sentence that is made from the goal
+    text: Word | None = None  # replaces the generated sentence
 
 
 class Reach(_Goal):
-    """The needle's point comes into the space; with whole_tip its slanted face, too."""
+    """The needle's point reaches the space; with whole_tip, the whole bevel does."""
 
     kind: Literal["reach"]
     whole_tip: bool = False
-    depth_mm: Distance | None = None  # that it must come to, as in [space]; where the space begins, if not given
+    depth_mm: Distance | None = None  # depth to reach, measured as in [space]; default: the start of the space
 
 
 class Stay(_Goal):
-    """... and stays there."""
+    """The needle stays in the space."""
 
     kind: Literal["stay"]
     seconds: Seconds
@@ -64,7 +64,7 @@ class Stay(_Goal):
 
 
 class NeverPass(_Goal):
-    """The point never comes out behind a membrane; with whole_tip: the slanted face."""
+    """The point never passes a membrane; with whole_tip, the whole bevel never does."""
 
     kind: Literal["never_pass"]
     membrane: Word
@@ -72,7 +72,7 @@ class NeverPass(_Goal):
 
 
 class StopAfterPop(_Goal):
-    """After a pop the tip runs on by no more than this."""
+    """After a pop, the tip moves on by at most this distance."""
 
     kind: Literal["stop_after_pop"]
     membrane: Word
@@ -81,21 +81,21 @@ class StopAfterPop(_Goal):
 
 
 class TimeLimit(_Goal):
-    """Everything is done in this time from the first touch on."""
+    """Everything is finished within this time after the first contact."""
 
     kind: Literal["time_limit"]
     seconds: Seconds
 
 
 class PeakForce(_Goal):
-    """The model's force, all membranes together, stays below."""
+    """The model's total force stays at or below this."""
 
     kind: Literal["peak_force"]
     at_most_N: Newtons
 
 
 class Entries(_Goal):
-    """The first membrane is entered no more often."""
+    """The first membrane is entered at most this often."""
 
     kind: Literal["entries"]
     at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
@@ -107,12 +107,12 @@ AnyGoal = Annotated[
 
 
 class ExerciseFile(Table):
-    """An exercise: a scene, what to do in it, and by what it is judged."""
+    """An exercise: a scene, a task in it, and its goals."""
 
     title: Word
     description: Text
     instruction: Text
-    scene: Word  # a ready scene's name, or a scene file beside this one
+    scene: Word  # a ready scene's name, or the path of a scene file relative to this file
     start: Start
     space: Space
     goal: Annotated[list[AnyGoal], Field(min_length=1)]

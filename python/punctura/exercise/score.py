@@ -1,4 +1,4 @@
-"""Judges a recording that exists."""
+"""Scores a recording."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from punctura.record import open_recording
 
 
 def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: str = "") -> Result:
-    """The result that the attempt had, or would have had, live. Raises RecordingError, ConfigurationError."""
+    """The result that the recorded attempt has in the studio. Raises RecordingError, ConfigurationError."""
     opened = open_recording(recording)
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
     try:

@@ -1,4 +1,4 @@
-"""The space to be reached, in a scene."""
+"""The target space of an exercise in a scene."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from punctura.exercise.ticks import ROUNDING, Flags, Ticks
 
 @dataclass(frozen=True)
 class TargetSpace:
-    """Behind one membrane's far face; it ends in front of another's near face, at a depth, or nowhere.
+    """The space behind one membrane's far face. It ends at another's near face, at a depth, or not at all.
 
-    All along the membranes' normals.
+    Distances are along the membranes' normals.
     """
 
     name: str
-    sign: str  # by which one knows that one is there; may be empty
+    sign: str  # sign of the arrival; may be empty
     behind: int
     in_front_of: int | None
     begins: float  # m behind the far face of `behind`
-    ends: float  # likewise; infinite without an end of its own
-    press: float  # m that the point may be in `in_front_of`
-    # What counts as arriving and as being there, for every measure and sentence.
-    arrive_whole: bool  # the whole tip, not the point alone
-    arrive_depth: float | None  # m, if it must come deeper than the space begins
+    ends: float  # the same; infinite without an end at a depth
+    press: float  # m, allowed depth of the point in `in_front_of`
+    # The definition of arriving and staying, for every measure and sentence.
+    arrive_whole: bool  # the whole tip, not only the point
+    arrive_depth: float | None  # m, if deeper than the start of the space
     stay_whole: bool
 
     def holds(self, ticks: Ticks, whole_tip: bool, depth: float | None = None) -> Flags:
-        """In which ticks the point, or all of the tip, is in it, at `depth` (m) at least.
+        """The ticks in which the point, or the whole tip, is in the space and at least at `depth`, m.
 
-        A needle that the front wall does not hold is not in it.
+        A needle that the front membrane does not hold is not in the space.
         """
         least = self.begins if depth is None else depth
         past = (ticks.tip_past if whole_tip else ticks.past)[:, self.behind]
@@ -42,7 +42,7 @@ class TargetSpace:
         return deep & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
 
     def too_deep(self, ticks: Ticks) -> Flags:
-        """In which ticks the point is behind the space's end; also where that is not known."""
+        """The ticks in which the point is behind the space's end, or in an unknown place."""
         flags = np.zeros(len(ticks), dtype=np.bool_)
         if self.in_front_of is not None:
             flags |= ~(ticks.below[:, self.in_front_of] <= self.press)
@@ -51,17 +51,17 @@ class TargetSpace:
         return flags
 
     def arrived(self, ticks: Ticks) -> Flags:
-        """In which ticks the needle is where the exercise's `reach` wants it; without one, where its `stay` does."""
+        """The ticks in which the needle meets the `reach` goal, or without one the place of the `stay` goal."""
         return self.holds(ticks, self.arrive_whole, self.arrive_depth)
 
     @property
     def arrival(self) -> str:
-        """For sentences: 0.8 s after ..."""
+        """The arrival, for sentences such as "0.8 s after ..."."""
         return self.sign or f"you had reached {self.name}"
 
 
 def need_membranes(file: ExerciseFile, scene: Scene) -> None:
-    """Raises ConfigurationError where the scene that runs lacks membranes that the exercise names."""
+    """Raises ConfigurationError if the running scene does not have all membranes of the exercise."""
     needed = [file.space.behind, file.space.in_front_of, *(getattr(goal, "membrane", None) for goal in file.goal)]
     names = [placed.name for placed in scene.membranes]
     lacking = list(dict.fromkeys(repr(name) for name in needed if name is not None and name not in names))
@@ -71,12 +71,12 @@ def need_membranes(file: ExerciseFile, scene: Scene) -> None:
 
 
 def place_of(scene: Scene, name: str) -> int:
-    """A membrane's number in the scene that runs, which has it."""
+    """The index of an existing membrane in the running scene."""
     return [placed.name for placed in scene.membranes].index(name)
 
 
 def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
-    """The space in the scene that runs, which has its membranes."""
+    """The space in the running scene, which must have its membranes."""
     space = file.space
     reach = next((goal for goal in file.goal if isinstance(goal, Reach)), None)
     stay_whole = any(goal.whole_tip for goal in file.goal if isinstance(goal, Stay))
@@ -97,5 +97,5 @@ def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
 
 
 def depth_of(goal: Reach | None) -> float | None:
-    """m behind the far face; None where the goal asks for no more than the space."""
+    """The goal's depth behind the far face, m; None if it only asks for the space."""
     return None if goal is None or goal.depth_mm is None else goal.depth_mm * 1e-3

@@ -1,4 +1,4 @@
-"""How long the needle is in the space: counted here once, for goals, measures and sentences."""
+"""Measures how long the needle is in the space, for goals, measures and sentences."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import numpy as np
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Flags, Numbers, Ticks
 
-MOST_GAP_S = 0.02  # without a reading: a hand does nothing unseen in so short a time
+MOST_GAP_S = 0.02  # allowed time without a reading: too short for a relevant motion of the hand
 
 
 class Stays:
-    """Fed with all ticks of an attempt, in batches cut anywhere."""
+    """Takes all ticks of an attempt, in batches of any size."""
 
     def __init__(self, space: TargetSpace) -> None:
         self._space = space
         self._stays = (_Stay(), _Stay())
 
     def mark(self, ticks: Ticks) -> Ticks:
-        """The same ticks with `in_space`, `stay` and `dwell`."""
+        """Returns the ticks with `in_space`, `stay` and `dwell` filled in."""
         inside = np.stack([self._space.holds(ticks, whole) for whole in (False, True)], axis=1)
         times = [one.add(ticks.time, inside[:, k]) for k, one in enumerate(self._stays)]
         stay, dwell = (np.stack(columns, axis=1) for columns in zip(*times, strict=True))
@@ -33,7 +33,7 @@ class _Stay:
     def __init__(self) -> None:
         self._since: float | None = None
         self._last: float | None = None  # time of the last tick
-        self._done = 0.0  # s, of the stays that are over
+        self._done = 0.0  # s, total of the stays that have ended
 
     def add(self, time: Numbers, inside: Flags) -> tuple[Numbers, Numbers]:
         """The present stay and all stays together, s, at each tick."""

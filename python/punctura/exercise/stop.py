@@ -1,4 +1,4 @@
-"""How far the tip runs on when a membrane gives way: judged in a window of time after the pop."""
+"""Judges how far the tip moves on after a membrane gives way, in a window of time after the pop."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from punctura.exercise.ticks import Flags, Ticks
 
 
 class StopJudge(Limit):
-    """What counts is the tip's place in the membrane, so that a wall that springs back counts, too.
+    """Uses the tip's depth in the membrane, so a wall that springs back along the needle counts too.
 
-    The measurement is open while the membrane holds a tip that has not popped since it went in, and then until the
-    window after the pop is over. A membrane that never popped was not measured.
+    The measurement is open while the membrane holds a tip without a pop since its entry, and then until the window
+    after the pop ends. A membrane without a pop was not measured.
     """
 
     def __init__(self, goal: StopAfterPop, scene: Scene) -> None:
@@ -27,7 +27,7 @@ class StopJudge(Limit):
         self.membrane, self.within, self.seconds = goal.membrane, goal.within_mm * 1e-3, goal.seconds
         self.met: Moment | None = None  # the end of the first window
         self.index = place_of(scene, goal.membrane)
-        self._until = -np.inf  # s, the end of the last window
+        self._until = -np.inf  # the end of the last window, s
         self._popped = False  # since the tip went in
 
     @property

@@ -1,4 +1,4 @@
-"""Where the tip is among the membranes, tick by tick."""
+"""The tip's position relative to the membranes, tick by tick."""
 
 from __future__ import annotations
 
@@ -10,52 +10,51 @@ from numpy.typing import NDArray
 
 from punctura import Scene
 from punctura._core import Phase, grazing_cosine, tip_length
-from punctura.ticks import Columns
+from punctura.ticks import ABSENT, COMMAND_SCENE, Columns
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# By phase: whether the membrane holds the needle.
+# Whether the membrane holds the needle, indexed by phase.
 _INSIDE = np.zeros(256, dtype=np.bool_)
 _INSIDE[[Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value]] = True
-_COMMAND_SCENE = 8
 ROUNDING = 1e-12  # m
 
 
 @dataclass
 class Ticks:
-    """n ticks, m membranes. Depths are those of the model: a wall that gives way is not yet pierced."""
+    """n ticks, m membranes. Depths are the model's: a wall that is only pushed ahead does not count as pierced."""
 
     tick: NDArray[np.int64]
     time: Numbers  # s
     tip: Numbers  # (n, 3), m
-    held: Numbers  # (n, 3), the needle's direction: that held by the first membrane, else the stylus's
-    force: Numbers  # N, the norm of the model's force; NaN where it is not known
+    held: Numbers  # (n, 3), the needle's direction: fixed by the first membrane at entry, else the stylus's
+    force: Numbers  # N, the norm of the model's force; NaN if unknown
     fault: NDArray[np.int64]
-    limit: NDArray[np.int64]  # that cut the force to the device: Limit, or another number where that is not known
+    limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
     new_scene: Flags
-    inside: Flags  # (n, m), held by the membrane: the model lets it in
-    depth: Numbers  # (n, m), of the point along the needle while inside, else along the normal, m
-    below: Numbers  # (n, m), of the point along the normal, m
-    run_on: Numbers  # (n, m), how far the slanted face is past the membrane along the needle, m; below 0 before that
-    past: Numbers  # (n, m), how far the point is behind the membrane's far face, along its normal, m
-    tip_past: Numbers  # (n, m), how far the end of the slanted face is
-    # Of the point, and of the whole tip, (n, 2): filled in by Stays.
+    inside: Flags  # (n, m), the membrane holds the needle
+    depth: Numbers  # (n, m), depth of the point, m: along the needle while inside, else along the normal
+    below: Numbers  # (n, m), depth of the point along the normal, m
+    run_on: Numbers  # (n, m), distance of the bevel past the membrane along the needle, m; negative before
+    past: Numbers  # (n, m), distance of the point behind the membrane's far face, along its normal, m
+    tip_past: Numbers  # (n, m), the same of the bevel's end
+    # For the point and for the whole tip, (n, 2); Stays fills them in.
     in_space: Flags
-    stay: Numbers  # s since it came into the space where it is now; 0 outside
-    dwell: Numbers  # s in the space so far, in all
+    stay: Numbers  # s since it entered the space; 0 outside
+    dwell: Numbers  # s in the space so far, in total
 
     def __len__(self) -> int:
         return len(self.tick)
 
     @property
     def point_behind(self) -> Flags:
-        """(n, m), the point is out behind the membrane; not where that is not known."""
+        """(n, m), whether the point is behind the membrane; False if unknown."""
         return self.past > 0
 
     @property
     def tip_behind(self) -> Flags:
-        """(n, m), the slanted face is, too."""
+        """(n, m), whether the whole bevel is behind the membrane."""
         return self.tip_past >= -ROUNDING
 
     def part(self, rows: slice) -> Ticks:
@@ -63,7 +62,7 @@ class Ticks:
 
 
 class Geometry:
-    """A scene's membranes, for judging a tip."""
+    """The geometry of a scene's membranes."""
 
     def __init__(self, scene: Scene) -> None:
         normals = np.array([placed.inward_normal for placed in scene.membranes], dtype=np.float64)
@@ -73,12 +72,12 @@ class Geometry:
         self._rate = scene.servo.rate
 
     def ticks(self, columns: Columns, first: int = 0) -> Ticks:
-        """A batch of snapshots. first: the number of its first tick, where it does not tell."""
+        """Converts a batch of snapshots. first: number of its first tick, used if the batch has no `tick`."""
         m = len(self.thickness)
         depth = _wide(columns["depth"], m, np.nan)
         n = len(depth)
         finite = np.isfinite(depth)
-        inside = _INSIDE[_wide(columns["phase"], m, 255)] & finite
+        inside = _INSIDE[_wide(columns["phase"], m, ABSENT)] & finite
         axis = _rows(columns.get("axis"), n)
         cosine = self._cosine(columns, axis, inside)
         below = np.where(inside, depth * cosine, depth)
@@ -94,7 +93,7 @@ class Geometry:
             force=np.linalg.norm(force, axis=1),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
-            new_scene=(columns.get("commands", zeros).astype(np.int64) & _COMMAND_SCENE) != 0,
+            new_scene=(columns.get("commands", zeros).astype(np.int64) & COMMAND_SCENE) != 0,
             inside=inside,
             depth=depth,
             below=below,
@@ -116,7 +115,7 @@ class Geometry:
         return np.where(good, held / np.where(good, length, 1.0), self.normals[0])
 
     def _cosine(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:
-        """n.b: by the direction held since entry; where the tip is not inside, by the stylus."""
+        """n.b, with the direction at entry while the tip is inside, else with the stylus's direction."""
         cosine = axis @ self.normals.T
         if "direction" in columns:
             m = len(self.thickness)
@@ -130,7 +129,7 @@ def _rows(column: NDArray[Any] | None, n: int) -> Numbers:
 
 
 def _wide(column: NDArray[Any], m: int, none: float) -> NDArray[Any]:
-    """For m membranes: more are left out, missing ones are none."""
+    """The column for m membranes: further ones are cut off, missing ones are filled with `none`."""
     has = column.shape[1]
     if has >= m:
         return column[:, :m]

@@ -1,4 +1,4 @@
-"""Goals that do not go together with the length of the needle's tip. They are allowed, but seldom meant."""
+"""Warns about goals that do not suit the length of the needle's tip: they are allowed, but usually a mistake."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from punctura.exercise.schema import ExerciseFile, Reach, Stay
 
 
 def tip_warnings(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:
-    """Depths in the file's units, for a needle that is held as it waits at the start."""
+    """Warnings with depths in the file's units, for a needle in its direction at the start."""
     tip = _tip_mm(file, scene)
     space = file.space
     end, by = space_end_mm(space.model_dump(), scene)

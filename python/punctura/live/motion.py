@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from punctura import Hand, Scene, Strokes
-from punctura._core import law_curve
+from punctura._core import grazing_cosine, law_curve
 
 CLEARANCE = 5e-3  # m in front of the first surface, where the force may begin
-BEYOND = 3e-3  # m of shaft behind the last wall, and for the friction of the device itself
-STEEPEST = math.radians(80)  # the strokes cannot pass through a wall that is almost parallel to them
+BEYOND = 3e-3  # m of shaft behind the last wall, as a margin for the device's own friction
+
 
 Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 Triple = tuple[float, float, float]
@@ -38,7 +38,7 @@ def _wall(scene: Scene, i: int, origin: Array, way: Array) -> tuple[float, float
     normal = _unit(placed.inward_normal)
     if normal @ way < 0:  # a back wall may have the opposite normal: the needle meets its far side
         normal = -normal
-    cosine = max(float(normal @ way), math.cos(STEEPEST))
+    cosine = max(float(normal @ way), grazing_cosine)  # at a flatter angle the core refuses the entry
     law = law_curve(scene, i, math.acos(min(1.0, cosine)))
     peak = max(-min(law["lower"]), max(law["upper"]))
     return float((np.array(placed.point) - origin) @ normal) / cosine, law["through"], peak

@@ -24,7 +24,7 @@ from punctura.record.schema import raw_batch
 from punctura.record.status import RecorderStatus
 from punctura.record.stream import Encoder
 from punctura.record.writer import Writer
-from punctura.ticks import Ticks
+from punctura.ticks import COMMAND_SCENE, Ticks
 
 INTERVAL_S = 0.1  # between two batches
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
@@ -32,7 +32,6 @@ _ROWS_AT_ONCE = 4096  # maximum
 _BATCH_BYTES = 8 << 20  # approximate
 _ROWS_AT_LEAST = 64  # minimum, when memory is short
 _MOST_FAILURES = 20  # in a row; then the thread waits until the next interval
-_COMMAND_SCENE = 8
 
 
 class Recorder:
@@ -229,7 +228,7 @@ class Recorder:
     def _taken(self, snapshots: Ticks) -> list[list[str] | None]:
         """For each tick the scenes that it took, None if it took none."""
         scenes: list[list[str] | None] = [None] * len(snapshots["tick"])
-        for k in np.flatnonzero(snapshots["commands"] & _COMMAND_SCENE):
+        for k in np.flatnonzero(snapshots["commands"] & COMMAND_SCENE):
             scenes[k] = self._scenes.taken(int(snapshots["tick"][k]))
         if self._carried:
             scenes[0] = self._carried + (scenes[0] or [])

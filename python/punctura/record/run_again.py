@@ -21,9 +21,8 @@ from punctura.record.recording import Recording, open_recording
 from punctura.record.scene_text import from_text
 from punctura.record.schema import input_ticks, membranes_in, numbers, raw_batch, worded
 from punctura.record.target import check_target
+from punctura.ticks import COMMAND_SCENE
 from punctura.ticks.flat import flatten
-
-_COMMAND_SCENE = 8
 
 
 @dataclass
@@ -103,7 +102,7 @@ class _Replayer:
             return None
         recorded = {f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}
         scenes = batch.column(NEW_SCENES).to_pylist()
-        taken = recorded["commands"] & _COMMAND_SCENE != 0
+        taken = recorded["commands"] & COMMAND_SCENE != 0
         computed = self._step.run(input_ticks(batch), [self._scenes(scenes[k]) for k in np.flatnonzero(taken)])
         self._compare(recorded, flatten(computed, self._width))
         self._result.ticks += n
@@ -126,7 +125,7 @@ class _Replayer:
                 why = f"{missing} ticks are missing before tick {tick[n]}; later ticks cannot be replayed"
         unknown = [
             k
-            for k in np.flatnonzero(numbers(batch, "commands") & _COMMAND_SCENE)
+            for k in np.flatnonzero(numbers(batch, "commands") & COMMAND_SCENE)
             if not batch.column(NEW_SCENES)[k].as_py()
         ]
         if unknown and unknown[0] < n:

@@ -1,4 +1,4 @@
-"""Scene files: reading, writing, checking, and the scenes that come with the package (docs/scene-file.md)."""
+"""Reads, checks and writes scene files; holds the ready scenes of the package (docs/scene-file.md)."""
 
 from punctura.scene.json_schema import scene_json_schema
 from punctura.scene.ready import load_scene, scene_names, scene_path

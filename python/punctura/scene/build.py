@@ -1,4 +1,4 @@
-"""From a scene file's tables to the core's structs, in SI."""
+"""Converts a scene file's tables to the core's structs, in SI."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _STAND_INS: dict[str, Any] = {
 
 
 class Parts(NamedTuple):
-    """What a Scene is built from, and how the core's names for its fields relate to the file's keys."""
+    """The arguments of a Scene, and the mapping from the core's names to the file's keys."""
 
-    arguments: tuple[Any, ...]  # of Scene and of scene_problems
+    arguments: tuple[Any, ...]  # for Scene and for scene_problems
     keys: dict[str, str]  # core path -> path in the file
-    stand_ins: set[str]  # core paths whose values are not the file's
+    stand_ins: set[str]  # core paths with a substitute value instead of the file's
 
 
 class _Reader:
@@ -36,7 +36,7 @@ class _Reader:
         self.stand_ins: set[str] = set()
 
     def table(self, raw: object, path: str, model: type[Any]) -> dict[str, Any]:
-        """The values of one table by the core's names; where the file has none that serve, a default or a stand-in."""
+        """The values of one table by the core's names; a default or a substitute for missing or unusable ones."""
         given: Mapping[str, Any] = raw if isinstance(raw, dict) else {}
         values: dict[str, Any] = {}
         for key, info in model.model_fields.items():
@@ -68,7 +68,7 @@ def _si(value: Any, unit: Any) -> Any:
 
 
 def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Parts:
-    """Reads what can be read of the tables; `unsound` are the paths that the schema has refused."""
+    """Reads all usable values of the tables; `unsound` are the paths that the schema has refused."""
     reader = _Reader(unsound)
     needle = reader.table(data.get("needle"), "needle", NeedleTable)
     coupling = reader.table(data.get("coupling"), "coupling", CouplingTable)
@@ -94,5 +94,5 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
 
 
 def build_scene(scene_file: SceneFile) -> Scene:
-    """The scene that a sound scene file describes."""
+    """The scene of a valid scene file."""
     return Scene(*scene_parts(scene_file.model_dump(mode="python", exclude_none=True)).arguments)

@@ -1,7 +1,7 @@
-"""Everything that is wrong with a scene file's tables, in the file's own keys and units.
+"""Finds all problems of a scene file's tables, in the file's own keys and units.
 
-Wrong types are found by the schema, wrong values by the core, on the same reading: where a value has the wrong type, a
-harmless one stands in for it while the core looks at the rest.
+The schema finds wrong types, the core finds wrong values, in one pass: a value of the wrong type is replaced by a
+harmless one while the core checks the others.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _SCHEMA = Schema(
     {"needle": NeedleTable, "coupling": CouplingTable, "servo": ServoTable},
     {"membrane": MembraneTable},
 )
-_ENOUGH = 100  # membranes to look at: more than the core takes, and so few that all their problems can be told
+_ENOUGH = 100  # membranes to check: more than the core allows, and few enough to report all their problems
 
 
 def check_tables(data: Tables) -> tuple[SceneFile | None, list[Problem]]:
-    """The scene file of these tables, if it is sound, and every problem if it is not."""
+    """The scene file of these tables if it is valid, and all problems."""
     tables = data.get("membrane")
     if isinstance(tables, list) and len(tables) > _ENOUGH:
         data = data | {"membrane": tables[:_ENOUGH]}
@@ -77,7 +77,7 @@ def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Prob
 
 
 def _bound_in_unit(path: str, key_path: str, value: float) -> str:
-    """The bound that is broken in the key's unit, where that is not the core's: `(at most 90 deg)`."""
+    """The broken bound in the key's unit, if that is not the core's unit: `(at most 90 deg)`."""
     unit = split_key(key_path)[1]
     if not isinstance(value, float) or not math.isfinite(value) or unit.si == 1:
         return ""
@@ -106,11 +106,11 @@ def _lookup(data: object, path: str) -> object:
 
 
 class _Order:
-    """Where a problem's field stands in the file, so that problems are told from top to bottom."""
+    """The order of fields in the file, so that problems are reported from top to bottom."""
 
     def __init__(self, data: Mapping[str, object]) -> None:
         self._data = data
-        self._ranks: dict[int, dict[str, int]] = {}  # of a table's keys, by the table
+        self._ranks: dict[int, dict[str, int]] = {}  # ranks of a table's keys, by the table's id
 
     def place(self, location: Location) -> tuple[int, ...]:
         place: list[int] = []

@@ -1,4 +1,4 @@
-"""The scene file as JSON Schema, for editors and forms. Bounds come from the core, defaults from its structs."""
+"""JSON Schema of scene files, for editors and forms. Bounds and defaults come from the core."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable":
 
 
 def scene_json_schema() -> JsonSchemaValue:
-    """JSON Schema (2020-12) of a scene file. `x-unit` and `x-symbol` say a number's unit and its letter in K06;
-    `x-diameters-mm`, in the order of `enum`, what the gauges are."""
+    """JSON Schema (2020-12) of a scene file. `x-unit` is a number's unit, `x-symbol` its letter in K06, and
+    `x-diameters-mm` the diameters of the gauges, in the order of `enum`."""
     schema = SceneFile.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     fields = {field["path"]: field for field in _core.fields()}
@@ -36,7 +36,7 @@ def scene_json_schema() -> JsonSchemaValue:
 
 def _complete(entry: JsonSchemaValue, key: str, field: dict[str, Any] | None) -> None:
     optional = entry.pop("anyOf", None)
-    if optional:  # a key that may be left out, but never be null
+    if optional:  # the key is optional, but never null
         entry |= next(kind for kind in optional if kind.get("type") != "null")
         entry.pop("default", None)
     if entry.get("type") == "number" and "default" in entry:

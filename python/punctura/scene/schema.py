@@ -1,7 +1,7 @@
-"""The scene file, described once: keys, units, titles and help. Reader, writer and JSON Schema all come from here.
+"""The schema of scene files: keys, units, titles and help, for the reader, the writer and the JSON Schema.
 
-A number's key ends in its unit (files/units.py), the rest of the key is the field's name in the core. No bound stands
-here: the core checks what is read, and tells JSON Schema its bounds (scene/json_schema.py).
+A number's key is the field's name in the core and its unit (files/units.py). The bounds are in the core, which checks
+the values; the JSON Schema gets the bounds from there (scene/json_schema.py).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from punctura.files.fields import Number, Text, Vector, WholeNumber
 from punctura.files.tables import Table
 from punctura.files.units import UNITS, from_si
 
-_SERVO = ServoSettings()  # where the defaults stand
+_SERVO = ServoSettings()  # for the defaults
 
 
 def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
@@ -37,15 +37,15 @@ class NeedleTable(Table):
     tip_angle_deg: Number | None = _field("Tip angle", "The tip angle in degrees, instead of radians.", "theta", None)
     direction: Literal["stylus", "motion"] = _field(
         "Direction",
-        "What gives the needle's direction when it enters: the device's stylus, or, for devices without orientation, "
-        "the motion of the tip.",
+        "Source of the needle's direction at entry: the device's stylus, or the motion of the tip for devices without "
+        "orientation.",
         "b",
         "stylus",
     )
 
 
 class CouplingTable(Table):
-    """The virtual spring and damper between device and proxy, one pair a membrane (K06 (21))."""
+    """The virtual spring and damper between device and proxy, one pair per membrane (K06 (21))."""
 
     model_config = ConfigDict(title="Coupling")
 
@@ -54,11 +54,11 @@ class CouplingTable(Table):
 
 
 class ServoTable(Table):
-    """How often the force is computed, and how."""
+    """The rate and the method of the force computation."""
 
     model_config = ConfigDict(title="Servo")
 
-    rate_hz: Number = _field("Rate", "Ticks a second.", "1/T", Decimal(repr(_SERVO.rate)))
+    rate_hz: Number = _field("Rate", "Ticks per second.", "1/T", Decimal(repr(_SERVO.rate)))
     low_pass_hz: Number = _field(
         "Low-pass", "Cut-off of the conditioning low_pass; 0 is off.", "", Decimal(repr(_SERVO.low_pass))
     )
@@ -67,14 +67,14 @@ class ServoTable(Table):
     )
     conditioning: Literal["low_pass", "line_fit"] = _field(
         "Conditioning",
-        "What the positions pass first: low_pass is K06's first-order filter; line_fit, for real devices, keeps the "
-        "steps of their encoders from shaking the force.",
+        "Filter of the positions: low_pass is K06's first-order filter; line_fit is for real devices, whose encoder "
+        "steps would shake the force.",
         "",
         _SERVO.conditioning,
     )
     encoder_step_mm: Number = _field(
         "Encoder step",
-        "How far the tip seems to jump when an encoder counts, for line_fit; 0 is an ideal sensor.",
+        "Jump of the tip's measured position per encoder count, for line_fit; 0 is an ideal sensor.",
         "",
         from_si(_SERVO.encoder_step, UNITS["mm"]),
     )
@@ -85,33 +85,33 @@ class MembraneTable(Table):
 
     model_config = ConfigDict(title="Membrane")
 
-    name: Text = _field("Name", "What the membrane is called in plots and tables.")
-    stiffness_N_per_mm: Number = _field("Stiffness", "Resistance of the hole to being widened.", "kappa")
+    name: Text = _field("Name", "Name of the membrane in plots and tables.")
+    stiffness_N_per_mm: Number = _field("Stiffness", "Resistance of the hole to widening.", "kappa")
     precompression_N: Number = _field("Precompression", "Grip of the hole when it is closed.", "c")
     friction: Number = _field("Friction", "Coefficient of dry friction between needle and membrane.", "mu")
     thickness_mm: Number = _field("Thickness", "0 is an infinitely thin membrane.", "H")
-    point_mm: Vector = _field("Point", "Any point of the surface at which the needle enters.", "a")
+    point_mm: Vector = _field("Point", "Any point of the surface that the needle enters.", "a")
     inward_normal: Vector = _field("Inward normal", "Direction into the membrane, of any length but 0.", "n")
     behind: Literal["tissue", "blood"] = _field(
         "Behind",
-        "What is between this membrane and the next. Blood shows in the needle's hub when the tip is in it; neither "
-        "grips the needle.",
+        "Content of the space between this membrane and the next. It does not grip the needle. Blood shows in the "
+        "needle's hub while the tip is in it.",
         "",
         "tissue",
     )
 
 
 class SceneFile(Table):
-    """A scene: a needle, the coupling that drives it and the membranes in its way."""
+    """A scene: a needle, the coupling that drives it, and the membranes."""
 
     model_config = ConfigDict(title="Scene file")
 
-    name: Text = _field("Name", "What the scene is called.")
+    name: Text = _field("Name", "Name of the scene.")
     needle: NeedleTable
     coupling: CouplingTable
     servo: ServoTable = Field(default_factory=ServoTable)
     membrane: list[MembraneTable] = _field("Membranes", "In the order in which their forces are added.")
 
 
-# Of each pair the file gives exactly one.
+# The file gives exactly one key of each pair.
 ALTERNATIVES = (("diameter_mm", "gauge"), ("tip_angle_rad", "tip_angle_deg"))

@@ -1,4 +1,4 @@
-"""From a scene to the text of its file."""
+"""Writes scene files."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from punctura.files.units import from_si, split_key
 from punctura.files.whole_file import write_whole
 from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
 
-_SKIPPED = ("gauge", "tip_angle_deg")  # the other ways to say what diameter_mm and tip_angle_rad say
+_SKIPPED = ("gauge", "tip_angle_deg")  # the alternatives of diameter_mm and tip_angle_rad
 
 
 def scene_text(scene: Scene) -> str:
-    """TOML that load_scene turns back into the same scene, to the last bit."""
+    """TOML from which load_scene reads the same scene, bit for bit."""
     lines = [f"name = {_string(scene.name)}"]
     needle = {"diameter": scene.needle.diameter, "tip_angle": scene.needle.tip_angle, "direction": scene.direction}
     lines += _table("[needle]", NeedleTable, needle)
@@ -32,7 +32,7 @@ def scene_text(scene: Scene) -> str:
 
 
 def file_text(file: SceneFile) -> str:
-    """TOML of a scene file's tables, each number as it was given, in its own key and unit."""
+    """TOML of a scene file's tables, with every number in its original key, unit and digits."""
     lines = [f"name = {_string(file.name)}"]
     for head, table in (("[needle]", file.needle), ("[coupling]", file.coupling), ("[servo]", file.servo)):
         lines += ["", head, *_given(table)]
@@ -42,7 +42,7 @@ def file_text(file: SceneFile) -> str:
 
 
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Writes a scene file; the file that was at `path` stays until the new one is complete. Raises OSError."""
+    """Writes a scene file. An existing file at `path` stays until the new one is complete. Raises OSError."""
     write_whole(Path(path), scene_text(scene).encode("utf-8"))
 
 
@@ -55,7 +55,7 @@ def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:
     lines = ["", head]
     for key in model.model_fields:
         name, unit = split_key(key)
-        if key not in _SKIPPED and name in values:  # what is only told to people is not in a Scene
+        if key not in _SKIPPED and name in values:  # keys that only describe are not in a Scene
             lines.append(f"{key} = {_value(values[name], unit)}")
     return lines
 

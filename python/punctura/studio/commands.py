@@ -1,4 +1,4 @@
-"""What each request of a page does: first, in any thread, what takes time; then the rest, in the worker's."""
+"""Carries out the requests of a page: slow preparations in any thread, then a job in the worker's thread."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
 class NotNow(ValueError):
-    """Something that cannot be done as things are; the text says why."""
+    """The request is not possible in the present state; the text says why."""
 
 
 def prepare(request: ask.NumberedRequest, session: Session) -> Job:
-    """What the worker shall do. Raises what `refusal` knows, with nothing done. A pause is no job: Session.pause."""
+    """The worker's job for a request. Raises errors that `refusal` knows, and then changes nothing. A pause is not a
+    job, see Session.pause."""
     match request:
         case ask.Arm():
             return lambda session: session.arm()
@@ -51,7 +52,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
 
 
 def refusal(number: int, error: Exception) -> Reply | None:
-    """The reply that says why not; None for a defect."""
+    """The reply with the reason of a refusal; None if the error is a defect of the studio."""
     if isinstance(error, ConfigurationError):
         count = len(error.problems)
         words = f"{count} problem{'s' if count != 1 else ''}"
@@ -80,7 +81,7 @@ def _load(session: Session, loaded: Loaded) -> None:
 
 
 def _tell_room(session: Session) -> None:
-    """Right when a run begins whose ticks may be too many."""
+    """Warns the pages if the new run produces so many ticks that some may be lost."""
     if note := room_note(session.run.loop):
         session.out.say(Notice(text=note))
 
@@ -88,7 +89,7 @@ def _tell_room(session: Session) -> None:
 def _edit(session: Session, loaded: Loaded) -> Done:
     session.edit(loaded)
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
-        return "the new rate is that of the next run", {}
+        return "the new rate takes effect in the next run", {}
     return "", {}
 
 
@@ -99,7 +100,7 @@ def _strokes(session: Session, period: float) -> None:
 
 def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
     if not session.bench.simulated:
-        raise NotNow("only a simulated device has a hand that can be moved from here")
+        raise NotNow("only a simulated device has a hand that the page can move")
     do()
 
 

@@ -1,4 +1,4 @@
-"""The other solver beside the present one, on the same samples: for the eye only, no hand feels it."""
+"""Runs the other solver on the same samples, for display only: its force never goes to the device."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from punctura.ticks import ABSENT, Ticks
 
 
 class OtherSolver:
-    """Begins as soon as the tip is outside every membrane, where both solvers agree; until then its force is NaN."""
+    """Starts once the tip is outside every membrane, where both solvers agree; its force is NaN before."""
 
     def __init__(self, scene: Scene) -> None:
         self.take(scene)
 
     def take(self, scene: Scene) -> None:
-        """From the next `run` on, for this scene."""
+        """Uses this scene from the next `run` on."""
         other = "paper" if scene.servo.solver == "exact" else "exact"
         self._insertion = Insertion(scene.replace(servo=scene.servo.replace(solver=other)))
         self._begun = False
 
     def run(self, ticks: Ticks) -> npt.NDArray[Any]:
-        """Its force (n, 3), N, for ticks that follow those of the call before."""
+        """The other solver's force (n, 3), N. The ticks must follow those of the last call."""
         n = len(ticks)
         force = np.full((n, 3), np.nan)
         good = np.isfinite(ticks.position).all(axis=1) & np.isfinite(ticks.axis).all(axis=1)

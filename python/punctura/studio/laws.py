@@ -1,4 +1,4 @@
-"""Phi_I and Phi_O as curves to draw, for the direction that the needle has now."""
+"""Curves of Phi_I and Phi_O for the page, for the present direction of the needle."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from punctura.studio.wire.common import LawCurve
 
 __all__ = ["TURN", "Vector", "law_curves", "obliquities"]
 
-TURN = math.radians(0.5)  # less than this is not drawn anew
+TURN = math.radians(0.5)  # smaller changes of direction do not update the curves
 
 Vector = npt.NDArray[np.float64]
 
 
 def law_curves(scene: Scene, obliquities: npt.ArrayLike) -> list[LawCurve]:
-    """One of each membrane. obliquities (m,): rad."""
+    """One curve per membrane. obliquities (m,): rad."""
     angles = np.asarray(obliquities, float)
     return [LawCurve(**_core.law_curve(scene, i, float(angle))) for i, angle in enumerate(angles)]

@@ -1,4 +1,4 @@
-"""From a run's ring to the pages: every tick, in frames without a gap, sixty times a second."""
+"""Sends every tick of a run to the pages, in frames without gaps, sixty times per second."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from pydantic import BaseModel
 
-from punctura import Scene
+from punctura import Phase, Scene
 from punctura._core import Fault, describe
 from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
@@ -17,15 +17,14 @@ from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import encode_ticks
 from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent
-from punctura.ticks import FIELDS, Ticks
+from punctura.ticks import COMMAND_SCENE, FIELDS, Ticks
 
-COMMAND_SCENE = 8
-MOST_TICKS = 4096  # in a frame
+MOST_TICKS = 4096  # in one frame
 LAWS_EVERY_S = 0.1
 
 
 class Publisher(Protocol):
-    """Takes what is for the pages, from the worker's thread."""
+    """Sends frames and messages to the pages. Called from the worker's thread."""
 
     def frame(self, data: bytes) -> None: ...
 
@@ -33,27 +32,27 @@ class Publisher(Protocol):
 
 
 class Pump:
-    """Of one run. Holds what it has to remember from batch to batch."""
+    """The pump of one run. It keeps its state from batch to batch."""
 
     def __init__(self, run: Run, out: Publisher) -> None:
         self._run, self._out = run, out
         self._next_tick = 0
-        self._gaps = 0  # ticks whose snapshot never came
+        self._gaps = 0  # lost ticks
         self._fault = 0
         self._finder = EventFinder(run.loop.scene, run.rate)
         self._other: OtherSolver | None = None
-        self._tell_scene: Callable[[], None] | None = None  # as soon as a tick has taken the new one
+        self._tell_scene: Callable[[], None] | None = None  # called when a tick has taken the new scene
         self._axis: Vector = np.array(run.pose[1])
         self._entered: Vector | None = None
         self._angles = np.full(len(run.loop.scene.membranes), np.nan)
-        self._laws_at = 0.0  # s of the run: when the laws may be drawn anew
+        self._laws_at = 0.0  # time of the run from which the laws may be sent again, s
 
     @property
     def lost(self) -> int:
         return self._gaps
 
     def turn(self) -> Ticks | None:
-        """Everything that the ring holds goes out; it is also returned, if there is any."""
+        """Sends and returns all ticks that the ring holds; None if it holds none."""
         ticks = self._run.read()
         if len(ticks) == 0:
             return None
@@ -68,19 +67,19 @@ class Pump:
         return ticks
 
     def change(self, scene: Scene, tell: Callable[[], None]) -> Ticks | None:
-        """Right after an exchange: `tell` is called between the ticks of the scene before and those of this one."""
+        """Call it after an exchange of scenes. It calls `tell` between the ticks of the old and the new scene."""
         self._finder.change(scene)
         self._tell_scene = tell
         ticks = self.turn()
-        self._scene_is_taken()  # also where no tick comes any more
+        self._scene_is_taken()  # needed if no further tick comes
         return ticks
 
     def compare(self, on: bool) -> None:
-        """Whether the other solver runs beside."""
+        """Turns the comparison with the other solver on or off."""
         self._other = OtherSolver(self._run.loop.scene) if on else None
 
     def laws(self) -> list[LawCurve]:
-        """Of the present scene, for the present direction of the needle."""
+        """The laws of the present scene, for the present direction of the needle."""
         scene = self._run.loop.scene
         self._angles = obliquities(scene, self._axis, self._entered)
         return law_curves(scene, self._angles)
@@ -122,13 +121,13 @@ class Pump:
     def _watch_axis(self, ticks: Ticks) -> None:
         now, axis = float(ticks.time[-1]), ticks.axis[-1]
         if np.isfinite(axis).all():
-            inside = ticks.phase[-1] != 0
+            inside = ticks.phase[-1] != Phase.outside.value
             self._axis, self._entered = axis, np.where(inside[:, None], ticks.direction[-1], np.nan)
         scene = self._run.loop.scene
         if now < self._laws_at or len(self._angles) != len(scene.membranes):
             return
         angles = obliquities(scene, self._axis, self._entered)
-        if not np.abs(angles - self._angles).max() <= TURN:  # NaN: nothing was drawn yet
+        if not np.abs(angles - self._angles).max() <= TURN:  # NaN: nothing was sent yet
             self._laws_at = now + LAWS_EVERY_S
             self._out.say(LawsMessage(laws=self.laws()))
 
@@ -138,7 +137,7 @@ def no_fault() -> FaultMessage:
 
 
 def _parts(ticks: Ticks) -> Iterator[Ticks]:
-    """The batch in pieces without a gap, of one scene each, and none too long."""
+    """Splits a batch at gaps, at new scenes, and after MOST_TICKS."""
     tick = ticks.tick.astype(np.int64)
     n = len(tick)
     breaks = {int(b) + 1 for b in np.flatnonzero(np.diff(tick) != 1)}
@@ -150,7 +149,7 @@ def _parts(ticks: Ticks) -> Iterator[Ticks]:
 
 
 def _without_absent(piece: Ticks) -> Ticks:
-    """Without the columns of membranes that the scene of this piece does not have: they stand last."""
+    """Removes the columns of membranes that this piece's scene does not have; they are the last ones."""
     count = int((~np.isnan(piece.depth[0])).sum())
     if count == piece.membrane_count:
         return piece

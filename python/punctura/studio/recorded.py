@@ -1,4 +1,4 @@
-"""A recording as the page looks at it: its scene, its events, its ticks as the frames that a live run sends."""
+"""A recording for the page: its scene, its events, and its ticks in the frames of a live run."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ from punctura.studio.wire.frames import encode_ticks
 from punctura.ticks import ABSENT, Ticks
 
 _INSIDE = [int(phase) for phase in (Phase.sticking, Phase.sliding_in, Phase.sliding_out)]
-MOTION_HZ = 250.0  # of a recorded motion that the hand follows; Target smooths what is between
+MOTION_HZ = 250.0  # sampling rate of a recorded motion for the hand; Target smooths between the samples
 Array = npt.NDArray[np.float64]
 
 
 def loaded_of(recording: Recording) -> Loaded:
-    """The scene that it began with; with the file's own keys where the recording has them. Raises RecordingError."""
+    """The recording's first scene, with its file's keys if the recording has them. Raises RecordingError."""
     info = recording.info
     tables = info.about.get("scene")
     if isinstance(tables, dict):
         try:
             return from_tables(tables)
         except ConfigurationError:
-            pass  # of another version; the scene itself is always there
+            pass  # tables of another version; the scene's own text is always present
     try:
         return from_text(info.said.scene)
     except ConfigurationError:
@@ -50,7 +50,7 @@ def _text_of(recording: Recording) -> str:
 
 
 def overview(recording: Recording) -> dict[str, Any]:
-    """What the page needs before the ticks, as JSON. Goes through the whole recording, for its events."""
+    """All except the ticks, as JSON. Reads the whole recording to find its events."""
     info = recording.info
     loaded = loaded_of(recording)
     view = scene_view(loaded, 0, info.scene.servo.rate, _laws(loaded.scene, recording))
@@ -66,7 +66,7 @@ def overview(recording: Recording) -> dict[str, Any]:
 
 
 def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:
-    """For the direction in which each membrane was entered first; None for a recording without a tick."""
+    """The laws for each membrane's first direction of entry; None for a recording without ticks."""
     axis: Array | None = None
     entered = np.full((len(scene.membranes), 3), np.nan)
     for batch in recording.batches():
@@ -84,12 +84,12 @@ def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:
 
 
 def tick_frames(recording: Recording) -> Iterator[bytes]:
-    """All ticks: a u32 of a frame's length, the frame, and zeros until the next length stands at a multiple of 4."""
+    """All ticks: per frame its length (u32), the frame, and zeros up to a multiple of 4 bytes."""
     lost, expected = 0, 0
     for batch in recording.batches():
         for start in range(0, len(batch), MOST_TICKS):
             ticks = ticks_of(batch.slice(start, MOST_TICKS))
-            ticks = ticks.replace(phase=np.where(ticks.phase == ABSENT, np.uint8(0), ticks.phase))
+            ticks = ticks.replace(phase=np.where(ticks.phase == ABSENT, np.uint8(Phase.outside.value), ticks.phase))
             for piece in _whole(ticks):
                 first = int(piece.tick[0])
                 lost += max(0, first - expected)
@@ -99,14 +99,14 @@ def tick_frames(recording: Recording) -> Iterator[bytes]:
 
 
 def _whole(ticks: Ticks) -> Iterator[Ticks]:
-    """In pieces whose ticks follow one another."""
+    """Splits ticks into pieces of consecutive ticks."""
     breaks = np.flatnonzero(np.diff(ticks.tick.astype(np.int64)) != 1) + 1
     for start, end in itertools.pairwise([0, *(int(b) for b in breaks), len(ticks)]):
         yield ticks[start:end]
 
 
 def motion_of(recording: Recording) -> tuple[Array, Array, Array]:
-    """Time from 0 on (s), tip (m) and axis, as often as a hand needs them. Raises ValueError where there is none."""
+    """Time from 0 on (s), tip (m) and axis, at about MOTION_HZ. Raises ValueError if there is no motion."""
     step = max(1, round(recording.info.scene.servo.rate / MOTION_HZ))
     parts: list[list[Array]] = [[], [], []]
     at = 0

@@ -1,4 +1,4 @@
-"""A recording in as few numbers as a drawing needs: depth and force along the time, with every peak and every pop."""
+"""Decimates a recording for a drawing: depth and force over time, with every peak and every pop."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from punctura.record import Recording
 from punctura.studio.view import membrane_views
 from punctura.ticks import Columns
 
-FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer: MOST stay below 100 kB
-EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and of force
-MOST_EVENTS = 40  # at which a bucket ends, so that what lies between two of them is kept
+FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer; MOST rows are below 100 kB
+EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and force
+MOST_EVENTS = 40  # events at which a bucket ends, so that rows between two events are kept
 Array = npt.NDArray[np.float64]
 
 
 def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> dict[str, Any]:
-    """From `start` (s of the run) on, as JSON has it. Raises RecordingError.
+    """The trace from `start` (s of the run) on, as JSON values. Raises RecordingError.
 
-    time: s of the run. depth: of the tip below the first surface, m. force: the size of the model's, all membranes
-    together, N, negative where it pulls the needle in; the greatest of it is an exercise's `peak_force`.
+    time: of the run, s. depth: of the tip below the first surface, m. force: size of the model's total force, N,
+    negative if it pulls the needle in; its maximum is an exercise's `peak_force`.
 
-    Of each stretch of ticks the first row, the last, and those of the lowest and highest depth and force are kept. A
-    stretch ends at each of the first MOST_EVENTS events. A row of null breaks the curves where ticks are missing.
+    Each bucket of ticks keeps its first and last row, and those of the lowest and highest depth and force. A bucket
+    ends at each of the first MOST_EVENTS events. A row of nulls breaks the curves at lost ticks.
     """
     info = recording.info
     rate = info.scene.servo.rate
@@ -47,7 +47,7 @@ def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL)
 
 
 def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
-    """Batches of (n, 3): time, depth, force; and which rows end a bucket: those at and before an event, and gaps."""
+    """Batches (n, 3) of time, depth and force, and the rows that end a bucket: at and before an event, and at gaps."""
     scene = recording.info.scene
     finder = EventFinder(scene, scene.servo.rate)
     events = 0
@@ -78,28 +78,28 @@ def _drawn(columns: Columns, scene: Scene) -> tuple[Array, Array]:
 
 
 def resistance(force: Array, axis: Array) -> Array:
-    """The size of a force (n, 3), N, negative where it pulls the needle in; axis (n, 3): where the needle points."""
+    """The size of a force (n, 3), N, negative if it pulls the needle in. axis (n, 3): direction of the needle."""
     size = np.linalg.norm(force, axis=1)
     signed: Array = np.where(np.einsum("ij,ij->i", force, axis) > 0, -size, size)
     return signed
 
 
 class _Thinner:
-    """Rows come in batches cut anywhere; they go in buckets of `size`, or less where a bucket is ended."""
+    """Takes rows in batches of any size, and collects them in buckets of at most `size` rows."""
 
     def __init__(self, size: int) -> None:
         self._size = size
         self._rest, self._keep = np.empty((0, 3)), np.empty(0, dtype=np.bool_)
 
     def add(self, rows: Array, keep: npt.NDArray[np.bool_]) -> Array:
-        """What is kept of the buckets that are full."""
+        """The kept rows of all full buckets."""
         rows, keep = np.concatenate([self._rest, rows]), np.concatenate([self._keep, keep])
         full = len(rows) // self._size * self._size
         self._rest, self._keep = rows[full:], keep[full:]
         return rows[:full][self._chosen(rows[:full], keep[:full])]
 
     def end(self) -> Array:
-        """What is kept of the rest."""
+        """The kept rows of the last bucket."""
         return self._rest[self._chosen(self._rest, self._keep)]
 
     def _chosen(self, rows: Array, keep: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:

@@ -11,6 +11,7 @@ from punctura._core import TickField, tick_fields
 
 AXES = ("x", "y", "z")
 ABSENT = 255  # phase of a membrane that a tick's scene does not have; its numbers are NaN
+COMMAND_SCENE = 8  # bit of the field `commands`: this tick took a new scene
 
 FIELDS: Mapping[str, TickField] = {field.name: field for field in tick_fields()}
 

@@ -99,12 +99,12 @@ def test_without_an_end_the_space_goes_on(write):
         (
             "depth_mm = 3.1",
             "space.depth_mm",
-            "must be at most 2.91 mm: the space ends at 3.01 mm, by the ",
+            "must be at most 2.91 mm: the space ends at 3.01 mm (the ",
         ),
         ("depth_mm = -1", "space.depth_mm", "must be at least 0 mm"),
         ("depth_mm = 2\ndeepest_mm = 2", "space.deepest_mm", "must be at least 2.1 mm: the space begins at 2 mm"),
-        ("depth_mm = 1", "goal[0].depth_mm", "must be at least 1 mm: there the space begins, by space.depth_mm"),
-        ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4 mm: there the space ends, by space.deepest_mm"),
+        ("depth_mm = 1", "goal[0].depth_mm", "must be at least 1 mm, where the space begins (space.depth_mm)"),
+        ("deepest_mm = 0.4", "goal[0].depth_mm", "must be less than 0.4 mm, where the space ends (space.deepest_mm)"),
     ],
 )
 def test_a_depth_that_nobody_can_come_to_is_reported(write, space, where, why):

@@ -111,7 +111,7 @@ def test_what_does_not_fit_the_scene_is_told_at_once(write):
     found = problems(write(goal("never_pass", membrane="dura"), goal("time_limit", seconds=3), head=head))
     assert found["space.behind"] == "must be one of the scene's membranes: skin, front vein wall, back vein wall"
     assert found["goal[0].membrane"] == found["space.behind"]
-    assert found["goal"].startswith("one at least must be of kind reach or stay")
+    assert found["goal"].startswith("at least one goal must be of kind reach or stay")
     assert found["start.heading"] == "must not be parallel to the first membrane's normal"
 
 

@@ -164,7 +164,7 @@ def test_time_without_a_touch_is_not_measured(write):
     columns["phase"][:, 0] = 0
     result = attempt(write, columns, goal("stay", seconds=0.5), LIMITS["time_limit"]).finish()
     assert result.goals[1].state == "not measured"
-    assert "the skin was never touched" in result.reasons[-1]
+    assert "no contact with the skin" in result.reasons[-1]
 
 
 @pytest.mark.parametrize("cuts", CUTS)

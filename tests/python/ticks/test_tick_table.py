@@ -10,7 +10,7 @@ from punctura._core import TickArrays
 from punctura.record import open_recording
 from punctura.record.columns import LOST, NEW_SCENES
 from punctura.studio.wire import decode_ticks, encode_ticks
-from punctura.ticks import FIELDS
+from punctura.ticks import COMMAND_SCENE, FIELDS
 from punctura.ticks.fields import file_columns
 
 ROOT = Path(__file__).parents[3]
@@ -53,3 +53,8 @@ def test_the_page_and_the_docs_have_the_table_as_it_is(capsys):
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
     assert tool.main(["--check"]) == 0, capsys.readouterr().err
+
+
+def test_the_bit_of_a_new_scene_is_that_of_the_table():
+    bits = dict(re.findall(r"(\d+) (a new scene|\w+)", FIELDS["commands"].says))
+    assert bits[str(COMMAND_SCENE)] == "a new scene"

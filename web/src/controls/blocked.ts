@@ -6,25 +6,25 @@ export interface Block {
   readonly remedy: "control" | "live" | null;
 }
 
-/** `scene`: what changes the scene or the recording, which an exercise keeps; `run`: everything else. */
+/** `scene`: changes of the scene or the recording, which a running exercise forbids; `run`: everything else. */
 export type Reach = "run" | "scene";
 
-/** Why this page cannot change the run now; null where it can. */
+/** The reason why this page cannot change the run now; null if it can. */
 export function blockOf(app: App, reach: Reach = "run"): Block | null {
-  if (app.connection.value.state !== "open") return { reason: "There is no connection to the studio.", remedy: null };
+  if (app.connection.value.state !== "open") return { reason: "No connection to the studio.", remedy: null };
   if (!app.source.value.live) {
-    return { reason: "You are looking at a recording, not at the run.", remedy: "live" };
+    return { reason: "A recording is shown, not the live run.", remedy: "live" };
   }
   if (!app.control.value.you) return { reason: "Another page has control.", remedy: "control" };
   if (reach === "scene" && app.exercise.value?.running) {
-    return { reason: "An exercise is running: its scene and its recording stay as they are.", remedy: null };
+    return { reason: "An exercise is running: scene and recording are locked.", remedy: null };
   }
   return null;
 }
 
-/** Calls now and whenever it may have changed. */
+/** Calls the listener now, and whenever the reason changes. */
 export function watchBlock(app: App, listener: (block: Block | null) => void, reach: Reach = "run"): void {
-  let last: string | null = "none yet";
+  let last: string | null | undefined;
   const look = (): void => {
     const block = blockOf(app, reach);
     const reason = block?.reason ?? null;
@@ -38,7 +38,7 @@ export function watchBlock(app: App, listener: (block: Block | null) => void, re
   if (reach === "scene") app.exercise.watch(look);
 }
 
-/** A line that always keeps its place: `free` while all is well, else the reason and what takes it away. */
+/** A line of fixed height: the text `free`, or the reason for the block with a button that ends it. */
 export function blockLine(app: App, free: string, reach: Reach = "run"): HTMLElement {
   const words = element("span");
   const button = element("button", { type: "button", class: "small" });

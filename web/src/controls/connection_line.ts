@@ -5,10 +5,10 @@ import { connectionWords } from "./words.ts";
 const SILENT_MS = 2000;
 const LOOK_MS = 250;
 
-/** A line that says how the page stands with the studio; also when the studio has gone silent. */
+/** A line with the state of the connection. It also tells if the studio is connected but sends no ticks. */
 export function connectionLine(app: App): HTMLElement {
   const dot = element("span", { class: "dot", "aria-hidden": "true" });
-  // What counts down is to be seen; read out is only what has changed.
+  // The countdown is only visible; a screen reader gets the changes of state.
   const words = element("span", { class: "connection-words", "aria-hidden": "true" });
   const spoken = element("span", { class: "only-read", role: "status" });
   const line = element("span", { class: "connection" }, dot, words, spoken);
@@ -26,7 +26,7 @@ export function connectionLine(app: App): HTMLElement {
     const left = now.state === "lost" ? now.retryInMs - (performance.now() - since) : 0;
     const text = connectionWords(now, silent, left);
     if (words.textContent !== text) words.textContent = text;
-    const state = now.state === "lost" ? "No connection; the page tries again by itself" : text;
+    const state = now.state === "lost" ? "No connection; retrying" : text;
     const steady = now.state === "connecting" && now.attempt > 1 ? spoken.textContent : state;
     if (spoken.textContent !== steady) spoken.textContent = steady;
     line.dataset.state = silent ? "lost" : now.state;

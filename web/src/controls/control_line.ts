@@ -1,7 +1,7 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
 
-/** Who has control, and the button that takes it. */
+/** Tells which page has control, with a button that takes it. */
 export function controlLine(app: App): HTMLElement {
   const words = element("span", { role: "status", class: "control-words" });
   const take = takeControl(app);
@@ -15,7 +15,7 @@ export function controlLine(app: App): HTMLElement {
   return element("span", { class: "control" }, words, take);
 }
 
-/** Hidden while this page has control. */
+/** The button Take control; hidden while this page has control. */
 export function takeControl(app: App): HTMLButtonElement {
   const button = element(
     "button",

@@ -1,6 +1,6 @@
 import { element } from "../panel.ts";
 
-/** Lets the browser save what lies at an address of the studio. */
+/** Makes the browser save the file at an address of the studio. */
 export function saveAddress(address: string, name: string): void {
   const link = element("a", { href: address, download: name, hidden: true });
   document.body.append(link);
@@ -8,7 +8,7 @@ export function saveAddress(address: string, name: string): void {
   link.remove();
 }
 
-/** A file name from a person's words. */
+/** A file name made from any text. */
 export const fileName = (words: string, ending: string): string =>
   `${
     words

@@ -1,5 +1,6 @@
 import { element, everyFrame, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
+import { codeOf } from "../wire/ticks.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { Draft } from "./editor/draft.ts";
 import { type SceneForm, sceneForm, type Table } from "./editor/fields.ts";
@@ -14,10 +15,12 @@ import { solverControl } from "./editor/solver.ts";
 import { duplicated, membranes, withMembranes } from "./editor/tables.ts";
 import { figuresLink } from "./figures_link.ts";
 
-/** The scene as forms, made from its schema; what one changes takes effect while the loop runs. */
+const OUTSIDE = codeOf("phase", "outside");
+
+/** The scene as forms, made from its JSON Schema. Changes take effect while the loop runs. */
 export const editorPanel: Panel = (host, app) => {
   host.classList.add("editor");
-  const wait = element("p", { class: "quiet pad" }, "The scene’s form comes with the connection.");
+  const wait = element("p", { class: "quiet pad" }, "Waiting for the connection…");
   host.append(wait);
   let asked = false;
   app.connection.watch(async (now) => {
@@ -29,14 +32,14 @@ export const editorPanel: Panel = (host, app) => {
       build(host, app, form);
     } catch (error) {
       asked = false;
-      wait.textContent = `Cannot load the form of the scene: ${error instanceof Error ? error.message : String(error)}`;
+      wait.textContent = `Cannot load the scene’s form: ${error instanceof Error ? error.message : String(error)}`;
     }
   });
 };
 
 function build(host: HTMLElement, app: App, form: SceneForm): void {
   const draft = new Draft(app);
-  const told = report();
+  const problemReport = report();
   const membraneTable = form.tables.find((table) => table.list);
   const single = form.tables.filter((table) => !table.list);
   if (!membraneTable) throw new Error("the schema has no list of membranes");
@@ -67,7 +70,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
   const tools = element(
     "fieldset",
     { class: "bare" },
-    sceneTools(app, draft, (lines) => told.show(lines.map((text) => ({ text })))),
+    sceneTools(app, draft, (lines) => problemReport.show(lines.map((text) => ({ text })))),
   );
   host.append(
     element(
@@ -79,12 +82,9 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     element(
       "div",
       { class: "law-place" },
-      told.root,
+      problemReport.root,
       drawing.root,
-      helpLine(
-        fields,
-        "The friction band of the open membrane. Dashed: before the last change. A dot: the needle’s tip.",
-      ),
+      helpLine(fields, "Friction band of the open membrane. Dashed: before the last change. Dot: the needle’s tip."),
     ),
     fields,
     figuresLink(app),
@@ -103,8 +103,8 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     showAll(top.inputs, tables);
     for (const part of parts) showAll(part.inputs, tables);
   });
-  draft.problems.watch((problems) => tellProblems(problems));
-  list.selected.watch(() => tellProblems(draft.problems.value));
+  draft.problems.watch((problems) => showProblems(problems));
+  list.selected.watch(() => showProblems(draft.problems.value));
   host.addEventListener("keydown", (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || fields.disabled) return;
     event.preventDefault();
@@ -112,7 +112,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     else draft.undo();
   });
 
-  function tellProblems(problems: typeof draft.problems.value): void {
+  function showProblems(problems: typeof draft.problems.value): void {
     const shown = inputs();
     const sorted = sortProblems(problems, new Set(shown.keys()));
     for (const [path, input] of shown) input.complain(sorted.fields.get(path) ?? "");
@@ -129,7 +129,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
         });
     }
     list.mark(wrong);
-    told.show(lines);
+    problemReport.show(lines);
   }
 
   const showLaw = (): void => {
@@ -144,7 +144,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     const tick = app.live.shown();
     const at = list.selected.value;
     if (tick === null || at >= app.live.history.membranes) return drawing.mark(null, 0);
-    const inside = (app.live.history.byteRow("phase", tick)[at] ?? 0) !== 0;
+    const inside = (app.live.history.byteRow("phase", tick)[at] ?? OUTSIDE) !== OUTSIDE;
     drawing.mark(
       inside ? app.live.history.row("depth", tick)[at]! : null,
       app.live.history.row("axial_force", tick)[at]!,

@@ -1,10 +1,10 @@
 import type { MembraneEvent } from "../wire/messages.ts";
 
-/** What an event is called in a list: a word, and for a pop what the force lost. */
+/** The words of an event in the list, and for a pop the drop of the force. */
 export function eventWords(event: MembraneEvent): { readonly word: string; readonly force: string } {
   switch (event.what) {
     case "touch":
-      return { word: "touches", force: "" };
+      return { word: "contact", force: "" };
     case "pop":
       return { word: "pop", force: `−${Math.abs(event.drop).toFixed(2)} N` };
     case "out":
@@ -12,11 +12,11 @@ export function eventWords(event: MembraneEvent): { readonly word: string; reado
   }
 }
 
-/** A pop as a sentence to be read aloud. */
+/** A pop as a sentence for a screen reader. */
 export const popSentence = (event: MembraneEvent): string =>
-  `Pop through ${event.name}: the force fell by ${Math.abs(event.drop).toFixed(2)} newton.`;
+  `Pop through ${event.name}: the force fell by ${Math.abs(event.drop).toFixed(2)} newtons.`;
 
-/** Those of `now` that came after the last of `before`; null where `now` is another list altogether. */
+/** The events of `now` after the last of `before`; null if `now` is a different list. */
 export function eventsSince(
   before: readonly MembraneEvent[],
   now: readonly MembraneEvent[],

@@ -7,17 +7,17 @@ import { eventsSince, eventWords, popSentence } from "./event_words.ts";
 
 const SHOWN = 100;
 
-/** What happened at the membranes, the newest first; each leads to its place in the plots. */
+/** The list of events, newest first. A click shows the event in the plots. */
 export function eventList(app: App): HTMLElement {
   const plots = plotsOf(app);
   const list = element("ol", { class: "events-list", reversed: true });
-  const empty = element("p", { class: "events-none" }, "No membrane touched yet.");
+  const empty = element("p", { class: "events-none" }, "No contact yet.");
   const spoken = element("p", { class: "only-read", "aria-live": "polite" });
 
   const row = (event: MembraneEvent): HTMLLIElement => {
     const { word, force } = eventWords(event);
     const go = (): void => {
-      if (!plots.jump(event.tick)) app.say("The plots no longer have this moment: they keep the last 80 seconds.");
+      if (!plots.jump(event.tick)) app.say("This moment is too old for the plots: they keep the last 80 seconds.");
     };
     return element(
       "li",

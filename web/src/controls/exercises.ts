@@ -32,12 +32,7 @@ export const exercisesPanel: Panel = (host, app) => {
   const now = runningPart(app, titleOf);
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
-    element(
-      "div",
-      { class: "editor-top" },
-      blockLine(app, "Force and depth together say how well it went."),
-      personField(person),
-    ),
+    element("div", { class: "editor-top" }, blockLine(app, "Force and depth decide the result."), personField(person)),
     now.root,
     list,
     past.root,
@@ -87,7 +82,7 @@ export const exercisesPanel: Panel = (host, app) => {
     try {
       open(await app.api.json<ExerciseResult>(resultPath(status.result)));
     } catch (error) {
-      app.say(`The result cannot be shown: ${error instanceof Error ? error.message : String(error)}`);
+      app.say(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
     }
   });
 };
@@ -101,7 +96,7 @@ function card(exercise: ExerciseOverview, title: string, start: () => void): HTM
       "header",
       {},
       element("h3", {}, title),
-      // A file with a problem can be started, too: it is read again, and may be correct by then.
+      // A file with a problem can be started too: it is read again, and may be corrected by then.
       element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
     ),
     ...(wrong ? [problemList("problems", exercise.problems)] : []),
@@ -120,7 +115,7 @@ function problemList(kind: "problems" | "warnings", problems: readonly ProblemPa
   );
 }
 
-/** The present instruction and the state of the goals. Hidden while no exercise runs. */
+/** The present instruction and the states of the goals. Hidden while no exercise runs. */
 function runningPart(app: App, titleOf: (name: string) => string): { root: HTMLElement } {
   const title = element("h3", {});
   const instruction = element("p", { class: "instruction", role: "status" });

@@ -1,6 +1,6 @@
 import { element, type Panel } from "../panel.ts";
 
-/** Why the force is zero, and the way out of it. */
+/** The banner of a fault: its reason, and the Reset button. */
 export const faultBanner: Panel = (host, app) => {
   host.setAttribute("role", "alert");
   const show = (): void => {
@@ -11,7 +11,7 @@ export const faultBanner: Panel = (host, app) => {
     }
     const more = [
       fault.trouble,
-      fault.tick === null ? "" : `Tick ${fault.tick}; the ${fault.kept} ticks before it are kept.`,
+      fault.tick === null ? "" : `Tick ${fault.tick}; the ${fault.kept} ticks before it are saved.`,
     ];
     const reset = element(
       "button",
@@ -25,7 +25,7 @@ export const faultBanner: Panel = (host, app) => {
       element(
         "div",
         { class: "fault-words" },
-        element("strong", {}, `Fault, and no force: ${fault.reason}`),
+        element("strong", {}, `Fault, no force: ${fault.reason}`),
         element("span", { class: "fault-more" }, more.filter(Boolean).join(" ")),
       ),
       reset,

@@ -1,7 +1,7 @@
 import { element, type Panel } from "../panel.ts";
 import { watchBlock } from "./blocked.ts";
 
-/** What a fault is like, without breaking anything: the simulated device reports one position that is no number. */
+/** Demonstrates a fault without harm: the simulated device reports one position that is not a number. */
 export const faultTrial: Panel = (host, app) => {
   const button = element(
     "button",
@@ -9,7 +9,7 @@ export const faultTrial: Panel = (host, app) => {
     "Try a fault",
   );
   const words =
-    "The simulated device reports a position that is no number: the force ends at once, and stays off until Reset.";
+    "The simulated device reports a position that is not a number. The force ends at once and stays off until Reset.";
   const part = element(
     "section",
     { class: "fault-trial", hidden: true },

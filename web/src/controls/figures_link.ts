@@ -3,19 +3,14 @@ import type { App } from "../state/app.ts";
 
 const PATH = "/figures/";
 
-/** The page of the paper's figures where it has been made, else the command that makes it. */
+/** A link to the page of the paper's figures, or the command that makes the page. */
 export function figuresLink(app: App): HTMLElement {
   const link = element("a", { href: app.api.address(PATH), target: "_blank", rel: "noopener" }, "Figures of the paper");
-  const made = element(
-    "span",
-    { hidden: true },
-    link,
-    ": K06 Figs. 3, 5, 10, 11 and 12, computed anew by the model that runs here.",
-  );
+  const made = element("span", { hidden: true }, link, ": K06 Figs. 3, 5, 10, 11 and 12, computed by this model.");
   const missing = element(
     "span",
     {},
-    "The paper’s figures, computed anew by this model: ",
+    "The paper’s figures, computed by this model: ",
     element("code", {}, "punctura reproduce"),
     " makes the page.",
   );

@@ -6,7 +6,7 @@ import { keyHelp, placeRows } from "./hand/place.ts";
 import { scriptRows } from "./hand/scripts.ts";
 import { senseRows } from "./hand/senses.ts";
 
-/** The tab of the simulated hand: its place, angle, strokes, gamepad and sound. */
+/** The Hand tab: position, angle, strokes, gamepad and sound. */
 export const handPanel: Panel = (host, app) => {
   const hand = handOf(app);
   const fields = document.createElement("fieldset");

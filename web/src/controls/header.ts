@@ -6,7 +6,7 @@ import { stateButton } from "./state_button.ts";
 import { themeSwitch } from "./theme_switch.ts";
 import { startTour } from "./tour.ts";
 
-/** What runs, on what, whether with force, and who holds it. */
+/** The header: scene, device, state of the force, control and connection. */
 export const headerBar: Panel = (host, app) => {
   const device = element("span", { class: "device" });
   app.hello.watch((hello) => {
@@ -30,7 +30,7 @@ export const headerBar: Panel = (host, app) => {
     connectionLine(app),
     element(
       "button",
-      { type: "button", class: "quiet-button", title: "Four steps through the page", onclick: startTour },
+      { type: "button", class: "quiet-button", title: "A tour of the page in four steps", onclick: startTour },
       "Tour",
     ),
     themeSwitch(),

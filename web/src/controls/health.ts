@@ -7,7 +7,7 @@ import { RateMeter } from "./rate.ts";
 const MANY_LATE = 1e-4; // share of the ticks
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A duration with three digits that say something. */
+/** A duration with three significant digits. */
 export function duration(seconds: number): string {
   const [scale, unit] = seconds >= 0.9995 ? [1, "s"] : seconds >= 0.9995e-3 ? [1e3, "ms"] : [1e6, "µs"];
   const value = seconds * scale;
@@ -16,12 +16,12 @@ export function duration(seconds: number): string {
 
 const HANDS: Readonly<Record<Status["hand"], string>> = {
   target: "simulated, follows the pointer",
-  strokes: "simulated, strokes by itself",
+  strokes: "simulated, automatic strokes",
   motion: "simulated, follows a recording",
   device: "a person at the device",
 };
 
-/** How well the loop keeps its time: 4 times a second from the server. */
+/** The loop's timing, sent by the server 4 times per second. */
 export const healthPanel: Panel = (host, app) => {
   const rate = new RateMeter();
   const figure = (label: string, help: string): [HTMLElement, (text: string, bad?: boolean) => void] => {
@@ -32,19 +32,19 @@ export const healthPanel: Panel = (host, app) => {
     };
     return [element("div", { title: help }, element("dt", {}, label), value), set];
   };
-  const [rateBox, setRate] = figure("rate", "Ticks a second, by the loop's own clock");
+  const [rateBox, setRate] = figure("rate", "Ticks per second, by the loop's clock");
   const [ticksBox, setTicks] = figure("ticks", "Ticks of this run");
-  const [lateBox, setLate] = figure("late ticks", "Ticks that began after their time by more than the loop allows");
-  const [lostBox, setLost] = figure("lost", "Records of ticks that the studio was too slow to take");
-  const [droppedBox, setDropped] = figure("dropped here", "Batches that this page was too slow for");
-  const [viewersBox, setViewers] = figure("pages", "Pages that look on");
-  const [forceBox, setForce] = figure("force", "Whether forces go out");
+  const [lateBox, setLate] = figure("late ticks", "Ticks that began later than the loop allows");
+  const [lostBox, setLost] = figure("lost", "Ticks that the studio was too slow to read");
+  const [droppedBox, setDropped] = figure("dropped here", "Batches that this page was too slow to read");
+  const [viewersBox, setViewers] = figure("pages", "Connected pages");
+  const [forceBox, setForce] = figure("force", "Whether the force is turned on");
   const [handBox, setHand] = figure("hand", "Who moves the needle");
-  const period = spread("Period", "From the beginning of one tick to the next");
-  const compute = spread("Compute time", "What a tick takes of its period");
+  const period = spread("Period", "Time from the start of one tick to the next");
+  const compute = spread("Compute time", "Computing time of a tick");
   const limits = limitList();
   const statements = element("ul", { class: "health-statements" });
-  const nothing = element("p", { class: "health-none" }, "No word from the loop yet.");
+  const nothing = element("p", { class: "health-none" }, "No status from the loop yet.");
   const all = element(
     "div",
     { class: "health-all" },
@@ -76,7 +76,7 @@ export const healthPanel: Panel = (host, app) => {
     if (!status) return;
     const nominal = app.source.value.scene.value?.rate ?? app.hello.value?.device.rate ?? 1000;
     const { history } = app.live;
-    // By the ticks' own clock: when this page hears of them says nothing about the loop.
+    // By the times of the ticks; their arrival at this page says nothing about the loop.
     const measured = history.length ? rate.add(history.timeOf(history.end - 1), history.end) : null;
     setRate(
       measured === null ? "–" : `${measured.toFixed(0)} of ${nominal.toFixed(0)} Hz`,
@@ -101,7 +101,7 @@ export const healthPanel: Panel = (host, app) => {
   });
 };
 
-/** A distribution: its figures, and a histogram on a logarithmic axis with the nominal period marked. */
+/** A distribution: its quantiles, and a histogram on a logarithmic axis with a mark at the nominal period. */
 function spread(title: string, help: string): { box: HTMLElement; show(spread: Spread, nominal: number): void } {
   const names = ["median", "99 %", "99.9 %", "largest"];
   const values = names.map(() => element("dd"));

@@ -1,6 +1,6 @@
 import type { Spread } from "../wire/messages.ts";
 
-/** A bar of a histogram with a logarithmic axis of time, as shares of the whole box. */
+/** A bar of a histogram with a logarithmic time axis, as shares of the box. */
 export interface Bar {
   readonly left: number;
   readonly width: number;
@@ -11,14 +11,13 @@ export interface Bar {
   readonly count: number;
 }
 
-/** A time's place between two others on a logarithmic axis, 0 to 1. */
+/** Position of a time between two others on a logarithmic axis, 0 to 1. */
 export const logPlace = (time: number, from: number, to: number): number =>
   Math.min(1, Math.max(0, Math.log(time / from) / Math.log(to / from)));
 
 /**
- * Bars of a spread between `from` and `to` (s). Heights are logarithmic too, so that the one late tick in a million
- * is to be
- * seen: a count of one is a tenth of the box. Bins beyond the ends are added to the first and the last.
+ * The bars of a distribution between `from` and `to` (s). Heights are logarithmic too, so that one late tick in a
+ * million is visible: a count of one is a tenth of the box. Bins beyond the ends are drawn at the ends.
  */
 export function bars({ edges, counts }: Spread, from: number, to: number): Bar[] {
   const tallest = Math.log10(counts.reduce((most, count) => Math.max(most, count), 1));

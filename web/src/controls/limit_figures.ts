@@ -1,19 +1,19 @@
 import { element } from "../panel.ts";
 import type { LimitsPart } from "../wire/messages.ts";
 
-/** A limit that is in use: what it bounds, its value with the unit, and what happens there. */
+/** A limit in use: its label, its value with the unit, and its effect. */
 export interface LimitFigure {
   readonly label: string;
   readonly value: string;
   readonly help: string;
 }
 
-const CUT = "The force is cut to it, and the header says so.";
-const FAULT = "Beyond it the loop ends the force with a fault.";
+const CUT = "The force is cut to this limit, and the header shows it.";
+const FAULT = "Beyond this limit, a fault ends the force.";
 const duration = (seconds: number): string => (seconds < 1 ? `${number(seconds * 1e3)} ms` : `${number(seconds)} s`);
 const number = (value: number): string => String(Number(value.toPrecision(6)));
 
-/** The limits of docs/safety.md, as the present runs have them. */
+/** The limits of docs/safety.md with the values in use. */
 export function limitFigures(limits: LimitsPart): LimitFigure[] {
   const { continuous_force: rms, continuous_time: time, dead_man_buttons: buttons } = limits;
   return [
@@ -22,12 +22,12 @@ export function limitFigures(limits: LimitsPart): LimitFigure[] {
     {
       label: "warm motors",
       value: `from ${number(limits.warm_motor * 100)} %`,
-      help: `Where the device reports it. ${CUT}`,
+      help: `Only if the device reports its motors’ temperature. ${CUT}`,
     },
     {
       label: "ramp after arming",
       value: `${number(limits.ramp_time)} s`,
-      help: "The force grows from zero in this time.",
+      help: "The force grows from zero to full in this time.",
     },
     { label: "speed of the hand", value: `${number(limits.max_speed)} m/s`, help: FAULT },
     { label: "same reading again", value: duration(limits.stale), help: FAULT },
@@ -35,17 +35,17 @@ export function limitFigures(limits: LimitsPart): LimitFigure[] {
     {
       label: "needle’s direction",
       value: `length 1 ± ${number(limits.axis_tolerance)}`,
-      help: `Of the direction that the device reports. ${FAULT}`,
+      help: `Length of the direction vector that the device reports. ${FAULT}`,
     },
     {
       label: "dead-man button",
       value: buttons.length ? `button ${buttons.join(" or ")}` : "none",
-      help: "There is no force while none of these buttons is held.",
+      help: "Force needs one of these buttons to be held.",
     },
   ];
 }
 
-/** The limits as a list; empty until they are known. */
+/** The list of limits; empty until the server sends them. */
 export function limitList(): { root: HTMLElement; show(limits: LimitsPart): void } {
   const list = element("dl", {});
   const show = (limits: LimitsPart): void =>

@@ -3,7 +3,7 @@ import { element, type Panel } from "../panel.ts";
 const STAY_MS = 9000;
 const MOST = 4;
 
-/** Sentences for the person: they come, are read out, and go by themselves or by a click. */
+/** Messages for the user. They are read out, and disappear after a while or by a click. */
 export const notices: Panel = (host, app) => {
   const region = element("div", { class: "toasts", "aria-live": "polite", role: "log" });
   host.append(region);
@@ -17,7 +17,7 @@ export const notices: Panel = (host, app) => {
     const toast = element("div", { class: "toast" }, element("span", {}, text));
     const gone = (): void => toast.remove();
     let timer = setTimeout(gone, STAY_MS);
-    // Whoever reads it keeps it.
+    // It stays while the pointer is over it.
     toast.addEventListener("pointerenter", () => clearTimeout(timer));
     toast.addEventListener("pointerleave", () => {
       timer = setTimeout(gone, STAY_MS / 3);
@@ -25,7 +25,7 @@ export const notices: Panel = (host, app) => {
     toast.append(
       element(
         "button",
-        { type: "button", class: "quiet-button", "aria-label": "Away with this message", onclick: gone },
+        { type: "button", class: "quiet-button", "aria-label": "Close this message", onclick: gone },
         "×",
       ),
     );

@@ -1,4 +1,6 @@
-/** How a membrane holds the needle, for people. */
+import { type Phase, wordsOf } from "../wire/ticks.ts";
+
+/** The displayed kinds of a membrane's phase. */
 export type PhaseKind = "outside" | "sticking" | "in" | "out" | "through" | "barred";
 
 export interface PhaseWords {
@@ -6,31 +8,23 @@ export interface PhaseWords {
   /** Tells the phases apart without colour. */
   readonly symbol: string;
   readonly word: string;
-  /** What the needle does besides; "" where the word says it all. */
+  /** The needle's motion while it is through; else "". */
   readonly detail: string;
 }
 
-const MOTIONS = ["", "sticking", "sliding in", "sliding out"] as const;
-const PLAIN: readonly PhaseWords[] = [
-  { kind: "outside", symbol: "○", word: "outside", detail: "" },
-  { kind: "sticking", symbol: "■", word: "sticking", detail: "" },
-  { kind: "in", symbol: "▼", word: "sliding in", detail: "" },
-  { kind: "out", symbol: "▲", word: "sliding out", detail: "" },
-  { kind: "barred", symbol: "✕", word: "barred", detail: "" },
-];
-const THROUGH: readonly PhaseWords[] = MOTIONS.map((detail) => ({
-  kind: "through",
-  symbol: "◆",
-  word: "through",
-  detail,
-}));
+const PHASES = wordsOf("phase");
+const WORDS: Readonly<Record<Phase, PhaseWords>> = {
+  outside: { kind: "outside", symbol: "○", word: "outside", detail: "" },
+  sticking: { kind: "sticking", symbol: "■", word: "sticking", detail: "" },
+  sliding_in: { kind: "in", symbol: "▼", word: "sliding in", detail: "" },
+  sliding_out: { kind: "out", symbol: "▲", word: "sliding out", detail: "" },
+  barred: { kind: "barred", symbol: "✕", word: "barred", detail: "" },
+};
 
-/**
- * phase: 0 to 4, Phase of core/punctura/proxy/solver.hpp. A tip inside and at least `through` deep has the membrane
- * behind
- * it, whatever it does there.
- */
+/** The words for a phase's number. A tip inside the membrane and at least `through` deep (m) has passed through it. */
 export function phaseWords(phase: number, depth: number, through: number): PhaseWords {
-  if (phase >= 1 && phase <= 3 && depth >= through) return THROUGH[phase]!;
-  return PLAIN[phase] ?? PLAIN[0]!;
+  const name = PHASES[phase] ?? "outside";
+  const words = WORDS[name];
+  if (name === "outside" || name === "barred" || !(depth >= through)) return words;
+  return { kind: "through", symbol: "◆", word: "through", detail: words.word };
 }

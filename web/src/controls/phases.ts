@@ -4,7 +4,7 @@ import { badge } from "./badge.ts";
 import { eventList } from "./events.ts";
 import { phaseWords } from "./phase_words.ts";
 
-const EVERY = 60; // ms: faster than that nobody reads
+const INTERVAL = 60; // ms between updates; faster ones cannot be read
 
 const fixed = (value: number, places: number): string => {
   if (!Number.isFinite(value)) return "–";
@@ -12,7 +12,7 @@ const fixed = (value: number, places: number): string => {
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 };
 
-/** Writes only what has changed: the page is laid out again for every text that is set. */
+/** Sets a text only if it has changed, because every change costs a new layout of the page. */
 function write(node: HTMLElement, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }
@@ -58,7 +58,7 @@ function makeRow(index: number, name: string): Row {
   };
 }
 
-/** How each membrane holds the needle, and what happened. */
+/** The table of membranes with their phases, and the list of events. */
 export const phasesPanel: Panel = (host, app) => {
   const plots = plotsOf(app);
   const when = element("span", { class: "phases-when" });
@@ -68,7 +68,7 @@ export const phasesPanel: Panel = (host, app) => {
   host.append(
     element("div", { class: "phases-head" }, element("h2", {}, "Membranes"), when),
     element("table", { class: "phases-table" }, element("thead", {}, head), body),
-    element("h3", { class: "phases-title" }, "What happened"),
+    element("h3", { class: "phases-title" }, "Events"),
     eventList(app),
   );
 
@@ -104,7 +104,7 @@ export const phasesPanel: Panel = (host, app) => {
       write(row.word, word);
       write(row.detail, detail);
       write(row.depth, fixed(depth * 1e3, 2));
-      // As in the plots: positive is what pushes the needle out, against the hand.
+      // As in the plots: positive pushes the needle out, against the hand.
       const force = -(forces[i] ?? Number.NaN);
       const low = -(uppers[i] ?? Number.NaN);
       const high = -(lowers[i] ?? Number.NaN);
@@ -121,7 +121,7 @@ export const phasesPanel: Panel = (host, app) => {
   let last = 0;
   let seen = -1;
   everyFrame((now) => {
-    if (now - last < EVERY) return;
+    if (now - last < INTERVAL) return;
     last = now;
     const { history } = plots.source;
     if (rows.length !== Math.max(history.membranes, plots.source.scene.value?.membranes.length ?? 0)) build();

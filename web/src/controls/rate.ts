@@ -1,10 +1,10 @@
-const SPAN = 3; // s over which the rate is taken
+const SPAN = 3; // s: the rate is measured over this time
 
-/** Ticks a second, from counts of ticks that come now and then. */
+/** Measures ticks per second from occasional counts of ticks. */
 export class RateMeter {
   private readonly seen: Array<readonly [time: number, ticks: number]> = [];
 
-  /** time: s. The rate over the last while, Hz; null until there are two counts. */
+  /** Adds a count at `time` (s). Returns the recent rate, Hz; null until there are two counts. */
   add(time: number, ticks: number): number | null {
     const last = this.seen.at(-1);
     if (last && ticks < last[1]) this.seen.length = 0; // another run

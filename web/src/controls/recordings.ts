@@ -4,13 +4,18 @@ import { Library } from "./recordings/library.ts";
 import { recordControl } from "./recordings/record.ts";
 import { type Row, recordingRow } from "./recordings/row.ts";
 
-/** Record, and look at what was recorded: again, against another one, or as the hand's motion. */
+/** Records runs, and lists the recordings: replay, compare, or use them as the hand's motion. */
 export const recordingsPanel: Panel = (host, app) => {
   const library = new Library(app);
   const list = element("ul", { class: "recordings-list" });
-  const note = element("p", { class: "quiet pad" }, "The list comes with the connection.");
+  const note = element("p", { class: "quiet pad" }, "Waiting for the connection…");
   host.append(
-    element("div", { class: "editor-top" }, blockLine(app, "Every tick is kept.", "scene"), recordControl(app)),
+    element(
+      "div",
+      { class: "editor-top" },
+      blockLine(app, "A recording holds every tick.", "scene"),
+      recordControl(app),
+    ),
     list,
     note,
   );
@@ -28,7 +33,7 @@ export const recordingsPanel: Panel = (host, app) => {
   };
   library.entries.watch((entries) => {
     if (!entries) return;
-    // A row that says the same stays: someone may be at it.
+    // An unchanged row stays: the user may be using it.
     const before = rows;
     const said = new Map(entries.map((entry) => [entry.name, JSON.stringify(entry)]));
     const kept = (name: string): Row | undefined => (texts.get(name) === said.get(name) ? before.get(name) : undefined);
@@ -40,7 +45,7 @@ export const recordingsPanel: Panel = (host, app) => {
       if (list.children[i] !== root) list.insertBefore(root, list.children[i] ?? null);
     });
     note.hidden = entries.length > 0;
-    note.textContent = "There is no recording yet.";
+    note.textContent = "No recordings yet.";
     mark();
     block();
   });

@@ -3,7 +3,7 @@ import type { App } from "../state/app.ts";
 
 const OWN = "";
 
-/** The ready scenes; one that was edited, or came from a file, is named first. */
+/** The list of ready scenes. A scene from a file, or an edited one, comes first. */
 export function scenePicker(app: App): HTMLElement {
   const select = element("select", { "aria-label": "Scene", class: "scene-picker" });
   const show = (): void => {

@@ -1,22 +1,27 @@
 import { element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
+import { codeOf } from "../wire/ticks.ts";
 import { CUT, STATES } from "./words.ts";
 
-const ACTIVE = 2;
-const FAULTED = 3;
-const HELD = 800; // ticks: a cut stays in words for so long, or nobody could read it
-const EVERY = 100; // ms: numbers that change faster cannot be read
+const DISARMED = codeOf("state", "disarmed");
+const ACTIVE = codeOf("state", "active");
+const FAULTED = codeOf("state", "faulted");
+const ARM = "Turn force on";
+const DISARM = "Turn force off";
+const HELD = 800; // ticks: a cut is shown for this long, so that it can be read
+const INTERVAL = 100; // ms between updates; faster ones cannot be read
 
-/** What each tick says of the force, which limit cuts it, and the button that arms or pauses. */
+/** The state of the force, the limit that cuts it, and the button that turns the force on or off. */
 export function stateButton(app: App): HTMLElement {
   const mark = element("span", { "aria-hidden": "true" });
   const words = element("span", {});
-  const figures = element("span", { class: "figures", "aria-hidden": "true" }); // they change too fast to be spoken
+  // Hidden from screen readers, because the numbers change too fast.
+  const figures = element("span", { class: "figures", "aria-hidden": "true" });
   const state = element("span", { class: "servo-state", role: "status" }, mark, words, figures);
-  const button = element("button", { type: "button", class: "button arm" }, "Arm");
+  const button = element("button", { type: "button", class: "button arm" }, ARM);
   let shown = -1;
-  button.addEventListener("click", () => void app.ask({ do: shown === 0 ? "arm" : "pause" }));
+  button.addEventListener("click", () => void app.ask({ do: shown === DISARMED ? "arm" : "pause" }));
   const enable = (): void => {
     button.disabled = app.connection.value.state !== "open" || !app.control.value.you || shown === FAULTED || shown < 0;
     button.title = app.control.value.you ? "" : "Another page has control";
@@ -38,7 +43,7 @@ export function stateButton(app: App): HTMLElement {
     const { history } = app.live;
     const known = history.length > 0 && app.connection.value.state === "open";
     const now = known ? (history.byteRow("state", history.end - 1)[0] ?? 0) : -1;
-    if (now === shown && time - last < EVERY) return;
+    if (now === shown && time - last < INTERVAL) return;
     last = time;
     const cut = now === ACTIVE ? lastCut(history, history.end - HELD) : null;
     const entry = STATES[now];
@@ -47,7 +52,7 @@ export function stateButton(app: App): HTMLElement {
     figures.textContent = cut === null ? "" : cutFigures(history, cut);
     if (now === shown) return;
     shown = now;
-    button.textContent = now === 0 || now === FAULTED ? "Arm" : "Pause";
+    button.textContent = now === DISARMED || now === FAULTED ? ARM : DISARM;
     enable();
   });
   return element("span", { class: "arming" }, state, button);

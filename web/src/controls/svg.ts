@@ -1,4 +1,4 @@
-/** An SVG element; text is text, never markup. */
+/** Creates an SVG element. Strings are text, never markup. */
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,
   attributes: Readonly<Record<string, string | number>> = {},

@@ -1,6 +1,6 @@
 import { element, type Panel } from "../panel.ts";
 
-/** One panel at a time, by the tab pattern of WAI-ARIA: arrow keys go from tab to tab. */
+/** Tabs that show one panel at a time, by the tab pattern of WAI-ARIA: arrow keys switch the tab. */
 export function tabs(entries: ReadonlyArray<readonly [id: string, label: string, panel: Panel]>): Panel {
   return (host, app) => {
     const list = element("div", { role: "tablist", class: "tabs" });

@@ -2,12 +2,12 @@ import { element } from "../panel.ts";
 
 const KEY = "punctura.theme";
 const CHOICES = [
-  ["light dark", "◐", "as the system has it"],
+  ["light dark", "◐", "system"],
   ["light", "☀", "light"],
   ["dark", "☾", "dark"],
 ] as const;
 
-/** Light, dark, or as the system has it; kept in this browser. */
+/** Switches between light, dark and the system's colours. The choice is stored in this browser. */
 export function themeSwitch(): HTMLElement {
   let index = Math.max(
     0,

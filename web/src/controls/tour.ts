@@ -7,10 +7,10 @@ const KEY = "punctura.tour";
 
 let begin: () => void = () => {};
 
-/** Starts the tour from its first step, also for whoever has seen it. */
+/** Starts the tour from its first step, even if it was seen before. */
 export const startTour = (): void => begin();
 
-/** Four popovers beside what they speak of. They take nothing over: the page works as ever, and Escape ends them. */
+/** Four popovers next to the parts that they explain. The page works as usual meanwhile; Escape ends the tour. */
 export const tour: Panel = (root, app) => {
   let end: () => void = () => {};
   begin = () => {
@@ -18,7 +18,7 @@ export const tour: Panel = (root, app) => {
     end = show(root, () => storage()?.setItem(KEY, "seen"));
   };
   if (storage()?.getItem(KEY)) return;
-  // With the first scene, when there is something to see.
+  // It starts with the first scene, when there is something to see.
   const stop = app.live.scene.watch((scene) => {
     if (!scene) return;
     setTimeout(() => {

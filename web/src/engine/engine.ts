@@ -31,9 +31,8 @@ export interface Engine {
   /** Resolves with the reply, also with a refusal (`ok` false); rejects if the connection is lost before it. */
   ask(request: Ask): Promise<Reply>;
   /**
-   * Moves the simulated hand in this run: position, m, and direction of the stylus. Per animation frame only the
-   * last is sent.
-   * The server ignores it in another run.
+   * Moves the simulated hand in this run: position, m, and direction of the stylus. Only the last target of an
+   * animation frame is sent. The server ignores targets of another run.
    */
   target(run: number, position: Triple, axis: Triple, buttons?: number): void;
 }

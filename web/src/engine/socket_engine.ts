@@ -153,7 +153,7 @@ export class SocketEngine implements Engine {
     try {
       batch = decodeTicks(frame);
     } catch (error) {
-      this.complain(`a frame of ticks that ${error instanceof Error ? error.message : String(error)}`);
+      this.complain(error instanceof Error ? error.message : String(error));
       return;
     }
     this.listener?.ticks(batch);
@@ -163,13 +163,13 @@ export class SocketEngine implements Engine {
     const message = parseMessage(text);
     if (typeof message === "string") this.complain(message);
     else if (message.kind !== "reply") this.listener?.message(message);
-    else if (!this.pending.settle(message)) this.complain(`a reply to nothing, ${message.id}`);
+    else if (!this.pending.settle(message)) this.complain(`a reply to unknown request ${message.id}`);
   }
 
   /** Tells the user once per connection, because the same error may come sixty times a second. */
   private complain(what: string): void {
     if (this.complained) return;
     this.complained = true;
-    this.listener?.message({ kind: "notice", text: `The studio sent something that this page cannot read: ${what}.` });
+    this.listener?.message({ kind: "notice", text: `Cannot read a message from the studio: ${what}.` });
   }
 }

@@ -2,14 +2,14 @@ import type { Triple } from "../engine/engine.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { add, dot, scaled, sub } from "./vectors.ts";
 
-/** m in front of the first membrane; negative behind its front face. */
+/** Distance in front of the first membrane, m; negative behind its front face. */
 export function heightOver(scene: SceneView, position: Triple): number {
   const first = scene.membranes[0];
   return first ? -dot(sub(position, first.point), first.inward_normal) : 0;
 }
 
 /**
- * The place of the tip `height` (m) in front of the first membrane from which `axis` points to the middle of all
+ * The position of the tip, `height` (m) in front of the first membrane, from which `axis` points to the centre of all
  * membranes.
  */
 export function aiming(scene: SceneView, axis: Triple, height: number): Triple {

@@ -1,7 +1,7 @@
 import type { Hand } from "./hand.ts";
 import { add, scaled } from "./vectors.ts";
 
-const IDLE = 0.12; // of a stick's way: they never rest at 0
+const IDLE = 0.12; // dead zone, as a share of the stick's range: sticks do not rest exactly at 0
 const FASTEST = 0.025; // m/s
 const TURNING = 0.8; // rad/s
 const FULL_DROP = 0.5; // N
@@ -36,9 +36,8 @@ export class Sticks {
 }
 
 /**
- * Moves the hand: the left stick moves along the needle (forward is in) and to the side; the right stick tilts, and
- * moves
- * towards the viewer. True if something moved.
+ * Moves the hand. The left stick moves along the needle (forward is in) and to the side. The right stick tilts the
+ * needle and moves it towards the viewer. Returns whether the hand moved.
  */
 export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
   const [side, back, turn, near] = pad.axes.map(stick);

@@ -6,8 +6,13 @@ import type { HandPose } from "../wire/messages.ts";
 import { aiming, heightOver } from "./aim.ts";
 import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
 
-const FARTHEST = 0.25; // m from the scene's origin: nobody means more
-const STEEPEST = 1.3; // rad from the normal: the model takes no flatter entry than 80 degrees
+const FARTHEST = 0.25; // m from the scene's origin; larger distances are input errors
+/**
+ * The largest tilt that this page sets, degrees from the normal. It stays below 80 degrees, the grazing angle at which
+ * the core refuses an entry (core/punctura/proxy/in_space.hpp).
+ */
+export const LARGEST_TILT_DEG = 75;
+const LARGEST_TILT = (LARGEST_TILT_DEG * Math.PI) / 180; // rad
 
 export interface Pose {
   readonly position: Triple;
@@ -128,7 +133,7 @@ export class Hand {
   setTilt(angle: number): void {
     const now = this.pose();
     if (!now) return;
-    const axis = tilted(Math.max(-STEEPEST, Math.min(STEEPEST, angle)), this.normal());
+    const axis = tilted(Math.max(-LARGEST_TILT, Math.min(LARGEST_TILT, angle)), this.normal());
     const scene = this.app.live.scene.value;
     const before = scene ? heightOver(scene, now.position) : 0;
     this.moveTo(scene && before > 0 ? aiming(scene, axis, before) : now.position, axis);

@@ -29,12 +29,12 @@ export class Pane {
   }
 }
 
-/** Room for the numbers of the axes, px. */
+/** Space for the axis numbers, px. */
 export const MARGIN = { left: 44, right: 12, top: 20, bottom: 22 } as const;
 
-const NAME = 84; // px at the end of the row of numbers for what they are
+const NAME = 84; // px kept free at the right end of the x axis for its name
 
-/** Grid and numbers of a pane; its names stand at its corners, where they can be read. */
+/** Draws a pane's grid and numbers. The names of the axes stand at its corners. */
 export function drawAxes(pen: Pen, pane: Pane, theme: Theme, names: { readonly x?: string; readonly y: string }): void {
   const { left, top, width, height, x, y } = pane;
   const right = left + width;

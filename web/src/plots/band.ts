@@ -7,13 +7,13 @@ const MM = 1e3;
 const path = new Polyline();
 
 /**
- * The friction band of a membrane, from Phi_I (up: what the hand feels going in) to Phi_O: any force in it holds
- * the needle.
+ * Draws a membrane's friction band, from Phi_I (upwards: felt during insertion) to Phi_O. The needle sticks at any
+ * force inside the band.
  */
 export function drawBand(pen: Pen, { x, y }: Pane, law: LawCurve, colour: string): void {
   const { depth, lower, upper } = law;
   if (!depth.length) return;
-  // Behind its last point a law is constant.
+  // A law is constant beyond its last point.
   const onwards = x.px(Math.max(depth.at(-1)! * MM, x.max));
   path.clear();
   for (let i = 0; i < depth.length; i++) path.add(x.px(depth[i]! * MM), y.px(-lower[i]!));

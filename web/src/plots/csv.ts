@@ -2,9 +2,9 @@ import type { History } from "../state/history.ts";
 import { FIELDS } from "../wire/tick_table.ts";
 import { isCompared } from "./gather.ts";
 
-const ROWS_A_PART = 4096;
+const ROWS_PER_CHUNK = 4096;
 
-/** The fewest digits that give the same f32 again; empty for what does not exist. */
+/** The shortest decimal text that reads back as the same f32; empty for NaN. */
 export function exactF32(value: number): string {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "" : String(value);
   for (let digits = 6; digits < 9; digits++) {
@@ -14,22 +14,22 @@ export function exactF32(value: number): string {
   return String(Number(value.toPrecision(9)));
 }
 
-/** A column of the file: its head, and the text of a tick's cell. */
+/** A column of the file: its header, and the text of its cell for a tick. */
 interface Column {
   readonly head: string;
   cell(tick: number, slot: number): string;
 }
 
 /**
- * Every tick from `first` to before `end`, a line each, with the column names and units of `punctura export`: of one
- * membrane or (null) of all. Numbers have the digits of f32. Parts of a file.
+ * One line per tick from `first` up to but not including `end`, with the column names and units of `punctura export`,
+ * for one membrane or for all (null). Numbers have the digits of f32. Returns the file in chunks.
  */
 export function csv(history: History, first: number, end: number, membrane: number | null): string[] {
   const columns = columnsOf(history, first, end, membrane);
   const parts = [`${columns.map(({ head }) => head).join(",")}\n`];
-  for (let from = first; from < end; from += ROWS_A_PART) {
+  for (let from = first; from < end; from += ROWS_PER_CHUNK) {
     const rows: string[] = [];
-    for (let tick = from; tick < Math.min(end, from + ROWS_A_PART); tick++) {
+    for (let tick = from; tick < Math.min(end, from + ROWS_PER_CHUNK); tick++) {
       const slot = history.slot(tick);
       rows.push(columns.map((column) => column.cell(tick, slot)).join(","));
     }
@@ -64,7 +64,7 @@ function fieldColumns(history: History, field: (typeof FIELDS)[number], membrane
   return [{ head, cell: (_, slot) => words[codes[stride * slot + membrane]!] ?? "" }];
 }
 
-/** A number, or three of a vector, at `offset` in each row of `stride` numbers. */
+/** The columns of a number, or of a vector's three components, at `offset` in each row of `stride` numbers. */
 function numbers(values: Float32Array, head: string, width: number, stride: number, offset: number): Column[] {
   return Array.from({ length: width }, (_, k) => ({
     head: head.replace("{a}", "xyz"[k]!),

@@ -1,12 +1,11 @@
 import type { Polyline } from "./polyline.ts";
 
 /**
- * A line through `xs`, `ys` (pixels) with at most four points for every stay in a pixel column: the first, the
- * lowest, the
- * highest and the last, in the order in which they came. To the pixel the picture of all points, so that a spike of one
- * tick is drawn at its full height; nothing is skipped by a stride. NaN is a gap.
+ * Decimates the line through `xs`, `ys` (pixels) for drawing. Consecutive points in one pixel column become at most
+ * four: the first, the lowest, the highest and the last, in their order. The picture is the same to the pixel, so a
+ * spike of one tick keeps its full height. NaN is a gap.
  */
-export function throughColumns(xs: Float32Array, ys: Float32Array, from: number, to: number, out: Polyline): void {
+export function decimate(xs: Float32Array, ys: Float32Array, from: number, to: number, out: Polyline): void {
   let first = -1;
   let last = -1;
   let low = -1;

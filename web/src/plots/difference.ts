@@ -1,7 +1,7 @@
 import type { History } from "../state/history.ts";
 
 export interface Difference {
-  /** Ticks that both solvers have. */
+  /** Number of ticks for which both solvers have a force. */
   readonly ticks: number;
   /** N */
   readonly rms: number;
@@ -10,8 +10,8 @@ export interface Difference {
 }
 
 /**
- * |force of the other solver - force of this one| over the ticks from `first` to before `end`; null where nothing
- * compares.
+ * Size of the difference between the two solvers' forces, for the ticks from `first` up to but not including `end`.
+ * Null if no tick has both forces.
  */
 export function difference(history: History, first: number, end: number): Difference | null {
   const model = history.column("model_force");

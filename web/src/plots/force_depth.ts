@@ -10,10 +10,10 @@ import { type Box, Surface } from "./surface.ts";
 import { type Theme, watchTheme } from "./theme.ts";
 import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
 
-const STEP = 250; // ms
-const REACH = 60; // px from the pointer to the point that it reads
+const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
+const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance
 
-/** Force against depth: every tick there is, on the friction band of each membrane. */
+/** Force against depth: all ticks of the window, on top of each membrane's friction band. */
 export const forceDepthPlot: Panel = (host, app) => {
   const plots = plotsOf(app);
   const drawing = new ForceDepthDrawing();
@@ -42,7 +42,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     chosen,
     overlay: app.overlay.value,
     zoom,
-    oldest: plots.source.live ? 0.2 : 0.55, // who holds it still wants to see all of it
+    oldest: plots.source.live ? 0.2 : 0.55, // a frozen plot is studied as a whole, so it fades less
     pointed,
   });
   const readout = element("span", { class: "plot-readout" });
@@ -76,13 +76,13 @@ export const forceDepthPlot: Panel = (host, app) => {
     body,
     "Force against depth. Arrow keys read values along the motion, 0 resets the zoom.",
     {
-      boxed: ({ x1, y1, x2, y2 }: Box) => {
+      boxDrawn: ({ x1, y1, x2, y2 }: Box) => {
         const { x, y } = drawing.pane;
         const across = [x.value(Math.min(x1, x2)), x.value(Math.max(x1, x2))] as const;
         const up = [y.value(Math.max(y1, y2)), y.value(Math.min(y1, y2))] as const;
         if (Math.abs(x2 - x1) > 4 && Math.abs(y2 - y1) > 4) setZoom({ x: across, y: up });
       },
-      doubled: () => setZoom(null),
+      doubleClicked: () => setZoom(null),
       key: (event) => {
         if (event.key === "0") setZoom(null);
         else if (!keyTick(event, plots)) return false;
@@ -122,13 +122,13 @@ export const forceDepthPlot: Panel = (host, app) => {
 
   const point = (now: ForceDepthPicture): void => {
     if (surface.pointer) {
-      pointed = drawing.nearest(now, surface.pointer.x, surface.pointer.y, REACH);
+      pointed = drawing.nearest(now, surface.pointer.x, surface.pointer.y, PICK_RADIUS);
       plots.pointed.value = pointed?.tick ?? null;
       plots.pointedBy = "depth";
     } else {
       if (plots.pointedBy === "depth" && document.activeElement !== surface.canvas) plots.pointed.value = null;
       const tick = plots.pointed.value;
-      pointed = tick === null ? null : { tick, membrane: chosen ?? busiest(now, tick) };
+      pointed = tick === null ? null : { tick, membrane: chosen ?? strongest(now, tick) };
     }
   };
   const read = (): void => {
@@ -149,26 +149,29 @@ export const forceDepthPlot: Panel = (host, app) => {
   let back = "";
   let backEnd = 0;
   let backAt = 0;
-  let patience = 0;
+  let wait = 0;
   everyFrame((time) => {
     if (!theme || surface.width < 40) return;
     const window = plots.update();
     const { source } = plots;
     const { history } = source;
-    const still = `${changes} ${surface.sizes} ${history.generation} ${laws} ${source.title} ${plots.zoom.value?.from} ${plots.zoom.value?.to} ${plots.span.value} ${source.live ? "" : source.cursor.value}`;
-    const state = `${still} ${surface.changes} ${history.end} ${plots.pointed.value}`;
+    const backState = [
+      ...[changes, surface.sizes, history.generation, laws, source.title, plots.span.value],
+      ...[plots.zoom.value?.from, plots.zoom.value?.to, source.live ? "" : source.cursor.value],
+    ].join(" ");
+    const state = `${backState} ${surface.changes} ${history.end} ${plots.pointed.value}`;
     if (state === seen) return;
     seen = state;
     const now = picture();
-    // The past fades step by step: it is drawn anew only now and then, and the seldomer the longer that takes.
-    if (still !== back || (history.end !== backEnd && time - backAt > patience)) {
+    // The fading history is costly to draw. The longer one drawing takes, the longer the wait before the next.
+    if (backState !== back || (history.end !== backEnd && time - backAt > wait)) {
       const began = performance.now();
-      back = still;
+      back = backState;
       backEnd = history.end;
       backAt = time;
       drawing.arrange(now, surface.width, surface.height, time / 1e3);
       drawing.drawBack(surface.beginBack(), now, theme);
-      patience = Math.max(STEP, 10 * (performance.now() - began));
+      wait = Math.max(REDRAW_INTERVAL, 10 * (performance.now() - began));
     }
     point(now);
     const pen = surface.begin();
@@ -188,8 +191,8 @@ export const forceDepthPlot: Panel = (host, app) => {
   });
 };
 
-/** The membrane that pushes most at a tick. */
-function busiest({ source }: ForceDepthPicture, tick: number): number {
+/** The membrane with the largest axial force at a tick. */
+function strongest({ source }: ForceDepthPicture, tick: number): number {
   const { history } = source;
   if (tick < history.first || tick >= history.end) return 0;
   const force = history.row("axial_force", tick);

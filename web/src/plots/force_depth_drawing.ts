@@ -2,7 +2,7 @@ import type { Source } from "../state/source.ts";
 import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
 import { drawBand } from "./band.ts";
-import { throughColumns } from "./decimate.ts";
+import { decimate } from "./decimate.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
 import { ForceDepthRanges } from "./force_depth_ranges.ts";
 import { gather, gatherOther, isCompared } from "./gather.ts";
@@ -13,10 +13,10 @@ import { Polyline } from "./polyline.ts";
 import { colourOf, type Theme } from "./theme.ts";
 
 const MM = 1e3;
-const AGES = 8; // steps in which the hand's history fades
+const AGES = 8; // the history fades in this many steps
 const WIDTH = 1.6; // px
 
-/** Draws force against depth. Keeps its memory from frame to frame. */
+/** Draws force against depth. Reuses its buffers from frame to frame. */
 export class ForceDepthDrawing {
   readonly pane = new Pane();
   private readonly ranges = new ForceDepthRanges();
@@ -26,20 +26,20 @@ export class ForceDepthDrawing {
   private xs = new Float32Array(0);
   private ys = new Float32Array(0);
 
-  /** Lays the axes out for `picture`; now in s. */
+  /** Computes the axes for `picture` at the time `now`, s. */
   arrange(picture: ForceDepthPicture, width: number, height: number, now: number): void {
     const { left, right, top, bottom } = MARGIN;
     this.pane.place(left, top, width - left - right, height - top - bottom);
     this.ranges.arrange(picture, this.pane, now);
   }
 
-  /** All of it. */
+  /** Draws the whole plot. */
   draw(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {
     this.drawBack(pen, picture, theme);
     this.drawFront(pen, picture, endOf(picture), theme);
   }
 
-  /** Bands, axes and the ticks so far. */
+  /** Draws the background: bands, axes and the ticks up to now. */
   drawBack(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {
     const { left, top, width, height } = this.pane;
     const { source, window, overlay } = picture;
@@ -63,7 +63,7 @@ export class ForceDepthDrawing {
     });
   }
 
-  /** The ticks from `from` on, which came since, the present and what is pointed at. */
+  /** Draws the foreground: the new ticks, from the tick `from` on, the present tick and the pointed tick. */
   drawFront(pen: Pen, picture: ForceDepthPicture, from: number, theme: Theme): void {
     const { left, top, width, height } = this.pane;
     const { source, window } = picture;
@@ -74,16 +74,16 @@ export class ForceDepthDrawing {
         this.drawOther(pen, source, first, end, [i], theme);
         const n = this.pixels(source, first, end, i);
         this.path.clear();
-        throughColumns(this.xs, this.ys, 0, n, this.path);
+        decimate(this.xs, this.ys, 0, n, this.path);
         pen.line(this.path, { colour: colourOf(theme, i), width: WIDTH });
       }
       this.drawPresent(pen, picture, theme);
     });
   }
 
-  /** The point among the ticks shown that is nearest to a place of the plot, at most `reach` px away. */
-  nearest(picture: ForceDepthPicture, x: number, y: number, reach: number): { tick: number; membrane: number } | null {
-    let least = reach * reach;
+  /** The drawn tick nearest to the point (x, y), px; null if none lies within `radius` px. */
+  nearest(picture: ForceDepthPicture, x: number, y: number, radius: number): { tick: number; membrane: number } | null {
+    let least = radius * radius;
     let found: { tick: number; membrane: number } | null = null;
     const { first } = picture.window;
     for (const m of drawnMembranes(picture)) {
@@ -103,7 +103,7 @@ export class ForceDepthDrawing {
     return found;
   }
 
-  /** All ticks of a membrane as pixels into xs and ys; how many. */
+  /** Writes the ticks of a membrane as pixels to xs and ys; returns their number. */
   private pixels(source: Source, first: number, end: number, membrane: number): number {
     const n = Math.max(0, end - first);
     if (this.xs.length < n) {
@@ -123,14 +123,14 @@ export class ForceDepthDrawing {
     this.drawNew(pen, 0, n, { colour: theme.text, width: 1.5, alpha: 0.7 }, true);
   }
 
-  /** The hand's way, the older the fainter. */
+  /** Draws the needle's path. Older parts are fainter. */
   private drawHistory(pen: Pen, picture: ForceDepthPicture, membrane: number, theme: Theme): void {
     const { source, window, oldest } = picture;
     const end = endOf(picture);
     const n = this.pixels(source, window.first, end, membrane);
     const colour = colourOf(theme, membrane);
     const age = Math.max(1, Math.ceil((window.end - window.first) / AGES));
-    // The newest first: what lies under it need not be drawn.
+    // Newest first: older pieces under it are then skipped.
     for (let to = n, young = 1; to > 0; to -= age, young -= 1 / AGES) {
       const stroke = { colour, width: WIDTH, alpha: oldest + (1 - oldest) * Math.max(0, young) ** 2 };
       this.drawNew(pen, Math.max(0, to - age - 1), to, stroke, to === n);
@@ -155,13 +155,13 @@ export class ForceDepthDrawing {
     }
   }
 
-  /** Draws the gathered pixels where there is no ink yet; `clean` forgets the ink. */
-  private drawNew(pen: Pen, from: number, to: number, stroke: Stroke, clean: boolean): void {
+  /** Draws the gathered pixels that are not painted yet; `clear` marks all pixels as not painted first. */
+  private drawNew(pen: Pen, from: number, to: number, stroke: Stroke, clear: boolean): void {
     const { left, top, width, height } = this.pane;
-    if (clean) this.painted.begin(left, top, width, height);
+    if (clear) this.painted.begin(left, top, width, height);
     this.path.clear();
     this.fresh.clear();
-    throughColumns(this.xs, this.ys, from, to, this.path);
+    decimate(this.xs, this.ys, from, to, this.path);
     this.painted.addNew(this.path, this.fresh);
     if (this.fresh.count) pen.line(this.fresh, stroke);
   }

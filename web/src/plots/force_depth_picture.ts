@@ -6,17 +6,17 @@ export interface Area {
   readonly y: readonly [number, number];
 }
 
-/** What is to be drawn: ticks of a source. Depths in mm, forces in N, positive where they push the needle out. */
+/** The ticks to draw. Depths in mm; forces in N, positive if they push the needle out. */
 export interface ForceDepthPicture {
   readonly source: Source;
   readonly window: Window;
-  /** The present tick; nothing after it is drawn. */
+  /** The present tick. Later ticks are not drawn. */
   readonly shown: number | null;
   /** One membrane, or null for all. */
   readonly chosen: number | null;
   readonly overlay: Source | null;
   readonly zoom: Area | null;
-  /** How much of the oldest tick is to be seen, 0 to 1. */
+  /** Opacity of the oldest tick, 0 to 1. */
   readonly oldest: number;
   readonly pointed: { readonly tick: number; readonly membrane: number } | null;
 }
@@ -25,7 +25,7 @@ export interface ForceDepthPicture {
 export const drawnMembranes = ({ source, chosen }: ForceDepthPicture): number[] =>
   Array.from({ length: source.history.membranes }, (_, i) => i).filter((i) => chosen === null || chosen === i);
 
-/** Those of the earlier run that stand for them: of the same name, else of the same place in the row. */
+/** The matching membranes of the earlier run: those with the same name, else with the same index. */
 export function overlaidMembranes(picture: ForceDepthPicture): number[] {
   const { source, overlay } = picture;
   if (!overlay) return [];
@@ -38,7 +38,7 @@ export function overlaidMembranes(picture: ForceDepthPicture): number[] {
     .filter((i) => i < overlay.history.membranes);
 }
 
-/** One after the last tick that is drawn. */
+/** The tick after the last drawn one. */
 export function endOf({ window, shown }: ForceDepthPicture): number {
   return shown === null ? window.end : Math.max(window.first, Math.min(window.end, shown + 1));
 }

@@ -1,20 +1,20 @@
+import { AutoRange } from "./auto_range.ts";
 import type { Pane } from "./axes.ts";
-import { CalmRange } from "./calm_range.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
 import { Extent, gatherOther, isCompared } from "./gather.ts";
 
 const MM = 1e3;
-const OUTSIDE = 0.35; // share of the depth inside that is shown before the surface
+const OUTSIDE = 0.35; // length of the axis before the surface, as a share of its length behind it
 
-/** The ranges of the axes: they hold the laws, the ticks that are shown and what is laid over. */
+/** The ranges of the axes. They include the laws, the drawn ticks and the compared run. */
 export class ForceDepthRanges {
-  private readonly rangeX = new CalmRange();
-  private readonly rangeY = new CalmRange();
+  private readonly rangeX = new AutoRange();
+  private readonly rangeY = new AutoRange();
   private readonly x = new Extent();
   private readonly y = new Extent();
   private scratch = new Float32Array(0);
 
-  /** Lays out the axes of `pane`; now in s. */
+  /** Sets the axes of `pane` at the time `now`, s. */
   arrange(picture: ForceDepthPicture, pane: Pane, now: number): void {
     if (picture.zoom) {
       pane.rangeX(...picture.zoom.x);
@@ -22,7 +22,7 @@ export class ForceDepthRanges {
       return;
     }
     this.measure(picture);
-    // The way to the skin is long and empty.
+    // The path before the first surface is long and has no force.
     const before = Math.max(Math.min(this.x.low, 0), -OUTSIDE * this.x.high);
     this.rangeX.follow(before, this.x.high, now);
     this.rangeY.follow(this.y.low, this.y.high, now);

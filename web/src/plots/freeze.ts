@@ -2,13 +2,15 @@ import type { History } from "../state/history.ts";
 import { Source } from "../state/source.ts";
 import { BYTE_COLUMNS, type ByteColumn, type FloatColumn, type TickBatch } from "../wire/ticks.ts";
 
-const CHUNK = 1024; // ticks; times are f32 from the first of a chunk, so that they keep their nanoseconds
+const CHUNK = 1024; // ticks; times are f32 relative to the first of a chunk, which keeps them exact to nanoseconds
 
+// biome-ignore format: a table
 const FLOATS = [
-  "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy", "direction",
-] as const; // biome-ignore format: a table
+  "position", "axis", "tip", "model_force", "force", "ceiling",
+  "depth", "axial_force", "lower", "upper", "proxy", "direction",
+] as const;
 
-/** A copy of all that a source has now: the live one goes on and forgets, the copy stays. */
+/** A copy of a source's present data. The live source overwrites old ticks; the copy keeps them. */
 export function frozenCopy(source: Source): Source {
   const { history } = source;
   const copy = new Source(`${source.title}, frozen`, false, Math.max(1, history.length));
@@ -23,7 +25,7 @@ export function frozenCopy(source: Source): Source {
   return copy;
 }
 
-/** n ticks as if they had come now; they must lie side by side in the rings. */
+/** n ticks as one batch; they must be contiguous in the ring buffers. */
 function batchOf(history: History, first: number, n: number): TickBatch {
   const slot = history.slot(first);
   const firstTime = history.timeOf(first);

@@ -1,10 +1,11 @@
 import type { History } from "../state/history.ts";
-import type { FloatColumn } from "../wire/ticks.ts";
+import { codeOf, type FloatColumn } from "../wire/ticks.ts";
 
 type Column = Exclude<FloatColumn, "time">;
+const OUTSIDE = codeOf("phase", "outside");
 
-/** Calls with stretches of ticks whose rows follow one another in the rings: two at most. */
-function stretches(
+/** Calls `use` for each contiguous part of the ticks in the ring buffers: two parts at most. */
+function eachPart(
   history: History,
   first: number,
   end: number,
@@ -18,7 +19,7 @@ function stretches(
   }
 }
 
-/** out[i] = bias + gain * the number `offset` of the column's row, for the ticks from `first` to before `end`. */
+/** out[i] = bias + gain * row[offset] of the column, for the ticks from `first` up to but not including `end`. */
 export function gather(
   history: History,
   first: number,
@@ -31,12 +32,12 @@ export function gather(
 ): void {
   const values = history.column(column);
   const width = history.width(column);
-  stretches(history, first, end, (slot, n, at) => {
+  eachPart(history, first, end, (slot, n, at) => {
     for (let i = 0, from = slot * width + offset; i < n; i++, from += width) out[at + i] = bias + gain * values[from]!;
   });
 }
 
-/** The same of the time, s. */
+/** As `gather`, for the time, s. */
 export function gatherTime(
   history: History,
   first: number,
@@ -45,12 +46,12 @@ export function gatherTime(
   bias: number,
   out: Float32Array,
 ): void {
-  stretches(history, first, end, (slot, n, at) => {
+  eachPart(history, first, end, (slot, n, at) => {
     for (let i = 0; i < n; i++) out[at + i] = bias + gain * history.time[slot + i]!;
   });
 }
 
-/** Whether the other solver ran in any of the ticks. */
+/** Whether the other solver ran at any of the ticks. */
 export function isCompared(history: History, first: number, end: number): boolean {
   const other = history.column("other_force");
   for (let tick = first; tick < end; tick++) if (!Number.isNaN(other[3 * history.slot(tick)]!)) return true;
@@ -58,10 +59,9 @@ export function isCompared(history: History, first: number, end: number): boolea
 }
 
 /**
- * The axial force of a membrane as the other solver would have it, N: where the tip is in that membrane, this
- * solver's plus
- * the difference of the two whole forces along b. With one membrane at the needle that is the other's axial force
- * itself.
+ * Estimates a membrane's axial force with the other solver, N: this solver's axial force plus the difference of the
+ * two total forces along b. NaN while the tip is outside the membrane. With a single membrane on the needle, the
+ * result is the other solver's axial force itself.
  */
 export function gatherOther(
   history: History,
@@ -78,11 +78,11 @@ export function gatherOther(
   const model = history.column("model_force");
   const b = history.column("direction");
   const phase = history.byteColumn("phase");
-  stretches(history, first, end, (slot, n, at) => {
+  eachPart(history, first, end, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
       const row = slot + i;
       const cell = row * m + membrane;
-      if (phase[cell] === 0) {
+      if (phase[cell] === OUTSIDE) {
         out[at + i] = Number.NaN;
         continue;
       }
@@ -94,9 +94,8 @@ export function gatherOther(
 }
 
 /**
- * What goes to the hand, N: the size of the device's force after all limits, negative where it pulls the needle in.
- * While
- * nothing limits it, that is the size of the model's force, by which exercises are judged.
+ * The size of the force sent to the device, after all limits, N; negative if it pulls the needle in. While no limit
+ * acts, it equals the size of the model's force, which exercises judge.
  */
 export function gatherSent(
   history: History,
@@ -108,7 +107,7 @@ export function gatherSent(
 ): void {
   const force = history.column("force");
   const axis = history.column("axis");
-  stretches(history, first, end, (slot, n, at) => {
+  eachPart(history, first, end, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
       const from = 3 * (slot + i);
       const x = force[from]!;
@@ -121,7 +120,7 @@ export function gatherSent(
   });
 }
 
-/** Lowest and highest number, gaps left out; low > high where there is none. */
+/** The lowest and the highest of some numbers, without NaN; low > high if there are none. */
 export class Extent {
   low = Number.POSITIVE_INFINITY;
   high = Number.NEGATIVE_INFINITY;
@@ -142,7 +141,7 @@ export class Extent {
     const width = history.width(column);
     let low = Number.POSITIVE_INFINITY;
     let high = Number.NEGATIVE_INFINITY;
-    stretches(history, first, end, (slot, n) => {
+    eachPart(history, first, end, (slot, n) => {
       for (let i = 0, from = slot * width + offset; i < n; i++, from += width) {
         const value = values[from]!;
         if (value < low) low = value;

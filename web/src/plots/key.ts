@@ -3,23 +3,23 @@ import type { Pen } from "./pen.ts";
 import type { Theme } from "./theme.ts";
 
 const SIZE = 11.5; // px
-const CHARACTER = 6; // px, about, of a letter of this size
+const CHARACTER = 6; // px, approximate width of a letter of this size
 const LINE = 16;
 const EDGE = 3; // px
 
-/** A line or a shade of a plot, and what it is. */
+/** An entry of a plot's legend: a line or a shade, and its name. */
 export interface KeyEntry {
   readonly text: string;
   readonly colour: string;
-  /** How dense the shade is; without it the entry is a line. */
+  /** Opacity of the shade; without it the entry is a line. */
   readonly shade?: number;
 }
 
-/** The solver that runs beside the present one. */
+/** Name of the solver that runs next to the scene's solver while Compare is on. */
 export const otherName = (source: Source): string =>
   `${source.scene.value?.solver === "paper" ? "exact" : "paper"} solver`;
 
-/** A shade with a dense edge above it, which is seen also where the shade is narrow or lines lie on it. */
+/** Draws a shade with a dense upper edge, which stays visible if the shade is narrow or lines cover it. */
 export function drawShade(
   pen: Pen,
   x: number,
@@ -33,7 +33,7 @@ export function drawShade(
   pen.box(x, y, width, EDGE, colour, 0.9);
 }
 
-/** Entries in a row that ends at `right`, with their middle at y. */
+/** Draws the entries in a row that ends at `right` and is centred at y. */
 export function drawKey(pen: Pen, right: number, y: number, entries: readonly KeyEntry[], theme: Theme): void {
   let x = right;
   for (const { text, colour, shade } of entries) {

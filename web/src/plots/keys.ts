@@ -1,6 +1,6 @@
 import type { Plots } from "./shared.ts";
 
-/** Moves what is pointed at by the keyboard. Whether the key was one of these. */
+/** Handles a key press on a plot: moves the pointed tick, freezes or zooms. Returns whether the key has a meaning. */
 export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
   const { window, source } = plots;
   const { history } = source;
@@ -9,7 +9,7 @@ export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
     return true;
   }
   if (event.key === " ") {
-    if (plots.frozen.value) plots.thaw();
+    if (plots.frozen.value) plots.unfreeze();
     else plots.freeze();
     return true;
   }
@@ -34,7 +34,7 @@ export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
   return true;
 }
 
-/** Makes the time that is shown `factor` times as long, about what is pointed at. */
+/** Multiplies the length of the window by `factor`, about the pointed tick. */
 function zoomBy(plots: Plots, factor: number): void {
   const { window, source } = plots;
   const middle =

@@ -1,8 +1,8 @@
 import type { Polyline } from "./polyline.ts";
 
-const SHORT = 2; // px: a longer piece is always drawn
+const SHORT = 2; // px: longer pieces are always drawn
 
-/** Which pixels of a box carry ink already, so that ten strokes along one line are not drawn ten times. */
+/** Remembers which pixels of a box are painted, so that ten strokes along one line are drawn only once. */
 export class Painted {
   private cells = new Uint8Array(0);
   private left = 0;
@@ -12,7 +12,7 @@ export class Painted {
   private lastCell = -1;
   private lastInk = false;
 
-  /** Forgets, for another drawing in this box. */
+  /** Marks all pixels of this box as not painted. */
   begin(left: number, top: number, width: number, height: number): void {
     this.left = Math.floor(left);
     this.top = Math.floor(top);
@@ -24,7 +24,7 @@ export class Painted {
     else this.cells.fill(0, 0, size);
   }
 
-  /** Adds to `out` those pieces of `path` that go where there is no ink yet, and inks them. */
+  /** Adds to `out` the pieces of `path` on pixels that are not painted yet, and marks those pixels. */
   addNew(path: Polyline, out: Polyline): void {
     const { xs, ys, count } = path;
     let inkBefore = false;
@@ -54,13 +54,13 @@ export class Painted {
     out.gap();
   }
 
-  /** Inks a pixel; whether it was. What lies outside is as good as inked: nobody sees it. */
+  /** Marks a pixel as painted; returns whether it was before. Pixels outside the box count as painted. */
   private ink(x: number, y: number): boolean {
     const column = Math.floor(x) - this.left;
     const row = Math.floor(y) - this.top;
     if (column < 0 || row < 0 || column >= this.width || row >= this.height) return true;
     const cell = row * this.width + column;
-    // A stay in a pixel is one: the ink that it lays itself does not count against it.
+    // Consecutive points in one pixel count as one: the first must not hide the others.
     if (cell === this.lastCell) return this.lastInk;
     this.lastCell = cell;
     this.lastInk = this.cells[cell] === 1;

@@ -12,14 +12,13 @@ export interface Lettering {
   readonly size?: number;
   readonly anchor?: "start" | "middle" | "end";
   readonly bold?: boolean;
-  /** A rim in this colour, so that the text can be read on lines. */
+  /** Colour of an outline that keeps the text readable on top of lines. */
   readonly halo?: string;
 }
 
 /**
- * What a plot draws with: a canvas on the screen, or an SVG file. One drawing serves both, so that what is saved is
- * what was
- * seen. Lengths are CSS pixels from the top left; text stands with its middle at y.
+ * The drawing surface of a plot: a canvas on the screen or an SVG file. Both use the same drawing code, so the saved
+ * picture equals the screen. Lengths are CSS pixels from the top left; text is centred vertically at y.
  */
 export interface Pen {
   line(points: Polyline, stroke: Stroke): void;
@@ -29,7 +28,7 @@ export interface Pen {
   box(x: number, y: number, width: number, height: number, colour: string, alpha: number): void;
   dot(x: number, y: number, radius: number, fill: string, rim: string): void;
   text(x: number, y: number, text: string, lettering: Lettering): void;
-  /** Everything that `draw` draws ends at the edges of this box. */
+  /** Clips everything that `draw` draws to this box. */
   within(x: number, y: number, width: number, height: number, draw: () => void): void;
 }
 

@@ -1,4 +1,4 @@
-/** Points that grow without new memory; NaN in `ys` is a gap. */
+/** A growing list of points whose memory is reused after `clear`. NaN in `ys` is a gap. */
 export class Polyline {
   xs: Float32Array;
   ys: Float32Array;
@@ -19,7 +19,7 @@ export class Polyline {
     this.ys[this.count++] = y;
   }
 
-  /** Ends the line here; the next point begins another. */
+  /** Ends the line here; the next point starts a new one. */
   gap(): void {
     if (this.count && !Number.isNaN(this.ys[this.count - 1]!)) this.add(Number.NaN, Number.NaN);
   }

@@ -12,7 +12,7 @@ const ROW = 16;
 
 const minus = (text: string): string => text.replace("-", "−");
 
-/** The numbers of a tick in words, for a screen reader. */
+/** A tick's numbers as text for a screen reader. */
 export function reading(source: Source, tick: number): string {
   const { history } = source;
   const names = source.scene.value?.membranes ?? [];
@@ -24,14 +24,14 @@ export function reading(source: Source, tick: number): string {
   return `${history.timeOf(tick).toFixed(4)} s, ${forceWords(history, tick)}: ${parts.join("; ")}`;
 }
 
-/** Whether the hand gets the force, and which limit cuts it. */
+/** Says whether the device gets the force, and which limit cuts it. */
 function forceWords(history: History, tick: number): string {
   return cuts(limitOf(history, tick))
     ? `cut to ${cutFigures(history, tick)} by the ${LIMIT_WORDS[limitOf(history, tick)]}`
     : STATE_WORDS[stateOf(history, tick)];
 }
 
-/** A small table beside the cursor: time, and depth and force of every membrane. */
+/** Draws a small table next to the cursor: the time, and the depth and force of every membrane. */
 export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme): void {
   const { history } = source;
   const x = pane.x.px(history.timeOf(tick));
@@ -45,7 +45,8 @@ export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, 
   pen.segment(left, top + 2, left, bottom, edge);
   pen.segment(left + WIDTH, top + 2, left + WIDTH, bottom, edge);
   const limit = limitOf(history, tick);
-  const words = `${history.timeOf(tick).toFixed(4)} s  ${cuts(limit) ? LIMIT_WORDS[limit] : STATE_WORDS[stateOf(history, tick)]}`;
+  const state = cuts(limit) ? LIMIT_WORDS[limit] : STATE_WORDS[stateOf(history, tick)];
+  const words = `${history.timeOf(tick).toFixed(4)} s  ${state}`;
   pen.text(left + 8, top + 13, words, { colour: theme.text, bold: true });
   for (let i = 0; i < history.membranes; i++) {
     const y = top + 13 + ROW * (i + 1);

@@ -5,7 +5,7 @@ import type { Plots } from "./shared.ts";
 import { SvgPen } from "./svg_pen.ts";
 import type { Theme } from "./theme.ts";
 
-/** What a plot gives to be saved. */
+/** The parts of a plot that can be saved. */
 export interface Saving {
   readonly name: string;
   readonly plots: Plots;
@@ -16,9 +16,9 @@ export interface Saving {
   draw(pen: Pen): void;
 }
 
-const PNG_RATIO = 2; // device pixels to a pixel of the plot, so that a picture can be printed
+const PNG_RATIO = 2; // pixels of the file per pixel of the plot: sharp enough for print
 
-/** Hands a file to the person. */
+/** Makes the browser download a file. */
 export function download(name: string, parts: BlobPart[], type: string): void {
   const url = URL.createObjectURL(new Blob(parts, { type }));
   const link = document.createElement("a");

@@ -1,8 +1,8 @@
-/** A straight map from values to pixels. */
+/** A linear map from values to pixels. */
 export class Scale {
   min = 0;
   max = 1;
-  /** Pixels at `min` and at `max`. */
+  /** The pixels of `min` and `max`. */
   from = 0;
   to = 1;
 

@@ -8,16 +8,16 @@ import { Window } from "./window.ts";
 export const SPANS = [2, 5, 20, 80] as const; // s
 export type Span = (typeof SPANS)[number];
 
-/** What all plots of a page have in common: they show the same ticks, and point at the same one. */
+/** State shared by all plots of a page: the shown window of ticks and the pointed tick. */
 export class Plots {
-  /** The copy that is looked at while the run goes on. */
+  /** The frozen copy that the plots show while the run goes on. */
   readonly frozen = new Signal<Source | null>(null);
   readonly span = new Signal<Span>(20);
-  /** A part of the time that is looked at, s. */
+  /** The zoomed part of the time, s. */
   readonly zoom = new Signal<{ readonly from: number; readonly to: number } | null>(null);
-  /** The tick that is pointed at. */
+  /** The tick under the pointer or the keyboard cursor. */
   readonly pointed = new Signal<number | null>(null);
-  /** Who points: it lets go when the pointer leaves it. */
+  /** The plot or keyboard that set `pointed`. A plot clears it when the pointer leaves. */
   pointedBy: "depth" | "time" | "keys" | null = null;
   readonly window = new Window();
   /** Width of the time plot, px. */
@@ -25,14 +25,14 @@ export class Plots {
   private frozenByZoom = false;
 
   constructor(private readonly app: App) {
-    app.source.watch(() => this.thaw());
+    app.source.watch(() => this.unfreeze());
   }
 
   get source(): Source {
     return this.frozen.value ?? this.app.source.value;
   }
 
-  /** Finds the ticks to draw: once a frame. */
+  /** Finds the ticks to draw. Called once per frame. */
   update(): Window {
     const { source, window } = this;
     const zoom = this.zoom.value;
@@ -54,13 +54,13 @@ export class Plots {
     this.frozenByZoom = false;
   }
 
-  thaw(): void {
+  unfreeze(): void {
     this.frozen.value = null;
     this.zoom.value = null;
     this.pointed.value = null;
   }
 
-  /** Looks at a part of the time; what is live is frozen for that. */
+  /** Shows a part of the time. A live source is frozen first. */
   zoomTo(from: number, to: number): void {
     const byZoom = this.app.source.value.live && !this.frozen.value;
     this.freeze();
@@ -70,10 +70,10 @@ export class Plots {
 
   resetZoom(): void {
     this.zoom.value = null;
-    if (this.frozenByZoom) this.thaw();
+    if (this.frozenByZoom) this.unfreeze();
   }
 
-  /** Shows what happened at a tick. Whether it is still there. */
+  /** Zooms to a tick. Returns whether the history still holds it. */
   jump(tick: number): boolean {
     const { history } = this.source;
     if (tick < history.first || tick >= history.end) return false;
@@ -87,5 +87,5 @@ export class Plots {
   }
 }
 
-/** The one of this page. */
+/** The plots' state of this page. */
 export const plotsOf = onePerApp((app) => new Plots(app));

@@ -6,7 +6,7 @@ import { wordsOf } from "../wire/ticks.ts";
 export const STATES = wordsOf("state");
 export type State = (typeof STATES)[number];
 
-/** What a state means for the hand, in a word or two. */
+/** The meaning of each state for the force, in one or two words. */
 export const STATE_WORDS: Readonly<Record<State, string>> = {
   disarmed: "no force",
   waiting: "waiting",
@@ -17,7 +17,7 @@ export const STATE_WORDS: Readonly<Record<State, string>> = {
 export const stateOf = (history: History, tick: number): State =>
   STATES[history.byteRow("state", tick)[0] ?? 0] ?? "disarmed";
 
-/** Calls with every stretch of ticks, first to before end, in one state. */
+/** Calls `use` for each run of consecutive ticks in one state, from `first` up to but not including `end`. */
 export function eachState(
   history: History,
   first: number,
@@ -27,7 +27,7 @@ export function eachState(
   eachStretch(history, "state", first, end, (state, from, to) => use(STATES[state] ?? "disarmed", from, to));
 }
 
-/** Calls with every stretch of ticks in which one limit acts. */
+/** Calls `use` for each run of consecutive ticks with the same limit. */
 export function eachLimit(
   history: History,
   first: number,

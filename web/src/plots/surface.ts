@@ -8,21 +8,21 @@ export interface Box {
   readonly y2: number;
 }
 
-const DRAG = 6; // px from which on a press is a drag
+const DRAG = 6; // px: a press that moves this far is a drag
 
-/** A canvas that fills its host, with a pointer that can point at a place or draw a box. CSS pixels. */
+/** A canvas that fills its host. The pointer points at a place or draws a box. Lengths are CSS pixels. */
 export class Surface {
   readonly canvas: HTMLCanvasElement;
   private readonly pen: CanvasPen;
   width = 0;
   height = 0;
-  /** Where the pointer is; null while it is elsewhere. */
+  /** The pointer's position; null while it is outside. */
   pointer: { readonly x: number; readonly y: number } | null = null;
-  /** The box that is being drawn. */
+  /** The box that the person is drawing. */
   box: Box | null = null;
-  /** Counts what happened here that asks for another drawing. */
+  /** Counts the changes that need a new drawing. */
   changes = 0;
-  /** Counts the sizes that this has had. */
+  /** Counts the changes of size. */
   sizes = 0;
   private ratio = 1;
   private readonly back = document.createElement("canvas");
@@ -31,10 +31,10 @@ export class Surface {
   constructor(
     host: HTMLElement,
     label: string,
-    private readonly acts: {
-      boxed(box: Box): void;
-      doubled(): void;
-      /** Whether the key was one. */
+    private readonly handlers: {
+      boxDrawn(box: Box): void;
+      doubleClicked(): void;
+      /** Returns whether the key has a meaning here. */
       key(event: KeyboardEvent): boolean;
     },
   ) {
@@ -43,18 +43,18 @@ export class Surface {
     this.pen = new CanvasPen(this.canvas.getContext("2d")!);
     this.backPen = new CanvasPen(this.back.getContext("2d")!);
     new ResizeObserver(() => this.fit(host)).observe(host);
-    window.addEventListener("resize", () => this.fit(host)); // a zoom of the page changes only the ratio
+    window.addEventListener("resize", () => this.fit(host)); // the page's zoom changes only the ratio
     this.fit(host);
     this.listen();
   }
 
-  /** Clears the background, which is drawn seldom. */
+  /** Clears the background, which is redrawn rarely. */
   beginBack(): CanvasPen {
     this.backPen.begin(this.width, this.height, this.ratio);
     return this.backPen;
   }
 
-  /** Shows the background, for the foreground to be drawn on it. */
+  /** Copies the background to the screen; the caller draws the foreground on top. */
   begin(): CanvasPen {
     this.pen.begin(this.width, this.height, this.ratio);
     this.pen.picture(this.back, this.width, this.height);
@@ -99,22 +99,22 @@ export class Surface {
       const far = Math.hypot(x - pressed.x, y - pressed.y) >= DRAG;
       if (this.box || far) this.box = { x1: pressed.x, y1: pressed.y, x2: x, y2: y };
     });
-    const letGo = (take: boolean): void => {
+    const release = (accept: boolean): void => {
       const { box } = this;
       pressed = null;
       this.box = null;
       this.changes++;
-      if (take && box) this.acts.boxed(box);
+      if (accept && box) this.handlers.boxDrawn(box);
     };
-    canvas.addEventListener("pointerup", () => letGo(true));
-    canvas.addEventListener("pointercancel", () => letGo(false));
+    canvas.addEventListener("pointerup", () => release(true));
+    canvas.addEventListener("pointercancel", () => release(false));
     canvas.addEventListener("pointerleave", (event) => {
-      if (event.pointerType !== "touch") leave(); // what a finger points at is read when the finger is gone
+      if (event.pointerType !== "touch") leave(); // a touch keeps its point after the finger is lifted
     });
-    canvas.addEventListener("dblclick", () => this.acts.doubled());
+    canvas.addEventListener("dblclick", () => this.handlers.doubleClicked());
     canvas.addEventListener("keydown", (event) => {
       if (event.altKey || event.ctrlKey || event.metaKey) return;
-      if (this.acts.key(event)) event.preventDefault();
+      if (this.handlers.key(event)) event.preventDefault();
       this.changes++;
     });
   }

@@ -6,10 +6,11 @@ export class SvgPen implements Pen {
   private readonly parts: string[] = [];
   private clips = 0;
 
-  /** The file. `title` and `words` are for whoever cannot see it. */
+  /** The file's text. Screen readers read `title` and `words`. */
   file(width: number, height: number, back: string, title: string, words: string): string {
+    const size = `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"`;
     return [
-      `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img">`,
+      `<svg xmlns="http://www.w3.org/2000/svg" ${size} role="img">`,
       `<title>${escaped(title)}</title><desc>${escaped(words)}</desc>`,
       `<rect width="100%" height="100%" fill="${back}"/>`,
       ...this.parts,

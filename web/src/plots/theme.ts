@@ -1,4 +1,4 @@
-/** The colours of styles/tokens.css as a canvas can use them. */
+/** The colours of styles/tokens.css, resolved for use on a canvas. */
 export interface Theme {
   readonly panel: string;
   readonly line: string;
@@ -6,18 +6,18 @@ export interface Theme {
   readonly quiet: string;
   readonly accent: string;
   readonly danger: string;
-  /** One a membrane, in turn. */
+  /** Colours of the membranes, repeated in turn. */
   readonly data: readonly string[];
 }
 
 const DATA = ["--data-1", "--data-2", "--data-3", "--data-4", "--data-5"];
 
-/** The colours as they are now, and again whenever the page turns light or dark. */
+/** Calls `changed` with the present colours, and again whenever the page turns light or dark. */
 export function watchTheme(changed: (theme: Theme) => void): void {
   const probe = document.createElement("i");
   probe.hidden = true;
   document.body.append(probe);
-  // getPropertyValue would give light-dark(...) as it is written; a colour in use is resolved.
+  // getPropertyValue would return the text light-dark(...); the computed colour of an element is resolved.
   const read = (name: string): string => {
     probe.style.color = `var(${name})`;
     return getComputedStyle(probe).color;

@@ -1,4 +1,4 @@
-/** The step 1, 2 or 5 times a power of ten that puts about `wanted` lines into `span`. */
+/** A step of 1, 2 or 5 times a power of ten that divides `span` by about `wanted` lines. */
 export function niceStep(span: number, wanted: number): number {
   const raw = span / Math.max(1, wanted);
   const power = 10 ** Math.floor(Math.log10(raw));
@@ -13,7 +13,7 @@ export function ticks(min: number, max: number, step: number): number[] {
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => (first + i) * step);
 }
 
-/** As many places as tell neighbours `step` apart. */
+/** The value as text, with enough decimal places for steps of `step`. */
 export function label(value: number, step: number): string {
   const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const text = value.toFixed(places);

@@ -9,7 +9,7 @@ import { TimeDrawing, type TimePicture } from "./time_drawing.ts";
 import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
-const TAIL = 800; // ticks that are drawn anew every frame, at most
+const TAIL = 800; // ticks that the foreground draws each frame, at most
 
 /** Force and depth against time, one above the other. */
 export const timePlots: Panel = (host, app) => {
@@ -64,14 +64,15 @@ export const timePlots: Panel = (host, app) => {
   );
   const surface = new Surface(
     body,
-    "Force and depth against time. Arrow keys move the cursor, with shift tick by tick; plus and minus zoom, 0 resets, space freezes.",
+    "Force and depth against time. Arrow keys move the cursor, with Shift by one tick. " +
+      "Plus and minus zoom, 0 resets, Space freezes.",
     {
-      boxed: ({ x1, x2 }) => {
+      boxDrawn: ({ x1, x2 }) => {
         const { x } = drawing.force;
         const [from, to] = [x.value(Math.min(x1, x2)), x.value(Math.max(x1, x2))];
         if (to - from > 2e-3) plots.zoomTo(from, to);
       },
-      doubled: () => plots.resetZoom(),
+      doubleClicked: () => plots.resetZoom(),
       key: (event) => {
         if (event.key === "0") {
           plots.resetZoom();
@@ -107,12 +108,13 @@ export const timePlots: Panel = (host, app) => {
     const { from, to, first, end } = plots.update();
     const { source } = plots;
     const { history } = source;
-    const still = `${changes} ${surface.sizes} ${history.generation} ${from} ${to} ${source.events.value.length} ${source.live}`;
-    const state = `${still} ${surface.changes} ${first} ${end} ${source.cursor.value} ${plots.pointed.value}`;
+    const counts = `${changes} ${surface.sizes} ${history.generation} ${source.events.value.length}`;
+    const backState = `${counts} ${from} ${to} ${source.live}`;
+    const state = `${backState} ${surface.changes} ${first} ${end} ${source.cursor.value} ${plots.pointed.value}`;
     if (state === seen) return;
     seen = state;
-    if (still !== back || end - backEnd > TAIL) {
-      back = still;
+    if (backState !== back || end - backEnd > TAIL) {
+      back = backState;
       backEnd = end;
       drawing.arrange(picture(), surface.width, surface.height, time / 1e3);
       drawing.drawBack(surface.beginBack(), picture(), theme);

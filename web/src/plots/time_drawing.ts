@@ -1,9 +1,9 @@
 import type { History } from "../state/history.ts";
 import type { Source } from "../state/source.ts";
+import { AutoRange } from "./auto_range.ts";
 import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
-import { CalmRange } from "./calm_range.ts";
-import { throughColumns } from "./decimate.ts";
+import { decimate } from "./decimate.ts";
 import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "./gather.ts";
 import { drawKey, type KeyEntry, otherName } from "./key.ts";
 import type { Pen } from "./pen.ts";
@@ -17,33 +17,33 @@ import type { Window } from "./window.ts";
 const MM = 1e3;
 const FORCE_SHARE = 0.58;
 
-/** What is to be drawn: the ticks of a window. Depths in mm, forces in N, positive where they push the needle out. */
+/** The window of ticks to draw. Depths in mm; forces in N, positive if they push the needle out. */
 export interface TimePicture {
   readonly source: Source;
   readonly window: Window;
   readonly pointed: number | null;
-  /** Where the scrubber of a recording stands. */
+  /** The tick of a recording's scrubber. */
   readonly cursor: number | null;
 }
 
-/** Draws force and depth against one time axis. Keeps its memory from frame to frame. */
+/** Draws force and depth against one time axis. Reuses its buffers from frame to frame. */
 export class TimeDrawing {
   readonly force = new Pane();
   readonly depth = new Pane();
-  private readonly rangeForce = new CalmRange();
-  private readonly rangeDepth = new CalmRange();
+  private readonly rangeForce = new AutoRange();
+  private readonly rangeDepth = new AutoRange();
   private readonly extent = new Extent();
   private readonly path = new Polyline();
   private xs = new Float32Array(0);
   private ys = new Float32Array(0);
 
-  /** Lets the ranges of the values begin anew: for another part of the run. */
+  /** Resets the value ranges, for another part of the run. */
   forget(): void {
     this.rangeForce.forget();
     this.rangeDepth.forget();
   }
 
-  /** Lays the axes out; now in s. */
+  /** Computes the axes at the time `now`, s. */
   arrange({ source, window }: TimePicture, width: number, height: number, now: number): void {
     const { force, depth, extent } = this;
     const across = width - MARGIN.left - MARGIN.right;
@@ -65,20 +65,20 @@ export class TimeDrawing {
     extent.take(-1);
     extent.take(1);
     for (let i = 0; i < history.membranes; i++) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
-    // A hand far away from the tissue must not press what happens inside into a line.
+    // While the hand is far from the tissue, the range must not flatten the curve inside it.
     this.rangeDepth.follow(Math.max(extent.low, -Math.max(10, 1.5 * extent.high)), extent.high, now);
     for (const pane of [force, depth]) pane.rangeX(window.from, window.to);
     force.rangeY(this.rangeForce.min, this.rangeForce.max);
     depth.rangeY(this.rangeDepth.min, this.rangeDepth.max);
   }
 
-  /** All of it. */
+  /** Draws the whole plot. */
   draw(pen: Pen, picture: TimePicture, theme: Theme): void {
     this.drawBack(pen, picture, theme);
     this.drawFront(pen, picture, picture.window.end, theme);
   }
 
-  /** What stays while the window does. */
+  /** Draws the background, which stays the same while the window stays. */
   drawBack(pen: Pen, picture: TimePicture, theme: Theme): void {
     const { source, window } = picture;
     drawStates(pen, this.force, this.depth, source.history, window, theme);
@@ -94,7 +94,7 @@ export class TimeDrawing {
     this.drawLines(pen, source.history, window.first, window.end, theme);
   }
 
-  /** The ticks from `from` on, which came since, the present and what is pointed at. */
+  /** Draws the foreground: the new ticks, from the tick `from` on, the present tick and the pointed tick. */
   drawFront(pen: Pen, picture: TimePicture, from: number, theme: Theme): void {
     const { source, window } = picture;
     this.drawLines(pen, source.history, Math.max(window.first, from - 1), window.end, theme);
@@ -144,7 +144,7 @@ export class TimeDrawing {
 
   private drawLine(pen: Pen, n: number, colour: string, width: number, alpha: number): void {
     this.path.clear();
-    throughColumns(this.xs, this.ys, 0, n, this.path);
+    decimate(this.xs, this.ys, 0, n, this.path);
     if (this.path.count) pen.line(this.path, { colour, width, alpha });
   }
 

@@ -13,7 +13,7 @@ import type { Window } from "./window.ts";
 const CUT_SHADE = 0.22;
 const NAME = 62; // px that the name of the upper axis takes
 
-/** Shades the ticks in which no force goes out, and says why where there is room. */
+/** Shades the ticks without force, and names the reason if there is space. */
 export function drawStates(pen: Pen, force: Pane, depth: Pane, history: History, window: Window, theme: Theme): void {
   const { x, left, top, width } = force;
   const bottom = depth.top + depth.height;
@@ -38,7 +38,7 @@ export function drawStates(pen: Pen, force: Pane, depth: Pane, history: History,
   );
 }
 
-/** Shades the ticks in which a limit cuts the force, over the force alone, and names the limit where there is room. */
+/** Shades the ticks in which a limit cuts the force, in the force pane only; names the limit if there is space. */
 export function drawLimits(pen: Pen, force: Pane, history: History, window: Window, theme: Theme): void {
   const { x, left, top, width, height } = force;
   pen.within(left, top, width, height, () =>
@@ -57,7 +57,7 @@ export function drawLimits(pen: Pen, force: Pane, history: History, window: Wind
   );
 }
 
-/** What the shade of drawLimits means, if the window has any. */
+/** The legend entry for drawLimits' shade, if the window has any. */
 export function limitKey(history: History, window: Window, theme: Theme): KeyEntry[] {
   let any = false;
   eachLimit(history, window.first, window.end, (limit) => {
@@ -66,7 +66,7 @@ export function limitKey(history: History, window: Window, theme: Theme): KeyEnt
   return any ? [{ text: "cut by a limit", colour: theme.danger, shade: CUT_SHADE }] : [];
 }
 
-/** Pops with what the force lost; touch and out as a notch on the line of zero. */
+/** Marks pops with the drop of the force, and contact and exit with a notch on the zero line. */
 export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, window: Window, theme: Theme): void {
   const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
   const at = (event: MembraneEvent): number => force.x.px(source.history.timeOf(event.tick));

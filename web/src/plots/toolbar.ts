@@ -7,7 +7,7 @@ export function button(text: string, title: string, act: () => void): HTMLButton
   return element("button", { type: "button", title, "aria-label": title, onclick: act }, text);
 }
 
-/** A list to choose from, whose entries may change. */
+/** A drop-down list whose entries can change. */
 export function choice(
   label: string,
   entries: ReadonlyArray<readonly [value: string, text: string]>,
@@ -23,22 +23,22 @@ export function choice(
   return { select, offer };
 }
 
-/** Holds all plots still, or lets them go on; the run does not notice. */
+/** A button that freezes all plots or lets them follow the run again. The run itself goes on. */
 export function freezeButton(plots: Plots, app: App): HTMLButtonElement {
-  const made = button("Freeze", "Hold the plots still; the run goes on (space)", () =>
-    plots.frozen.value ? plots.thaw() : plots.freeze(),
+  const made = button("Freeze", "Freeze the plots; the run goes on (Space)", () =>
+    plots.frozen.value ? plots.unfreeze() : plots.freeze(),
   );
   made.classList.add("plot-freeze");
   app.source.watch((source) => {
-    made.disabled = !source.live; // a recording stands still by itself
+    made.disabled = !source.live; // a recording does not move by itself
   });
   plots.frozen.watch((frozen) => made.setAttribute("aria-pressed", String(frozen !== null)));
   return made;
 }
 
-/** Saves what is shown. */
+/** A menu that saves the plot's window. */
 export function saveMenu(saving: Saving): HTMLElement {
-  const menu = element("details", { class: "plot-save" }, element("summary", { title: "Save what is shown" }, "Save"));
+  const menu = element("details", { class: "plot-save" }, element("summary", { title: "Save the plot" }, "Save"));
   const entry = (format: "png" | "svg" | "csv", text: string): HTMLButtonElement =>
     button(text, `Save as ${text}`, () => {
       menu.open = false;

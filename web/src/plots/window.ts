@@ -1,6 +1,6 @@
 import type { History } from "../state/history.ts";
 
-/** The first tick at or after `time` (s); `end` where there is none. */
+/** The first tick at or after `time` (s); `end` if there is none. */
 export function tickAt(history: History, time: number): number {
   let low = history.first;
   let high = history.end;
@@ -12,7 +12,7 @@ export function tickAt(history: History, time: number): number {
   return low;
 }
 
-/** The tick nearest to `time` (s), or null where there is none. */
+/** The tick nearest to `time` (s); null if the history is empty. */
 export function nearestTick(history: History, time: number): number | null {
   if (history.end === history.first) return null;
   const after = Math.min(tickAt(history, time), history.end - 1);
@@ -28,11 +28,9 @@ export class Window {
   end = 0;
 
   /**
-   * The last `seconds` up to the tick that is shown. A run shorter than that fills the window from the left; a
-   * recording
-   * shows a little of what comes after, too. The window goes on in steps of `pixel` seconds: within a step, what is
-   * drawn
-   * already may stay where it is.
+   * Shows the last `seconds` up to the shown tick. A shorter run fills the window from the left. A recording also
+   * shows some time after the shown tick. The window moves in steps of `pixel` seconds, so that within a step the
+   * drawn background stays valid.
    */
   follow(history: History, shown: number | null, seconds: number, live: boolean, pixel: number): void {
     const now = shown === null ? 0 : history.timeOf(shown);
@@ -51,7 +49,7 @@ export class Window {
   }
 
   private find(history: History): void {
-    // One tick more to either side, so that a line goes on to the edge.
+    // One more tick on either side, so that lines reach the edges.
     this.first = Math.max(history.first, tickAt(history, this.from) - 1);
     this.end = Math.min(history.end, tickAt(history, this.to) + 1);
   }

@@ -2,17 +2,17 @@ import { Vector3 } from "three";
 import type { SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
 
-/** How large the things of a scene are drawn, mm, where the scene does not say. */
+/** Drawn sizes that the scene does not define, mm. */
 export interface Extent {
-  /** From the first front face to the last back face. */
+  /** Distance from the first front face to the last back face. */
   readonly deep: number;
-  /** Half the side of a slab. */
+  /** Half the side length of a slab. */
   readonly size: number;
-  /** Of the needle up to its hub. */
+  /** Length of the needle up to its hub. */
   readonly length: number;
   readonly centre: Vector3;
   readonly radius: number;
-  /** Of the force arrow: the largest resistance of all laws is a good part of the view. */
+  /** Scale of the force arrow: the largest insertion friction of all laws fills half the view's radius. */
   readonly mmPerNewton: number;
 }
 

@@ -4,10 +4,10 @@ import type { Theme } from "./theme.ts";
 const UP = new Vector3(0, 1, 0);
 const SMALLEST_N = 0.005;
 
-/** A force as an arrow beside the needle, of a length in proportion. */
+/** A force as an arrow next to the needle. Its length is proportional to the force. */
 export class ForceArrow {
   readonly group = new Group();
-  /** Where its head is, for the number beside it. */
+  /** Position of the arrow's tip, where the number stands, mm. */
   readonly head = new Vector3();
   shown = 0;
   private readonly material = new MeshLambertMaterial({ transparent: true });
@@ -16,7 +16,7 @@ export class ForceArrow {
 
   constructor(theme: Theme) {
     this.group.add(this.shaft, this.cone);
-    // After the tissue, which would tint it; the needle still covers it.
+    // Drawn after the tissue, which would tint it. The needle still covers it.
     this.shaft.renderOrder = 5;
     this.cone.renderOrder = 5;
     this.group.visible = false;
@@ -27,9 +27,8 @@ export class ForceArrow {
   }
 
   /**
-   * from: mm; force: N; mmPerNewton: its scale; thick: mm, the shaft's radius. `real` is false for a force that the
-   * model
-   * has and the hand does not get.
+   * from: mm; force: N; mmPerNewton: scale; thick: radius of the shaft, mm. `real` is false for a force that the model
+   * computes but the device does not output.
    */
   place(from: Vector3, force: Vector3, mmPerNewton: number, thick: number, real: boolean): void {
     this.shown = force.length();

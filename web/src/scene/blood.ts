@@ -6,7 +6,7 @@ import { BARRED, MM, OUTSIDE } from "./moment.ts";
 import { type FaceState, Slab } from "./slab.ts";
 import type { Theme } from "./theme.ts";
 
-/** The lumen: blood between two membranes, which give way and carry its surfaces along. */
+/** The lumen: blood between two membranes. Its surfaces deform with theirs. */
 export class Blood {
   private readonly material = new MeshBasicMaterial({
     vertexColors: true,
@@ -30,16 +30,16 @@ export class Blood {
     this.slab.mesh.visible = this.walls !== null;
   }
 
-  lay(membranes: Membranes, axis: Vector3): boolean {
+  update(membranes: Membranes, axis: Vector3): boolean {
     const [front, back] = this.placed(membranes);
     if (!front || !back) return false;
     const top = front.point.clone().addScaledVector(front.normal, front.thickness);
     const deep = back.point.clone().sub(top).dot(front.normal);
     const faces: [FaceState, FaceState] = [front.faces[1], back.faces[0]];
-    return this.slab.lay(top, front.normal, deep, 0.985 * membranes.size, faces, 3, axis);
+    return this.slab.update(top, front.normal, deep, 0.985 * membranes.size, faces, 3, axis);
   }
 
-  /** Whether the tip has come through the front wall and not into the back one. */
+  /** Whether the tip is past the front wall and not yet in the back wall. */
   holdsTip(moment: Moment, laws: readonly LawCurve[]): boolean {
     const [front, back] = this.walls ?? [-1, -1];
     const state = moment.membranes[front];

@@ -5,7 +5,7 @@ export type Preset = "oblique" | "side" | "top" | "needle";
 const SETTLE_MS = 90;
 const CLOSEST_MM = 4;
 const FARTHEST_MM = 900;
-/** Sine of the angle between view and needle, below which the needle is seen end on. */
+/** Below this sine of the angle between view and needle, the camera looks along the needle. */
 const SIDEWAYS = 0.35;
 const STEEPEST = MathUtils.degToRad(89.5);
 
@@ -16,18 +16,18 @@ interface Pose {
   readonly target: Vector3;
 }
 
-/** A camera that goes round a point. Moves are goals that it glides to; a drag is followed at once. */
+/** A camera that orbits a point. Presets and zoom move it smoothly; a drag moves it at once. */
 export class OrbitCamera {
-  /** A long lens: lines that are parallel look so, and the scale bar holds well beside the tip too. */
+  /** A long focal length: parallel lines look parallel, and the scale bar is also nearly right away from the tip. */
   readonly camera = new PerspectiveCamera(20, 1, 1, 4000);
   private readonly now: Pose = { azimuth: 0.4, elevation: 0.25, distance: 100, target: new Vector3() };
   private readonly goal: Pose = { azimuth: 0.4, elevation: 0.25, distance: 100, target: new Vector3() };
   private home = { centre: new Vector3(), radius: 20 };
   private moved = true;
   private fitted = false;
-  private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
+  private readonly reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
-  /** What a preset showed whole stays whole; a view that somebody chose stays theirs. */
+  /** Keeps the whole scene in view after a preset. A zoom chosen by the user stays. */
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
@@ -42,7 +42,7 @@ export class OrbitCamera {
     return this.home.radius / Math.sin(Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect)));
   }
 
-  /** What the presets show: a ball, mm. */
+  /** Sets the sphere that the presets show, mm. */
   frame(centre: Vector3, radius: number): void {
     this.home = { centre: centre.clone(), radius };
   }
@@ -60,12 +60,12 @@ export class OrbitCamera {
     } else if (preset === "top") {
       goal.elevation = STEEPEST;
     } else if (preset === "needle") {
-      // From behind the hub and a little above it, or the needle would hide what it goes to.
+      // From behind the hub and a little above it; otherwise the needle would hide its target.
       goal.azimuth = Math.abs(axis.y) > 0.98 ? 0 : Math.atan2(-axis.x, -axis.z);
       goal.elevation = MathUtils.clamp(Math.asin(-axis.y) + (axis.y < -0.8 ? -0.22 : 0.16), -STEEPEST, STEEPEST);
       goal.target.copy(tip);
     }
-    // The short way round.
+    // Turns the shorter way.
     this.now.azimuth =
       goal.azimuth + MathUtils.euclideanModulo(this.now.azimuth - goal.azimuth + Math.PI, 2 * Math.PI) - Math.PI;
   }
@@ -76,7 +76,7 @@ export class OrbitCamera {
     this.moved = true;
   }
 
-  /** In pixels of a view `height` high. */
+  /** Moves by pixels of a view that is `height` pixels high. */
   pan(dx: number, dy: number, height: number): void {
     const scale = this.mmPerPixel(this.now.target, height);
     const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
@@ -86,13 +86,13 @@ export class OrbitCamera {
     this.moved = true;
   }
 
-  /** factor > 1 comes nearer. */
+  /** A factor > 1 moves the camera nearer. */
   zoom(factor: number): void {
     this.fitted = false;
     this.goal.distance = MathUtils.clamp(this.goal.distance / factor, CLOSEST_MM, FARTHEST_MM);
   }
 
-  /** Goes on towards its goal; true where the picture changes. */
+  /** Moves on towards the goal. Returns whether the picture changes. */
   step(elapsedMs: number): boolean {
     const { now, goal } = this;
     const left =
@@ -101,7 +101,7 @@ export class OrbitCamera {
       Math.abs(goal.distance / now.distance - 1) +
       goal.target.distanceTo(now.target) / now.distance;
     if (left > 1e-5) {
-      const part = left < 1e-3 || this.calm.matches ? 1 : 1 - Math.exp(-elapsedMs / SETTLE_MS);
+      const part = left < 1e-3 || this.reducedMotion.matches ? 1 : 1 - Math.exp(-elapsedMs / SETTLE_MS);
       now.azimuth += part * (goal.azimuth - now.azimuth);
       now.elevation += part * (goal.elevation - now.elevation);
       now.distance *= (goal.distance / now.distance) ** part;
@@ -123,7 +123,7 @@ export class OrbitCamera {
     return true;
   }
 
-  /** Ends every glide where it would go: for pictures, and for people who do not like motion. */
+  /** Jumps to the goal without a smooth motion. */
   settle(): void {
     Object.assign(this.now, {
       azimuth: this.goal.azimuth,
@@ -134,7 +134,7 @@ export class OrbitCamera {
     this.moved = true;
   }
 
-  /** mm that a pixel spans at `point`, in a view `height` pixels high. */
+  /** Size of a pixel at `point`, mm, in a view that is `height` pixels high. */
   mmPerPixel(point: Vector3, height: number): number {
     const forward = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
     const away = new Vector3().subVectors(this.camera.position, point).dot(forward);
@@ -142,10 +142,9 @@ export class OrbitCamera {
   }
 
   /**
-   * Projects a pixel to a plane through `point`. The plane contains `axis` and faces the camera as far as possible,
-   * so that a
-   * drag along the needle on the screen moves along the needle. If the camera looks along the needle, it is the view
-   * plane.
+   * Projects a pixel to a plane through `point`. The plane contains `axis` and faces the camera as far as possible, so
+   * a drag along the needle on the screen moves along the needle. If the camera looks along the needle, the plane is
+   * the view plane.
    */
   inPlaneOf(point: Vector3, axis: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
     const at = new Vector2((2 * x) / width - 1, 1 - (2 * y) / height);

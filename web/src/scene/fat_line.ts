@@ -5,10 +5,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 
 const UP = new Vector3(0, 1, 0);
 
-/**
- * A straight line of a width in pixels, which may be dashed (mm). It is one line, put in its place: nothing is
- * made anew.
- */
+/** A straight line with a width in pixels; `dash` is the length of a dash, mm. Moving it allocates no geometry. */
 export class FatLine {
   readonly line: Line2;
   private readonly material: LineMaterial;
@@ -35,8 +32,8 @@ export class FatLine {
     this.material.color.copy(color);
   }
 
-  /** null hides it. */
-  between(ends: readonly [Vector3, Vector3] | null): void {
+  /** Sets the two ends, mm; null hides the line. */
+  setEnds(ends: readonly [Vector3, Vector3] | null): void {
     const length = ends ? this.way.subVectors(ends[1], ends[0]).length() : 0;
     this.line.visible = length > 1e-6;
     if (!ends || !this.line.visible) return;

@@ -1,24 +1,20 @@
-/** What a pointer over the view does. Pixels are those of the page, from the view's upper left corner. */
+/** Actions of a pointer over the view. Positions are CSS pixels from the view's upper left corner. */
 export interface GestureHandler {
-  /** False where the needle cannot be taken: then the gesture goes round the scene. */
+  /** Returns false if the needle cannot be grabbed; the gesture then orbits the scene. */
   grab(x: number, y: number): boolean;
   drag(x: number, y: number): void;
   release(): void;
   orbit(dx: number, dy: number): void;
   pan(dx: number, dy: number): void;
   zoom(factor: number): void;
-  /** Along the needle, mm; positive goes in. False where it cannot be moved. */
+  /** Moves along the needle, mm; positive goes in. Returns false if the needle cannot be moved. */
   push(depth: number): boolean;
 }
 
 type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
 const MM_PER_WHEEL_PIXEL = 0.004;
 
-/**
- * One finger or the left button is the needle's; the right button, Shift, or two fingers are the camera's. Thus no
- * gesture means
- * two things.
- */
+/** One finger or the left button moves the needle. The right button, Shift or two fingers move the camera. */
 export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel(): void } {
   const pointers = new Map<number, { x: number; y: number }>();
   let mode: Mode = "none";
@@ -68,7 +64,7 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
 
   const up = (event: PointerEvent): void => {
     if (!pointers.delete(event.pointerId)) return;
-    // After two fingers the last one must not take the needle.
+    // When one of two fingers is lifted, the other must not grab the needle.
     enter(pointers.size === 1 ? "orbit" : "none");
   };
   canvas.addEventListener("pointerup", up);
@@ -87,10 +83,10 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
   );
 
   return {
-    /** Ends what is going on: the pointers that are down do nothing more until they are pressed anew. */
+    /** Cancels the present gesture. Pressed pointers do nothing until they are released and pressed again. */
     cancel() {
       const held = [...pointers.keys()];
-      pointers.clear(); // first: a capture that is released may call back
+      pointers.clear(); // first: releasing a capture can call a listener
       for (const id of held) if (canvas.hasPointerCapture(id)) canvas.releasePointerCapture(id);
       enter("none");
     },

@@ -4,7 +4,7 @@ import { FatLine } from "./fat_line.ts";
 import { shaftShape } from "./needle_shape.ts";
 import type { Theme } from "./theme.ts";
 
-/** Where the hand wants the needle to be, and the spring between that and where it is. */
+/** The target pose of the hand, and the spring between it and the needle. */
 export class Ghost {
   readonly group = new Group();
   private readonly needle = new Group();
@@ -29,12 +29,12 @@ export class Ghost {
     this.needle.add(mesh);
   }
 
-  /** null hides it. mm */
+  /** Shows the target, mm; null hides it. */
   place(target: { position: Vector3; axis: Vector3 } | null, tip: Vector3): void {
     this.group.visible = target !== null;
     if (!target) return;
     placeNeedle(target.position, target.axis, this.needle.matrix);
     this.needle.matrixWorldNeedsUpdate = true;
-    this.spring.between(target.position.distanceTo(tip) > 0.02 ? [target.position, tip] : null);
+    this.spring.setEnds(target.position.distanceTo(tip) > 0.02 ? [target.position, tip] : null);
   }
 }

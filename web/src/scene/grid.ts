@@ -1,14 +1,14 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineBasicMaterial, LineSegments, Vector3 } from "three";
 import type { FaceState } from "./slab.ts";
-import { CORNERS, carried } from "./slab_shape.ts";
+import { CORNERS, displacement } from "./slab_shape.ts";
 
 const STEPS_PER_CELL = 4;
 
-/** Lines on a face that go with the tissue: they show its size, and where it gives way. */
+/** Grid lines on a face. They show its scale and its deformation. */
 export class Grid {
   readonly lines: LineSegments;
   readonly material = new LineBasicMaterial({ transparent: true, depthWrite: false });
-  private flat = new Float32Array(0); // in the face's own plane: x, y
+  private flat = new Float32Array(0); // x, y in the plane of the face
   private attribute = new BufferAttribute(new Float32Array(0), 3);
   private size = 0;
 
@@ -18,7 +18,7 @@ export class Grid {
     this.lines.renderOrder = 1;
   }
 
-  /** size: half the side, mm. */
+  /** size: half the side length, mm. */
   private rule(size: number): void {
     this.size = size;
     const cell = size > 11 ? 5 : size > 5 ? 2 : 1;
@@ -45,8 +45,8 @@ export class Grid {
     this.material.dispose();
   }
 
-  /** origin: of the face, whose plane t1 and t2 span. */
-  lay(origin: Vector3, t1: Vector3, t2: Vector3, face: FaceState, size: number, width: number): void {
+  /** Updates the lines. origin: a point of the face; t1 and t2 span its plane. */
+  update(origin: Vector3, t1: Vector3, t2: Vector3, face: FaceState, size: number, width: number): void {
     if (size !== this.size) this.rule(size);
     const out = this.attribute.array;
     const from = new Vector3().subVectors(face.centre, origin);
@@ -57,7 +57,7 @@ export class Grid {
       const x = this.flat[i]!;
       const y = this.flat[i + 1]!;
       const border = Math.max(Math.abs(x), Math.abs(y)) / size;
-      const part = carried(Math.hypot(x - cx, y - cy) - face.hole, width) * (1 - border ** 4);
+      const part = displacement(Math.hypot(x - cx, y - cy) - face.hole, width) * (1 - border ** 4);
       out[o++] = origin.x + x * t1.x + y * t2.x + part * shift.x;
       out[o++] = origin.y + x * t1.y + y * t2.y + part * shift.y;
       out[o++] = origin.z + x * t1.z + y * t2.z + part * shift.z;

@@ -3,7 +3,7 @@ import type { Source } from "../state/source.ts";
 import type { MembraneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
 
-/** A hole that a needle left: where it goes through the undeformed front face, in which direction, since when. */
+/** A hole from a needle: its tick, its place on the undeformed front face (mm) and its direction. */
 export interface Hole {
   readonly tick: number;
   readonly front: Vector3;
@@ -11,9 +11,8 @@ export interface Hole {
 }
 
 /**
- * Where each membrane was pierced, from the source's events. A hole's place is read once, while its tick is still in
- * the history,
- * and then kept as long as the run.
+ * The holes in each membrane, from the source's pops. A hole's place is read once, while its tick is still in the
+ * history, and kept until the run ends.
  */
 export class Holes {
   private holes: Hole[][] = [];
@@ -41,7 +40,7 @@ export class Holes {
     if (last && last.tick < source.history.end) this.seen = Math.max(this.seen, last.tick);
   }
 
-  /** Those that membrane `index` had by `tick`, the last one last. */
+  /** The holes that membrane `index` had at `tick`, oldest first. */
   of(index: number, tick: number): readonly Hole[] {
     return (this.holes[index] ?? []).filter((hole) => hole.tick <= tick);
   }

@@ -4,7 +4,7 @@ import type { Theme } from "./theme.ts";
 const LENGTH = 9;
 const FLOW_MS = 350;
 
-/** The hub behind the shaft: clear plastic, in whose chamber blood shows once the tip is in the lumen. mm. */
+/** The hub behind the shaft: clear plastic with a chamber that fills with blood while the tip is in the lumen. mm. */
 export class Hub {
   readonly group = new Group();
   private readonly plastic = new MeshLambertMaterial({
@@ -32,7 +32,7 @@ export class Hub {
 
   build(diameter: number): void {
     const neck = Math.max(0.9, diameter * 0.8);
-    // Radius and height, from the shaft to the rim.
+    // Pairs of radius and height, from the shaft to the rim.
     const profile: [number, number][] = [
       [diameter / 2, 0],
       [neck, 0.05],
@@ -50,7 +50,7 @@ export class Hub {
     );
   }
 
-  /** Flows in while `inLumen`, and drains slower; true where it changed. */
+  /** Fills while `inLumen`, and drains more slowly. Returns whether the level changed. */
   step(inLumen: boolean, elapsedMs: number): boolean {
     const goal = inLumen ? 1 : 0;
     if (this.level === goal) return false;

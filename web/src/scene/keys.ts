@@ -6,19 +6,19 @@ const STEP = 0.25e-3; // m
 const LONG = 4;
 const TURN = Math.PI / 90;
 
-/** The keys and what they do, for the list on the page. */
+/** The keys and their actions, for the list on the page. */
 export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
   ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
   ["Q E", "tilt by 2°"],
-  ["Home", "in front of the first membrane, aiming at the middle"],
-  ["+ −", "nearer, farther"],
-  ["A D W S", "go round the scene"],
+  ["Home", "in front of the first membrane, aimed at its centre"],
+  ["+ −", "zoom in, out"],
+  ["A D W S", "orbit the scene"],
 ];
 
 /** Handles keys while the view has the focus. */
 export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
-  let run = hand.run; // in which the last key was pressed
+  let run = hand.run; // the run in which the last key was pressed
   canvas.addEventListener("keydown", (event) => {
     if (!event.repeat) run = hand.run;
     if (event.ctrlKey || event.metaKey || event.altKey) return;

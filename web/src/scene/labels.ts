@@ -3,7 +3,7 @@ import { element } from "../panel.ts";
 
 const LINE_PX = 18;
 
-/** Words in the view: sharp, and readable for machines. They keep out of each other's way. */
+/** Text labels in the view, as HTML: sharp, and readable for screen readers. They avoid overlaps. */
 export class Labels {
   private readonly layer = element("div", { class: "view-labels" });
   private readonly known = new Map<string, { node: HTMLElement; text: string; width: number }>();
@@ -17,7 +17,7 @@ export class Labels {
     this.placed.length = 0;
   }
 
-  /** column: one of a list beside the slabs, which are moved apart; left: to the left of `at`, mm. */
+  /** Places a label at `at`, mm: right or left of it, or in the column next to the slabs, where labels move apart. */
   put(
     id: string,
     text: string,
@@ -66,7 +66,7 @@ export class Labels {
     }
   }
 
-  /** Forgets all, for another scene. */
+  /** Removes all labels, for another scene. */
   clear(): void {
     for (const { node } of this.known.values()) node.remove();
     this.known.clear();

@@ -8,7 +8,7 @@ import { Scars } from "./scars.ts";
 import { type FaceState, Slab, untouched } from "./slab.ts";
 import type { Theme } from "./theme.ts";
 
-/** A membrane of the scene as it lies, mm. */
+/** A membrane with its place and its drawn parts, mm. */
 export interface Placed {
   readonly name: string;
   readonly point: Vector3;
@@ -21,7 +21,7 @@ export interface Placed {
   readonly grid: Grid;
 }
 
-/** The membranes: translucent slabs that the needle carries along by what it is ahead of its proxy, K06 (21). */
+/** The membranes: translucent slabs. The needle deforms them by the distance from its proxy to the tip, K06 (21). */
 export class Membranes {
   readonly group = new Group();
   placed: Placed[] = [];
@@ -77,26 +77,26 @@ export class Membranes {
     });
   }
 
-  /** Lays all slabs for the moment; true where one differs. */
-  lay(moment: Moment, holes: Holes): boolean {
+  /** Updates all slabs for the moment. Returns whether one changed. */
+  update(moment: Moment, holes: Holes): boolean {
     let changed = false;
     this.placed.forEach((membrane, i) => {
       const state = moment.membranes[i];
       if (!state) return;
       const old = holes.of(i, moment.tick);
       this.shape(membrane, state, moment, old.at(-1));
-      // Far from the needle the infinite membrane of the model must still be there to be seen.
+      // The model's membrane is infinite: the slab grows until it contains the needle.
       const from = new Vector3().subVectors(membrane.faces[0].centre, membrane.point);
       const away = from.addScaledVector(membrane.normal, -from.dot(membrane.normal)).length();
       if (away > 0.75 * this.size) this.size = away / 0.6;
       const width = dimple(this.diameter, membrane.thickness);
       const { point, normal, thickness, faces, slab, scars, grid } = membrane;
       const needle = state.phase === OUTSIDE ? (old.at(-1)?.direction ?? normal) : moment.axis;
-      if (slab.lay(point, normal, thickness, this.size, faces, width, needle)) {
-        grid.lay(point, slab.t1, slab.t2, faces[0], this.size, width);
+      if (slab.update(point, normal, thickness, this.size, faces, width, needle)) {
+        grid.update(point, slab.t1, slab.t2, faces[0], this.size, width);
         changed = true;
       }
-      if (scars.lay(membrane, old, faces[0].centre, this.diameter)) changed = true;
+      if (scars.update(membrane, old, faces[0].centre, this.diameter)) changed = true;
     });
     return changed;
   }
@@ -129,7 +129,7 @@ export class Membranes {
     const half = (at: number): number => (this.diameter / 2) * Math.min(1, Math.max(0, at) / this.tipLength);
     front.hole = half(depth);
     front.centre.copy(state.proxy).addScaledVector(direction, -depth).addScaledVector(side, front.hole);
-    // The hole goes where the drawn needle is, also when it has been turned since it came in.
+    // The hole follows the drawn needle, even if it was tilted after the entry.
     front.shift.copy(lead).addScaledVector(turn, -depth);
     back.hole = half(depth - path);
     back.centre
@@ -141,5 +141,5 @@ export class Membranes {
   }
 }
 
-/** How wide a dimple is: some diameters, and wider in what is thick. mm */
+/** Width of a dimple, mm: some needle diameters, and wider in thick tissue. */
 const dimple = (diameter: number, thickness: number): number => 1.6 * diameter + 0.35 * Math.min(thickness, 6);

@@ -1,22 +1,23 @@
 import { Vector3 } from "three";
 import type { Source } from "../state/source.ts";
+import { codeOf } from "../wire/ticks.ts";
 
-/** The view is drawn in mm: numbers of the size that a graphics card likes. */
+/** mm per m. The view is drawn in mm, which suits the precision of a graphics card. */
 export const MM = 1000;
-export const OUTSIDE = 0;
-export const BARRED = 4;
+export const OUTSIDE = codeOf("phase", "outside");
+export const BARRED = codeOf("phase", "barred");
 
 export interface MembraneMoment {
   phase: number;
-  /** mm along the needle behind the front face. */
+  /** Depth behind the front face, along the needle, mm. */
   depth: number;
-  /** Where the tip would be if the tissue had not given way, mm. */
+  /** The proxy: the point of the undeformed tissue that the tip is at, mm. */
   readonly proxy: Vector3;
   /** Entry direction b; (0, 0, 0) outside. */
   readonly direction: Vector3;
 }
 
-/** What there is to draw of one tick. Lengths in mm, forces in N. */
+/** The values of one tick that the view draws. Lengths in mm, forces in N. */
 export class Moment {
   tick = -1;
   time = 0;
@@ -27,7 +28,7 @@ export class Moment {
   readonly modelForce = new Vector3();
   membranes: MembraneMoment[] = [];
 
-  /** False before the first tick of the source. */
+  /** Reads the source's shown tick. Returns false before its first tick. */
   read(source: Source): boolean {
     const tick = source.shown();
     if (tick === null) return false;

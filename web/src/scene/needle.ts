@@ -7,7 +7,7 @@ import type { Theme } from "./theme.ts";
 
 const EMPTY = new Color(0x23272d);
 
-/** The needle of the scene: its true diameter and tip angle; its length is the view's choice. mm, rad. */
+/** The scene's needle with its true diameter and tip angle. The view chooses the length. mm, rad. */
 export class Needle {
   readonly group = new Group();
   private readonly mouth = new MeshLambertMaterial();
@@ -36,7 +36,7 @@ export class Needle {
     this.group.matrixWorldNeedsUpdate = true;
   }
 
-  /** Blood at the bore's mouth and in the hub; true where the picture changes. */
+  /** Shows blood at the bore's mouth and in the hub. Returns whether the picture changes. */
   step(inLumen: boolean, elapsedMs: number): boolean {
     this.mouth.color.copy(inLumen ? this.theme.color("blood") : EMPTY);
     return this.hub.step(inLumen, elapsedMs);

@@ -3,10 +3,10 @@ import { BufferAttribute, BufferGeometry } from "three";
 const AROUND = 48;
 const BORE = 0.62;
 
-/** Two triangles from each pair of points to the next, once around. */
+/** Two triangles from each pair of points to the next, once round. */
 const INDEX = Array.from({ length: AROUND }, (_, i) => [0, 2, 1, 1, 2, 3].map((k) => 2 * i + k)).flat();
 
-/** A closed ribbon of pairs of points, AROUND of them and the first once more. */
+/** A closed ribbon of AROUND pairs of points, with the first pair repeated at the end. */
 function ribbon(positions: number[], normals: number[]): BufferGeometry {
   const made = new BufferGeometry();
   made.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
@@ -16,8 +16,8 @@ function ribbon(positions: number[], normals: number[]): BufferGeometry {
 }
 
 /**
- * The shaft: a cylinder along +z that one slanted plane cuts so that its lowest point, the tip, is at 0 (K06 Fig. 1).
- * All lengths in mm; tipLength: of the slanted face along the needle.
+ * The shaft: a cylinder along +z, cut by a slanted plane. Its lowest point, the tip, is at 0 (K06 Fig. 1).
+ * Lengths in mm; tipLength: length of the bevel along the needle.
  */
 export function shaftShape(diameter: number, tipLength: number, length: number): BufferGeometry {
   const r = diameter / 2;
@@ -34,7 +34,7 @@ export function shaftShape(diameter: number, tipLength: number, length: number):
   return ribbon(positions, normals);
 }
 
-/** The slanted face, a ring round the bore; with `bore` true the bore's mouth within it. */
+/** The bevel: a ring round the bore, or the bore's mouth if `bore` is true. */
 export function faceShape(diameter: number, tipLength: number, bore: boolean): BufferGeometry {
   const r = diameter / 2;
   const slope = tipLength / diameter;

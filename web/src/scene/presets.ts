@@ -8,15 +8,14 @@ const PRESETS: readonly (readonly [Preset, string, string])[] = [
   ["needle", "Needle", "Along the needle"],
 ];
 
-/** Buttons over the view: where to look from, nearer, farther. */
+/** Buttons over the view: the presets, and zoom. */
 export function presets(host: HTMLElement, look: (preset: Preset) => void, zoom: (factor: number) => void): void {
   const bar = element("div", { class: "view-tools", role: "toolbar", "aria-label": "View" });
   for (const [preset, label, title] of PRESETS) {
     bar.append(element("button", { type: "button", title, onclick: () => look(preset) }, label));
   }
-  bar.append(
-    element("button", { type: "button", title: "Nearer", "aria-label": "Nearer", onclick: () => zoom(1.3) }, "+"),
-    element("button", { type: "button", title: "Farther", "aria-label": "Farther", onclick: () => zoom(1 / 1.3) }, "−"),
-  );
+  const zoomButton = (text: string, title: string, factor: number): HTMLElement =>
+    element("button", { type: "button", title, "aria-label": title, onclick: () => zoom(factor) }, text);
+  bar.append(zoomButton("+", "Zoom in", 1.3), zoomButton("−", "Zoom out", 1 / 1.3));
   host.append(bar);
 }

@@ -2,7 +2,7 @@ import { element } from "../panel.ts";
 
 const LONGEST_PX = 150;
 
-/** The longest of 1, 2, 5, 10, ... mm that is not longer than the bar may be. */
+/** The largest of 1, 2, 5, 10, ... mm that fits into the longest allowed bar. */
 export function roundLength(mmPerPixel: number): number {
   const most = mmPerPixel * LONGEST_PX;
   const power = 10 ** Math.floor(Math.log10(most));
@@ -10,7 +10,7 @@ export function roundLength(mmPerPixel: number): number {
   return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-/** A bar of a round number of millimetres, true at the tip. */
+/** A bar of a round number of millimetres, exact at the depth of the tip. */
 export function scaleBar(host: HTMLElement): (mmPerPixel: number) => void {
   const label = element("span", { class: "scale-label" });
   const bar = element(
@@ -26,7 +26,8 @@ export function scaleBar(host: HTMLElement): (mmPerPixel: number) => void {
     if (width === last) return;
     last = width;
     bar.style.width = width;
-    label.textContent = `${length >= 1 ? length : length.toFixed(1 + Math.max(0, -Math.floor(Math.log10(length)) - 1))} mm`;
+    const places = length >= 1 ? 0 : -Math.floor(Math.log10(length));
+    label.textContent = `${length.toFixed(places)} mm`;
     bar.setAttribute("aria-label", `Scale: ${label.textContent}`);
   };
 }

@@ -5,7 +5,7 @@ import type { Theme } from "./theme.ts";
 
 const MOST = 40;
 
-/** Holes in which there is no needle now: dark spots on both faces. */
+/** Holes without a needle in them: dark spots on both faces. */
 export class Scars {
   readonly mesh: InstancedMesh;
   private readonly material = new MeshBasicMaterial({
@@ -27,8 +27,8 @@ export class Scars {
     this.material.color.copy(theme.color("blood")).multiplyScalar(0.6);
   }
 
-  /** open: the middle of the hole that the slab itself shows; it is no scar. */
-  lay(
+  /** open: centre of the hole that the slab itself draws; it is left out here. */
+  update(
     membrane: { normal: Vector3; thickness: number },
     holes: readonly Hole[],
     open: Vector3,

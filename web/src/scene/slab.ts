@@ -8,26 +8,25 @@ import {
   Mesh,
   Vector3,
 } from "three";
-import { AROUND, CORNERS, carried, RINGS, slabEdges, slabTriangles, tangents } from "./slab_shape.ts";
+import { AROUND, CORNERS, displacement, RINGS, slabEdges, slabTriangles, tangents } from "./slab_shape.ts";
 
 const LIGHT = new Vector3(0.35, 0.8, 0.5).normalize();
 
-/** What a needle does to one face of a slab. mm, in the slab's own plane where there are two numbers. */
+/** The deformation of one face of a slab by the needle, mm. */
 export interface FaceState {
-  /** Where the tissue's own points meet the needle, before it gave way. */
+  /** Point of the undeformed face that the needle goes through. */
   readonly centre: Vector3;
   /** Radius of the hole; 0 is none. */
   hole: number;
-  /** How far the tissue at the needle is carried along. */
+  /** Displacement of the tissue at the needle. */
   readonly shift: Vector3;
 }
 
 export const untouched = (): FaceState => ({ centre: new Vector3(), hole: 0, shift: new Vector3() });
 
 /**
- * A slab of tissue: two faces of rings round the needle, fine at it and coarse at the border, a rim, and the wall of
- * the hole.
- * A face gives way as a half-space does under a point, and is held at the border.
+ * A slab of tissue: two faces, a rim and the wall of the hole. Each face is a mesh of rings round the needle, fine at
+ * the needle and coarse at the border. A face deforms like a half-space under a point load, and is fixed at the border.
  */
 export class Slab {
   readonly mesh: Mesh;
@@ -60,11 +59,11 @@ export class Slab {
   }
 
   /**
-   * Lays the slab anew; false where nothing differs from the last time.
-   * middle: of the front face; normal: inward, of length 1; size: half the side; needle: its direction, for a
-   * slanted hole.
+   * Updates the slab. Returns false if nothing changed.
+   * middle: centre of the front face; normal: inward, of length 1; size: half the side length; width: of the dimple;
+   * needle: direction of the needle, for a slanted hole. Lengths in mm.
    */
-  lay(
+  update(
     middle: Vector3,
     normal: Vector3,
     thickness: number,
@@ -73,7 +72,6 @@ export class Slab {
     width: number,
     needle: Vector3,
   ): boolean {
-    // biome-ignore format: two lines of arguments
     const key = this.key(faces, size, width, thickness, needle);
     if (key === this.last) return false;
     this.last = key;
@@ -82,9 +80,9 @@ export class Slab {
     const row = 3 * (AROUND + 1);
     faces.forEach((face, side) => {
       const origin = middle.clone().addScaledVector(normal, side * thickness);
-      this.layFace(side * perFace, origin, face, size, width, needle);
+      this.updateFace(side * perFace, origin, face, size, width, needle);
     });
-    // Rim and hole have points of their own, so that edges stay sharp.
+    // The rim and the hole do not share vertices with the faces, so that edges stay sharp.
     const { positions } = this;
     faces.forEach((_, side) => {
       const face = side * perFace;
@@ -97,10 +95,7 @@ export class Slab {
     return true;
   }
 
-  /**
-   * Light from above, laid into the colours: a translucent face of many pixels is then cheap to draw, also without
-   * a graphics card.
-   */
+  /** Bakes light from above into the vertex colours: a large translucent face is then cheap to draw without a GPU. */
   private shade(): void {
     const normals = this.mesh.geometry.getAttribute("normal").array;
     const colors = this.colors.array;
@@ -114,8 +109,7 @@ export class Slab {
     this.colors.needsUpdate = true;
   }
 
-  private layFace(at: number, origin: Vector3, face: FaceState, size: number, width: number, needle: Vector3): void {
-    // biome-ignore format: one line of arguments
+  private updateFace(at: number, origin: Vector3, face: FaceState, size: number, width: number, needle: Vector3): void {
     const { t1, t2, positions } = this;
     const from = new Vector3().subVectors(face.centre, origin);
     const cx = from.dot(t1);
@@ -127,12 +121,12 @@ export class Slab {
       for (let i = 0; i <= AROUND; i++) {
         const c = Math.cos((2 * Math.PI * i) / AROUND);
         const s = Math.sin((2 * Math.PI * i) / AROUND);
-        // A cylinder that meets the face at a slant cuts an ellipse.
+        // A slanted cylinder cuts the face in an ellipse.
         const hole = face.hole / Math.sqrt(Math.max(0.05, 1 - (c * slant[0] + s * slant[1]) ** 2));
         const border = size / (Math.abs(c) ** CORNERS + Math.abs(s) ** CORNERS) ** (1 / CORNERS);
         const x = (cx + hole * c) * (1 - part) + border * c * part;
         const y = (cy + hole * s) * (1 - part) + border * s * part;
-        const along = (1 - part) * carried(Math.hypot(x - cx, y - cy) - hole, width);
+        const along = (1 - part) * displacement(Math.hypot(x - cx, y - cy) - hole, width);
         positions[out++] = origin.x + x * t1.x + y * t2.x + along * face.shift.x;
         positions[out++] = origin.y + x * t1.y + y * t2.y + along * face.shift.y;
         positions[out++] = origin.z + x * t1.z + y * t2.z + along * face.shift.z;

@@ -2,23 +2,21 @@ import { Vector3 } from "three";
 
 export const AROUND = 60;
 export const RINGS = 15;
-/** Of the rounded square that a slab is: 2 would be a circle. */
+/** Exponent of the superellipse that outlines a slab: 2 would be a circle. */
 export const CORNERS = 5;
 
-/**
- * How much of the needle's way the tissue at a distance (mm) goes along: as the surface of a half-space under a
- * point.
- */
-export const carried = (distance: number, width: number): number => (1 + (Math.max(0, distance) / width) ** 2) ** -1.5;
+/** Displacement of the tissue at a distance (mm) from the needle, as a share: a half-space under a point load. */
+export const displacement = (distance: number, width: number): number =>
+  (1 + (Math.max(0, distance) / width) ** 2) ** -1.5;
 
-/** Two directions in a face: as far as possible the first to the right. */
+/** Computes two directions that span a face. The first points to the right as far as possible. */
 export function tangents(normal: Vector3, t1: Vector3, t2: Vector3): void {
   const along = Math.abs(normal.x) > 0.9 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
   t1.copy(along).addScaledVector(normal, -normal.dot(along)).normalize();
   t2.crossVectors(normal, t1);
 }
 
-/** Triangles between the rings of two faces, then of the rim, then of the hole's wall. */
+/** The triangles of both faces, then of the rim, then of the hole's wall. */
 export function slabTriangles(): number[] {
   const index: number[] = [];
   const row = AROUND + 1;
@@ -27,7 +25,7 @@ export function slabTriangles(): number[] {
   for (let ring = 0; ring < RINGS; ring++) {
     for (let i = 0; i < AROUND; i++) {
       const a = ring * row + i;
-      quad(a, a + 1, a + row, a + row + 1); // seen from in front
+      quad(a, a + 1, a + row, a + row + 1); // faces the front
       quad(perFace + a, perFace + a + row, perFace + a + 1, perFace + a + row + 1);
     }
   }
@@ -42,7 +40,7 @@ export function slabTriangles(): number[] {
   return index;
 }
 
-/** Lines along the borders of both faces, and round both mouths of the hole. */
+/** Lines along the borders of both faces, and round both ends of the hole. */
 export function slabEdges(): number[] {
   const index: number[] = [];
   const row = AROUND + 1;

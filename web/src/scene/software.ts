@@ -1,6 +1,6 @@
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** Whether the browser draws WebGL without a graphics card. */
+/** Whether the browser renders WebGL in software, without a graphics card. */
 export function drawsInSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return false;

@@ -3,29 +3,30 @@ import { DirectionalLight, HemisphereLight, Scene, WebGLRenderer } from "three";
 import { drawsInSoftware } from "./software.ts";
 import type { Theme } from "./theme.ts";
 
-const SHARPEST = 2; // pixels of the picture a pixel of the page, along each side
-const LEAST_SHARP = 0.75;
+const HIGHEST_RATIO = 2; // device pixels per CSS pixel, along each side
+const LOWEST_RATIO = 0.75;
 const SLOW_MS = 45;
 const REST_MS = 250;
 
-/** The canvas, its lights and its size; survives the loss of the graphics card. */
+/** The canvas, its lights and its size. It recovers after a loss of the WebGL context. */
 export class Stage {
   readonly scene = new Scene();
   width = 1;
   height = 1;
   private readonly key = new DirectionalLight(0xffffff, 1.6);
   private readonly sky = new HemisphereLight(0xffffff, 0x8a8f98, 0.8);
-  /** While things move: less where that is too slow. At rest a picture is worth the time. */
-  private moving = Math.min(SHARPEST, window.devicePixelRatio || 1);
+  /** Pixel ratio while the picture moves; lowered if drawing is too slow. */
+  private moving = Math.min(HIGHEST_RATIO, window.devicePixelRatio || 1);
+  /** Pixel ratio of a still picture. */
   private readonly resting: number;
-  private sharpness = this.moving;
+  private ratio = this.moving;
   private slow = 0;
   private drawn = 0;
-  /** Whether all must be drawn anew. */
+  /** Whether the whole picture must be drawn again. */
   stale = true;
   lost = false;
 
-  /** Throws where the browser has no WebGL. */
+  /** Throws if the browser has no WebGL. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     host: HTMLElement,
@@ -34,7 +35,7 @@ export class Stage {
     lost: (gone: boolean) => void,
   ) {
     const software = drawsInSoftware();
-    // Smooth edges by four samples a pixel cost a graphics card nothing, and a processor four times the work.
+    // Antialiasing costs a graphics card almost nothing, but is four times the work in software.
     this.renderer = new WebGLRenderer({
       canvas,
       antialias: !software,
@@ -51,7 +52,7 @@ export class Stage {
       this.stale = true;
     });
     canvas.addEventListener("webglcontextlost", (event) => {
-      event.preventDefault(); // or the browser would never give it back
+      event.preventDefault(); // otherwise the browser does not restore the context
       this.lost = true;
       lost(true);
     });
@@ -68,7 +69,7 @@ export class Stage {
   private resize(host: HTMLElement): void {
     this.width = Math.max(1, host.clientWidth);
     this.height = Math.max(1, host.clientHeight);
-    this.renderer.setPixelRatio(this.sharpness);
+    this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(this.width, this.height, false);
     this.resized();
     this.stale = true;
@@ -78,30 +79,30 @@ export class Stage {
     const took = now - this.drawn;
     this.drawn = now;
     this.watchSpeed(took);
-    this.sharpen(this.moving);
+    this.setRatio(this.moving);
     this.renderer.render(this.scene, camera);
     this.stale = false;
   }
 
-  /** To be called in frames in which nothing changes: after a while the picture is drawn once more, sharp. */
+  /** Called in frames without a change: after a while the picture is drawn once more, at full sharpness. */
   rest(camera: Camera, now: number): void {
-    if (this.sharpness >= this.resting || now - this.drawn < REST_MS) return;
-    this.sharpen(this.resting);
+    if (this.ratio >= this.resting || now - this.drawn < REST_MS) return;
+    this.setRatio(this.resting);
     this.renderer.render(this.scene, camera);
   }
 
-  private sharpen(sharpness: number): void {
-    if (sharpness === this.sharpness) return;
-    this.sharpness = sharpness;
-    this.renderer.setPixelRatio(sharpness);
+  private setRatio(ratio: number): void {
+    if (ratio === this.ratio) return;
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
   }
 
-  /** Without a graphics card fewer pixels are better than fewer pictures. took: ms since the last one. */
+  /** Lowers the pixel ratio if frames take too long: fewer pixels are better than fewer frames. took: ms. */
   private watchSpeed(took: number): void {
-    if (took > 500) return; // nothing had changed in between
+    if (took > 500) return; // the view was idle
     this.slow = took > SLOW_MS ? this.slow + 1 : Math.max(0, this.slow - 2);
-    if (this.slow < 20 || this.moving <= LEAST_SHARP) return;
+    if (this.slow < 20 || this.moving <= LOWEST_RATIO) return;
     this.slow = 0;
-    this.moving = Math.max(LEAST_SHARP, this.moving * 0.75);
+    this.moving = Math.max(LOWEST_RATIO, this.moving * 0.75);
   }
 }

@@ -2,10 +2,7 @@ import { CanvasTexture, MeshMatcapMaterial, SRGBColorSpace } from "three";
 
 const SIZE = 128;
 
-/**
- * What a polished ball of steel looks like in a bright room: three soft lamps over a horizon. Costs no light and
- * no reflection.
- */
+/** The matcap picture of a polished steel ball in a bright room. It needs no lights and no reflections. */
 function ball(shade: number): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = SIZE;
@@ -23,7 +20,7 @@ function ball(shade: number): HTMLCanvasElement {
   room.addColorStop(1, grey(0.42));
   draw.fillStyle = room;
   draw.fillRect(0, 0, SIZE, SIZE);
-  // Darker towards both sides, so that a shaft looks round.
+  // Both sides are darker, so that a shaft looks round.
   const round = draw.createLinearGradient(0, 0, SIZE, 0);
   round.addColorStop(0, grey(0.25, 0.75));
   round.addColorStop(0.2, grey(0.5, 0.25));
@@ -37,7 +34,7 @@ function ball(shade: number): HTMLCanvasElement {
   return canvas;
 }
 
-/** shade: 1 is bright. */
+/** A steel material; shade: brightness, 1 is bright. */
 export function steel(shade: number): MeshMatcapMaterial {
   const matcap = new CanvasTexture(ball(shade));
   matcap.colorSpace = SRGBColorSpace;

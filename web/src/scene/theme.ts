@@ -1,6 +1,6 @@
 import { Color } from "three";
 
-/** The colours of styles/tokens.css, as the page has them now. */
+/** The present colours of styles/tokens.css. */
 export class Theme {
   dark = false;
   private readonly probe: HTMLElement;
@@ -10,7 +10,7 @@ export class Theme {
   constructor() {
     this.probe = document.createElement("span");
     this.probe.hidden = true;
-    document.body.append(this.probe); // a panel is not yet in the page when it is made
+    document.body.append(this.probe); // not to the panel, which is added to the page later
     this.read();
     const again = (): void => {
       this.read();
@@ -23,7 +23,7 @@ export class Theme {
     });
   }
 
-  /** The token's colour: theme.color("data-1"). */
+  /** The colour of a token, such as "data-1". */
   color(token: string): Color {
     let color = this.known.get(token);
     if (!color) {
@@ -34,7 +34,7 @@ export class Theme {
     return color;
   }
 
-  /** Each membrane's own, as the plots have it. */
+  /** The colour of a membrane, as in the plots. */
   membrane(index: number): Color {
     return this.color(`data-${(index % 5) + 1}`);
   }

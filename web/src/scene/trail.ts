@@ -6,7 +6,7 @@ import type { Theme } from "./theme.ts";
 export const TRAIL_SECONDS = 2.5;
 const POINTS = 120;
 
-/** Where the tip has been lately, paler the longer ago. */
+/** The recent path of the tip. Older parts are paler. */
 export class Trail {
   readonly line: Line;
   private readonly positions = new BufferAttribute(new Float32Array(3 * POINTS), 3).setUsage(DynamicDrawUsage);
@@ -27,8 +27,8 @@ export class Trail {
     });
   }
 
-  /** rate: Hz. Points lie on ticks that stay the same from frame to frame, so that the line does not crawl. */
-  lay(source: Source, tick: number, rate: number): void {
+  /** rate: Hz. The points use the same ticks from frame to frame, so that the line does not flicker. */
+  update(source: Source, tick: number, rate: number): void {
     const { history } = source;
     const step = Math.max(1, Math.round((TRAIL_SECONDS * rate) / POINTS));
     const tips = history.column("tip");

@@ -15,12 +15,12 @@ import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
 
 const GESTURES =
-  "Drag: the needle · right-drag, Shift-drag or two fingers: go round · wheel, ↓ ↑: along the needle · Ctrl-wheel: zoom";
+  "Drag: needle · right-drag, Shift-drag or 2 fingers: orbit · wheel, ↓ ↑: along the needle · Ctrl-wheel: zoom";
 
-/** The needle and the membranes, in three dimensions. Draws only what has changed, at most once a frame. */
+/** The 3D view of the needle and the membranes. It draws only after a change, at most once per frame. */
 export const view: Panel = (host, app) => {
   const canvas = element("canvas", {
-    tabindex: 0, role: "application", "aria-label": "The needle and the membranes, in three dimensions",
+    tabindex: 0, role: "application", "aria-label": "3D view of the needle and the membranes",
     "aria-describedby": "view-help",
   }); // biome-ignore format: short
   const help = element("p", { class: "view-help", id: "view-help" }, GESTURES);
@@ -40,14 +40,12 @@ export const view: Panel = (host, app) => {
       host,
       theme,
       () => orbit.resize(host.clientWidth, host.clientHeight),
-      (gone) => tell(gone ? "The graphics card has gone; the picture comes back with it. The run goes on." : ""),
+      (gone) => tell(gone ? "The graphics card is lost. The picture returns with it; the run goes on." : ""),
     );
   } catch {
     canvas.hidden = true;
     help.hidden = true;
-    tell(
-      "This browser gives the page no WebGL, so there is no picture here. Plots, phases and all controls work without it.",
-    );
+    tell("No 3D view: this browser has no WebGL. Plots, phases and all controls work without it.");
     const speak = spoken(host);
     followInWords(app, speak);
     return;
@@ -60,7 +58,7 @@ export const view: Panel = (host, app) => {
   const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
   presets(host, look, (factor) => orbit.zoom(factor));
   const drag = gestures(canvas, needleGrip(hand, orbit, world, stage));
-  // A drag that is held over the begin of a run would lead its needle to where the one before was.
+  // A drag from the last run would pull the new run's needle to the old place.
   app.run.watch(() => drag.cancel());
   hand.barred.watch((why) => {
     if (why !== null) drag.cancel();
@@ -87,7 +85,7 @@ export const view: Panel = (host, app) => {
     if (scene !== built) build(scene);
     const turned = orbit.step(elapsed);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
-    const changed = world.lay(source, hand.target.value, orbit.camera, elapsed, pixel);
+    const changed = world.update(source, hand.target.value, orbit.camera, elapsed, pixel);
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) {
       stage.rest(orbit.camera, now);

@@ -3,7 +3,7 @@ import type { App } from "../state/app.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { Moment } from "./moment.ts";
 
-/** The view without a picture: what happens is still said. */
+/** Replaces the view if the browser has no WebGL: speaks the needle's state to a screen reader. */
 export function followInWords(app: App, speak: (moment: Moment, scene: SceneView, now: number) => void): void {
   const moment = new Moment();
   everyFrame((now) => {

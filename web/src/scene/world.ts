@@ -3,6 +3,7 @@ import { newton } from "../format.ts";
 import type { Pose } from "../hand/hand.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
+import { codeOf } from "../wire/ticks.ts";
 import { type Extent, extentOf } from "./anatomy.ts";
 import { ForceArrow } from "./arrow.ts";
 import { Blood } from "./blood.ts";
@@ -17,10 +18,10 @@ import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
 import { TRAIL_SECONDS, Trail } from "./trail.ts";
 
-const ACTIVE = 2;
-const FADES_A_SECOND = 15;
+const ACTIVE = codeOf("state", "active");
+const FADES_PER_SECOND = 15;
 
-/** All that stands on the stage, laid for a moment of a source. */
+/** Everything that the view draws for one moment of a source. */
 export class World {
   readonly moment = new Moment();
   extent: Extent | null = null;
@@ -55,7 +56,7 @@ export class World {
     ); // biome-ignore format: a list
   }
 
-  /** True where the scene has another shape than before. */
+  /** Builds the scene. Returns whether its geometry changed. */
   build(scene: SceneView): boolean {
     const before = this.scene && shapeOf(this.scene);
     this.scene = scene;
@@ -71,17 +72,17 @@ export class World {
     return true;
   }
 
-  /** Lays all for what the source shows now; true where the picture changes. pixel: mm that one spans. */
-  lay(source: Source, target: Pose | null, camera: Camera, elapsedMs: number, pixel: number): boolean {
+  /** Updates everything to the source's shown tick. Returns whether the picture changes. pixel: its size, mm. */
+  update(source: Source, target: Pose | null, camera: Camera, elapsedMs: number, pixel: number): boolean {
     const { moment, scene, extent } = this;
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
-    let changed = this.membranes.lay(moment, this.holes);
-    changed = this.blood.lay(this.membranes, moment.axis) || changed;
+    let changed = this.membranes.update(moment, this.holes);
+    changed = this.blood.update(this.membranes, moment.axis) || changed;
     changed = this.needle.step(this.blood.holdsTip(moment, source.laws.value), elapsedMs) || changed;
     if (!this.differs(this.key(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
-    this.trail.lay(source, moment.tick, scene.rate);
+    this.trail.update(source, moment.tick, scene.rate);
     this.placeArrow(camera, extent, scene);
     this.placeEntry(scene);
     const to = target && {
@@ -92,7 +93,7 @@ export class World {
     return true;
   }
 
-  /** Beside the needle, on the side where no slanted face is, and always in the plane that is looked at. */
+  /** Places the arrow in the view plane, on the left of the needle: the bevel faces right. */
   placeArrow(camera: Camera, extent: Extent, scene: SceneView): void {
     const { moment } = this;
     const real = moment.state === ACTIVE;
@@ -109,12 +110,12 @@ export class World {
     const state = this.moment.membranes[last];
     const extent = this.extent;
     if (!state || !extent) {
-      this.entry.between(null);
+      this.entry.setEnds(null);
       return;
     }
     const ahead = Math.max(4, 0.4 * extent.deep);
     const side = scene.diameter * MM;
-    this.entry.between([
+    this.entry.setEnds([
       state.proxy.clone().addScaledVector(state.direction, 0.4 * side),
       state.proxy.clone().addScaledVector(state.direction, ahead),
     ]);
@@ -131,14 +132,14 @@ export class World {
       labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, "column");
     });
     if (this.arrow.group.visible) {
-      const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not given)"}`;
+      const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not output)"}`;
       labels.put("force", words, "force", this.arrow.head, camera, size, "left");
     }
     if (this.entry.line.visible) labels.put("entry", "b", "entry", this.entryEnd, camera, size);
     labels.end();
   }
 
-  /** The corner of a slab that lies farthest to the right on the screen. */
+  /** The edge of a slab that is farthest to the right on the screen. */
   private rightmost(index: number, camera: Camera): Vector3 {
     const { point, normal, thickness } = this.membranes.placed[index]!;
     const middle = point.clone().addScaledVector(normal, thickness / 2);
@@ -148,18 +149,18 @@ export class World {
     return middle.addScaledVector(along.normalize(), this.membranes.size);
   }
 
-  /** A trail goes on fading for a while when the needle has come to rest. */
+  /** Whether the picture changed. The trail goes on fading for a while after the needle has stopped. */
   private differs(key: string, changed: boolean): boolean {
     const { time } = this.moment;
     if (key !== this.drawn || changed) this.moved = time;
-    const fading = Math.abs(time - this.moved) < TRAIL_SECONDS ? Math.floor(time * FADES_A_SECOND) : -1;
+    const fading = Math.abs(time - this.moved) < TRAIL_SECONDS ? Math.floor(time * FADES_PER_SECOND) : -1;
     const differs = key !== this.drawn || changed || fading !== this.faded;
     this.drawn = key;
     this.faded = fading;
     return differs;
   }
 
-  /** What the picture shows, in steps too small to be seen: a hand that trembles less than that costs no picture. */
+  /** The picture's values, rounded to invisible steps: smaller motions of the hand need no new picture. */
   private key(target: Pose | null, pixel: number): string {
     const { tip, axis, force, modelForce, state } = this.moment;
     const step = Math.max(1e-3, pixel / 3);
@@ -173,7 +174,7 @@ export class World {
   }
 }
 
-/** All of a scene that the view builds anew for; sliders of friction change nothing here. */
+/** The parts of a scene that need a rebuild of the view if they change. Friction, for example, does not. */
 function shapeOf(scene: SceneView): string {
   const { diameter, tip_length, membranes, lumen } = scene;
   return JSON.stringify([

@@ -7,7 +7,7 @@ const KEPT: readonly Exclude<FloatColumn, "time">[] = [
 ]; // biome-ignore format: a table
 
 /**
- * Every tick of the last while, at full rate: rings of columns, addressed by tick number.
+ * The most recent ticks, at full rate: ring buffers of columns, addressed by tick number.
  * Tick i is there while first <= i < end; its row of a column begins at slot(i) * width.
  */
 export class History {

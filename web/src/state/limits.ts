@@ -10,14 +10,14 @@ export type Limit = (typeof LIMITS)[number] | "unknown";
 /** The limit that cut the force, in a word or two. */
 export const LIMIT_WORDS: Readonly<Record<Limit, string>> = { ...limits.words, unknown: "" };
 
-/** Whether a limit holds the force below the model's. A force that grows after arming is no news. */
+/** Whether a limit cuts the force below the model's. The ramp after arming does not count. */
 export const cuts = (limit: Limit): boolean => limits.cuts.includes(limit);
 
 /** The limit that acted in a tick; recordings of earlier versions do not say. */
 export const limitOf = (history: History, tick: number): Limit =>
   LIMITS[history.byteRow("limit", tick)[0] ?? 0] ?? "unknown";
 
-/** The last of the ticks from `first` on in which a limit cut the force; null without one. */
+/** The last tick, not before `first`, in which a limit cut the force; null if there is none. */
 export function lastCut(history: History, first: number): number | null {
   const limits = history.byteColumn("limit");
   for (let tick = history.end - 1; tick >= Math.max(first, history.first); tick--)
@@ -25,7 +25,7 @@ export function lastCut(history: History, first: number): number | null {
   return null;
 }
 
-/** "0.76 of 2.19 N": what the hand gets of the model's force in a tick. */
+/** "0.76 of 2.19 N": the device's force and the model's force in a tick. */
 export function cutFigures(history: History, tick: number): string {
   const norm = (column: "force" | "model_force"): string => {
     const [x, y, z] = history.row(column, tick);

@@ -1,7 +1,7 @@
-/** The studio's files over HTTP: scenes, recordings, results. Every request carries the page's token. */
+/** The studio's files over HTTP: scenes, recordings and results. Every request carries the page's token. */
 
 export class ApiError extends Error {
-  /** status: of the answer; 0 where there was none. */
+  /** status: HTTP status of the answer; 0 without an answer. */
   constructor(
     message: string,
     readonly status = 0,
@@ -15,7 +15,7 @@ export type Fetch = (input: string, init?: RequestInit) => Promise<Response>;
 export class Api {
   private readonly token: string;
 
-  /** page: where the page came from; its `?token=` opens the files too. */
+  /** page: the page's URL; its `?token=` is used for the files too. */
   constructor(
     page: Pick<Location, "search">,
     private readonly fetcher: Fetch = (input, init) => fetch(input, init),
@@ -23,7 +23,7 @@ export class Api {
     this.token = new URLSearchParams(page.search).get("token") ?? "";
   }
 
-  /** Throws ApiError, in words, where there is no answer or a refusal. */
+  /** Throws ApiError with a message for the user if there is no answer, or a refusal. */
   async get(path: string, init: RequestInit = {}): Promise<Response> {
     let response: Response;
     try {
@@ -54,7 +54,7 @@ export class Api {
     }
   }
 
-  /** Where a link leads that the browser itself opens or saves. */
+  /** The URL of a link that the browser itself opens or saves. */
   address(path: string): string {
     return `${path}${path.includes("?") ? "&" : "?"}token=${encodeURIComponent(this.token)}`;
   }

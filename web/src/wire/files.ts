@@ -1,8 +1,8 @@
 import type { ExerciseGoal, MembraneEvent, MembraneView, ProblemPart, SceneView } from "./messages.ts";
 
-/** What the studio's files say of themselves, as JSON: python/punctura/studio has their making. */
+/** The studio's JSON answers about its files. python/punctura/studio makes them. */
 
-/** `GET /api/recordings`, one of them. */
+/** One entry of `GET /api/recordings`. */
 export interface RecordingEntry {
   readonly name: string;
   readonly title: string;
@@ -12,12 +12,12 @@ export interface RecordingEntry {
   readonly ticks: number;
   readonly lost: number;
   readonly scene: string;
-  /** Empty: it was no attempt at an exercise. */
+  /** Name of the exercise; empty if this is not an attempt. */
   readonly exercise: string;
   readonly finished: boolean;
 }
 
-/** `GET /api/recordings/NAME`: what comes before the ticks. */
+/** `GET /api/recordings/NAME`: a recording without its ticks. */
 export interface RecordingOverview {
   readonly info: Readonly<Record<string, unknown>>;
   readonly scene: SceneView;
@@ -26,48 +26,48 @@ export interface RecordingOverview {
   readonly first_tick: number;
 }
 
-/** `GET /api/recordings/NAME/trace`: thinned, with every peak. SI; null breaks the curves. */
+/** `GET /api/recordings/NAME/trace`: decimated curves that keep every peak. SI; null is a gap. */
 export interface RecordingTrace {
   readonly time: readonly number[];
-  /** Of the tip below the first surface. */
+  /** Depth of the tip below the first surface. */
   readonly depth: readonly (number | null)[];
-  /** The size of the model's force, negative where it pulls the needle in. */
+  /** Size of the model's force, negative if it pulls the needle in. */
   readonly force: readonly (number | null)[];
   readonly membranes: readonly MembraneView[];
 }
 
 export const recordingPath = (name: string): string => `/api/recordings/${encodeURIComponent(name)}`;
 
-/** `GET /api/exercises`, one of them. SI. */
+/** One entry of `GET /api/exercises`. SI. */
 export interface ExerciseOverview {
   readonly name: string;
   readonly title: string;
   readonly description: string;
   readonly instruction: string;
   readonly scene: string;
-  /** The membrane, by its place in the scene, behind which one is to come; if there is one, that in front of which. */
+  /** Index of the membrane in front of the target space, and of the membrane behind it if there is one. */
   readonly space: readonly number[];
-  /** Where the space begins behind the far face of the first, m. */
+  /** Distance from the far face of the first membrane to the start of the space, m. */
   readonly space_from: number;
-  /** Where it ends, likewise; null: nowhere, or at the second membrane. */
+  /** Distance from that face to the end of the space, m; null: the second membrane, or no end. */
   readonly space_to: number | null;
-  /** How deep the needle must come, likewise: deeper than where the space begins if a `reach` goal says so. */
+  /** Distance from that face that the tip must reach, m: more than the start of the space if a `reach` goal asks. */
   readonly goal_from: number;
   readonly goals: readonly string[];
-  /** What is wrong with the file of an exercise of one's own; empty where it is sound. */
+  /** Errors in the file of a user's own exercise. */
   readonly problems: readonly ProblemPart[];
-  /** What the file may say, but seldom means. */
+  /** Warnings: allowed values that are usually a mistake. */
   readonly warnings: readonly ProblemPart[];
 }
 
-/** `GET /api/results/NAME`: python/punctura/exercise/result.py. SI; null: there was none. */
+/** `GET /api/results/NAME`: see python/punctura/exercise/result.py. SI; null: not available. */
 export interface ExerciseResult {
   readonly name: string;
   readonly exercise: string;
   readonly title: string;
   readonly scene: string;
   readonly person: string;
-  /** Empty: it was not recorded. */
+  /** Name of the recording; empty if the attempt was not recorded. */
   readonly recording: string;
   /** ISO 8601, UTC. */
   readonly date: string;
@@ -87,7 +87,7 @@ export interface ExerciseMetrics {
     readonly name: string;
     readonly time: number;
     readonly distance: number;
-    /** s after the pop, in which it was measured. */
+    /** Length of the measurement after the pop, s. */
     readonly seconds: number;
   }[];
   readonly dwell: number;
@@ -100,7 +100,7 @@ export interface ExerciseMetrics {
   readonly time_to_target: number | null;
   readonly total_time: number;
   readonly lost_ticks: number;
-  /** s in which a limit cut the force to the device, by limit; results of earlier versions do not say. */
+  /** Time in which each limit cut the device's force, s; missing in results of earlier versions. */
   readonly force_cut?: Readonly<Record<string, number>>;
 }
 

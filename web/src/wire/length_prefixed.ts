@@ -2,14 +2,11 @@ import { FrameError } from "./ticks.ts";
 
 const LARGEST = 1 << 26; // bytes of one frame
 
-/**
- * Cuts a stream of bytes into frames: a u32 of the length, the frame, zeros until the next length is at a multiple
- * of 4.
- */
+/** Splits a stream of bytes into frames: the length (u32), the frame, and zeros up to a multiple of 4 bytes. */
 export class FrameSplitter {
   private rest = new Uint8Array(0);
 
-  /** The frames that are whole with these bytes, each in a buffer of its own. Throws FrameError. */
+  /** Adds bytes. Returns the frames that are now complete, each in its own buffer. Throws FrameError. */
   push(bytes: Uint8Array): ArrayBuffer[] {
     const all = joined(this.rest, bytes);
     const view = new DataView(all.buffer, all.byteOffset, all.byteLength);
@@ -27,7 +24,7 @@ export class FrameSplitter {
     return frames;
   }
 
-  /** Throws FrameError where the stream ends within a frame. */
+  /** Throws FrameError if the stream ends within a frame. */
   end(): void {
     if (this.rest.byteLength > 0) throw new FrameError("the stream ends within a frame");
   }

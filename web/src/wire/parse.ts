@@ -15,8 +15,8 @@ const KINDS: Readonly<Record<Message["kind"], true>> = {
 };
 
 /**
- * A message of the server's, or a sentence saying why it is none. The server holds the types; the page looks at
- * the kind.
+ * Parses a message of the server. Returns a sentence if it is invalid. Only the kind is checked: the server defines
+ * the types.
  */
 export function parseMessage(text: string): Message | string {
   let value: unknown;

@@ -1,6 +1,6 @@
 import { FIELDS } from "./tick_table.ts";
 
-/** The binary frame of ticks; python/punctura/studio/wire/frames.py has the table of its bytes. */
+/** Reads the binary frame of ticks; python/punctura/studio/wire/frames.py documents its bytes. */
 
 const MAGIC = 0x32544e50; // "PNT2"
 const HEAD_BYTES = 40;
@@ -16,15 +16,21 @@ const FLOATS = FIELDS.filter((field): field is NumberField => field.words === nu
 const BYTES = FIELDS.filter((field): field is WordField => field.words !== null);
 export const BYTE_COLUMNS: readonly ByteColumn[] = BYTES.map((field) => field.name);
 
-/** The words of a field, by its numbers. */
+/** The words of a field, indexed by their numbers. */
 export function wordsOf<Name extends ByteColumn>(name: Name): Words<Name> {
   return BYTES.find((field) => field.name === name)!.words as unknown as Words<Name>;
 }
+/** The number of a word of a field. */
+export const codeOf = <Name extends ByteColumn>(name: Name, word: Words<Name>[number]): number =>
+  (wordsOf(name) as readonly string[]).indexOf(word);
+
+export type Phase = Words<"phase">[number];
+
 type Words<Name> = { [F in WordField as F["name"]]: F["words"] }[Name & ByteColumn];
 
 export class FrameError extends Error {}
 
-/** n ticks that follow one another. Columns are row by row; times are s after `firstTime`. */
+/** n consecutive ticks. Columns hold one row per tick; times are s after `firstTime`. */
 export interface TickBatch {
   readonly firstTick: number;
   readonly firstTime: number;
@@ -34,11 +40,11 @@ export interface TickBatch {
   readonly membranes: number;
   readonly floats: Readonly<Record<Exclude<FloatColumn, "other_force">, Float32Array>>;
   readonly bytes: Readonly<Record<ByteColumn, Uint8Array>>;
-  /** Of the other solver, while solvers are compared: 3 a tick, N. */
+  /** The other solver's force while Compare is on: 3 numbers per tick, N. */
   readonly otherForce: Float32Array | null;
 }
 
-/** Width in numbers of one tick's row. */
+/** How many numbers one tick has in a column. */
 export function rowWidth(column: FloatColumn | ByteColumn, membranes: number): number {
   if (column === "other_force") return 3;
   const field = FIELDS.find(({ name }) => name === column)!;
@@ -47,10 +53,10 @@ export function rowWidth(column: FloatColumn | ByteColumn, membranes: number): n
 
 /** Reads a frame without copying. Throws FrameError. */
 export function decodeTicks(frame: ArrayBuffer, at = 0, end = frame.byteLength): TickBatch {
-  if (end - at < HEAD_BYTES) throw new FrameError(`${end - at} bytes are too few for a frame`);
+  if (end - at < HEAD_BYTES) throw new FrameError(`a tick frame is too short: ${end - at} bytes`);
   const head = new DataView(frame, at, HEAD_BYTES);
   const magic = head.getUint32(0, true);
-  if (magic !== MAGIC) throw new FrameError(`begins with 0x${magic.toString(16)}`);
+  if (magic !== MAGIC) throw new FrameError(`a tick frame has the wrong magic number 0x${magic.toString(16)}`);
   const count = head.getUint32(4, true);
   const membranes = head.getUint32(8, true);
   const flags = head.getUint32(12, true);
@@ -60,7 +66,7 @@ export function decodeTicks(frame: ArrayBuffer, at = 0, end = frame.byteLength):
 
   const takeFloats = (name: FloatColumn): void => {
     const length = count * rowWidth(name, membranes);
-    if (offset + 4 * length > end) throw new FrameError(`ends within ${name}`);
+    if (offset + 4 * length > end) throw new FrameError(`a tick frame ends within ${name}`);
     floats[name] = new Float32Array(frame, offset, length);
     offset += 4 * length;
   };
@@ -68,11 +74,11 @@ export function decodeTicks(frame: ArrayBuffer, at = 0, end = frame.byteLength):
   if (flags & OTHER_SOLVER) takeFloats("other_force");
   for (const { name } of BYTES) {
     const length = count * rowWidth(name, membranes);
-    if (offset + length > end) throw new FrameError(`ends within ${name}`);
+    if (offset + length > end) throw new FrameError(`a tick frame ends within ${name}`);
     bytes[name] = new Uint8Array(frame, offset, length);
     offset += length;
   }
-  if (offset !== end) throw new FrameError(`${end - offset} bytes follow its end`);
+  if (offset !== end) throw new FrameError(`${end - offset} bytes follow a tick frame`);
   return {
     firstTick: Number(head.getBigUint64(16, true)),
     firstTime: head.getFloat64(24, true),

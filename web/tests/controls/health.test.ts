@@ -27,7 +27,7 @@ describe("loop health", () => {
     );
   });
 
-  it("the rate is ticks over time, and begins anew with a run", () => {
+  it("the rate is ticks over time, and restarts with a run", () => {
     const meter = new RateMeter();
     expect(meter.add(0, 0)).toBeNull();
     for (let t = 0.25; t < 10; t += 0.25) expect(meter.add(t, t * 1600)).toBeCloseTo(1600, 6);

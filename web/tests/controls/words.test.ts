@@ -25,12 +25,12 @@ describe("what happened in words", () => {
   const event = (tick: number, what: MembraneEvent["what"]): MembraneEvent => ({
     kind: "event", what, membrane: 0, name: "skin", tick, time: tick / 1600, depth: 0, force_before: 0.5, force_after: 0.26, drop: 0.24,
   }); // biome-ignore format: one line
-  it("a pop says what the force lost", () => {
+  it("a pop shows the drop of the force", () => {
     expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });
-    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newton.");
+    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newtons.");
     expect(eventWords(event(1, "touch")).force).toBe("");
   });
-  it("only what is new is added; another run begins anew", () => {
+  it("only new events are added; another run starts again", () => {
     const [a, b, c, d] = [event(1, "touch"), event(2, "pop"), event(3, "out"), event(4, "touch")] as const;
     expect(eventsSince([a, b], [a, b, c, d])).toEqual([c, d]);
     expect(eventsSince([a, b, c], [c, d])).toEqual([d]);

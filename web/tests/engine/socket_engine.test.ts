@@ -164,12 +164,12 @@ describe("what comes in", () => {
 
   it.each([
     ["ticks cut off", makeFrame({ count: 3, membranes: 1 }).slice(0, 200), "ends within"],
-    ["ticks with a tail", new Uint8Array(new ArrayBuffer(48)).fill(0).buffer, "begins with"],
-    ["an empty frame", new ArrayBuffer(0), "too few"],
+    ["ticks with a tail", new Uint8Array(new ArrayBuffer(48)).fill(0).buffer, "wrong magic number"],
+    ["an empty frame", new ArrayBuffer(0), "too short"],
     ["no JSON", "{", "no JSON"],
     ["a number", "7", "without a kind"],
     ["an unknown kind", '{"kind":"toString"}', "unknown kind"],
-    ["a reply to nobody", '{"kind":"reply","id":77,"ok":true}', "reply to nothing"],
+    ["a reply to an unknown request", '{"kind":"reply","id":77,"ok":true}', "unknown request 77"],
   ])("is reported, once, and not fatal where it is %s", (_name, data, words) => {
     const { socket, messages, batches, connections } = bench();
     socket().opens();

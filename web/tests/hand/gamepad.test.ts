@@ -4,7 +4,7 @@ import type { Hand } from "../../src/hand/hand.ts";
 import { Signal } from "../../src/state/signal.ts";
 
 describe("a stick", () => {
-  it("is at rest near its middle, fine beside it, and full at its end", () => {
+  it("gives 0 near its middle, fine control next to it, and full speed at its end", () => {
     expect([stick(0), stick(0.1), stick(-0.12), stick(undefined), stick(Number.NaN)].map(Math.abs)).toEqual([
       0, 0, 0, 0, 0,
     ]);
@@ -17,7 +17,7 @@ describe("a stick", () => {
 });
 
 describe("sticks that were held when a new run began", () => {
-  it("lead nothing until they have come to rest", () => {
+  it("move nothing until they have come to rest", () => {
     let moved = 0;
     const hand = {
       run: 0,

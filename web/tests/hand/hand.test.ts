@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import { lagText } from "../../src/controls/hand/place.ts";
 import type { EngineListener, Triple } from "../../src/engine/engine.ts";
-import { Hand } from "../../src/hand/hand.ts";
+import { Hand, LARGEST_TILT_DEG } from "../../src/hand/hand.ts";
 import { App } from "../../src/state/app.ts";
 import { Source } from "../../src/state/source.ts";
 import type { DevicePart, SceneView, Status } from "../../src/wire/messages.ts";
@@ -69,14 +69,14 @@ beforeEach(() => {
 });
 
 describe("the hand", () => {
-  it("has a lag only where it is led, and the page shows the unit also where there is none", () => {
+  it("has a lag only with a target, and the page shows the unit without one too", () => {
     expect(hand.lag()).toBeNull();
     expect(lagText(hand.lag())).toBe("– mm");
     hand.push(0.001);
     expect(lagText(hand.lag())).toBe("1.00 mm");
   });
 
-  it("begins where the needle is, and goes on from where it was led", () => {
+  it("starts at the needle, and continues from the last target", () => {
     hand.push(0.001);
     expect(sent[0]!.position[1]).toBeCloseTo(0.009, 8);
     expect(sent[0]!.axis).toEqual([0, -1, 0]);
@@ -86,11 +86,11 @@ describe("the hand", () => {
     expect(hand.lag()).toBeCloseTo(0.0015, 8);
   });
 
-  it("turns about its target, and no flatter than the model takes", () => {
+  it("tilts about its target, up to the largest tilt of the page", () => {
     hand.setTilt(0.5);
     expect(hand.tilt()).toBeCloseTo(0.5, 9);
     hand.setTilt(2);
-    expect(hand.tilt()).toBeCloseTo(1.3, 9);
+    expect(hand.tilt()).toBeCloseTo((LARGEST_TILT_DEG * Math.PI) / 180, 9);
     expect(sent.at(-1)!.position[1]).toBeCloseTo(0.01, 8);
   });
 
@@ -115,14 +115,14 @@ describe("the hand", () => {
     expect(sent.at(-1)!.position).toEqual(position);
   });
 
-  it("goes along the needle that was turned", () => {
+  it("moves along the tilted needle", () => {
     hand.setTilt(Math.PI / 6);
     hand.push(0.002);
     const [x, y] = sent.at(-1)!.position;
     expect([x, y]).toEqual([expect.closeTo(0.001, 8), expect.closeTo(0.01 - 0.002 * Math.cos(Math.PI / 6), 8)]);
   });
 
-  it("never leaves the desk, and is never led to no place", () => {
+  it("limits far targets, and ignores targets that are not finite", () => {
     hand.moveTo([10, 0, 0]);
     expect(Math.hypot(...sent.at(-1)!.position)).toBeCloseTo(0.25, 9);
     hand.moveTo([Number.NaN, 0, 0]);
@@ -176,7 +176,7 @@ describe("the hand", () => {
     expect(sent[0]!.axis[0]).toBeCloseTo(slanted[0], 8);
   });
 
-  it("gives way to strokes, unless it was moved just now", () => {
+  it("drops its target when strokes start, unless it was moved just now", () => {
     hand.push(0.001);
     status("strokes"); // on its way when the hand was taken
     expect(hand.target.value).not.toBeNull();

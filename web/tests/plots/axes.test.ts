@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { CalmRange } from "../../src/plots/calm_range.ts";
+import { AutoRange } from "../../src/plots/auto_range.ts";
 import { Scale } from "../../src/plots/scale.ts";
 import { label, niceStep, ticks } from "../../src/plots/ticks.ts";
 
@@ -23,21 +23,21 @@ describe("numbers along an axis", () => {
 
 describe("a calm range", () => {
   it("grows at once and takes in every value", () => {
-    const range = new CalmRange();
+    const range = new AutoRange();
     range.follow(-0.1, 0.5, 0);
     range.follow(-0.1, 0.9, 0.01);
     expect(range.max).toBeGreaterThanOrEqual(0.9);
     expect(range.min).toBeLessThanOrEqual(-0.1);
   });
   it("does not move while values stay within it", () => {
-    const range = new CalmRange();
+    const range = new AutoRange();
     range.follow(0, 1, 0);
     const { min, max } = range;
     for (let i = 1; i < 100; i++) expect(range.follow(0, 0.7 + 0.3 * Math.sin(i), i)).toBe(false);
     expect([range.min, range.max]).toEqual([min, max]);
   });
   it("shrinks when values have been much smaller for a while, not before", () => {
-    const range = new CalmRange();
+    const range = new AutoRange();
     range.follow(0, 10, 0);
     const { max } = range;
     range.follow(0, 1, 1);
@@ -47,7 +47,7 @@ describe("a calm range", () => {
     expect(range.max).toBeLessThan(2);
   });
   it("takes no value that does not exist", () => {
-    const range = new CalmRange();
+    const range = new AutoRange();
     expect(range.follow(Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY, 0)).toBe(false);
     expect(range.follow(Number.NaN, Number.NaN, 0)).toBe(false);
   });

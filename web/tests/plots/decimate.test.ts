@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { throughColumns } from "../../src/plots/decimate.ts";
+import { decimate } from "../../src/plots/decimate.ts";
 import { Polyline } from "../../src/plots/polyline.ts";
 
 const NaN_ = Number.NaN;
 
 function through(xs: number[], ys: number[]): Array<[number, number]> {
   const out = new Polyline(2);
-  throughColumns(Float32Array.from(xs), Float32Array.from(ys), 0, xs.length, out);
+  decimate(Float32Array.from(xs), Float32Array.from(ys), 0, xs.length, out);
   return Array.from({ length: out.count }, (_, i) => [out.xs[i]!, out.ys[i]!]);
 }
 
@@ -19,7 +19,7 @@ describe("lines through pixel columns", () => {
     ys[333_333] = 99.5;
     ys[700_001] = -42;
     const out = new Polyline();
-    throughColumns(xs, ys, 0, n, out);
+    decimate(xs, ys, 0, n, out);
     const drawn = out.ys.subarray(0, out.count);
     expect(drawn).toContain(99.5);
     expect(drawn).toContain(-42);

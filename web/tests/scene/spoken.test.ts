@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { Moment } from "../../src/scene/moment.ts";
 import { sentence } from "../../src/scene/spoken.ts";
 import type { SceneView } from "../../src/wire/messages.ts";
+import { wordsOf } from "../../src/wire/ticks.ts";
 
 const scene = { membranes: [{ name: "skin" }, { name: "vein wall" }] } as SceneView;
 const moment = (...states: [phase: number, depth: number][]): Moment => {
@@ -18,5 +19,10 @@ describe("the sentence", () => {
     );
     expect(sentence(moment([3, 1], [0, 0]), scene)).toBe("The tip is sliding out of skin at 1.0 mm.");
     expect(sentence(moment([0, 0], [0, 0]), scene)).toBe("The tip is outside all membranes.");
+  });
+
+  it("says that a barred membrane gives no force", () => {
+    const barred = wordsOf("phase").indexOf("barred");
+    expect(sentence(moment([barred, 2], [0, 0]), scene)).toBe("The tip is without force in skin at 2.0 mm.");
   });
 });

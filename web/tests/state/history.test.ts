@@ -37,7 +37,7 @@ describe("the history", () => {
     }
   });
 
-  it("begins anew after a gap: what lies on both sides of it does not belong together", () => {
+  it("starts again after a gap, because the two sides do not belong together", () => {
     const history = new History(100);
     history.push(batch({ first: 0, count: 20, membranes: 1 }));
     history.push(batch({ first: 30, count: 20, membranes: 1, lost: 10 }));

@@ -16,7 +16,7 @@ describe("the limit that cuts the force", () => {
     expect(limitOf(run, 50)).toBe("continuous");
     expect(limitOf(run, 99)).toBe("unknown");
   });
-  it("is told with what the hand gets and what the model gives", () => {
+  it("is shown with the device's force and the model's force", () => {
     expect(cutFigures(run, 50)).toBe("0.76 of 2.19 N");
   });
 });

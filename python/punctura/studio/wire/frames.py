@@ -41,12 +41,12 @@ OTHER = "other_force"  # (n, 3), only with the flag
 
 
 class FrameError(ValueError):
-    """Bytes that are no frame of ticks."""
+    """The bytes are not a frame of ticks."""
 
 
 @dataclass(frozen=True)
 class Frame:
-    """A frame as it was read."""
+    """A decoded frame."""
 
     first_tick: int
     first_time: float  # s
@@ -64,7 +64,7 @@ def _shape(field: TickField, n: int, m: int) -> tuple[int, ...]:
 
 
 def encode_ticks(ticks: Ticks, run: int, lost: int = 0, other_force: npt.NDArray[Any] | None = None) -> bytes:
-    """The frame of a loop's ticks, which must follow one another. Raises FrameError where they do not."""
+    """Encodes consecutive ticks as a frame. Raises FrameError if they are not consecutive."""
     tick = ticks.tick
     n = len(tick)
     if n == 0 or int(tick[-1]) - int(tick[0]) != n - 1:

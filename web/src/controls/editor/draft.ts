@@ -6,16 +6,16 @@ import { getAt, type Path, pathText, same, setAt, type Tables } from "./tables.t
 import { Undo } from "./undo.ts";
 
 /**
- * The scene as the person is writing it. It runs ahead of the scene that makes the force: each change is sent as a
- * whole, the last one wins, and one that is refused stays here with its problems until it is put right.
+ * The scene in the editor. It can be ahead of the server's scene, which makes the force. Every change sends the whole
+ * scene; a newer change replaces one that waits. A refused change stays here with its problems until it is corrected.
  */
 export class Draft {
   readonly tables: Signal<Tables>;
   readonly problems = new Signal<readonly ProblemPart[]>([]);
-  /** The laws before the change that is being made, to draw behind the new ones. */
+  /** The laws before the present change, drawn behind the new ones. */
   readonly before = new Signal<readonly LawCurve[]>([]);
-  /** Changes whenever undo, redo or reset may have become possible or not. */
-  readonly marks = new Signal({ undo: false, redo: false, reset: false });
+  /** Which of undo, redo and reset are possible. */
+  readonly can = new Signal({ undo: false, redo: false, reset: false });
 
   private readonly steps: Undo<Tables>;
   private readonly sender: LastWins<Tables, readonly ProblemPart[]>;
@@ -34,7 +34,7 @@ export class Draft {
     app.live.scene.watch((scene) => scene && this.take(scene));
   }
 
-  /** Puts a value in; changes of one `topic` in quick succession, as a drag makes them, are one step to undo. */
+  /** Sets a value. Quick changes of the same path, as in a drag, are one step of undo. */
   set(path: Path, value: unknown): void {
     this.change(setAt(this.tables.value, path, value), pathText(path));
   }
@@ -68,7 +68,7 @@ export class Draft {
 
   private show(tables: Tables): void {
     this.tables.value = tables;
-    this.marks.value = {
+    this.can.value = {
       undo: this.steps.canUndo,
       redo: this.steps.canRedo,
       reset: !same(tables, this.loaded),
@@ -76,8 +76,8 @@ export class Draft {
   }
 
   /**
-   * The engine's scene: an echo of what was sent, or another one that takes the place of this. A run begins with
-   * scene 0; one that begins with the scene that stands here, as a recording does, keeps what can be undone.
+   * Takes the server's scene: an echo of a change, or another scene that replaces this one. A run starts with
+   * scene 0. If that equals the present scene, as at the start of a recording, the undo history stays.
    */
   private take(scene: SceneView): void {
     const other = !same(scene.tables, this.tables.value);
@@ -97,7 +97,7 @@ export class Draft {
 
   private async send(tables: Tables): Promise<readonly ProblemPart[]> {
     const reply = await this.app.ask({ do: "edit", tables });
-    if (!reply) return [{ path: "", value: "", reason: "the change has not arrived: there is no connection" }];
+    if (!reply) return [{ path: "", value: "", reason: "the change was not sent: no connection" }];
     if (reply.ok) return [];
     return reply.problems?.length ? reply.problems : [{ path: "", value: "", reason: reply.text || "refused" }];
   }

@@ -2,12 +2,12 @@ import { element } from "../../panel.ts";
 import { type Field, printed } from "./fields.ts";
 import { boundText } from "./problems.ts";
 
-/** A field on the page. */
+/** An input field of the form. */
 export interface Input {
   readonly root: HTMLElement;
-  /** Shows a value that came from elsewhere; what a person is typing stays where the value is the same. */
+  /** Shows a value from the draft. If the value is unchanged, text that the user is typing stays. */
   show(value: unknown): void;
-  /** Says what the engine finds wrong with the field; empty takes it away. */
+  /** Shows the server's problem with the field; an empty text removes it. */
   complain(text: string): void;
 }
 
@@ -15,14 +15,14 @@ interface Frame {
   readonly root: HTMLElement;
   readonly controls: HTMLElement;
   readonly helpId: string;
-  /** For the element that is labelled. */
+  /** Attributes of the labelled element. */
   readonly attributes: Readonly<Record<string, string>>;
   complain(text: string): void;
-  /** Says what is wrong with what was typed, which has not been sent. */
+  /** Shows what is wrong with the typed text, which was not sent. */
   reject(text: string): void;
 }
 
-/** What a field does, in words: its help, its bounds, why they are so. */
+/** The help of a field, with its bounds. */
 export function helpText(field: Field): string {
   const bounds = boundText(field);
   const unit = field.unit ? ` ${field.unit}` : "";
@@ -31,7 +31,7 @@ export function helpText(field: Field): string {
     .join(" ");
 }
 
-/** Label, symbol and unit around a field, its help for whoever focuses it, and its error below it. */
+/** The frame of a field: label, symbol, help and error. */
 export function fieldFrame(field: Field, id: string): Frame {
   const helpId = `${id}-help`;
   const errorId = `${id}-error`;

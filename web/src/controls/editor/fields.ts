@@ -1,10 +1,10 @@
-/** The scene file's JSON Schema as the fields of a form. Only what the schema says; the wording is its own. */
+/** Converts the JSON Schema of a scene file to the fields of a form. All texts come from the schema. */
 
 export type FieldKind = "number" | "integer" | "text" | "choice" | "vector";
 
 export interface Bound {
   readonly value: number;
-  /** Whether the bound itself is outside. */
+  /** Whether the bound itself is excluded. */
   readonly open: boolean;
 }
 
@@ -18,23 +18,23 @@ export interface Field {
   readonly kind: FieldKind;
   readonly least: Bound | null;
   readonly most: Bound | null;
-  /** Why the bounds are what they are. */
+  /** The reason for the bounds. */
   readonly reason: string;
   readonly options: readonly (string | number)[];
-  /** What each option is in the unit of the key beside it: a gauge in mm. */
+  /** Each option's value in the unit of the other key of its pair: a gauge's diameter in mm. */
   readonly sizes: readonly number[];
   readonly required: boolean;
   readonly standard: unknown;
 }
 
-/** One table of the file; `list` where it comes as often as one likes. */
+/** One table of the file; `list` if it can be repeated. */
 export interface Table {
   readonly key: string;
   readonly title: string;
   readonly help: string;
   readonly list: boolean;
   readonly fields: readonly Field[];
-  /** Of each pair of keys the table gives exactly one. */
+  /** The table holds exactly one key of each pair. */
   readonly pairs: readonly (readonly [string, string])[];
 }
 
@@ -49,13 +49,13 @@ export class SchemaError extends Error {}
 
 function object(value: unknown, what: string): Json {
   if (typeof value !== "object" || value === null || Array.isArray(value))
-    throw new SchemaError(`${what} is no object`);
+    throw new SchemaError(`${what} is not an object`);
   return value as Json;
 }
 const text = (value: unknown): string => (typeof value === "string" ? value : "");
 const list = (value: unknown): readonly unknown[] => (Array.isArray(value) ? value : []);
 
-/** Throws SchemaError where the schema is not that of a scene file. */
+/** Throws SchemaError if the schema is not that of a scene file. */
 export function sceneForm(schema: unknown): SceneForm {
   const root = object(schema, "the schema");
   const definitions = object(root.$defs ?? {}, "$defs");
@@ -120,7 +120,7 @@ function kind(key: string, entry: Json, hasOptions: boolean): FieldKind {
   if (entry.type === "number" || entry.type === "integer") return entry.type;
   if (entry.type === "string") return "text";
   if (entry.type === "array") return "vector";
-  throw new SchemaError(`${key} is of no kind that the editor knows`);
+  throw new SchemaError(`${key} has a type that the editor does not know`);
 }
 
 function bound(closed: unknown, open: unknown): Bound | null {
@@ -130,5 +130,5 @@ function bound(closed: unknown, open: unknown): Bound | null {
 
 const GREEK: Readonly<Record<string, string>> = { kappa: "κ", mu: "μ", theta: "θ" };
 
-/** A symbol as it is printed: kappa is κ. */
+/** A symbol in print: κ for kappa. */
 export const printed = (symbol: string): string => GREEK[symbol] ?? symbol;

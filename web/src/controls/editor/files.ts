@@ -3,16 +3,16 @@ import type { App } from "../../state/app.ts";
 import { fileName, saveAddress } from "../download.ts";
 import type { Draft } from "./draft.ts";
 
-const LARGEST = 200_000; // characters; the engine refuses more
+const LARGEST = 200_000; // characters; the server refuses more
 
-/** Undo, redo, reset; a scene from a file and into one. `tell` says what came of a load: empty where it went well. */
-export function sceneTools(app: App, draft: Draft, tell: (problems: readonly string[]) => void): HTMLElement {
+/** Undo, redo, reset, load and save. `report` gets the problems of a load; none if it succeeded. */
+export function sceneTools(app: App, draft: Draft, report: (problems: readonly string[]) => void): HTMLElement {
   const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
     element("button", { type: "button", class: "small", title: help, onclick: act }, label);
   const undo = button("Undo", "Undo (Ctrl+Z)", () => draft.undo());
   const redo = button("Redo", "Redo (Ctrl+Shift+Z)", () => draft.redo());
-  const reset = button("Reset", "Back to the scene as it was loaded", () => draft.reset());
-  draft.marks.watch((can) => {
+  const reset = button("Reset", "Restore the loaded scene", () => draft.reset());
+  draft.can.watch((can) => {
     undo.disabled = !can.undo;
     redo.disabled = !can.redo;
     reset.disabled = !can.reset;
@@ -23,7 +23,7 @@ export function sceneTools(app: App, draft: Draft, tell: (problems: readonly str
   file.addEventListener("change", async () => {
     const chosen = file.files?.[0];
     file.value = "";
-    if (chosen) tell(await loadFile(app, chosen));
+    if (chosen) report(await loadFile(app, chosen));
   });
   const save = button("Save", "Save the scene as a TOML file", () => {
     saveAddress(app.api.address("/api/scene.toml"), fileName(String(draft.at(["name"]) ?? "scene"), "toml"));
@@ -47,13 +47,13 @@ async function loadFile(app: App, file: File): Promise<string[]> {
   const toml = await file.text();
   if (toml.length > LARGEST) return [`${file.name} is too long for a scene file: at most ${LARGEST} characters.`];
   const reply = await app.ask({ do: "load_text", toml });
-  if (!reply) return [`${file.name} was not loaded: there is no connection.`];
+  if (!reply) return [`${file.name} was not loaded: no connection.`];
   if (reply.ok) return [];
   const problems = (reply.problems ?? []).map(({ path, value, reason }) =>
     path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${reason}` : reason,
   );
   return [
-    `${file.name} was not loaded; the run goes on as it was.`,
+    `${file.name} was not loaded; the run continues unchanged.`,
     ...(problems.length ? problems : [reply.text ?? ""]),
   ];
 }

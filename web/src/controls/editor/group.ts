@@ -6,10 +6,10 @@ import { pairField } from "./pair_field.ts";
 import { single } from "./single.ts";
 import { getAt, type Path, parsePath, pathText, type Tables } from "./tables.ts";
 
-/** Fields on the page by their path in the file, `membrane[1].friction`. */
+/** The form's fields by their path in the file, as `membrane[1].friction`. */
 export type Inputs = Map<string, Input>;
 
-/** The fields of one table at `path`, as the schema has them. */
+/** The fields of one table at `path`, in the schema's order. */
 export function group(
   table: Pick<Table, "fields" | "pairs">,
   path: Path,

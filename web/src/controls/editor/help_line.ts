@@ -1,6 +1,6 @@
 import { element } from "../../panel.ts";
 
-/** Two lines that say what the field under the pointer or the focus does: help at each field, and no room for each. */
+/** One place for the help of the field under the pointer or focus, because there is no space for help at each field. */
 export function helpLine(form: HTMLElement, standing: string): HTMLElement {
   const line = element("p", { class: "help-line", "aria-hidden": "true" }, standing);
   const look = (target: EventTarget | null): void => {

@@ -1,19 +1,16 @@
 import type { LawCurve } from "../../wire/messages.ts";
 import { niceAbove } from "./range.ts";
 
-/** Where the drawing's axes end: m and N. */
+/** The ends of the drawing's axes, m and N. */
 export interface Extent {
   readonly depth: number;
   readonly least: number;
   readonly most: number;
 }
 
-const SHRINK = 0.35; // below this part of the axis the curve gets a new one
+const SHRINK = 0.35; // an axis shrinks if the curve fills less than this share of it
 
-/**
- * Axes for a law. They stay while the curve fills a fair part of them, so that a drag moves the curve and not the
- * paper under it.
- */
+/** The axes for a law. They stay while the curve fills enough of them, so that a drag moves the curve, not the axes. */
 export function extentFor(law: LawCurve, now: Extent | null): Extent {
   const deepest = Math.max(law.through * 1.25, 1e-6);
   const top = Math.max(...law.upper, 1e-3);
@@ -25,7 +22,7 @@ export function extentFor(law: LawCurve, now: Extent | null): Extent {
   return { depth, least, most };
 }
 
-/** The least of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is at least `value`. */
+/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`. */
 function fine(value: number): number {
   const decade = 10 ** Math.floor(Math.log10(value));
   for (const step of [1, 1.5, 2, 3, 4, 5, 6, 8])
@@ -35,13 +32,13 @@ function fine(value: number): number {
 
 export type Place = (depth: number, force: number) => readonly [x: number, y: number];
 
-/** Maps into a box of `width` and `height` whose upper left corner is at (left, top). */
+/** Maps depth and force to a box with its upper left corner at (left, top). */
 export function placing(extent: Extent, left: number, top: number, width: number, height: number): Place {
   const span = extent.most - extent.least;
   return (depth, force) => [left + (depth / extent.depth) * width, top + ((extent.most - force) / span) * height];
 }
 
-/** An SVG path through a curve, and on along its last force to the end of the axis. */
+/** An SVG path through a curve, extended at its last force to the end of the axis. */
 export function curvePath(depth: readonly number[], force: readonly number[], place: Place, end: number): string {
   const points = depth.map((d, i) => [d, force[i] ?? 0] as const).filter(([d]) => d >= 0 && d <= end);
   const last = points.at(-1);
@@ -58,7 +55,7 @@ export function bandPath(law: LawCurve, place: Place, end: number): string {
 
 const write = ([x, y]: readonly [number, number]): string => `${x.toFixed(1)},${y.toFixed(1)}`;
 
-/** Round numbers along an axis, three to six of them. */
+/** Three to six round numbers along an axis. */
 export function ticksOf(low: number, high: number): number[] {
   const step = niceAbove((high - low) / 5);
   const first = Math.ceil(low / step - 1e-9);

@@ -12,20 +12,20 @@ const PLOT_HEIGHT = HEIGHT - TOP - 30;
 
 export interface LawDrawing {
   readonly root: HTMLElement;
-  /** before: the law as it was, drawn thin behind. */
+  /** before: the law before the last change, drawn as a thin line behind. */
   show(law: LawCurve | null, before: LawCurve | null): void;
-  /** Where the tip is in this membrane now, m, and its force there, N; null outside. */
+  /** Marks the tip's depth in this membrane, m, and its force, N; null outside. */
   mark(depth: number | null, force: number): void;
 }
 
-/** A law as the hand feels it, the other way round than on the needle: what resists going in is above. */
+/** A law with the signs that the hand feels, the opposite of the needle's: resistance to insertion is positive. */
 export const felt = (law: LawCurve): LawCurve => ({
   ...law,
   upper: law.lower.map((force) => -force),
   lower: law.upper.map((force) => -force),
 });
 
-/** A membrane's friction band on the hand: Phi_I, what resists going in, above; Phi_O, what resists coming out, below. */
+/** Draws a membrane's friction band on the hand: insertion friction -Phi_I above, withdrawal friction -Phi_O below. */
 export function lawDrawing(): LawDrawing {
   const grid = svg("g", { class: "grid" });
   const band = svg("path", { class: "band" });

@@ -16,7 +16,7 @@ interface Card {
   readonly inputs: Inputs;
 }
 
-/** The membranes, one of them open: the one whose law is drawn. */
+/** The list of membranes. One is open, and its law is drawn. */
 export class MembraneList {
   readonly root = element("div", { class: "membranes" });
   readonly selected = new Signal(0);
@@ -44,14 +44,14 @@ export class MembraneList {
     });
   }
 
-  /** Marks the cards in which something is wrong. */
+  /** Marks the cards that have problems. */
   mark(wrong: ReadonlySet<number>): void {
     this.cards.forEach((card, i) => {
       card.root.classList.toggle("wrong", wrong.has(i));
     });
   }
 
-  /** Opens the membrane and puts the focus on its head, or on one of its fields. */
+  /** Opens the membrane and focuses its header, or one of its fields. */
   focus(index: number, path?: string): void {
     this.selected.value = index;
     const card = this.cards[index];
@@ -75,7 +75,7 @@ export class MembraneList {
     const summary = element("span", { class: "summary" });
     const bodyId = `membrane-${index}-fields`;
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" }, String(index + 1));
-    // as an attribute the page's policy forbids it
+    // The page's content security policy forbids a style attribute.
     swatch.style.setProperty("--swatch", `var(--data-${(index % 5) + 1})`);
     const head = element(
       "button",

@@ -1,38 +1,38 @@
-/** Numbers as people type them: a point or a comma, strictly. */
+/** Parses and prints typed numbers, with a decimal point or a decimal comma. */
 
 export type Parsed = { readonly value: number } | { readonly wrong: string };
 
 const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
 
-/** The number a text is, or what is wrong with it in words. */
+/** The number in a text, or a sentence that tells what is wrong with it. */
 export function parseNumber(text: string, whole = false): Parsed {
   const trimmed = text.trim().replace("−", "-");
-  if (trimmed === "") return { wrong: "Give a number." };
+  if (trimmed === "") return { wrong: "Enter a number." };
   if (/\d[.,]\d*[.,]/.test(trimmed)) {
-    return { wrong: `“${trimmed}” has more than one point or comma. Write thousands without a mark: 1600.` };
+    return { wrong: `“${trimmed}” has more than one point or comma. Write 1600 without a separator.` };
   }
   if (!NUMBER.test(trimmed)) {
     const unit = trimmed.match(/^([+-]?[\d.,]+)\s*[a-zµ°/]+/i);
-    if (unit) return { wrong: `Write the number alone, ${unit[1]}, without a unit.` };
+    if (unit) return { wrong: `Enter only the number, ${unit[1]}, without a unit.` };
     return { wrong: `“${trimmed}” is not a number. Write it as 0.5 or 0,5.` };
   }
   const value = Number(trimmed.replace(",", "."));
   if (!Number.isFinite(value)) return { wrong: `“${trimmed}” is too large.` };
-  if (whole && !Number.isInteger(value)) return { wrong: "Give a whole number." };
+  if (whole && !Number.isInteger(value)) return { wrong: "Enter a whole number." };
   return { value };
 }
 
-/** Shortest text that gives the number again, and no more than people can read: 12 digits. */
+/** The shortest text of the number, with at most 12 digits. */
 export function numberText(value: unknown): string {
   if (typeof value !== "number") return value === undefined ? "" : String(value);
   const short = Number(value.toPrecision(12));
   return String(short);
 }
 
-/** To `digits` significant digits, as a number. */
+/** The number rounded to `digits` significant digits. */
 export const rounded = (value: number, digits = 3): number => Number(value.toPrecision(digits));
 
-/** The number one unit of its second digit up or down: what the arrow keys do. */
+/** The number one step up or down for the arrow keys: one unit of its second digit. */
 export function nudged(value: number, direction: 1 | -1): number {
   if (value === 0) return direction * 0.01;
   const exponent = Math.floor(Math.log10(Math.abs(value)));

@@ -5,7 +5,7 @@ import { nudged, numberText, parseNumber } from "./number.ts";
 import { boundProblem, boundText } from "./problems.ts";
 import { placeOf, type Range, rangeAround, SLIDER_STEPS, valueAt, within } from "./range.ts";
 
-/** A number: a slider that takes effect while it is dragged, and a box for the exact value. */
+/** A number field: a slider that takes effect during the drag, and a box for the exact value. */
 export function numberField(field: Field, id: string, slider: boolean, change: (value: number) => void): Input {
   const frame = fieldFrame(field, id);
   const box = element("input", {
@@ -60,7 +60,7 @@ export function numberField(field: Field, id: string, slider: boolean, change: (
     frame.reject("");
     change(value);
   });
-  // At rest the slider has room to either side again.
+  // After a drag to one end, the slider gets a new range around the value.
   track.addEventListener("change", () => {
     const place = Number(track.value);
     if (place === 0 || place === SLIDER_STEPS) range = rangeAround(field, value);

@@ -3,7 +3,7 @@ import { fieldFrame, type Input } from "./field_frame.ts";
 import type { Field } from "./fields.ts";
 import { numberText, parseNumber } from "./number.ts";
 
-/** Words of one line. */
+/** A field for one line of text. */
 export function textField(field: Field, id: string, change: (value: string) => void): Input {
   const frame = fieldFrame(field, id);
   const box = element("input", { ...frame.attributes, type: "text", autocomplete: "off", class: "words" });
@@ -25,7 +25,7 @@ const WORDS: Readonly<Record<string, string>> = {
   line_fit: "line fit",
 };
 
-/** One of a few. */
+/** A field for one of several options. */
 export function choiceField(
   field: Field,
   id: string,
@@ -52,7 +52,7 @@ export function choiceField(
 
 const AXES = ["x", "y", "z"] as const;
 
-/** Three numbers. */
+/** A field for three numbers. */
 export function vectorField(field: Field, id: string, change: (value: number[]) => void): Input {
   const frame = fieldFrame(field, id);
   frame.root.querySelector("label")?.setAttribute("for", `${id}-x`);

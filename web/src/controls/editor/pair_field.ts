@@ -6,9 +6,9 @@ import { converted } from "./pair_units.ts";
 import { single } from "./single.ts";
 import { getAt, type Path, replaceKey, setAt, type Tables } from "./tables.ts";
 
-const UNIT_WORDS = (field: Field): string => field.unit || field.title.toLowerCase();
+const unitWords = (field: Field): string => field.unit || field.title.toLowerCase();
 
-/** Two ways to say one thing, of which the file gives exactly one: a diameter in mm or as a gauge. */
+/** A pair of keys of which the file holds exactly one, such as a diameter in mm or as a gauge. */
 export function pairField(one: Field, other: Field, path: Path, draft: Draft): Input {
   const fields = [one, other] as const;
   const inputs = fields.map((field) => single(field, [...path, field.key], draft));
@@ -23,11 +23,11 @@ export function pairField(one: Field, other: Field, path: Path, draft: Draft): I
     draft.change(setAt(draft.tables.value, path, replaceKey(table, from.key, to.key, value)));
     root.querySelector<HTMLElement>(".field:not([hidden]) select.in")?.focus();
   };
-  // The unit of each is a choice between the two.
+  // The unit of each field is a list that switches between the two keys.
   for (const [index, input] of inputs.entries()) {
     const select = element("select", { class: "in", "aria-label": `${one.title} given in` });
     fields.forEach((field, i) => {
-      select.append(element("option", { value: i, selected: i === index }, UNIT_WORDS(field)));
+      select.append(element("option", { value: i, selected: i === index }, unitWords(field)));
     });
     select.addEventListener("change", () => {
       const next = Number(select.value);

@@ -3,7 +3,7 @@ import { rounded } from "./number.ts";
 
 const RAD_PER_DEG = Math.PI / 180;
 
-/** A value of one key of a pair as its other key would have it; undefined where that cannot be said. */
+/** Converts a value from one key of a pair to the other; undefined if there is no conversion. */
 export function converted(from: Field, to: Field, value: unknown): number | undefined {
   if (typeof value !== "number") return undefined;
   if (from.unit === "rad" && to.unit === "deg") return rounded(value / RAD_PER_DEG, 5);

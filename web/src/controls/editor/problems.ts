@@ -2,13 +2,13 @@ import type { ProblemPart } from "../../wire/messages.ts";
 import type { Bound, Field } from "./fields.ts";
 import { numberText } from "./number.ts";
 
-/** What is wrong, by the field that caused it; what no field shows stands in `others`, to be told at the top. */
+/** Problems by the field that caused them. `others` are shown at the top, because no field on the page shows them. */
 export interface Sorted {
   readonly fields: ReadonlyMap<string, string>;
   readonly others: readonly string[];
 }
 
-/** shown: paths of the fields that are on the page, as `membrane[1].friction`. */
+/** shown: paths of the fields on the page, as `membrane[1].friction`. */
 export function sortProblems(problems: readonly ProblemPart[], shown: ReadonlySet<string>): Sorted {
   const fields = new Map<string, string>();
   const others: string[] = [];
@@ -20,13 +20,13 @@ export function sortProblems(problems: readonly ProblemPart[], shown: ReadonlySe
   return { fields, others };
 }
 
-/** A vector's component, `point_mm[1]`, is told at the vector. */
+/** The problem of a vector's component, `point_mm[1]`, is shown at the vector. */
 function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
   const whole = path.replace(/\[\d+\]$/, "");
   return whole !== path && shown.has(whole) ? whole : null;
 }
 
-/** A problem with its place and value. */
+/** A problem as a sentence, with its path and value. */
 export const sentence = ({ path, value, reason }: ProblemPart): string =>
   path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
 
@@ -36,7 +36,7 @@ export function words(reason: string): string {
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }
 
-/** Whether a number breaks a bound of the schema, told before anything is sent; null where it does not. */
+/** The bound of the schema that a number breaks, as a sentence; null if it breaks none. Checked before sending. */
 export function boundProblem(field: Field, value: number): string | null {
   const broken = (bound: Bound | null, sign: 1 | -1): boolean =>
     bound !== null && (sign * value < sign * bound.value || (bound.open && value === bound.value));
@@ -44,7 +44,7 @@ export function boundProblem(field: Field, value: number): string | null {
   return words(field.reason || boundText(field));
 }
 
-/** The bounds in words: `more than 0`, `0 to 90`. Empty without any. */
+/** The bounds as text, as `more than 0, at most 90`; empty without bounds. */
 export function boundText(field: Field): string {
   const { least, most } = field;
   const low = least && `${least.open ? "more than" : "at least"} ${numberText(Number(least.value.toPrecision(4)))}`;

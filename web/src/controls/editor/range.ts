@@ -1,7 +1,7 @@
 import type { Field } from "./fields.ts";
 import { rounded } from "./number.ts";
 
-/** What a slider spans, and how its way maps to values. */
+/** The values of a slider, and how its positions map to them. */
 export interface Range {
   readonly low: number;
   readonly high: number;
@@ -10,7 +10,7 @@ export interface Range {
 
 export const SLIDER_STEPS = 400;
 
-/** Where the schema gives no upper bound and the value is 0, which says nothing of its size. */
+/** Upper ends for a value of 0, by unit, if the schema has no upper bound. */
 const HIGH_FROM_ZERO: Readonly<Record<string, number>> = {
   mm: 2,
   N: 1,
@@ -20,8 +20,8 @@ const HIGH_FROM_ZERO: Readonly<Record<string, number>> = {
 };
 
 /**
- * The range of a field's slider around its value: between finite bounds all there is; else a decade to either side of
- * a number that must be positive, and from 0 to four times a number that may be 0, finest near 0.
+ * The range of a field's slider. With two bounds, it is the range between them. Otherwise a positive number gets a
+ * decade on either side, and a number that may be 0 gets 0 to four times its value, with the finest steps near 0.
  */
 export function rangeAround(field: Field, value: number): Range {
   const low = field.least?.value;
@@ -38,7 +38,7 @@ export function rangeAround(field: Field, value: number): Range {
   return { low, high: value > low ? niceAbove(4 * value) : (HIGH_FROM_ZERO[field.unit] ?? 1), scale: "square" };
 }
 
-/** The least of 1, 2, 5, 10, ... that is at least `value`. */
+/** The smallest of 1, 2, 5, 10, ... that is not below `value`. */
 export function niceAbove(value: number): number {
   const decade = 10 ** Math.floor(Math.log10(value));
   for (const step of [1, 2, 5]) if (value <= step * decade * (1 + 1e-12)) return rounded(step * decade);
@@ -47,7 +47,7 @@ export function niceAbove(value: number): number {
 
 export const within = (range: Range, value: number): boolean => value >= range.low && value <= range.high;
 
-/** The slider's place of a value, 0 to SLIDER_STEPS. */
+/** The slider's position for a value, 0 to SLIDER_STEPS. */
 export function placeOf(range: Range, value: number): number {
   const { low, high, scale } = range;
   const bounded = Math.min(Math.max(value, low), high);
@@ -60,7 +60,7 @@ export function placeOf(range: Range, value: number): number {
   return Math.round(part * SLIDER_STEPS);
 }
 
-/** The value at a place of the slider, to three digits and inside the field's open bounds. */
+/** The value at a position of the slider, with three digits and inside the field's open bounds. */
 export function valueAt(range: Range, place: number, field: Field): number {
   const part = place / SLIDER_STEPS;
   const { low, high, scale } = range;

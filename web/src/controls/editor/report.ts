@@ -2,11 +2,11 @@ import { element } from "../../panel.ts";
 
 export interface ReportLine {
   readonly text: string;
-  /** Goes to the field, where there is one that does not show. */
+  /** Opens the field, if it is hidden. */
   readonly go?: () => void;
 }
 
-/** What is wrong that no field in sight tells. Empty: nothing is there. */
+/** A list of the problems that no visible field shows. Hidden while it is empty. */
 export function report(): { root: HTMLElement; show(lines: readonly ReportLine[]): void } {
   const root = element("div", { class: "report", role: "alert", hidden: true });
   return {

@@ -1,6 +1,6 @@
 /**
- * Sends the last of what it is given, one request at a time: while one is on its way, those that come meanwhile
- * replace one another. So a drag of a slider follows the server's own pace and never floods it.
+ * Sends values one request at a time. While a request is pending, a newer value replaces the one that waits. So a
+ * slider drag never floods the server.
  */
 export class LastWins<T, R> {
   private waiting: { readonly value: T } | null = null;
@@ -8,7 +8,7 @@ export class LastWins<T, R> {
 
   constructor(
     private readonly send: (value: T) => Promise<R>,
-    /** last: nothing newer waits. */
+    /** last: no newer value waits. */
     private readonly done: (reply: R, value: T, last: boolean) => void,
   ) {}
 
@@ -21,7 +21,7 @@ export class LastWins<T, R> {
     if (!this.running) void this.run();
   }
 
-  /** Forgets what has not been sent yet. */
+  /** Drops the value that waits. */
   drop(): void {
     this.waiting = null;
   }

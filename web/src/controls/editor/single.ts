@@ -5,12 +5,12 @@ import { numberField } from "./number_field.ts";
 import { choiceField, textField, vectorField } from "./other_fields.ts";
 import { type Path, pathText } from "./tables.ts";
 
-/** Numbers that one sets once and does not try out by sliding. */
+/** Numbers that are set once, so a slider is no help. */
 const NO_SLIDER = new Set(["rate_hz", "encoder_step_mm"]);
 
 const idOf = (path: Path): string => `scene-${pathText(path).replace(/[[\].]+/g, "-")}`;
 
-/** The input of one field, which writes what it is given into the draft. */
+/** The input of one field. It writes its value to the draft. */
 export function single(field: Field, path: Path, draft: Draft): Input {
   const change = (value: unknown): void => draft.set(path, value);
   switch (field.kind) {

@@ -3,11 +3,11 @@ import type { App } from "../../state/app.ts";
 import type { Draft } from "./draft.ts";
 
 const SOLVERS = [
-  ["exact", "Exact", "Solves the contact of each tick, K06 (21)–(23), to the last bit."],
-  ["paper", "Paper", "Takes one explicit step a tick, K06 (33)."],
+  ["exact", "Exact", "Solves the contact of each tick exactly, K06 (21)–(23)."],
+  ["paper", "Paper", "Takes one explicit step per tick, K06 (33)."],
 ] as const;
 
-/** Which solver makes the force, and whether the other one is drawn beside it. */
+/** Chooses the solver that makes the force, and whether the plots compare it with the other one. */
 export function solverControl(app: App, draft: Draft): HTMLElement {
   const buttons = SOLVERS.map(([name, label, help]) => {
     const input = element("input", { type: "radio", name: "solver", value: name });
@@ -36,11 +36,11 @@ export function solverControl(app: App, draft: Draft): HTMLElement {
     { class: "solver" },
     element("legend", {}, "Solver"),
     element("div", { class: "segmented" }, ...buttons.map(({ root }) => root)),
-    element("label", { class: "check" }, compare, "draw the other solver’s force"),
+    element("label", { class: "check" }, compare, "Compare with the other solver"),
     element(
       "p",
       { class: "quiet" },
-      "Paper takes one step a tick towards the solution, as printed, and may tremble where walls are thin; exact finds it.",
+      "Exact finds each tick’s solution. Paper takes one step per tick, as printed; it can chatter in thin walls.",
     ),
   );
 }

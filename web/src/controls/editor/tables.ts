@@ -1,4 +1,4 @@
-/** A scene file's tables as values that never change: every edit is a new whole, which makes undo a list of wholes. */
+/** A scene file's tables as immutable values. Every edit returns a new value, so undo is a list of values. */
 
 export type Value = unknown;
 export type Tables = Readonly<Record<string, unknown>>;
@@ -25,7 +25,7 @@ export function getAt(whole: Value, path: Path): Value {
   return here;
 }
 
-/** The whole with `value` at `path`; tables that lack on the way are made. `undefined` takes the key out. */
+/** A copy of `whole` with `value` at `path`. Missing tables on the path are created; `undefined` removes the key. */
 export function setAt<T extends Value>(whole: T, path: Path, value: Value): T {
   const [part, ...rest] = path;
   if (part === undefined) return value as T;
@@ -41,7 +41,7 @@ export function setAt<T extends Value>(whole: T, path: Path, value: Value): T {
   return table as T;
 }
 
-/** `key` replaced by another key of the same place, as one of a pair by the other: the order of keys stays. */
+/** Replaces `key` by another key at the same place, as one key of a pair by the other. The order of keys stays. */
 export function replaceKey(table: Tables, key: string, other: string, value: Value): Tables {
   const entries = Object.entries(table).map(([name, old]) => (name === key ? [other, value] : [name, old]));
   return Object.fromEntries(entries) as Tables;
@@ -61,10 +61,7 @@ export function moved<T>(items: readonly T[], from: number, to: number): T[] {
   return rest;
 }
 
-/**
- * A copy right behind the one at `at`, with a name of its own and, where it has a place, behind it along its
- * normal.
- */
+/** Inserts a copy after the membrane at `at`, with a new name, and placed behind it along its normal. */
 export function duplicated(items: readonly Tables[], at: number): Tables[] {
   const original = items[at];
   if (!original) return [...items];
@@ -94,7 +91,7 @@ export function freeName(name: string, taken: ReadonlySet<unknown>): string {
   for (let n = 2; ; n++) if (!taken.has(`${stem} ${n}`)) return `${stem} ${n}`;
 }
 
-/** Whether two wholes hold the same, whatever the order of their keys. */
+/** Whether two values are equal; the order of keys does not matter. */
 export function same(a: Value, b: Value): boolean {
   if (Object.is(a, b)) return true;
   if (typeof a !== "object" || typeof b !== "object" || !a || !b || Array.isArray(a) !== Array.isArray(b)) return false;

@@ -1,11 +1,11 @@
-/** What was, what is and what was undone. Steps of one `topic` that follow closely, as a drag makes them, are one. */
+/** An undo history. Quick steps of one `topic`, as in a drag, are merged into one. */
 export class Undo<T> {
   private past: T[] = [];
   private future: T[] = [];
   private topic = "";
   private at = Number.NEGATIVE_INFINITY;
 
-  /** together: ms within which steps of one topic are one. */
+  /** together: steps of one topic within this time are merged, ms; most: longest history. */
   constructor(
     private present: T,
     private readonly together = 800,
@@ -33,13 +33,13 @@ export class Undo<T> {
     return begins;
   }
 
-  /** Another present that is no step of the person's. */
+  /** Replaces the present value without a step. */
   replace(present: T): void {
     this.present = present;
     this.topic = "";
   }
 
-  /** Begins anew. */
+  /** Clears the history. */
   forget(present: T): void {
     this.replace(present);
     this.past = [];

@@ -9,10 +9,10 @@ const STATES = {
   "not measured": ["?", "not-measured"],
 } as const;
 
-/** A goal's state for people: the file's word is "open" where nothing is decided yet. */
+/** The word for a goal's state: "not decided" for "open". */
 export const stateWord = (state: ExerciseGoal["state"]): string => (state === "open" ? "not decided" : state);
 
-/** Goals with their state as a sign, a colour and, for a screen reader, a word. */
+/** A list of goals. A sign, a colour and, for a screen reader, a word show each state. */
 export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
   return element(
     "ul",
@@ -24,15 +24,16 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
         { class: style },
         element("span", { class: "sign", "aria-hidden": "true" }, sign),
         element("span", { class: "only-read" }, `${stateWord(state)}: `),
-        // A grid's cells: the sign, and all of the words.
+        // One element, because the sign and the text are the two cells of a grid.
         element("span", {}, text, ...(state === "not measured" ? [element("em", {}, " (not measured)")] : [])),
       );
     }),
   );
 }
 
-/** Passed or not; a pass says if something was not measured. */
+/** Passed or not passed. A pass tells if a goal was not measured. */
 export function verdict({ passed, goals }: Pick<ExerciseResult, "passed" | "goals">): string {
   if (!passed) return "✕ not passed";
-  return goals.some(({ state }) => state === "not measured") ? "✓ passed, but not everything was measured" : "✓ passed";
+  const unmeasured = goals.some(({ state }) => state === "not measured");
+  return unmeasured ? "✓ passed, but not everything was measured" : "✓ passed";
 }

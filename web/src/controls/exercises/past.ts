@@ -5,7 +5,7 @@ import { saveAddress } from "../download.ts";
 import { dateText } from "../recordings/words.ts";
 import { verdict } from "./goals.ts";
 
-/** A person's results, the latest first. */
+/** A person's results, latest first. */
 export function pastResults(
   app: App,
   open: (result: ExerciseResult) => void,

@@ -4,7 +4,7 @@ import { Signal } from "../../state/signal.ts";
 const KEY = "punctura.person";
 export const LONGEST_NAME = 80;
 
-/** Who is practising; kept in this browser. */
+/** The name of the person who practises, stored in this browser. */
 export class Person {
   readonly name: Signal<string>;
 
@@ -19,7 +19,7 @@ export class Person {
   }
 }
 
-/** The browser's storage; null where it has none for this page. */
+/** The browser's local storage; null if the page may not use it. */
 export function storage(): Storage | null {
   try {
     return globalThis.localStorage ?? null;
@@ -35,7 +35,7 @@ export function personField(person: Person): HTMLElement {
     class: "words",
     maxlength: LONGEST_NAME,
     autocomplete: "name",
-    placeholder: "whose results these are",
+    placeholder: "for your results",
   });
   box.addEventListener("change", () => person.set(box.value));
   person.name.watch((name) => {

@@ -17,10 +17,7 @@ import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
 import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 
-/**
- * The dialog of one result: passed or not and why, the measures, a drawing of the attempt. `again` starts another
- * attempt.
- */
+/** The dialog of a result: verdict, reasons, measures and a drawing of the attempt. `again` starts a new attempt. */
 export function openResult(
   app: App,
   result: ExerciseResult,
@@ -32,7 +29,7 @@ export function openResult(
   const place = element("div", { class: "trace-place", "aria-live": "polite" });
   const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
     element("button", { type: "button", class: `small ${kind}`, onclick: act }, label);
-  const look = button("Look at it again", () => void 0);
+  const look = button("Replay", () => void 0);
   look.disabled = true;
   const dialog = element(
     "dialog",
@@ -104,7 +101,7 @@ function table(result: ExerciseResult): HTMLElement {
   return element("table", { class: "metrics" }, element("tbody", {}, ...rows));
 }
 
-/** Draws the attempt from a thinned trace. Returns its recording; null if it no longer exists. */
+/** Draws the attempt from a decimated trace. Returns its recording; null if it no longer exists. */
 async function drawTrace(
   app: App,
   result: ExerciseResult,
@@ -116,7 +113,7 @@ async function drawTrace(
     place.append(element("p", { class: "quiet" }, "The attempt was not recorded."));
     return null;
   }
-  place.append(element("span", { class: "quiet" }, "Fetching the attempt…"));
+  place.append(element("span", { class: "quiet" }, "Loading the attempt…"));
   try {
     const told = await app.api.get(tracePath(result), { signal });
     const trace = (await told.json()) as RecordingTrace;
@@ -127,20 +124,20 @@ async function drawTrace(
     return entries.find(({ name }) => name === result.recording) ?? null;
   } catch (error) {
     if (!signal.aborted)
-      place.replaceChildren(element("p", { class: "quiet" }, `The attempt cannot be drawn: ${wordsOf(error)}`));
+      place.replaceChildren(element("p", { class: "quiet" }, `Cannot draw the attempt: ${wordsOf(error)}`));
     return null;
   }
 }
 
-/** Fetches every tick of the attempt for playback; null if that failed or was cancelled. */
+/** Loads every tick of the attempt for a replay; null if that failed or was cancelled. */
 async function fetchWhole(
   app: App,
   entry: RecordingEntry,
   place: HTMLElement,
   signal: AbortSignal,
 ): Promise<Source | null> {
-  const bar = element("progress", { max: 1, value: 0, "aria-label": "Fetching the attempt" });
-  const words = element("span", { class: "quiet" }, "Fetching every tick of the attempt…");
+  const bar = element("progress", { max: 1, value: 0, "aria-label": "Loading the attempt" });
+  const words = element("span", { class: "quiet" }, "Loading every tick of the attempt…");
   const line = element("p", {}, words, bar);
   place.append(line);
   try {
@@ -150,14 +147,14 @@ async function fetchWhole(
     };
     return (await fetchSource(app.api, entry, progress, signal)).source;
   } catch (error) {
-    if (!signal.aborted) app.say(`The attempt cannot be fetched: ${wordsOf(error)}`);
+    if (!signal.aborted) app.say(`Cannot load the attempt: ${wordsOf(error)}`);
     return null;
   } finally {
     line.remove();
   }
 }
 
-/** From a little before the first touch on. */
+/** URL of the attempt's trace, from shortly before the first contact. */
 export function tracePath({ recording, events }: Pick<ExerciseResult, "recording" | "events">): string {
   const touch = events.find(({ what }) => what === "touch")?.time ?? 0;
   return `${recordingPath(recording)}/trace?from=${Math.max(touch - BEFORE, 0).toFixed(3)}`;

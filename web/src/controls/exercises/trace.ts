@@ -1,14 +1,14 @@
 import type { ExerciseOverview, RecordingTrace } from "../../wire/files.ts";
 import type { MembraneView } from "../../wire/messages.ts";
 
-/** An attempt along its time: s, m below the first surface, N; NaN where there is nothing. */
+/** The curves of an attempt: time (s), depth below the first surface (m) and force (N); NaN is a gap. */
 export interface Trace {
   readonly time: Float64Array;
   readonly depth: Float64Array;
   readonly force: Float64Array;
 }
 
-/** A layer by its depth below the first surface, m; a space without an end has an infinite bottom. */
+/** A layer's top and bottom below the first surface, m. The bottom is infinite for a space without an end. */
 export interface Layer {
   readonly name: string;
   readonly top: number;
@@ -34,7 +34,7 @@ export function layersOf(membranes: readonly MembraneView[]): Layer[] {
   });
 }
 
-/** The part of the space that an exercise wants to be reached; null where its first membrane is not there. */
+/** The part of the space that the exercise asks to reach; null if the scene does not have its first membrane. */
 export function spaceOf(
   layers: readonly Layer[],
   exercise: Pick<ExerciseOverview, "space" | "space_to" | "goal_from">,
@@ -50,9 +50,8 @@ export function spaceOf(
 }
 
 /**
- * A curve in as few points as a drawing of `columns` pixels can show: of each column its first, lowest, highest and
- * last
- * value, in their order. Places without a number break the curve.
+ * Decimates a curve for a drawing of `columns` pixels: the first, lowest, highest and last value of each column, in
+ * their order. NaN breaks the curve.
  */
 export function envelope(
   x: ArrayLike<number>,
@@ -88,7 +87,7 @@ export function envelope(
   return pieces;
 }
 
-/** The first index whose time is not before `time`. */
+/** The first index with a time not before `when`. */
 export function indexAt(time: ArrayLike<number>, when: number): number {
   let [low, high] = [0, time.length];
   while (low < high) {

@@ -12,10 +12,10 @@ const DEPTH = { top: 26, height: 150 };
 const FORCE = { top: 200, height: 96 };
 const HEIGHT = 330;
 const COLUMNS = WIDTH - LEFT - RIGHT;
-/** s in front of the first touch, where the drawing begins. */
+/** The drawing begins this long before the first contact, s. */
 export const BEFORE = 0.5;
 const WORD = 52; // px
-const BELOW = 2e-3; // m that are drawn of a space without an end
+const BELOW = 2e-3; // m: drawn depth of a space without an end
 
 type Scale = (value: number) => number;
 const scale =
@@ -23,10 +23,7 @@ const scale =
   (value) =>
     start + ((value - from) / (to - from)) * length;
 
-/**
- * Depth and model force of an attempt along its time, with layers, the space to reach, pops, and the peak as
- * measured.
- */
+/** Draws depth and model force of an attempt over time, with layers, the space to reach, pops and the peak force. */
 export function traceDrawing(
   trace: Trace,
   layers: readonly Layer[],
@@ -81,7 +78,7 @@ export function traceDrawing(
     element(
       "figcaption",
       { class: "quiet" },
-      "The depth is that of the tip. Goals are judged by the model, in which a wall is pushed ahead of the tip before it is pierced.",
+      "This is the tip’s depth. Goals use the model’s depth: the tip pushes a wall ahead before it pierces it.",
     ),
   );
 }
@@ -105,11 +102,11 @@ function axis(values: readonly number[], y: Scale, label: string, { top, height 
   ];
 }
 
-/** Pops as lines, the first arrival in the space, and when it was decided. */
+/** Lines for the pops, the first arrival in the space and the decision. */
 function marks(result: ExerciseResult, touch: number, x: Scale, end: number): SVGElement[] {
   const { time_to_target: arrival, total_time: total } = result.metrics;
   const pops = result.events.filter(({ what, time }) => what === "pop" && time <= end);
-  // The words of two marks that stand close together go to both sides.
+  // If two marks are close together, their labels go to opposite sides.
   const near = arrival !== null && total > 0 && x(touch + total) - x(touch + arrival) < WORD;
   const upright = (kind: string, time: number, label: string, row: number, left = false): SVGElement[] => [
     svg("line", { class: kind, x1: x(time), x2: x(time), y1: DEPTH.top - 4, y2: FORCE.top + FORCE.height }),
@@ -168,8 +165,8 @@ function indexOfMost(values: Float64Array, from: number, to: number): number | n
 }
 
 function wordsOf({ events }: ExerciseResult): string {
-  const said = events
+  const pops = events
     .filter(({ what }) => what === "pop")
     .map(({ name, time }) => `through ${name} at ${time.toFixed(1)} s`);
-  return `Depth of the tip and model force along the time. ${said.join(", ")}.`;
+  return `Depth of the tip and model force over time. ${pops.join(", ")}.`;
 }

@@ -1,22 +1,20 @@
-import type { Hand } from "../../hand/hand.ts";
+import { type Hand, LARGEST_TILT_DEG } from "../../hand/hand.ts";
 import { element, everyFrame } from "../../panel.ts";
 
-const MOST_DEGREES = 75;
-
-/** The angle of the needle to the first membrane's normal. */
+/** A slider for the angle between the needle and the first membrane's normal. */
 export function angleRow(hand: Hand): HTMLElement {
   const slider = element("input", {
     type: "range",
     id: "hand-angle",
-    min: -MOST_DEGREES,
-    max: MOST_DEGREES,
+    min: -LARGEST_TILT_DEG,
+    max: LARGEST_TILT_DEG,
     step: 1,
     value: 0,
   });
   const figure = element("output", { class: "figure", for: "hand-angle" }, "–°");
   let shown: number | null = null;
   const show = (): void => {
-    if (!hand.pose()) return; // nothing is known yet
+    if (!hand.pose()) return; // no tick has arrived yet
     const degrees = Math.round((hand.tilt() * 180) / Math.PI);
     if (degrees === shown && slider.value === String(degrees)) return;
     shown = degrees;
@@ -29,7 +27,7 @@ export function angleRow(hand: Hand): HTMLElement {
     hand.setTilt((Number(slider.value) * Math.PI) / 180);
     show();
   });
-  // Others turn the needle, too: an exercise, strokes, another page.
+  // An exercise, strokes or another page can tilt the needle too.
   everyFrame(show);
   return element(
     "section",

@@ -9,7 +9,7 @@ export function whyBarred(app: App, hand: Hand): HTMLElement {
   const box = element("div", { class: "hand-why" }, words, takeControl(app));
   hand.barred.watch((why) => {
     words.textContent =
-      why ?? "Drag the needle in the picture. It lags where tissue holds it, and jumps where it gives way.";
+      why ?? "Drag the needle in the view. It lags while tissue holds it, and jumps when the tissue gives way.";
     box.classList.toggle("barred", why !== null);
   });
   return box;

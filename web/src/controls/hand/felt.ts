@@ -1,19 +1,20 @@
 import type { Source } from "../../state/source.ts";
 import type { MembraneEvent } from "../../wire/messages.ts";
+import { codeOf } from "../../wire/ticks.ts";
 
-const SLIDING_IN = 2;
-const SLIDING_OUT = 3;
+const SLIDING_IN = codeOf("phase", "sliding_in");
+const SLIDING_OUT = codeOf("phase", "sliding_out");
 const WINDOW_TICKS = 40; // 25 ms at 1600 Hz
-const LATE_TICKS = 800; // an event may come a little after its tick
+const LATE_TICKS = 800; // an event can arrive shortly after its tick
 
-/** What can be heard and felt of a source as its shown tick goes on: dry friction, and pops. */
+/** Finds what sound and vibration present of a source, as its shown tick advances: dry friction and pops. */
 export class Felt {
   private source: Source | null = null;
   private generation = -1;
   private last = -1;
   private readonly known = new Set<string>();
 
-  /** Power that dry friction takes in the shown tick, W: force times the speed of the proxy in the tissue. */
+  /** Power of dry friction at the shown tick, W: force times speed of the proxy in the tissue. */
   power(source: Source): number {
     const tick = source.shown();
     const { history } = source;
@@ -34,7 +35,7 @@ export class Felt {
     return sum;
   }
 
-  /** The pops since the last call. None after a jump to another place, or another run. */
+  /** The pops since the last call; none after a jump in time or to another run. */
   pops(source: Source): MembraneEvent[] {
     const tick = source.shown();
     if (tick === null) return [];

@@ -14,7 +14,7 @@ const LAG_UNKNOWN = "– mm";
 export const lagText = (metres: number | null): string =>
   metres === null ? LAG_UNKNOWN : `${(metres * 1e3).toFixed(2)} mm`;
 
-/** The places of hand and tip, and buttons that move the hand. */
+/** The positions of hand and tip, and buttons that move the hand. */
 export function placeRows(app: App, hand: Hand): HTMLElement {
   const cells = [0, 1].map(() => [0, 1, 2].map(() => element("td", {}, "–")));
   const lag = element("output", { class: "figure" }, LAG_UNKNOWN);
@@ -28,7 +28,7 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
   const table = element(
     "table",
     { class: "place" },
-    element("caption", { class: "only-read" }, "Places in mm"),
+    element("caption", { class: "only-read" }, "Positions in mm"),
     head,
     ...rows,
   );
@@ -51,9 +51,9 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
   return element(
     "section",
     { class: "rows" },
-    element("h3", {}, "Place, mm"),
+    element("h3", {}, "Position, mm"),
     table,
-    element("div", { class: "row" }, element("span", {}, "The tip is behind the hand by"), lag),
+    element("div", { class: "row" }, element("span", {}, "The tip lags the hand by"), lag),
     element(
       "div",
       { class: "row buttons" },
@@ -64,9 +64,9 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
   );
 }
 
-/** The keys that work while the picture has the focus. */
+/** The keys that work while the view has the focus. */
 export function keyHelp(): HTMLElement {
   const list = element("dl", {});
   for (const [keys, what] of KEYS) list.append(element("dt", {}, keys), element("dd", {}, what));
-  return element("details", { class: "keys" }, element("summary", {}, "Keys, while the picture has the focus"), list);
+  return element("details", { class: "keys" }, element("summary", {}, "Keys, while the view has the focus"), list);
 }

@@ -35,11 +35,11 @@ export function scriptRows(app: App, hand: Hand): HTMLElement {
     element(
       "div",
       { class: "row" },
-      element("label", { for: "stroke-period" }, "In and out in"),
+      element("label", { for: "stroke-period" }, "Period"),
       period,
       element("span", {}, "s"),
       button,
     ),
-    element("p", { class: "hint" }, "A recorded motion: see the tab Recordings."),
+    element("p", { class: "hint" }, "For a recorded motion, see the Recordings tab."),
   );
 }

@@ -11,7 +11,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
   const felt = new Felt();
   const sticks = new Sticks(hand);
   const pad = element("output", { class: "pad-name" });
-  const loud = element("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.6, "aria-label": "Loudness" });
+  const loud = element("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.6, "aria-label": "Volume" });
   const toggle = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Sound is off");
   loud.addEventListener("input", () => {
     sound.loudness = Number(loud.value);
@@ -22,7 +22,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
   };
   toggle.addEventListener("click", () => {
     const done = sound.on ? sound.switchOff() : sound.switchOn();
-    void done.then(show, () => app.say("This browser gives the page no sound."));
+    void done.then(show, () => app.say("This browser does not let the page play sound."));
   });
 
   let before = performance.now();
@@ -38,7 +38,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
       if (found) rumble(found, pop.drop);
     }
     if (sound.on) sound.setFriction(source.cursor.value === null || !source.live ? felt.power(source) : 0);
-    const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press one of its buttons";
+    const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press a button on it";
     if (words === name) return;
     name = words;
     pad.textContent = words;

@@ -1,11 +1,11 @@
-const LOUD_WATT = 0.012; // friction of half a newton at 25 mm/s
+const LOUD_WATT = 0.012; // W, full volume: friction of 0.5 N at 25 mm/s
 const FOLLOW_S = 0.03;
 const CLICK_S = 0.09;
 const FULL_DROP = 0.5; // N
 
 /**
- * Friction as noise, as loud as the power that it takes; a pop as a click, as loud as its drop. Made when first
- * switched on.
+ * Plays friction as noise and pops as clicks. The volume follows the friction's power and the pop's drop. The audio
+ * context is created when sound is first switched on.
  */
 export class Sound {
   private context: AudioContext | null = null;
@@ -19,7 +19,7 @@ export class Sound {
     return this.context?.state === "running";
   }
 
-  /** From a click only: browsers let no page sound by itself. */
+  /** Call it from a click: browsers block sound that the user did not start. */
   async switchOn(): Promise<void> {
     if (!this.context) this.make();
     await this.context?.resume();

@@ -5,7 +5,7 @@ import { FrameSplitter } from "../../wire/length_prefixed.ts";
 import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 import { gapBefore } from "./gap.ts";
 
-/** More would not fit a page's memory: 11 minutes at 1600 Hz. The rest is in the file. */
+/** Limit for the page's memory: 11 minutes at 1600 Hz. The rest stays in the file only. */
 export const MOST_TICKS = 1 << 20;
 
 export interface Progress {
@@ -14,11 +14,11 @@ export interface Progress {
 }
 export interface Fetched {
   readonly source: Source;
-  /** Ticks that were left out at the end; 0 where all are there. */
+  /** Number of ticks left out at the end. */
   readonly left: number;
 }
 
-/** A recording as a run to look at. Throws ApiError, FrameError, or what the signal says. */
+/** Loads a recording as a source. Throws ApiError, FrameError, or the signal's reason. */
 export async function fetchSource(
   api: Api,
   entry: RecordingEntry,

@@ -1,11 +1,12 @@
 import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 
+// biome-ignore format: a table
 const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy",
-  "direction",
-]; // biome-ignore format: a table
+  "time", "position", "axis", "tip", "model_force", "force", "ceiling",
+  "depth", "axial_force", "lower", "upper", "proxy", "direction",
+];
 
-/** Ticks that a recording lost, in front of `next`: no numbers, but each its place in time, so that the gap is seen. */
+/** The lost ticks of a recording before `next`: times but no values, so that the gap is visible. */
 export function gapBefore(next: TickBatch, from: number, period: number): TickBatch {
   const count = next.firstTick - from;
   const floats = Object.fromEntries(

@@ -4,13 +4,13 @@ import type { Source } from "../../state/source.ts";
 import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
 import { type Fetched, fetchSource, type Progress } from "./fetch_source.ts";
 
-const FINISHING = 10; // s that a file is given
-const KEPT = 2; // whole recordings are large: the one looked at and the one laid over it
+const FINISHING = 10; // s that the server gets to finalize a file
+const KEPT = 2; // recordings are large: only the shown one and the compared one stay in memory
 
-/** The recordings that there are, and those that the page has fetched. */
+/** The list of recordings, and the recordings that this page has loaded. */
 export class Library {
   readonly entries = new Signal<readonly RecordingEntry[] | null>(null);
-  /** Why there is no list; empty where there is one. */
+  /** The reason why there is no list; empty if there is one. */
   readonly trouble = new Signal("");
   private later: ReturnType<typeof setTimeout> | undefined;
   private readonly fetched = new Map<string, Fetched>();
@@ -30,7 +30,7 @@ export class Library {
     try {
       this.entries.value = await this.app.api.json<RecordingEntry[]>("/api/recordings");
       this.trouble.value = "";
-      // A file is finished beside the run, in a moment after its end.
+      // The server finalizes a file in the background, shortly after its end.
       const open = this.entries.value.some(({ finished, started }) => !finished && recent(started));
       if (open && again > 0) this.later = setTimeout(() => void this.refresh(again - 1), 1000);
     } catch (error) {
@@ -49,11 +49,11 @@ export class Library {
       if (source !== this.app.source.value && source !== this.app.overlay.value) this.fetched.delete(name);
     }
     if (!known && fetched.left > 0)
-      this.app.say(`${entry.name} is too long to be shown whole: the last ${fetched.left} ticks are left out here.`);
+      this.app.say(`${entry.name} is too long for this page: the last ${fetched.left} ticks are left out.`);
     return fetched.source;
   }
 
-  /** The name of what is fetched as this source. */
+  /** The name of the recording of this source. */
   nameOf(source: Source | null): string | null {
     for (const [name, fetched] of this.fetched) if (fetched.source === source) return name;
     return null;

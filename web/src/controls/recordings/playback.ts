@@ -1,12 +1,12 @@
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
 
-/** Where a run is being looked at, in ticks: it goes on with the time that it is told, never by itself. */
+/** The playback position in a recording, in ticks. It moves only by calls, never by itself. */
 export class Playback {
   playing = false;
   speed = 1;
   private at: number;
 
-  /** first, last: ticks; rate: ticks a second. */
+  /** first, last: ticks; rate: ticks per second. */
   constructor(
     readonly first: number,
     readonly last: number,
@@ -23,7 +23,7 @@ export class Playback {
     return this.tick >= this.last;
   }
 
-  /** At the end it begins again from the first tick. */
+  /** Starts playback; at the end, from the first tick again. */
   play(): void {
     if (this.atEnd) this.at = this.first;
     this.playing = this.last > this.first;
@@ -35,13 +35,13 @@ export class Playback {
   seek(tick: number): void {
     this.at = Math.min(Math.max(Math.round(tick), this.first), this.last);
   }
-  /** A tick, or some, to or fro; that pauses. */
+  /** Pauses, and moves by some ticks. */
   step(ticks: number): void {
     this.pause();
     this.seek(this.tick + ticks);
   }
 
-  /** Lets `seconds` go by; stops at the end. Returns whether the tick has changed. */
+  /** Plays `seconds`, and stops at the end. Returns whether the tick has changed. */
   advance(seconds: number): boolean {
     if (!this.playing) return false;
     const before = this.tick;
@@ -50,7 +50,7 @@ export class Playback {
     return this.tick !== before;
   }
 
-  /** The next of these ticks behind the present one, or the one before it; null where there is none. */
+  /** The nearest of these ticks after (1) or before (-1) the present one; null if there is none. */
   neighbour(ticks: readonly number[], direction: 1 | -1): number | null {
     const ordered = [...ticks].sort((a, b) => direction * (a - b));
     return ordered.find((tick) => direction * (tick - this.tick) > 0) ?? null;

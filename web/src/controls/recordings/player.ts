@@ -4,7 +4,7 @@ import type { Source } from "../../state/source.ts";
 import { Playback, SPEEDS } from "./playback.ts";
 import { eventText } from "./words.ts";
 
-/** While a recording is looked at: what it is, where in it one is, and the way back. Else nothing at all. */
+/** The replay bar: name, scrubber and Back to live. Hidden while the live run is shown. */
 export const playerBar: Panel = (host, app) => {
   host.hidden = true;
   let close = (): void => {};
@@ -48,7 +48,7 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
     min: playback.first,
     max: playback.last,
     step: 1,
-    "aria-label": "Time in the recording; arrow keys go tick by tick",
+    "aria-label": "Time in the recording; arrow keys move by one tick",
   });
   track.addEventListener("input", () => go(Number(track.value)));
   const marks = element("div", { class: "marks", "aria-hidden": "true" });
@@ -82,18 +82,18 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
     element(
       "div",
       { class: "banner", role: "status" },
-      element("span", { class: "quiet" }, "Looking at"),
+      element("span", { class: "quiet" }, "Replay of"),
       " ",
       element("strong", { title: source.title }, source.title),
     ),
     element(
       "div",
       { class: "transport", role: "group", "aria-label": "Replay" },
-      button("⇤", "To the event before", () => go(playback.neighbour(events(), -1))),
-      button("‹", "A tick back (left arrow)", stepped(-1)),
+      button("⇤", "Previous event", () => go(playback.neighbour(events(), -1))),
+      button("‹", "Back one tick (left arrow)", stepped(-1)),
       play,
-      button("›", "A tick on (right arrow)", stepped(1)),
-      button("⇥", "To the next event", () => go(playback.neighbour(events(), 1))),
+      button("›", "Forward one tick (right arrow)", stepped(1)),
+      button("⇥", "Next event", () => go(playback.neighbour(events(), 1))),
     ),
     element("div", { class: "track" }, marks, track),
     time,
@@ -118,7 +118,7 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
     act();
   };
   host.addEventListener("keydown", keys);
-  // Whoever moves the cursor elsewhere, in a plot, moves the scrubber.
+  // A plot can move the cursor too; the scrubber follows it.
   const unwatch = source.cursor.watch((tick) => {
     if (tick !== null && tick !== playback.tick) go(tick);
   });

@@ -5,14 +5,14 @@ import { words } from "../editor/problems.ts";
 import { wordsOf } from "./library.ts";
 import { countText } from "./words.ts";
 
-/** Record and stop, and how it goes meanwhile. */
+/** The buttons Record and Stop, and the state of the recording. */
 export function recordControl(app: App): HTMLElement {
   const name = element("input", {
     type: "text",
     class: "words",
     maxlength: 80,
     placeholder: "Name, or date and time",
-    "aria-label": "Name of the recording; without one it gets date and time",
+    "aria-label": "Name of the recording; the default is date and time",
     "aria-describedby": "record-error",
     autocomplete: "off",
   });
@@ -29,10 +29,10 @@ export function recordControl(app: App): HTMLElement {
     error.textContent = "";
     name.removeAttribute("aria-invalid");
     const wish = name.value.trim();
-    // Told at the field, not as a message of the page.
+    // A refusal is shown at the field, not as a message of the page.
     const refusal = await app.engine
       .ask(recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) })
-      .then((reply) => (reply.ok ? "" : reply.text || "it was refused"))
+      .then((reply) => (reply.ok ? "" : reply.text || "the request was refused"))
       .catch(wordsOf);
     button.disabled = blockOf(app, "scene") !== null;
     if (refusal) {
@@ -48,9 +48,10 @@ export function recordControl(app: App): HTMLElement {
     current.hidden = now === null;
     current.textContent = now?.name ?? "";
     line.classList.toggle("on", recording);
+    const trouble = now?.trouble ? `. ${now.trouble}` : "";
     line.textContent = now
-      ? `${now.seconds.toFixed(1)} s, ${countText(now.rows)} ticks, ${countText(now.lost)} lost${now.trouble ? `. ${now.trouble}` : ""}`
-      : "Begins a new run: force comes back once the tip is outside tissue.";
+      ? `${now.seconds.toFixed(1)} s, ${countText(now.rows)} ticks, ${countText(now.lost)} lost${trouble}`
+      : "Starts a new run. Force returns once the tip is outside tissue.";
   });
   watchBlock(
     app,

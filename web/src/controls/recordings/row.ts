@@ -7,11 +7,11 @@ import { bytesText, countText, dateText, lengthText } from "./words.ts";
 
 const FORMATS = ["parquet", "csv", "mcap"] as const;
 
-/** A recording in the list: what it is, and what can be done with it. */
+/** A recording in the list, with its facts and buttons. */
 export interface Row {
   readonly root: HTMLElement;
-  /** Shows whether it is looked at, and whether it lies over the plots. */
-  mark(shown: boolean, laidOver: boolean): void;
+  /** Shows whether it is replayed, and whether the plots compare with it. */
+  mark(shown: boolean, compared: boolean): void;
   block(blocked: boolean, simulated: boolean): void;
 }
 
@@ -20,17 +20,17 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
     element("button", { type: "button", class: "small", title: help, onclick: act }, label);
   const line = element("p", { class: "error", role: "alert" });
-  const bar = element("progress", { max: 1, value: 0, "aria-label": `Fetching ${entry.name}` });
+  const bar = element("progress", { max: 1, value: 0, "aria-label": `Loading ${entry.name}` });
   const bytes = element("span", { class: "quiet bytes" });
   let fetching: AbortController | null = null;
-  const cancel = button("Cancel", "Stops fetching", () => fetching?.abort());
+  const cancel = button("Cancel", "Stop loading", () => fetching?.abort());
   const progress = element("div", { class: "tools progress", hidden: true }, bar, bytes, cancel);
 
   const fetched = async (then: (source: typeof app.live) => void): Promise<void> => {
     if (fetching) return;
     line.textContent = "";
     fetching = new AbortController();
-    // What is there at once needs no bar.
+    // The progress bar appears only if loading takes a while.
     const soon = setTimeout(() => {
       progress.hidden = false;
       tools.hidden = true;
@@ -55,15 +55,15 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
     }
   };
 
-  const look = button("Look", "Look at it in the same view, with a scrubber", () => {
+  const look = button("Replay", "Show it in the view, with a scrubber", () => {
     if (app.source.value !== app.live && library.nameOf(app.source.value) === entry.name) app.source.value = app.live;
     else void fetched((source) => (app.source.value = source));
   });
-  const lay = button("Lay over", "Draws it over the plots, to compare", () => {
+  const compare = button("Compare", "Draw it in the plots too", () => {
     if (library.nameOf(app.overlay.value) === entry.name) app.overlay.value = null;
     else void fetched((source) => (app.overlay.value = source));
   });
-  const repeat = button("Hand repeats", "The simulated hand follows the tip of this recording", () => {
+  const repeat = button("Repeat", "The simulated hand follows the tip of this recording", () => {
     app.source.value = app.live;
     void app.ask({ do: "play_motion", recording: entry.name });
   });
@@ -80,15 +80,15 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   });
 
   const sure = element("span", { class: "tools sure", hidden: true });
-  const remove = button("Delete", "Deletes the file; asks once more", () => ask(true));
+  const remove = button("Delete", "Delete the file; asks for confirmation", () => ask(true));
   const ask = (open: boolean): void => {
     sure.hidden = !open;
     remove.hidden = open;
     save.hidden = open;
     (open ? keep : remove).focus();
   };
-  const keep = button("Keep", "Keeps it", () => ask(false));
-  const really = button("Delete for good", "The file is gone then", async () => {
+  const keep = button("Keep", "Keep the file", () => ask(false));
+  const really = button("Delete for good", "This cannot be undone", async () => {
     try {
       await library.remove(entry);
     } catch (error) {
@@ -110,7 +110,7 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   const tools = element(
     "div",
     { class: "row-tools" },
-    element("div", { class: "tools" }, look, lay, repeat),
+    element("div", { class: "tools" }, look, compare, repeat),
     element("div", { class: "tools" }, save, element("span", { class: "gap" }), remove, sure),
   );
   const root = element(
@@ -128,12 +128,13 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   );
   return {
     root,
-    mark: (shown, laidOver) => {
+    mark: (shown, compared) => {
       root.classList.toggle("shown", shown);
-      look.textContent = shown ? "Back to live" : "Look";
+      look.textContent = shown ? "Back to live" : "Replay";
       look.setAttribute("aria-pressed", String(shown));
-      lay.textContent = laidOver ? "Take off" : "Lay over";
-      lay.setAttribute("aria-pressed", String(laidOver));
+      compare.textContent = compared ? "Stop" : "Compare";
+      compare.title = compared ? "Stop comparing" : "Draw it in the plots too";
+      compare.setAttribute("aria-pressed", String(compared));
     },
     block: (blocked, simulated) => {
       repeat.disabled = blocked && blockOf(app)?.remedy !== "live";

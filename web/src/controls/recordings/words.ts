@@ -1,6 +1,6 @@
 import type { MembraneEvent } from "../../wire/messages.ts";
 
-/** `21 Nov, 17:04`; the year where it is another one. Empty for no date. */
+/** `21 Nov, 17:04`, with the year if it is not the present one. Empty for an invalid date. */
 export function dateText(iso: string, now = new Date()): string {
   const date = new Date(iso);
   if (Number.isNaN(date.getTime())) return "";
@@ -21,16 +21,16 @@ export function bytesText(bytes: number, total: number): string {
   return `${(bytes / unit[0]).toFixed(1)} of ${(total / unit[0]).toFixed(1)} ${unit[1]}`;
 }
 
-/** 19680 as `19 680`, with a narrow space that does not break. */
+/** 19680 as `19 680`, with a narrow no-break space. */
 export const countText = (count: number): string => String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 
 const WHAT: Readonly<Record<MembraneEvent["what"], string>> = {
-  touch: "touches",
-  pop: "is through",
-  out: "has left",
+  touch: "contact with",
+  pop: "pop through",
+  out: "out of",
 };
 
-/** `1.204 s: is through skin, 0.31 N less`. */
+/** `1.204 s: pop through skin, 0.31 N less`. */
 export function eventText(event: MembraneEvent): string {
   const drop = event.what === "pop" && event.drop > 0 ? `, ${event.drop.toFixed(2)} N less` : "";
   return `${event.time.toFixed(3)} s: ${WHAT[event.what]} ${event.name}${drop}`;

@@ -8,9 +8,8 @@ export interface Box {
 const GAP = 12;
 
 /**
- * Where a popover of this size goes: beside the box where there is room, right, left, below, above; else inside its
- * lower
- * right corner. Always within the window.
+ * The place of a popover of this size: right, left, below or above the box, the first that has space; else inside the
+ * box's lower right corner. Always within the window.
  */
 export function placed(
   box: Box,

@@ -1,33 +1,39 @@
-/** What the tour says, and where. */
+/** A step of the tour. */
 export interface Step {
   readonly title: string;
   readonly text: string;
-  /** Selectors of what it points at; the first that is in sight counts. */
+  /** Selectors of the part that it explains; the first visible one counts. */
   readonly at: readonly string[];
-  /** A tab that is opened for it. */
+  /** The tab that it opens. */
   readonly tab?: string;
 }
 
 export const STEPS: readonly Step[] = [
   {
     title: "A needle and tissue",
-    text: "The needle is at rest in front of the membranes. What you see is computed 1600 times a second, by the model that also makes the force on a haptic device.",
+    text:
+      "The needle rests in front of the membranes. The view shows the model that makes the force on a haptic device, " +
+      "computed 1600 times per second.",
     at: [".panel.view"],
   },
   {
     title: "Push it",
-    text: "Drag in the picture: your hand pulls the needle, and the tissue holds it back. It lags, sticks, and then gives way. Turn the mouse wheel to go deeper; the Hand tab has keys and strokes that go by themselves.",
+    text:
+      "Drag in the view: your hand pulls the needle, and the tissue holds it back. The needle sticks, lags your hand " +
+      "and then slips. Turn the mouse wheel to go deeper. The Hand tab has keys and automatic strokes.",
     at: [".panel.view"],
     tab: "hand",
   },
   {
     title: "The pop",
-    text: "When the slanted tip is through a membrane the force drops at once: that is the pop. The plots keep every tick of it. The shaded band is all that friction can hold at that depth.",
+    text:
+      "When the slanted tip is through a membrane, the force drops at once: this is the pop. The plots keep every " +
+      "tick of it. The shaded band shows the forces at which friction holds the needle at each depth.",
     at: [".panel.force-depth"],
   },
   {
     title: "Change the tissue",
-    text: "Here is the scene. Drag a slider and feel the change at once; the band follows. Undo takes it back.",
+    text: "This is the scene. Drag a slider and feel the change at once; the band follows. Undo reverts it.",
     at: [".panel.side"],
     tab: "scene",
   },

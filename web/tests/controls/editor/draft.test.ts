@@ -20,7 +20,7 @@ function begin(): { app: App; engine: FakeEngine; draft: Draft } {
   return { app, engine, draft };
 }
 
-test("a drag sends the whole tables, few of them, the last for certain", async () => {
+test("a drag sends whole tables, only some of them, but always the last", async () => {
   const { engine, draft, app } = begin();
   for (let i = 1; i <= 50; i++) draft.set(FRICTION, 0.08 + i / 1000);
   await settle();
@@ -30,14 +30,14 @@ test("a drag sends the whole tables, few of them, the last for certain", async (
     tables: { name: "Venipuncture", membrane: { 1: { friction: 0.13 } } },
   });
   expect(app.live.scene.value?.number).toBe(2);
-  expect(draft.marks.value).toEqual({ undo: true, redo: false, reset: true });
+  expect(draft.can.value).toEqual({ undo: true, redo: false, reset: true });
   draft.undo();
   expect(draft.at(FRICTION)).toBe(0.08);
   await settle();
-  expect(draft.marks.value).toEqual({ undo: false, redo: true, reset: false });
+  expect(draft.can.value).toEqual({ undo: false, redo: true, reset: false });
 });
 
-test("a refused change stays, with its problem, until it is put right", async () => {
+test("a refused change stays, with its problem, until it is corrected", async () => {
   const { draft, app } = begin();
   draft.set(FRICTION, 3.6);
   await settle();
@@ -53,7 +53,7 @@ test("another scene takes the draft's place; the same one, as for a recording, k
   draft.set(FRICTION, 0.2);
   await settle();
   engine.say({ kind: "scene", scene: { ...app.live.scene.value!, number: 0 }, new_run: true, run: 1 });
-  expect(draft.marks.value.undo).toBe(true);
+  expect(draft.can.value.undo).toBe(true);
   engine.say({
     kind: "scene",
     scene: { ...app.live.scene.value!, number: 0, tables: { name: "other" } },
@@ -61,5 +61,5 @@ test("another scene takes the draft's place; the same one, as for a recording, k
     run: 1,
   });
   expect(draft.tables.value).toEqual({ name: "other" });
-  expect(draft.marks.value).toEqual({ undo: false, redo: false, reset: false });
+  expect(draft.can.value).toEqual({ undo: false, redo: false, reset: false });
 });

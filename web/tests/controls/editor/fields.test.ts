@@ -40,7 +40,7 @@ test("pairs of which exactly one is given are found, and what the gauges are in 
   expect(gauge.sizes[gauge.options.indexOf(21)]).toBe(0.8);
 });
 
-test("what is no schema is refused", () => {
+test("a value that is not a schema is refused", () => {
   expect(() => sceneForm(null)).toThrow(SchemaError);
-  expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x is of no kind");
+  expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x has a type");
 });

@@ -8,14 +8,14 @@ test("a point and a comma are both a decimal mark", () => {
   expect(parseNumber("−3e-2")).toEqual({ value: -0.03 });
 });
 
-test("everything else is told in words", () => {
-  expect(parseNumber("")).toEqual({ wrong: "Give a number." });
+test("anything else gives a message", () => {
+  expect(parseNumber("")).toEqual({ wrong: "Enter a number." });
   expect(parseNumber("1,600.5")).toHaveProperty("wrong", expect.stringContaining("more than one point or comma"));
-  expect(parseNumber("3,6 N")).toHaveProperty("wrong", "Write the number alone, 3,6, without a unit.");
+  expect(parseNumber("3,6 N")).toHaveProperty("wrong", "Enter only the number, 3,6, without a unit.");
   expect(parseNumber("thick")).toHaveProperty("wrong", expect.stringContaining("is not a number"));
   expect(parseNumber("0x10")).toHaveProperty("wrong");
   expect(parseNumber("1e999")).toHaveProperty("wrong", expect.stringContaining("too large"));
-  expect(parseNumber("1.5", true)).toEqual({ wrong: "Give a whole number." });
+  expect(parseNumber("1.5", true)).toEqual({ wrong: "Enter a whole number." });
 });
 
 test("numbers are written without the noise of a double", () => {

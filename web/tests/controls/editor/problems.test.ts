@@ -5,7 +5,7 @@ import schema from "../support/schema.json";
 
 const shown = new Set(["membrane[1].friction", "membrane[0].point_mm", "needle.tip_angle_deg"]);
 
-test("a problem is told at the field that caused it, all others at the top", () => {
+test("a problem is shown at the field that caused it, all others at the top", () => {
   const { fields, others } = sortProblems(
     [
       { path: "membrane[1].friction", value: "3.6", reason: "insertion needs mu tan(theta) < 1, K06 (7); here 1.035" },
@@ -20,7 +20,7 @@ test("a problem is told at the field that caused it, all others at the top", () 
   expect(others).toEqual(["servo.rate_hz = 0: Must be greater than 0.", "The loop has ended."]);
 });
 
-test("a bound of the schema is told before anything is sent", () => {
+test("a broken bound of the schema is reported before sending", () => {
   const needle = sceneForm(schema).tables[0]!;
   const angle = needle.fields.find(({ key }) => key === "tip_angle_deg")!;
   expect(boundProblem(angle, 90)).toContain("between 0 and pi/2");

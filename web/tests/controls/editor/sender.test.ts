@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { LastWins } from "../../../src/controls/editor/sender.ts";
 
-test("one request is on its way at a time, and the last of those that wait is the next", async () => {
+test("only one request is pending at a time, and the newest waiting value is next", async () => {
   const sent: number[] = [];
   const told: [number, boolean][] = [];
   const answers: (() => void)[] = [];

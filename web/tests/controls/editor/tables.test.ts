@@ -27,7 +27,7 @@ test("a value is put in without changing what was", () => {
   expect(getAt(next, ["membrane", 0])).toBe(getAt(tables, ["membrane", 0]));
 });
 
-test("tables that lack are made, and undefined takes a key out", () => {
+test("missing tables are created, and undefined removes a key", () => {
   expect(setAt({}, ["servo", "solver"], "paper")).toEqual({ servo: { solver: "paper" } });
   expect(setAt({ servo: { solver: "paper" } }, ["servo", "solver"], undefined)).toEqual({ servo: {} });
 });
@@ -48,7 +48,7 @@ test("a copy lies behind its membrane, under a name of its own", () => {
   expect(freeName("skin 2", new Set(["skin 2", "skin 3"]))).toBe("skin 4");
 });
 
-test("wholes are the same whatever the order of their keys", () => {
+test("values are equal whatever the order of their keys", () => {
   expect(same({ a: [1, { b: 2 }], c: 3 }, { c: 3, a: [1, { b: 2 }] })).toBe(true);
   expect(same({ a: 1 }, { a: 1, b: 2 })).toBe(false);
   expect(same([1, 2], { 0: 1, 1: 2 })).toBe(false);

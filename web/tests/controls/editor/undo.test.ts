@@ -12,7 +12,7 @@ test("steps of one drag are one step to undo", () => {
   expect([undo.redo(), undo.redo(), undo.redo()]).toEqual([2, 3, 4]);
 });
 
-test("a new step forgets what was undone", () => {
+test("a new step clears the redo history", () => {
   const undo = new Undo("a");
   undo.step("b", "", 0);
   undo.undo();

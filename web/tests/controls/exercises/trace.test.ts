@@ -6,7 +6,7 @@ import json from "../support/scene.json";
 
 const { membranes } = json as unknown as SceneView;
 
-test("a trace is what the server has thinned; null is nothing", () => {
+test("a trace is the server's decimated curves; null is a gap", () => {
   const { time, depth, force } = traceOf({ time: [1, 2, 3], depth: [0.1, null, 0.2], force: [5, null, 6], membranes });
   expect([[...time], [...depth], [...force]]).toEqual([
     [1, 2, 3],

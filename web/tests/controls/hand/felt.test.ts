@@ -16,7 +16,7 @@ function source(ticks: number): Source {
 }
 
 describe("pops", () => {
-  it("are told once, when the shown tick has come to them", () => {
+  it("are reported once, when the shown tick reaches them", () => {
     const felt = new Felt();
     const shown = source(4000);
     shown.events.value = [event(100, "touch"), event(500), event(900)];

@@ -41,11 +41,11 @@ test("a recording is a source with its scene, events and every tick, lost ones e
   expect(told.at(-1)).toBe(1);
 });
 
-test("a recording that is gone is told in words", async () => {
+test("a missing recording gives a message", async () => {
   await expect(fetchSource(fakeFiles({}), entry, () => {})).rejects.toThrow("There is no such file any more.");
 });
 
-test("a stream that breaks off is told", async () => {
+test("a stream that ends early is an error", async () => {
   const broken = { ...files, [`${path}/ticks`]: new Response(stream.slice(0, -8)) };
   await expect(fetchSource(fakeFiles(broken), entry, () => {})).rejects.toThrow("ends within a frame");
 });

@@ -19,7 +19,7 @@ test("a popover stands beside its panel", () => {
   });
 });
 
-test("where there is no room it stands inside, and never outside the window", () => {
+test("without space it goes inside, and never outside the window", () => {
   const { left, top, side } = placed({ left: 0, top: 0, width: 360, height: 900 }, size, { width: 360, height: 640 });
   expect(side).toBe("inside");
   expect(left).toBeGreaterThanOrEqual(12);
