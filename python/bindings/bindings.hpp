@@ -50,7 +50,7 @@ using Triple = std::array<double, 3>;
 /// Three numbers of one call. A NumPy vector is read at once, not element by element.
 struct Point {
   Triple numbers;
-  Vector3d vector() const noexcept { return Vector3d(numbers); }
+  Vector3d to_vector() const noexcept { return Vector3d(numbers); }
 };
 
 /// Hands a buffer to NumPy without a copy, in the shape given.

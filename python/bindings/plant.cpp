@@ -92,14 +92,15 @@ void bind_plant(nb::module_& m) {
             std::vector<Problem> problems;
             const Range above{0, no_bound, true, true, "must be greater than 0"},
                 from{0, no_bound, false, true, "must be 0 or more"};
-            if (!vector(start).allFinite())
+            if (!to_vector(start).allFinite())
               problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
-            if (!vector(end).allFinite()) problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
+            if (!to_vector(end).allFinite())
+              problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
             check_field({"duration", "", "s", above}, duration, "strokes", problems);
             check_field({"rest", "", "s", from}, rest, "strokes", problems);
             check_field({"variation", "", "-", from}, variation, "strokes", problems);
             raise_if(problems);
-            new (self) Strokes{vector(start), vector(end), count, duration, rest, variation};
+            new (self) Strokes{to_vector(start), to_vector(end), count, duration, rest, variation};
           },
           nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
           nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
@@ -122,10 +123,10 @@ void bind_plant(nb::module_& m) {
 
   nb::class_<Target>(m, "Target", "A target that somebody moves in steps; the hand follows smoothly.")
       .def(
-          "__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); },
+          "__init__", [](Target* self, const Triple& position) { new (self) Target(to_vector(position)); },
           nb::arg("position"), "position: m")
       .def(
-          "move_to", [](Target& t, const Triple& position) { t.move_to(vector(position)); }, nb::arg("position"),
+          "move_to", [](Target& t, const Triple& position) { t.move_to(to_vector(position)); }, nb::arg("position"),
           "position: m");
 }
 

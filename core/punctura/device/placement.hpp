@@ -25,18 +25,18 @@ struct Placement {
 class Placer {
  public:
   explicit Placer(const Placement& p) noexcept
-      : rotation_(matrix(p.rotation)), offset_(vector(p.offset)), scale_(p.scale), tip_offset_(p.tip_offset) {}
+      : rotation_(matrix(p.rotation)), offset_(to_vector(p.offset)), scale_(p.scale), tip_offset_(p.tip_offset) {}
 
   DeviceSample to_scene(const DeviceSample& from) const noexcept {
     DeviceSample to = from;
-    const Vector3d axis = rotated(vector(from.axis));
-    to.axis = plain(axis);
-    to.position = plain(rotated(scale_ * vector(from.position)) + offset_ + tip_offset_ * axis);
+    const Vector3d axis = rotated(to_vector(from.axis));
+    to.axis = to_array(axis);
+    to.position = to_array(rotated(scale_ * to_vector(from.position)) + offset_ + tip_offset_ * axis);
     return to;
   }
   std::array<double, 3> to_device(const std::array<double, 3>& force) const noexcept {
     const auto& [x, y, z] = rotation_;  // the transposed matrix is the inverse rotation
-    return plain(x * force[0] + y * force[1] + z * force[2]);
+    return to_array(x * force[0] + y * force[1] + z * force[2]);
   }
 
  private:

@@ -63,7 +63,7 @@ class EventFinderOf {
       const MembraneRecord& record = tick.membranes[i];
       Site& site = now_.sites[i];
       const auto enter = [&] {
-        return now_.crossing(site, entry_cosine(site.normal, vector(record.direction), vector(tick.axis)));
+        return now_.crossing(site, entry_cosine(site.normal, to_vector(record.direction), to_vector(tick.axis)));
       };
       site.contact.step(record, enter, [&](EventKind what, double before, double after) {
         events_[found_++] = {what, static_cast<std::uint32_t>(i), tick.tick, tick.time, record.depth, before, after};
@@ -93,8 +93,8 @@ class EventFinderOf {
     template <typename LawOf>
     Laid(const Scene& given, LawOf&& law_of) : scene(given) {
       for (const PlacedMembrane& placed : scene.membranes)
-        sites.push_back({law_of(scene.needle, placed.membrane, sites.size()), vector(placed.point),
-                         vector(placed.inward_normal).stableNormalized(), placed.membrane.thickness});
+        sites.push_back({law_of(scene.needle, placed.membrane, sites.size()), to_vector(placed.point),
+                         to_vector(placed.inward_normal).stableNormalized(), placed.membrane.thickness});
     }
 
     Crossing crossing(const Site& site, double cos_beta) const noexcept {

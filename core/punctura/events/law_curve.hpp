@@ -51,7 +51,7 @@ inline constexpr double steepest_drawn = 85 * std::numbers::pi / 180;
 /// axis: of the stylus. entered: the direction held since entry, if the needle is inside; else NaN.
 inline double drawn_obliquity(const Scene& scene, const PlacedMembrane& placed, const Vector3d& axis,
                               const Vector3d& entered) noexcept {
-  const Vector3d normal = vector(placed.inward_normal);
+  const Vector3d normal = to_vector(placed.inward_normal);
   const Vector3d direction = entered.allFinite() ? entered : scene.direction == Direction::motion ? normal : axis;
   const double cosine = direction.dot(normal) / (normal.norm() * direction.norm());
   if (!std::isfinite(cosine)) return 0;

@@ -136,9 +136,9 @@ static_assert(std::is_trivially_copyable_v<Vector3d>);
 
 /// Plain storage for records, which are double.
 template <OneNumber Scalar>
-std::array<double, 3> plain(const Vector3<Scalar>& v) noexcept {
+std::array<double, 3> to_array(const Vector3<Scalar>& v) noexcept {
   return v.template cast<double>().array();
 }
-inline Vector3d vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
+inline Vector3d to_vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

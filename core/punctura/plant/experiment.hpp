@@ -22,7 +22,7 @@ class Experiment {
       : servo_(build(scene)),
         plant_(device, hand, 1 / scene.servo.rate, seed),
         motion_(std::move(motion)),
-        axis_(plain(axis.stableNormalized())),
+        axis_(to_array(axis.stableNormalized())),
         period_(1 / scene.servo.rate) {
     plant_.place(motion_.at(0).position);
     servo_.arm();
@@ -32,15 +32,15 @@ class Experiment {
   const Snapshot& step() noexcept {
     const double time = static_cast<double>(tick_) * period_;
     desired_ = motion_.at(time);
-    const Snapshot& snapshot = servo_.step({tick_, time, plain(plant_.measured()), axis_, 0, true});
+    const Snapshot& snapshot = servo_.step({tick_, time, to_array(plant_.measured()), axis_, 0, true});
     tip_ = plant_.tip();
-    plant_.step(vector(snapshot.force), desired_);
+    plant_.step(to_vector(snapshot.force), desired_);
     ++tick_;
     return snapshot;
   }
 
   /// Of the last step.
-  ExperimentExtra extra() const noexcept { return {plain(tip_), plain(desired_.position)}; }
+  ExperimentExtra extra() const noexcept { return {to_array(tip_), to_array(desired_.position)}; }
   const Desired& desired() const noexcept { return desired_; }  ///< of the last step
   const Vector3d& tip() const noexcept { return tip_; }         ///< true position at the last step, m
   Motion& motion() noexcept { return motion_; }

@@ -48,7 +48,8 @@ class BasicInputGate {
 
   Fault step(const DeviceSample& s) noexcept {
     if (!s.healthy) return Fault::device;
-    const Vector position = vector(s.position).template cast<Scalar>(), axis = vector(s.axis).template cast<Scalar>();
+    const Vector position = to_vector(s.position).template cast<Scalar>(),
+                 axis = to_vector(s.axis).template cast<Scalar>();
     if (!position.allFinite() || !std::isfinite(s.time)) return Fault::non_finite_input;
     if (axis_is_used_) {
       if (!axis.allFinite()) return Fault::non_finite_input;

@@ -25,8 +25,8 @@ auto insertion_of(const Scene& scene, LawOf&& law_of) {
   for (const PlacedMembrane& placed : scene.membranes) {
     const Membrane& m = placed.membrane;
     const BasicMembrane<Scalar> membrane{to(m.stiffness), to(m.precompression), to(m.friction), to(m.thickness)};
-    const Vector3d normal = vector(placed.inward_normal).stableNormalized();
-    sites.push_back({law_of(needle, membrane, sites.size()), vector(placed.point).template cast<Scalar>(),
+    const Vector3d normal = to_vector(placed.inward_normal).stableNormalized();
+    sites.push_back({law_of(needle, membrane, sites.size()), to_vector(placed.point).template cast<Scalar>(),
                      normal.template cast<Scalar>()});
   }
   const Scalar period = to(1 / scene.servo.rate);

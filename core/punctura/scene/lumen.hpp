@@ -14,11 +14,11 @@ namespace punctura {
 
 /// The membrane that a needle meets next after membrane i, going straight in. Empty if there is no other.
 inline std::optional<std::size_t> next_behind(const Scene& scene, std::size_t i) noexcept {
-  const Vector3d here = vector(scene.membranes[i].point), inward = vector(scene.membranes[i].inward_normal);
+  const Vector3d here = to_vector(scene.membranes[i].point), inward = to_vector(scene.membranes[i].inward_normal);
   std::optional<std::size_t> next;
   double nearest = no_bound;
   for (std::size_t j = 0; j < scene.membranes.size(); ++j) {
-    const double way = (vector(scene.membranes[j].point) - here).dot(inward);
+    const double way = (to_vector(scene.membranes[j].point) - here).dot(inward);
     if (j == i || !(way > 0 && way < nearest)) continue;
     nearest = way;
     next = j;

@@ -9,7 +9,7 @@ namespace punctura {
 
 template <typename Scalar>
 MembraneRecord record_of(const SpaceTick<Scalar>& t) noexcept {
-  return {t.depth, t.axial_force, t.band.lower, t.band.upper, plain(t.proxy), plain(t.direction), t.phase};
+  return {t.depth, t.axial_force, t.band.lower, t.band.upper, to_array(t.proxy), to_array(t.direction), t.phase};
 }
 
 /// On a line, the needle's direction is the first axis.

@@ -87,8 +87,8 @@ class ServoStepOf {
 
     Vector model_force = Vector::Zero(), force = Vector::Zero();
     if (fault_ == Fault::none) {
-      model_force = insertion_.step(vector(sample.position).template cast<Scalar>(),
-                                    vector(sample.axis).template cast<Scalar>().stableNormalized());
+      model_force = insertion_.step(to_vector(sample.position).template cast<Scalar>(),
+                                    to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) {
@@ -147,9 +147,9 @@ class ServoStepOf {
   void record(const DeviceSample& sample, const Vector& model_force, const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
-    snapshot_.tip = plain(insertion_.tip());
-    snapshot_.model_force = plain(model_force);
-    snapshot_.force = plain(force);
+    snapshot_.tip = to_array(insertion_.tip());
+    snapshot_.model_force = to_array(model_force);
+    snapshot_.force = to_array(force);
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
     snapshot_.limit = limiter_.limit();

@@ -174,8 +174,8 @@ TEST_CASE("the events of another law are those of its breaks") {
   for (std::uint64_t k = 0; k < 3000; ++k) {
     insertion.step({0, 1e-3 - speed * static_cast<double>(k), 0}, {0, -1, 0});
     const auto& tick = insertion.proxies()[0].tick();
-    const MembraneRecord record{tick.depth, tick.axial_force,      tick.band.lower, tick.band.upper,
-                                {},         plain(tick.direction), tick.phase};
+    const MembraneRecord record{tick.depth, tick.axial_force,         tick.band.lower, tick.band.upper,
+                                {},         to_array(tick.direction), tick.phase};
     for (const Event& event : finder.step(EventTick{k, 0, {}, 0, {&record, 1}})) found.push_back(event);
   }
   REQUIRE(kinds(found) == std::vector{EventKind::touch, EventKind::pop});

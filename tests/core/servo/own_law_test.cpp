@@ -68,7 +68,7 @@ TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
 
   // disarmed: the model runs, the device gets nothing
   hand.move_to(step, 1e-3, [&](const Snapshot& s) {
-    model.step(vector(s.sample.position), vector(s.sample.axis));
+    model.step(to_vector(s.sample.position), to_vector(s.sample.axis));
     CHECK(s.force == std::array<double, 3>{});
   });
 
@@ -76,8 +76,8 @@ TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
   step.arm();
   int ramped = 0;
   Snapshot last = hand.move_to(step, -10e-3, [&](const Snapshot& s) {
-    const Vector3d force = model.step(vector(s.sample.position), vector(s.sample.axis));
-    REQUIRE(vector(s.model_force) == force);
+    const Vector3d force = model.step(to_vector(s.sample.position), to_vector(s.sample.axis));
+    REQUIRE(to_vector(s.model_force) == force);
     REQUIRE(std::abs(s.force[1]) <= std::abs(s.model_force[1]));
     ramped += s.limit == Limit::ramp;
   });

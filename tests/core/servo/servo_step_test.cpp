@@ -214,7 +214,7 @@ TEST_CASE("a membrane that is taken away takes only its own force with it") {
     CHECK(s.membranes[0].phase == Phase::sticking);
     CHECK(s.membranes[0].axial_force == doctest::Approx(before.membranes[1].axial_force).epsilon(0.05));
     CHECK(s.membranes[1].phase == Phase::outside);
-    CHECK((vector(s.force) - vector(before.force)).norm() < 0.02);  // the rest is faded out
+    CHECK((to_vector(s.force) - to_vector(before.force)).norm() < 0.02);  // the rest is faded out
   }
 }
 

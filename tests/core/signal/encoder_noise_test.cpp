@@ -141,7 +141,7 @@ TEST_CASE("at the simulated Omni in a hand that rests in tissue, nothing buzzes 
       double square = 0;
       for (int k = 0; k < 11200; ++k) {
         const Snapshot& s = experiment.step();
-        const Vector3d force = vector(s.force);
+        const Vector3d force = to_vector(s.force);
         if (k >= 4800) {
           square += (force - previous).squaredNorm() / 6400;
           (k < 8000 ? begin : mean) += experiment.tip() / 3200;
