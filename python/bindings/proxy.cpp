@@ -129,7 +129,7 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
   auto problems = problems_of(needle, membrane);
   check_coupling(coupling, period, problems);
   if (!to_vector(point).allFinite())
-    problems.push_back({"point", detail::offender(point), "must be three finite numbers"});
+    problems.push_back({"point", detail::value_to_show(point), "must be three finite numbers"});
   raise_if(problems);
   return {{ThickLaw(needle, membrane), to_vector(point), unit(inward_normal, "inward_normal"), coupling, period,
            solver_from(solver)},
