@@ -18,10 +18,9 @@ struct Crossing {
   double cos_beta;
   double far_face;  ///< the tip's point passes the far face: U, K06 (17)
   double peak;      ///< the insertion friction -Phi_I has its maximum
-  double
-      through;  ///< the slanted face has passed the far face, and only the shaft is inside: X + U, K06 (18). See crossing()
-  double again;  ///< a tip that comes back to this depth can pop again
-  double shaft;  ///< friction of the shaft alone, N: F U / H, K06 (18)
+  double through;   ///< the slanted face passes the far face, X + U, K06 (18); see crossing()
+  double again;     ///< a tip that comes back to this depth can pop again
+  double shaft;     ///< friction of the shaft alone, N: F U / H, K06 (18)
 };
 
 /// After a pop, the tip must come back by this fraction of its length before the peak. Then it can pop again.
