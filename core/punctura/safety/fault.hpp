@@ -23,11 +23,14 @@ constexpr const char* describe(Fault fault) noexcept {
   switch (fault) {
     case Fault::none: return "no fault";
     case Fault::non_finite_input:
-      return "the device reported a position or direction that is not a number: check its cable and calibration, then reset";
+      return "the device reported a position or direction that is not a number: "
+             "check its cable and calibration, then reset";
     case Fault::bad_axis:
-      return "the device reported a needle direction that is not of length 1: check its orientation sensors, or set direction = \"motion\" in the scene";
+      return "the device reported a needle direction that is not of length 1: "
+             "check its orientation sensors, or set direction = \"motion\" in the scene";
     case Fault::position_jump:
-      return "the device's position moved faster than a hand can: check its cable, calibrate it, then reset with the tip outside tissue";
+      return "the device's position moved faster than a hand can: "
+             "check its cable, calibrate it, then reset with the tip outside tissue";
     case Fault::stale_sample: return "the device sent no new sample in time: check its connection, then reset";
     case Fault::missed_deadline: return "a tick came too late: close programs that keep the processor busy, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";
