@@ -1,5 +1,5 @@
-# Installs the headers of core and, where it is built, the runtime: find_package(punctura) gives punctura::punctura,
-# find_package(punctura COMPONENTS runtime) gives punctura::loop and punctura::runtime as well.
+# Installs the headers of core, and the runtime if it is built. find_package(punctura) provides punctura::punctura.
+# find_package(punctura COMPONENTS runtime) also provides punctura::loop and punctura::runtime.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -20,5 +20,6 @@ configure_package_config_file(cmake/punctura-config.cmake.in ${CMAKE_CURRENT_BIN
   INSTALL_DESTINATION ${punctura_config_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
   COMPATIBILITY SameMinorVersion ${architecture})
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
   DESTINATION ${punctura_config_dir})

@@ -1,9 +1,9 @@
-// What the model may give out over a closed cycle, with work counted as f(k).(p(k) - p(k-1)).
+// The work of the model on the hand over a closed cycle: the sum of f(k).(p(k) - p(k-1)).
 //
-// f = K e + B (e - e_prev) / T makes sum f.de >= 0 over a cycle that begins and ends at e = 0 (backward Euler
-// dissipates), and friction makes sum f.dq <= 0 as long as the band holds 0. dp = dq - de, so nothing is given out.
-// Where A_O < 0 the upper edge is below zero in the tip zone, and the membrane pushes the needle out: that much, and
-// no more.
+// A cycle begins and ends at e = 0. The coupling f = K e + B (e - e_prev) / T dissipates (backward Euler), so
+// sum f.de >= 0. Friction gives sum f.dq <= 0 if the band contains 0. With dp = dq - de, sum f.dp <= 0.
+// If A_O < 0, the upper edge is below 0 on the tip, and the membrane expels the needle. The work of the expulsion is
+// then the upper bound.
 #include <doctest/doctest.h>
 
 #include "../support/cases.hpp"
