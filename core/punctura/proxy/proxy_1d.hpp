@@ -56,7 +56,7 @@ class Proxy1d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
+  const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
   const L& law() const noexcept { return params_.law; }
   Scalar force() const noexcept { return state_.f; }                ///< f(k), N, on the device
   Scalar offset() const noexcept { return state_.e; }               ///< e(k) = q(k) - p(k), m

@@ -74,7 +74,7 @@ class Proxy3d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
+  const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
   const L& law() const noexcept { return params_.law; }
   const Vector& force() const noexcept { return state_.f; }          ///< f(k), N
   const Vector& offset() const noexcept { return state_.e; }         ///< e(k) = q(k) - p(k), m
