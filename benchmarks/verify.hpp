@@ -40,7 +40,7 @@ inline void check_exact(punctura::Scene scene, const Motion& motion) {
   std::vector<punctura::Vector3d> e_prev(scene.membranes.size(), punctura::Vector3d::Zero());
   double worst = 0;
   for (std::size_t k = 0; k < motion.tip.size(); ++k) {
-    insertion.step(punctura::vector(motion.tip[k]), punctura::vector(motion.axis[k]));
+    insertion.step(punctura::to_vector(motion.tip[k]), punctura::to_vector(motion.axis[k]));
     for (std::size_t i = 0; i < e_prev.size(); ++i) {
       const auto& proxy = insertion.proxies()[i];
       const punctura::Vector3d coupling = K * proxy.offset() + B * (proxy.offset() - e_prev[i]) / T;  // K06 (21)

@@ -1,8 +1,9 @@
-# Every header of core and runtime alone in a file of its own: what it needs it must include, and it must compile without a warning.
-# Included twice, so that a missing #pragma once shows.
+# Compiles each header of core and runtime in its own source file. A header must include all that it needs and must
+# compile without a warning. Each source file includes its header twice, to detect a missing #pragma once.
 function(punctura_add_header_checks target)
   file(GLOB_RECURSE core CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/core/*.hpp)
-  file(GLOB_RECURSE runtime CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/runtime ${PROJECT_SOURCE_DIR}/runtime/*.hpp)
+  file(GLOB_RECURSE runtime CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/runtime
+       ${PROJECT_SOURCE_DIR}/runtime/*.hpp)
   set(headers ${core} ${runtime})
   set(sources)
   foreach(header IN LISTS headers)
@@ -14,6 +15,6 @@ function(punctura_add_header_checks target)
   add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
   target_link_libraries(${target} PRIVATE punctura::runtime punctura_warnings)
   if(NOT MSVC)
-    target_compile_options(${target} PRIVATE -O0 -g0 -fno-sanitize=all)  # nobody runs them
+    target_compile_options(${target} PRIVATE -O0 -g0 -fno-sanitize=all)  # this code never runs
   endif()
 endfunction()

@@ -1,6 +1,6 @@
-# Installs the headers of core and, where it is built, the runtime: find_package(punctura) gives punctura::punctura,
-# find_package(punctura COMPONENTS runtime) gives punctura::loop and punctura::runtime as well.
-# A wheel has the headers of both, but no compiled runtime: a static library of one compiler's may not link with another's.
+# Installs the headers of core, and the runtime if it is built. find_package(punctura) provides punctura::punctura.
+# find_package(punctura COMPONENTS runtime) also provides punctura::loop and punctura::runtime. A wheel has the headers of
+# both, but no compiled runtime: the static library of one compiler may not link with code of another.
 include(CMakePackageConfigHelpers)
 
 set(punctura_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/punctura)
@@ -22,5 +22,6 @@ configure_package_config_file(cmake/punctura-config.cmake.in ${CMAKE_CURRENT_BIN
   INSTALL_DESTINATION ${punctura_config_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
   COMPATIBILITY SameMinorVersion ${architecture})
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
   DESTINATION ${punctura_config_dir})

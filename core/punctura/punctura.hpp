@@ -1,4 +1,4 @@
-// All of Punctura's core in one include. A project that needs one room may include that room's headers alone.
+// Includes all headers of Punctura's core. A project that needs only one folder can include its headers instead.
 #pragma once
 
 #include "punctura/events/event_finder.hpp"

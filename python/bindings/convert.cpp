@@ -98,7 +98,7 @@ Solver solver_from(const std::string& name, const std::string& path) {
 std::string name_of(Solver solver) { return solver == Solver::exact ? "exact" : "paper"; }
 
 Vector3d unit(const Triple& direction, const std::string& path) {
-  const Vector3d v = vector(direction);
+  const Vector3d v = to_vector(direction);
   if (!v.allFinite() || !(v.stableNorm() > 0))
     raise_if({{path, direction[0], "must be a direction: three finite numbers, at least one of them not 0"}});
   return v.stableNormalized();

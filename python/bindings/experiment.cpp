@@ -36,7 +36,7 @@ class AnyExperiment {
   void move_to(const Triple& position) {
     auto* with_target = std::get_if<Experiment<Target>>(&experiment_);
     if (!with_target) throw nb::type_error("move_to needs an experiment whose motion is a Target");
-    with_target->motion().move_to(vector(position));
+    with_target->motion().move_to(to_vector(position));
   }
 
   std::uint64_t ticks() const noexcept { return ticks_; }

@@ -54,7 +54,7 @@ void make_replay(ReplayDevice* self, const nb::object& positions, const nb::obje
     samples[k].sequence = sequence.empty() ? k : sequence[k];
     samples[k].time = time.empty() ? static_cast<double>(k) / rate : time[k];
     samples[k].position = {p[0], p[1], p[2]};
-    samples[k].axis = plain(axis[k]);
+    samples[k].axis = to_array(axis[k]);
     samples[k].buttons = buttons.empty() ? 0 : buttons[k];
     samples[k].healthy = healthy.empty() || healthy[k] != 0;
     samples[k].motor_temperature = temperature.empty() ? 0 : temperature[k];

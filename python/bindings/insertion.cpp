@@ -23,7 +23,7 @@ struct SceneInsertion : Insertion, OneThread {
 
 std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& axis) {
   check_places(p.data(), 3, "p");
-  return plain(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
+  return to_array(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
 }
 
 nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
@@ -41,10 +41,10 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
   const OneThread::Running running(insertion);
   make_ticks(n, [&](std::size_t i) {
     const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
-    record.sample.position = plain(position);
-    record.sample.axis = plain(direction);
-    record.force = plain(insertion.step(position, direction));
-    record.tip = plain(insertion.tip());
+    record.sample.position = to_array(position);
+    record.sample.axis = to_array(direction);
+    record.force = to_array(insertion.step(position, direction));
+    record.tip = to_array(insertion.tip());
     for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.proxies()[j].tick());
     columns.add(record);
   });
@@ -99,8 +99,9 @@ void bind_insertion(nb::module_& m) {
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.")
       .def_prop_ro(
-          "tip", [](const SceneInsertion& i) { return plain(i.tip()); }, "The conditioned position, m")
-      .def_prop_ro("force", [](const SceneInsertion& i) { return plain(i.force()); }, "The force of the last tick, N");
+          "tip", [](const SceneInsertion& i) { return to_array(i.tip()); }, "The conditioned position, m")
+      .def_prop_ro(
+          "force", [](const SceneInsertion& i) { return to_array(i.force()); }, "The force of the last tick, N");
 }
 
 }  // namespace punctura::bindings

@@ -96,14 +96,15 @@ void bind_plant(nb::module_& m) {
             std::vector<Problem> problems;
             const Range above{0, no_bound, true, true, "must be greater than 0"},
                 from{0, no_bound, false, true, "must be 0 or more"};
-            if (!vector(start).allFinite())
+            if (!to_vector(start).allFinite())
               problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
-            if (!vector(end).allFinite()) problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
+            if (!to_vector(end).allFinite())
+              problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
             check_field({"duration", "", "s", above}, duration, "strokes", problems);
             check_field({"rest", "", "s", from}, rest, "strokes", problems);
             check_field({"variation", "", "-", from}, variation, "strokes", problems);
             raise_if(problems);
-            new (self) Strokes{vector(start), vector(end), count, duration, rest, variation};
+            new (self) Strokes{to_vector(start), to_vector(end), count, duration, rest, variation};
           },
           nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
           nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
@@ -113,10 +114,10 @@ void bind_plant(nb::module_& m) {
           "duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); },
           nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.")
       .def_prop_ro(
-          "start", [](const Strokes& s) { return as_tuple(plain(s.start)); },
+          "start", [](const Strokes& s) { return as_tuple(to_array(s.start)); },
           nb::sig("def start(self) -> tuple[float, float, float]"), "m")
       .def_prop_ro(
-          "end", [](const Strokes& s) { return as_tuple(plain(s.end)); },
+          "end", [](const Strokes& s) { return as_tuple(to_array(s.end)); },
           nb::sig("def end(self) -> tuple[float, float, float]"), "m")
       .def_ro("count", &Strokes::count, "Number of strokes there and back")
       .def_ro("duration", &Strokes::duration, "One way, s")
@@ -143,12 +144,12 @@ void bind_plant(nb::module_& m) {
   def_repr(target, "<Target at {0.position} m>");
   target
       .def(
-          "__init__", [](Target* self, const Triple& position) { new (self) Target(vector(position)); },
+          "__init__", [](Target* self, const Triple& position) { new (self) Target(to_vector(position)); },
           nb::arg("position"), "position: m")
       .def_prop_ro(
-          "position", [](const Target& t) { return plain(t.position()); }, "Where it was moved last, m")
+          "position", [](const Target& t) { return to_array(t.position()); }, "Where it was moved last, m")
       .def(
-          "move_to", [](Target& t, const Triple& position) { t.move_to(vector(position)); }, nb::arg("position"),
+          "move_to", [](Target& t, const Triple& position) { t.move_to(to_vector(position)); }, nb::arg("position"),
           "position: m");
 }
 

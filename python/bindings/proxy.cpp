@@ -130,10 +130,10 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
                       double period, std::string solver) {
   auto problems = problems_of(needle, membrane);
   check_coupling(coupling, period, problems);
-  if (!vector(point).allFinite())
-    problems.push_back({"point", detail::offender(point), "must be three finite numbers"});
+  if (!to_vector(point).allFinite())
+    problems.push_back({"point", detail::value_to_show(point), "must be three finite numbers"});
   raise_if(problems);
-  return {{ThickLaw(needle, membrane), vector(point), unit(inward_normal, "inward_normal"), coupling, period,
+  return {{ThickLaw(needle, membrane), to_vector(point), unit(inward_normal, "inward_normal"), coupling, period,
            solver_from(solver)},
           {},
           needle,
@@ -158,9 +158,9 @@ nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::obje
   const OneThread::Running running(proxy);
   make_ticks(n, [&](std::size_t i) {
     const Vector3d position(p.data() + 3 * i), axis_now = axes[i].stableNormalized();
-    record.sample.position = plain(position);
-    record.sample.axis = plain(axis_now);
-    record.force = plain(proxy.step(position, axis_now));
+    record.sample.position = to_array(position);
+    record.sample.axis = to_array(axis_now);
+    record.force = to_array(proxy.step(position, axis_now));
     record.membranes[0] = record_of(proxy.tick());
     columns.add(record);
   });
@@ -251,7 +251,7 @@ void bind_proxy(nb::module_& m) {
           [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
             check_places(p.data(), 3, "p");
-            return plain(proxy.step(Vector3d(p), direction(axis)));
+            return to_array(proxy.step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"),
           "Makes one tick. Returns the force on the device, N.\n\n"
@@ -261,7 +261,7 @@ void bind_proxy(nb::module_& m) {
           [](const SpaceProxy& proxy, const Triple& p, const Triple& axis) {
             proxy.must_rest();
             check_places(p.data(), 3, "p");
-            return plain(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
+            return to_array(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),
@@ -270,13 +270,13 @@ void bind_proxy(nb::module_& m) {
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
            "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.")
       .def_prop_ro(
-          "force", [](const SpaceProxy& p) { return plain(p.force()); }, "f(k), N")
+          "force", [](const SpaceProxy& p) { return to_array(p.force()); }, "f(k), N")
       .def_prop_ro(
-          "offset", [](const SpaceProxy& p) { return plain(p.offset()); }, "e(k) = q(k) - p(k), m")
+          "offset", [](const SpaceProxy& p) { return to_array(p.offset()); }, "e(k) = q(k) - p(k), m")
       .def_prop_ro(
-          "position", [](const SpaceProxy& p) { return plain(p.position()); }, "q(k), m")
+          "position", [](const SpaceProxy& p) { return to_array(p.position()); }, "q(k), m")
       .def_prop_ro(
-          "direction", [](const SpaceProxy& p) { return plain(p.direction()); },
+          "direction", [](const SpaceProxy& p) { return to_array(p.direction()); },
           "b, the direction at entry, kept while inside")
       .def_prop_ro("axial_force", &SpaceProxy::axial_force, "b.f(k), N")
       .def_prop_ro("depth", &SpaceProxy::depth,

@@ -105,7 +105,7 @@ void bind_runtime(nb::module_& m) {
             made.seed = seed;
             made.real_time = real_time;
             made.ticks = ticks;
-            made.axis = plain(unit(axis, "axis"));
+            made.axis = to_array(unit(axis, "axis"));
             made.realtime.priority = priority;
             made.realtime.processor = processor;
             new (self) SimulatedDevice(laid_out(motion, seed), made);
@@ -122,7 +122,7 @@ void bind_runtime(nb::module_& m) {
       .def(
           "point",
           [](SimulatedDevice& d, const Triple& axis, std::uint32_t buttons) {
-            d.point(plain(unit(axis, "axis")), buttons);
+            d.point(to_array(unit(axis, "axis")), buttons);
           },
           nb::arg("axis"), nb::arg("buttons") = 0, "Sets the direction of the stylus and the held buttons (bits).")
       .def(

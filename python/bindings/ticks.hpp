@@ -58,8 +58,8 @@ inline void check_direction(const Vector3d& axis, const std::string& name) {
 /// The needle's direction as a unit vector. Throws ValueError for length 0.
 inline Vector3d direction(const Triple& axis) {
   check_finite(axis.data(), 3, "axis");
-  check_direction(vector(axis), "axis");
-  return vector(axis).stableNormalized();
+  check_direction(to_vector(axis), "axis");
+  return to_vector(axis).stableNormalized();
 }
 
 }  // namespace punctura::bindings

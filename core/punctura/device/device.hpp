@@ -1,4 +1,4 @@
-// What every haptic device is to the servo loop: the one interface with inheritance.
+// The interface between the servo loop and a haptic device. It is the only interface in core with virtual functions.
 #pragma once
 
 #include <array>
@@ -13,30 +13,32 @@ namespace punctura {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What a device says of itself. NaN where it does not say.
+/// The properties of a device, as it reports them. A number is NaN if the device does not report it.
 struct DeviceInfo {
   std::string backend, model, serial;
   bool has_orientation = false;
   unsigned button_count = 0;
-  double max_force = unknown;         ///< N, for a moment
-  double continuous_force = unknown;  ///< N, for ever
+  double max_force = unknown;         ///< N, for a short time
+  double continuous_force = unknown;  ///< N, for any time
   double max_stiffness = unknown;     ///< N/m
   double encoder_step = unknown;      ///< m
-  double rate = unknown;              ///< ticks a second, as measured or set when it was opened, Hz
+  double rate = unknown;              ///< Hz, ticks per second, measured or set when the device was opened
 };
 
-/// A device that cannot be opened or started: what is wrong, and what to do.
+/// A device cannot be opened or started. The text says what is wrong and what to do.
 class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the motors of a device have given lately: runs come and go, and the motors stay warm.
+/// How much force the motors of a device have given recently. It outlasts a run, because the motors stay warm.
 struct MotorUse {
   double spent = 0;       ///< N^2 s, see ForceBudget::spent
-  double time = unknown;  ///< s, on the clock of the loop that was stopped then; NaN: no time counts as rest
+  double time = unknown;  ///< s, when the loop stopped, on its clock; NaN: no time counts as rest
 };
 
-/// What a device calls once per reading: a reading in, the force for the device out (N). It never throws and never waits.
+/// The callback of a device. The device calls it once per reading. It returns the force for the device, N.
+///
+/// It never throws and never waits.
 struct Tick {
   using Force = std::array<double, 3>;
   Force (*call)(void* context, const DeviceSample& sample) noexcept;
@@ -45,30 +47,32 @@ struct Tick {
   Force operator()(const DeviceSample& sample) const noexcept { return call(context, sample); }
 };
 
-/// An open device. It owns its clock: some makers' drivers call back at their own rate, some answer a request with a reading, some
-/// are read whenever we like. So the device calls the tick, and not the tick the device.
+/// An open device. It determines when a tick runs: the device calls the callback.
 ///
-/// Samples come, and forces go, in Punctura's axes and units whatever the maker's are.
+/// The reason: some drivers call back at their own rate, some answer requests, and some can be read at any time.
+///
+/// Samples and forces have the axes and units of Punctura. The back-end converts them.
 class Device {
  public:
   virtual ~Device() = default;
 
-  /// `info().rate` is the rate at which ticks will come.
+  /// The properties of the device. `info().rate` is the rate of its ticks.
   virtual const DeviceInfo& info() const noexcept = 0;
 
-  /// Ticks come from now on, on a thread of the device's, until stop(). Throws DeviceError, also where it ticks already.
+  /// Starts the ticks. They run on a thread of the device until stop(). Throws DeviceError, also if ticks run already.
   virtual void start(Tick tick) = 0;
 
-  /// Zero force, then no tick any more; both hold when it returns. Safe to call at any time, and twice.
+  /// Sets the force to zero and ends the ticks. When it returns, both are done. It may be called at any time, also
+  /// twice.
   virtual void stop() noexcept = 0;
 
-  /// What went wrong, in words, when samples come with healthy = false, or ticks have ceased; empty otherwise.
+  /// Describes the problem if samples have healthy = false or if ticks have stopped. Otherwise empty.
   virtual std::string trouble() const { return {}; }
 
-  /// What its user should know of how it runs: priorities granted and refused, rates, labels. Valid after start().
+  /// Facts for the user about how the device runs: granted and refused priorities, rates, labels. Valid after start().
   virtual std::vector<std::string> statements() const { return {}; }
 
-  /// Of the loops that run on the device, one after the other. They guard it.
+  /// Kept for the servo loops that run on the device, one after the other. They synchronize the access to it.
   MotorUse motor_use{};
 };
 

@@ -1,4 +1,4 @@
-// Where the device stands in the scene.
+// The placement of the device in the scene.
 #pragma once
 
 #include <array>
@@ -9,40 +9,42 @@
 
 namespace punctura {
 
-/// scene point = rotation * (scale * device point) + offset + tip_offset * axis.
+/// The placement of a device in a scene: scene point = rotation * (scale * device point) + offset + tip_offset * axis.
 ///
-/// The default puts the needle's tip at the device's own point, K06 section 4: the joint of the stylus.
+/// By default, the needle's tip is the point that the device reports, as in K06 section 4: the joint of the stylus.
 struct Placement {
-  std::array<double, 4> rotation{1, 0, 0, 0};  ///< w, x, y, z: a quaternion of any length but 0
+  std::array<double, 4> rotation{1, 0, 0, 0};  ///< quaternion w, x, y, z, of any length except 0
   std::array<double, 3> offset{0, 0, 0};       ///< m, in the scene
-  double scale = 1;                            ///< scene metres for a metre of the device
-  double tip_offset = 0;                       ///< m along the stylus, from the device's point to the tip
+  double scale = 1;                            ///< metres in the scene per metre of the device
+  double tip_offset = 0;                       ///< distance from the device's point to the tip along the stylus, m
 
   bool operator==(const Placement&) const = default;
 };
 
-/// A placement worked out. Forces go back by the inverse rotation, and are not scaled: a newton stays a newton.
+/// Converts samples from the device to the scene, and forces from the scene to the device.
+///
+/// The inverse rotation is applied to forces. Forces are not scaled.
 class Placer {
  public:
   explicit Placer(const Placement& p) noexcept
-      : rotation_(matrix(p.rotation)), offset_(vector(p.offset)), scale_(p.scale), tip_offset_(p.tip_offset) {}
+      : rotation_(matrix(p.rotation)), offset_(to_vector(p.offset)), scale_(p.scale), tip_offset_(p.tip_offset) {}
 
   DeviceSample to_scene(const DeviceSample& from) const noexcept {
     DeviceSample to = from;
-    const Vector3d axis = rotated(vector(from.axis));
-    to.axis = plain(axis);
-    to.position = plain(rotated(scale_ * vector(from.position)) + offset_ + tip_offset_ * axis);
+    const Vector3d axis = rotated(to_vector(from.axis));
+    to.axis = to_array(axis);
+    to.position = to_array(rotated(scale_ * to_vector(from.position)) + offset_ + tip_offset_ * axis);
     return to;
   }
   std::array<double, 3> to_device(const std::array<double, 3>& force) const noexcept {
-    const auto& [x, y, z] = rotation_;  // the transposed matrix is the inverse rotation
-    return plain(x * force[0] + y * force[1] + z * force[2]);
+    const auto& [x, y, z] = rotation_;  // the transposed matrix is the inverse
+    return to_array(x * force[0] + y * force[1] + z * force[2]);
   }
 
  private:
   using Rows = std::array<Vector3d, 3>;
 
-  /// The rotation of a quaternion of any length.
+  /// The rotation matrix of a quaternion of any length, as rows.
   static Rows matrix(const std::array<double, 4>& wxyz) noexcept {
     auto [w, x, y, z] = wxyz;
     const double length = std::sqrt(w * w + x * x + y * y + z * z);

@@ -1,4 +1,4 @@
-// What happens at one membrane, tick by tick.
+// Detects the events at one membrane, tick by tick.
 #pragma once
 
 #include <cmath>
@@ -9,28 +9,33 @@
 
 namespace punctura {
 
+/// The kind of an event at a membrane.
 enum class EventKind : std::uint8_t {
-  touch,  ///< the model lets the tip in
-  pop,    ///< the tip and its slanted face are through
+  touch,  ///< the tip enters the membrane
+  pop,    ///< the whole tip, with its slanted face, has passed the membrane
   out,    ///< the tip has left the membrane
 };
 
-/// Follows the tip at one membrane. Gives each event once: after a pop the tip must come back to Crossing::again before it can pop
-/// another time, after a touch it must have been out.
+/// Follows the tip at one membrane and reports each event once.
+///
+/// After a pop, the tip must come back to the depth Crossing::again before the next pop. After a touch, there must be
+/// an `out` before the next touch.
 ///
 /// A tick without a depth changes nothing. A barred membrane has no pop, and the needle must enter it again.
 class Contact {
  public:
-  static constexpr double clear = 0.25e-3;  ///< m in front of the surface where the tip is out: a hand trembles less
+  /// m. At this distance in front of the surface, the tip is out. The tremor of a hand is smaller.
+  static constexpr double clear = 0.25e-3;
 
-  /// enter() gives the membrane's Crossing for the needle as it is. found(kind, force_before, force_after) takes each event.
+  /// One tick. enter() returns the Crossing of the membrane for the present direction of the needle. found(kind,
+  /// force_before, force_after) receives each event.
   template <typename Enter, typename Found>
   void step(const MembraneRecord& now, Enter&& enter, Found&& found) noexcept {
     if (!std::isfinite(now.depth)) return;
-    if (!grips(now.phase)) {
+    if (!friction_acts(now.phase)) {
       inside_ = false;
-      if (now.phase == Phase::outside && open_ && now.depth <= -clear) {
-        open_ = false;
+      if (now.phase == Phase::outside && touched_ && now.depth <= -clear) {
+        touched_ = false;
         found(EventKind::out, 0.0, 0.0);
       }
       return;
@@ -38,41 +43,42 @@ class Contact {
     if (!inside_) {
       crossing_ = enter();
       inside_ = true;
-      get_ready();
+      allow_pop();
     }
-    if (!open_) {
-      open_ = true;
+    if (!touched_) {
+      touched_ = true;
       found(EventKind::touch, 0.0, 0.0);
     }
-    if (!ready_ && now.depth <= crossing_.again) get_ready();
-    if (!ready_) return;
+    if (!can_pop_ && now.depth <= crossing_.again) allow_pop();
+    if (!can_pop_) return;
     const double resistance = -now.axial_force;
-    strongest_ = std::fmax(strongest_, resistance);  // a NaN does not count
+    peak_ = std::fmax(peak_, resistance);  // fmax ignores NaN
     if (!(now.depth >= crossing_.through)) return;
-    ready_ = false;
+    can_pop_ = false;
     const double friction = std::isfinite(now.lower) ? -now.lower : resistance;
-    found(EventKind::pop, strongest_, std::isfinite(friction) ? friction : crossing_.shaft);
+    found(EventKind::pop, peak_, std::isfinite(friction) ? friction : crossing_.shaft);
   }
 
-  /// The membrane has another law from now on. enter(cos_beta) gives its Crossing.
+  /// Changes the law of the membrane. enter(cos_beta) returns its Crossing.
   template <typename Enter>
   void change_law(Enter&& enter) noexcept {
     if (inside_) crossing_ = enter(crossing_.cos_beta);
   }
 
  private:
-  /// Whether friction acts. Not for a number that is no phase: a recording has 255 where a tick did not have the membrane.
-  static bool grips(Phase phase) noexcept { return phase <= Phase::barred && inside(phase); }
+  /// Whether friction acts. False for a number that is no phase: a recording has 255 if a tick does not have the
+  /// membrane.
+  static bool friction_acts(Phase phase) noexcept { return phase <= Phase::barred && inside(phase); }
 
-  void get_ready() noexcept {
-    ready_ = true;
-    strongest_ = 0;
+  void allow_pop() noexcept {
+    can_pop_ = true;
+    peak_ = 0;
   }
 
-  bool open_ = false;     // touched, and not out since
-  bool inside_ = false;   // crossing_ counts
-  bool ready_ = false;    // for a pop
-  double strongest_ = 0;  // N, the largest resistance since get_ready()
+  bool touched_ = false;  // there was a touch, and no out since
+  bool inside_ = false;   // crossing_ is valid
+  bool can_pop_ = false;
+  double peak_ = 0;  // N, the largest resistance since allow_pop()
   Crossing crossing_{};
 };
 

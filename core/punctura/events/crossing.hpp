@@ -1,4 +1,4 @@
-// The depths at which a needle's way through a membrane turns, from the pieces of the membrane's law.
+// The characteristic depths of a needle that crosses a membrane, from the pieces of the law.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,22 @@
 
 namespace punctura {
 
-/// Depths along the needle, m, for a needle with n.b = cos_beta.
+/// The characteristic depths along the needle, m, for a needle with n.b = cos_beta.
 struct Crossing {
   double cos_beta;
-  double far_face;  ///< the tip's point comes out behind: U, K06 (17)
-  double peak;      ///< the resistance -Phi_I is largest
-  double through;   ///< the slanted face is out behind, too, and only the shaft rubs: X + U, K06 (18). See crossing()
-  double again;     ///< a tip that has come back to here can pop again
-  double shaft;     ///< resistance of the shaft alone, N: F U / H, K06 (18)
+  double far_face;  ///< the tip's point passes the far face: U, K06 (17)
+  double peak;      ///< the insertion friction -Phi_I has its maximum
+  double through;   ///< the slanted face passes the far face, X + U, K06 (18); see crossing()
+  double again;     ///< a tip that comes back to this depth can pop again
+  double shaft;     ///< friction of the shaft alone, N: F U / H, K06 (18)
 };
 
-/// Share of the tip's length that the tip must come back before the peak, for another pop to count.
+/// After a pop, the tip must come back by this fraction of its length before the peak. Then it can pop again.
 inline constexpr double pop_again = 0.1;
 
 namespace detail {
-/// The last break, behind which the law is constant. Breaks at infinity (a law with room for more pieces has them) do not count.
+/// The index of the last break. Behind it, the law is constant. Breaks at infinity, as with_room() adds them, are
+/// ignored.
 template <typename Scalar, std::size_t N>
 std::size_t last_break(const PiecewiseBand<Scalar, N>& law) noexcept {
   std::size_t last = N - 2;
@@ -40,14 +41,15 @@ struct Peak {
   Scalar depth, resistance;  // m, N
 };
 
-/// The largest resistance up to the last break; the first such depth if there are several.
+/// The maximum of the insertion friction up to the last break. If several depths have it, the first one.
 template <typename Scalar, std::size_t N>
 Peak<Scalar> peak_of(const PiecewiseBand<Scalar, N>& law) noexcept {
   Peak<Scalar> peak{law.breaks[0], 0};
   for (std::size_t k = 1; k <= last_break(law); ++k) {
     const Scalar from = law.breaks[k - 1], to = law.breaks[k], origin = law.pieces[k].origin;
     const auto& [c0, c1, c2] = law.pieces[k].lower;
-    // A piece is largest at an end, or where its slope c1 + 2 c2 x is 0. Of K06's pieces only q > max(U, X) can have such a place.
+    // A piece has its maximum at an end, or where its slope c1 + 2 c2 x is 0. In K06's law, only the piece behind
+    // max(U, X) can have such a depth.
     const Scalar turn = c2 > 0 ? std::clamp(origin - c1 / (2 * c2), from, to) : from;
     for (const Scalar at : {from, turn, to})
       if (const Scalar resistance = -law.pieces[k].lower.value(at - origin); resistance > peak.resistance)
@@ -57,10 +59,10 @@ Peak<Scalar> peak_of(const PiecewiseBand<Scalar, N>& law) noexcept {
 }
 }  // namespace detail
 
-/// The crossing of any law. `through` is the law's last break; if its resistance does not fall before that, it has no pop, and
-/// `through` is infinite. A law with memory gives the pieces of an untouched membrane.
+/// The crossing of a membrane with any law. thickness: H, m. For a law with memory, the membrane is untouched.
 ///
-/// thickness: H, m. A cos_beta outside [cos(80 degrees), 1] counts as the nearer end, NaN counts as 1.
+/// `through` is the last break of the law. If the friction does not decrease before it, there is no pop and `through`
+/// is infinite. cos_beta is clamped to [cos(80 degrees), 1]. NaN counts as 1.
 template <ObliqueLaw L>
 Crossing crossing(const L& law, const Needle& needle, double thickness, double cos_beta) noexcept {
   cos_beta = std::isfinite(cos_beta) ? std::clamp(cos_beta, grazing_cosine<double>, 1.0) : 1.0;
@@ -77,8 +79,8 @@ Crossing crossing(const L& law, const Needle& needle, double thickness, double c
           static_cast<double>(shaft)};
 }
 
-/// n.b of a needle that is inside. b: the direction held since entry. Where b is no direction, the stylus's axis counts; where that is
-/// none either, the result is 1.
+/// n.b of a needle that is inside. b: the direction since entry. axis: the direction of the stylus, used if b is NaN
+/// or zero. If axis is NaN or zero as well, the result is 1.
 inline double entry_cosine(const Vector3d& normal, const Vector3d& b, const Vector3d& axis) noexcept {
   for (const Vector3d& direction : {b, axis})
     if (const double length = direction.norm(); std::isfinite(length) && length > 0)

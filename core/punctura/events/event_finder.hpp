@@ -1,4 +1,4 @@
-// Touch, pop and out at the membranes of a scene, tick by tick (docs/events.md).
+// Finds the events touch, pop and out at the membranes of a scene, tick by tick (docs/events.md).
 #pragma once
 
 #include <algorithm>
@@ -14,56 +14,59 @@
 
 namespace punctura {
 
-/// SI. Forces are the model's own, along the needle, before any safety limit. They are 0 but for a pop.
+/// An event at a membrane. The forces are those of the model along the needle, before any safety limit. Only a pop
+/// has forces; for other events they are 0.
 struct Event {
   EventKind what;
-  std::uint32_t membrane;  ///< its place in the scene, from 0
+  std::uint32_t membrane;  ///< number of the membrane in the scene, from 0
   std::uint64_t tick;
-  double time;          ///< s, of the tick
-  double depth;         ///< m: along the needle while inside, else along the normal
-  double force_before;  ///< N, the largest resistance on the way to the pop
-  double force_after;   ///< N, the resistance of the shaft alone once the tip is through
+  double time;          ///< time of the tick, s
+  double depth;         ///< m: along the needle while inside, otherwise along the normal
+  double force_before;  ///< the largest resistance before the pop, N
+  double force_after;   ///< the friction of the shaft alone after the pop, N
 
-  double drop() const noexcept { return force_before - force_after; }
+  double drop() const noexcept { return force_before - force_after; }  ///< N
 };
 
-/// What an event finder reads of a tick: a Snapshot has it all.
+/// The inputs of an event finder in a tick. A Snapshot contains all of them.
 struct EventTick {
   std::uint64_t tick;
   double time;                 ///< s
-  std::array<double, 3> axis;  ///< of the stylus; read where a membrane has no direction
-  std::uint32_t commands;      ///< bits of Command; command_scene is read
+  std::array<double, 3> axis;  ///< direction of the stylus, used if the record of a membrane has no direction
+  std::uint32_t commands;      ///< bits of Command; only command_scene is used
   std::span<const MembraneRecord> membranes;
 };
 
-/// Gives the events of a run in the order of its ticks. A tick takes no memory. L: the membranes' law, as in InsertionOf.
+/// Finds the events of a run, in the order of its ticks. A tick allocates no memory. L: the law, as in InsertionOf.
 template <ObliqueLaw L>
 class EventFinderOf {
  public:
-  /// scene: one that has passed check(). law_of(needle, membrane, i): the law of membrane i, as build_insertion() takes it.
+  /// scene must have passed check(). law_of(needle, membrane, i) returns the law of membrane i, as for
+  /// build_insertion().
   template <typename LawOf>
   EventFinderOf(const Scene& scene, LawOf&& law_of) : now_(scene, law_of) {}
   explicit EventFinderOf(const Scene& scene) : EventFinderOf(scene, detail::k06_law<double>) {}
 
-  /// The run goes on in another scene from the next tick that has command_scene. Takes memory: not for a tick.
+  /// Changes the scene, from the next tick with command_scene on. It allocates memory: do not call it in a tick.
   template <typename LawOf>
   void change(const Scene& scene, LawOf&& law_of) {
-    next_ = Laid(scene, law_of);
-    waits_ = true;
+    next_ = SceneSites(scene, law_of);
+    scene_is_pending_ = true;
   }
   void change(const Scene& scene) { change(scene, detail::k06_law<double>); }
-  bool waits_for_scene() const noexcept { return waits_; }
+  /// Whether a changed scene waits for a tick with command_scene.
+  bool waits_for_scene() const noexcept { return scene_is_pending_; }
 
-  /// The events of a tick, valid until the next call. Those of one membrane follow one another.
+  /// The events of a tick, valid until the next call. They are sorted by membrane.
   std::span<const Event> step(const EventTick& tick) noexcept {
-    if (waits_ && (tick.commands & command_scene) != 0) take_scene();
+    if (scene_is_pending_ && (tick.commands & command_scene) != 0) take_scene();
     found_ = 0;
     const std::size_t n = std::min({now_.sites.size(), tick.membranes.size(), max_membranes});
     for (std::size_t i = 0; i < n; ++i) {
       const MembraneRecord& record = tick.membranes[i];
       Site& site = now_.sites[i];
       const auto enter = [&] {
-        return now_.crossing(site, entry_cosine(site.normal, vector(record.direction), vector(tick.axis)));
+        return now_.crossing(site, entry_cosine(site.normal, to_vector(record.direction), to_vector(tick.axis)));
       };
       site.contact.step(record, enter, [&](EventKind what, double before, double after) {
         events_[found_++] = {what, static_cast<std::uint32_t>(i), tick.tick, tick.time, record.depth, before, after};
@@ -88,20 +91,20 @@ class EventFinderOf {
     bool same_place(const Site& other) const noexcept { return point == other.point && normal == other.normal; }
   };
 
-  /// A scene, with a contact at each membrane.
-  struct Laid {
+  /// A scene with a Site for each membrane.
+  struct SceneSites {
     template <typename LawOf>
-    Laid(const Scene& given, LawOf&& law_of) : scene(given) {
+    SceneSites(const Scene& given, LawOf&& law_of) : scene(given) {
       for (const PlacedMembrane& placed : scene.membranes)
-        sites.push_back({law_of(scene.needle, placed.membrane, sites.size()), vector(placed.point),
-                         vector(placed.inward_normal).stableNormalized(), placed.membrane.thickness});
+        sites.push_back({law_of(scene.needle, placed.membrane, sites.size()), to_vector(placed.point),
+                         to_vector(placed.inward_normal).stableNormalized(), placed.membrane.thickness});
     }
 
     Crossing crossing(const Site& site, double cos_beta) const noexcept {
       return punctura::crossing(site.law, scene.needle, site.thickness, cos_beta);
     }
 
-    /// How many sites before the i-th are in its place.
+    /// The number of sites before site i that are at the same place.
     std::size_t same_before(std::size_t i) const noexcept {
       const auto first = sites.begin();
       return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
@@ -112,9 +115,10 @@ class EventFinderOf {
     std::vector<Site> sites;
   };
 
-  /// Membranes in the same place go on under their new law, whatever their number; others begin anew. As in InsertionOf::resume().
+  /// Switches to the next scene. A membrane at the same place keeps its contact under the new law, also if its number
+  /// differs. Other membranes start without history. InsertionOf::resume() does the same.
   void take_scene() noexcept {
-    waits_ = false;
+    scene_is_pending_ = false;
     std::swap(now_, next_);
     for (std::size_t i = 0; i < now_.sites.size(); ++i) {
       Site& site = now_.sites[i];
@@ -128,14 +132,14 @@ class EventFinderOf {
     }
   }
 
-  Laid now_;
-  Laid next_ = now_;
-  bool waits_ = false;
-  std::array<Event, 2 * max_membranes> events_{};  // a membrane may be touched and popped in one tick
+  SceneSites now_;
+  SceneSites next_ = now_;
+  bool scene_is_pending_ = false;
+  std::array<Event, 2 * max_membranes> events_{};  // one tick can have a touch and a pop at a membrane
   std::size_t found_ = 0;
 };
 
-/// With K06's law.
+/// The event finder for K06's law.
 using EventFinder = EventFinderOf<ThickLaw>;
 
 }  // namespace punctura

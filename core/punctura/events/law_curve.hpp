@@ -1,4 +1,4 @@
-// A law as curves to draw, for the direction that the needle has.
+// The curves of a law, for plots.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,17 @@
 
 namespace punctura {
 
-/// Phi_I and Phi_O at rising depths. Both sides of each break are there, so that a drop is drawn as one.
+/// Phi_I and Phi_O at ascending depths. Each break has points on both sides, so that a jump is drawn as a jump.
 struct LawCurve {
   std::vector<double> depth;         ///< m
   std::vector<double> lower, upper;  ///< N
 };
 
-/// Of any law's pieces.
+/// The curve of a law with these pieces.
 template <std::size_t N>
 LawCurve law_curve(const PiecewiseBand<double, N>& law) {
-  constexpr int points = 16;                      // on a piece: a quadratic then looks smooth
-  constexpr double in_front = 0.1, behind = 0.3;  // of the way through, which is drawn outside it
+  constexpr int points = 16;                      // per piece: a quadratic then looks smooth
+  constexpr double in_front = 0.1, behind = 0.3;  // margins of the curve, as fractions of the last break
   const std::size_t last = detail::last_break(law);
   const double through = law.breaks[last];
   LawCurve curve;
@@ -43,15 +43,16 @@ LawCurve law_curve(const PiecewiseBand<double, N>& law) {
   return curve;
 }
 
-/// A flatter needle is drawn as this one, rad: 1 / cos(beta) grows without bound.
+/// The largest obliquity that is drawn, rad, because 1 / cos(beta) grows without bound.
 inline constexpr double steepest_drawn = 85 * std::numbers::pi / 180;
 
-/// Angle of the needle to a membrane's inward normal, rad, from 0 to steepest_drawn; 0 where no direction is known.
+/// The angle between the needle and the inward normal of a membrane, rad, from 0 to steepest_drawn. 0 without a
+/// direction.
 ///
-/// axis: of the stylus. entered: the direction held since entry, if the needle is inside; else NaN.
+/// axis: the direction of the stylus. entered: the direction since entry if the needle is inside, otherwise NaN.
 inline double drawn_obliquity(const Scene& scene, const PlacedMembrane& placed, const Vector3d& axis,
                               const Vector3d& entered) noexcept {
-  const Vector3d normal = vector(placed.inward_normal);
+  const Vector3d normal = to_vector(placed.inward_normal);
   const Vector3d direction = entered.allFinite() ? entered : scene.direction == Direction::motion ? normal : axis;
   const double cosine = direction.dot(normal) / (normal.norm() * direction.norm());
   if (!std::isfinite(cosine)) return 0;

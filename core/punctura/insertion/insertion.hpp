@@ -1,4 +1,4 @@
-// K06 Fig. 8: a needle through several membranes, one proxy and one coupling each.
+// A needle through several membranes, with one proxy and one coupling for each membrane. K06 Fig. 8
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,28 @@
 
 namespace punctura {
 
-/// Where a membrane takes the needle's direction b from, at entry.
+/// The source of the needle's direction b at entry.
 enum class Direction : std::uint8_t {
   stylus,  ///< the measured orientation of the device
-  motion,  ///< the way the tip has come (EntryDirection): for devices without orientation
+  motion,  ///< the direction of the tip's motion (EntryDirection), for devices without orientation
 };
 
-/// A membrane in its place: law, a point of its surface (m), inward normal (of length 1).
+/// A membrane with its position: the law, a point of the surface (m) and the inward normal (of length 1).
 template <ObliqueLaw L>
 struct SiteOf {
   L law;
   Vector3<typename L::Scalar> point, inward_normal;
 };
 
-/// The model from measured position to force: position conditioning, one proxy a membrane, their sum in scene order. K06 (41), Fig. 8.
+/// The model of an insertion: it computes the force from the measured position. K06 (41), Fig. 8.
 ///
-/// It knows nothing of devices and safety: the force is the model's own. All memory is taken at construction. L: the membranes' law,
-/// which may be a MixedLaw. C: the coupling. Storage: HeapStorage, or FixedStorage for a machine without a heap, whose bounds end the
-/// program where the sites or the rate are beyond them.
+/// It conditions the position, steps one proxy for each membrane and adds their forces in the order of the scene. It
+/// contains no device and no safety limits: the force is the force of the model. All memory is allocated at
+/// construction.
+///
+/// L: the law of the membranes; it can be a MixedLaw. C: the coupling. Storage: HeapStorage, or FixedStorage for a
+/// machine without a heap. FixedStorage aborts the program if there are more sites, or a higher rate, than it has
+/// room for.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>, typename Storage = HeapStorage>
 class InsertionOf {
  public:
@@ -40,6 +44,7 @@ class InsertionOf {
   using Proxy = Proxy3d<L, C>;
   using Proxies = typename Storage::template Membranes<Proxy>;
 
+  /// period: T, s. low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m.
   InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
               Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
               Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
@@ -53,6 +58,7 @@ class InsertionOf {
               Solver solver = Solver::exact)
       : InsertionOf(sites, C(coupling, period), period, solver) {}
 
+  /// Clears all state. A proxy that starts inside a membrane stays barred until it has been outside, in front.
   void reset() noexcept {
     conditioner_.reset();
     if (from_motion_) from_motion_->reset();
@@ -61,9 +67,11 @@ class InsertionOf {
     force_.setZero();
   }
 
-  /// Goes on from where another insertion of the same period is, which loses its history. Each membrane goes on from the
-  /// one in the same place, whatever its number; of several in one place, the first from the first. A membrane in a new place
-  /// starts afresh. Takes no memory.
+  /// Takes over the state of another insertion of the same period. `previous` loses its history. Allocates no memory.
+  ///
+  /// Each membrane takes over the state of the membrane at the same place, also if its number differs. If several
+  /// membranes are at one place, the first takes over from the first, the second from the second. A membrane at a new
+  /// place starts without history.
   void resume(InsertionOf& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
@@ -77,8 +85,10 @@ class InsertionOf {
     }
   }
 
-  /// One tick: measured position (m) and unit direction of the needle give the force on the device (N). A position that is no
-  /// place (NaN, or beyond 1000 km), or an axis that is used and not finite, gives NaN, and the insertion is as if that tick had not been.
+  /// One tick. position: measured, m. axis: the needle's unit direction. Returns the force on the device, N.
+  ///
+  /// It returns NaN, and the state does not change, if position is NaN or beyond 1000 km. The same holds if axis is
+  /// used and not finite.
   Vector step(const Vector& position, const Vector& axis) noexcept {
     const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
@@ -102,12 +112,12 @@ class InsertionOf {
     for (const Proxy& proxy : proxies_) proxy.describe(parameters);
   }
 
-  const Vector& tip() const noexcept { return tip_; }      ///< the conditioned position, m
-  const Vector& force() const noexcept { return force_; }  ///< the sum of all membranes, N
-  bool uses_axis() const noexcept { return !from_motion_; }
+  const Vector& tip() const noexcept { return tip_; }        ///< the conditioned position, m
+  const Vector& force() const noexcept { return force_; }    ///< the sum of all membranes, N
+  bool uses_axis() const noexcept { return !from_motion_; }  ///< whether step() reads the axis
   const Proxies& proxies() const noexcept { return proxies_; }
 
-  /// Whether the tip is in front of every membrane: the only state in which forces may be switched on.
+  /// Whether the tip is in front of every membrane. Forces may be switched on only in this state.
   bool outside() const noexcept {
     for (const Proxy& proxy : proxies_)
       if (proxy.phase() != Phase::outside) return false;
@@ -118,13 +128,13 @@ class InsertionOf {
   using Conditioner = PositionConditioner<Scalar, Storage>;
   using Tracker = EntryDirection<Scalar, Storage>;
 
-  /// How many proxies before the i-th are in its place.
+  /// The number of proxies before proxy i that are at the same place.
   std::size_t same_before(std::size_t i) const noexcept {
     const auto first = proxies_.begin();
     return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
                                                   [&](const Proxy& other) { return other.same_place(proxies_[i]); }));
   }
-  /// None where the device gives the direction.
+  /// Empty for Direction::stylus.
   static std::optional<Tracker> tracker(Direction direction, Scalar period) {
     if (direction == Direction::motion) return std::make_optional<Tracker>(period);
     return std::nullopt;
@@ -136,9 +146,10 @@ class InsertionOf {
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
 };
 
-/// With K06's law and coupling.
+/// A membrane with K06's law.
 template <typename Scalar>
 using MembraneSite = SiteOf<BasicThickLaw<Scalar>>;
+/// The model with K06's law and coupling.
 template <typename Scalar>
 using BasicInsertion = InsertionOf<BasicThickLaw<Scalar>>;
 using Insertion = BasicInsertion<double>;

@@ -1,4 +1,4 @@
-// What a law says at one depth: the forces at which the needle may rest.
+// The band of friction forces at one depth.
 #pragma once
 
 #include "punctura/model/finite_math.hpp"
@@ -6,13 +6,15 @@
 
 namespace punctura {
 
-/// [Phi_I, Phi_O] at one depth, N. Positive forces push the needle out. K06 (12), (16).
+/// The band of friction forces at one depth: [Phi_I, Phi_O], N. K06 (12), (16).
+///
+/// The needle can rest at any force in the band. A positive force pushes the needle out.
 template <typename Scalar>
 struct Band {
-  Scalar lower;  ///< Phi_I: kinetic friction while the needle goes in
-  Scalar upper;  ///< Phi_O: kinetic friction while it comes out
+  Scalar lower;  ///< Phi_I, N: kinetic friction while the needle moves in
+  Scalar upper;  ///< Phi_O, N: kinetic friction while the needle moves out
 
-  /// The force of the band nearest to f, the clamp of K06 (32).
+  /// Clamps f (N) to the band, K06 (32).
   constexpr Scalar clamp(Scalar f) const noexcept {
     using namespace lane;
     return min(max(f, lower), upper);

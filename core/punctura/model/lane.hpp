@@ -1,4 +1,4 @@
-// The few functions with which one text of the model serves a single number and a vector of lanes.
+// Functions that let the same code compute with one number or with a vector of lanes (SIMD).
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,22 @@
 
 namespace punctura {
 
+/// A single number: float or double.
 template <typename V>
 concept OneNumber = std::floating_point<V>;
 
-/// Several numbers that are computed together, one per lane: a SIMD type. It needs
+/// A SIMD type: several numbers that are computed together, one in each lane. It needs:
 ///
-/// - `value_type`, float or double; implicit construction from it; + - * / and the unary minus, lane by lane;
-/// - comparisons and their masks: a mask has `&&`, `||`, `!` and is constructed from a bool. It must not convert to bool: an `if`
-///   that reads one lane would decide for all;
-/// - `select(mask, a, b)`, `any(mask)`, `all(mask)`, `min`, `max`, `sqrt`, and to construct laws `tan` and `cos`: found by
-///   argument-dependent lookup. min(a, b) is b < a ? b : a, and max(a, b) is a < b ? b : a.
+/// - `value_type`, float or double, with an implicit conversion to the SIMD type. + - * / and unary minus, lane by
+///   lane.
+/// - Comparisons that return a mask. A mask has `&&`, `||`, `!` and a constructor from bool. It must not convert to
+///   bool: an `if` would then apply the decision of one lane to all lanes.
+/// - `select(mask, a, b)`, `any(mask)`, `all(mask)`, `min`, `max` and `sqrt`. Constructors of laws also need `tan`
+///   and `cos`. Argument-dependent lookup finds these functions. min(a, b) is b < a ? b : a, and max(a, b) is a < b ?
+///   b : a.
 ///
-/// All of them noexcept and without memory. Then each lane gives the bits of a run with a single number.
+/// All functions must be noexcept and must not allocate memory. Each lane then has the bits of a run with a single
+/// number.
 template <typename V>
 concept Lanes = !OneNumber<V> && OneNumber<typename V::value_type>;
 
@@ -36,11 +40,14 @@ struct LaneOf<V> {
 template <typename V>
 using Lane = typename LaneOf<V>::type;
 
-/// What a comparison gives: bool, or one for each lane.
+/// The result type of a comparison: bool, or a mask with one value for each lane.
 template <typename V>
 using Mask = std::remove_cvref_t<decltype(std::declval<const V&>() < std::declval<const V&>())>;
 
-/// For one number. The model's functions say `using namespace lane` and call these without a namespace, so that a vector brings its own.
+/// The functions for a single number.
+///
+/// The code of the model says `using namespace lane` and calls these functions without a namespace. For a SIMD type,
+/// argument-dependent lookup then finds the functions of that type.
 namespace lane {
 
 template <typename T>

@@ -1,4 +1,4 @@
-// What a friction law gives: the door for K06's two laws and for those of other authors.
+// The requirements on a friction law: the two laws of K06, or a law of your own.
 #pragma once
 
 #include <concepts>
@@ -9,41 +9,46 @@
 
 namespace punctura {
 
-/// A law gives the quadratic pieces of its band, a PiecewiseBand. Lower edge <= upper edge everywhere, both 0 before the first
-/// break, both constant behind the last. The first break is at the surface, 0, or deeper.
+/// A friction law. Its pieces() are the quadratic pieces of its band, a PiecewiseBand.
+///
+/// The lower edge is <= the upper edge at every depth. Both edges are 0 in front of the first break and constant
+/// behind the last break. The first break is at the surface (depth 0) or deeper.
 template <typename L>
 concept Law = requires(const L law, typename L::Scalar q) {
   typename L::Scalar;
   { law.pieces().band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
 };
 
-/// A law whose pieces depend on the obliquity at which the needle enters, K06 (17).
+/// A law whose pieces depend on the obliquity of the needle at entry, K06 (17).
 template <typename L>
 concept ObliqueLaw = Law<L> && requires(const L law, typename L::Scalar cos_beta) {
   { law.pieces(cos_beta) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
 };
 
-/// A law that remembers what the needle did to the membrane, such as the deepest point that it has cut. Memory{} stands for an
-/// untouched membrane. The memory is kept until the proxy is reset, also while the needle is outside. (ServoStep::reset(), which
-/// leaves a fault, resets it too.)
+/// A law that remembers how the needle changed the membrane, for example the deepest point of a cut.
 ///
-/// The memory is one for the whole membrane: it does not know where, nor at what angle, the needle entered. A needle that enters
-/// beside an old hole finds the hole.
+/// Memory{} is an untouched membrane. The proxy keeps the memory until it is reset, also while the needle is outside.
+/// ServoStep::reset(), which clears a fault, resets the memory as well.
+///
+/// A membrane has one memory. The memory does not store where the needle entered, nor at which angle. A needle that
+/// enters beside an old hole therefore finds the hole.
 template <typename L>
 concept LawWithMemory =
     requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta, typename L::Scalar depth) {
       requires std::is_trivially_copyable_v<typename L::Memory>;
-      /// The proxy has come to this depth (m, along the needle), which is greater than 0. True where the pieces change by it.
+      /// The proxy has reached this depth (m, along the needle; greater than 0). Returns true if the pieces change.
       { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
       { law.pieces(cos_beta, memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
       { law.pieces(memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;  // on a line
     };
 
-/// A law that has a Memory, or advances, must have all of it: else it would be taken for one without memory.
+/// False for a law that has Memory or advance() but is not a LawWithMemory. Such a law would run without its memory.
 template <typename L>
 constexpr bool memory_is_whole = LawWithMemory<L> || !(requires { typename L::Memory; } || requires { &L::advance; });
 
+/// The memory of a law that has none.
 struct NoMemory {};
+/// The memory type of a law.
 template <typename L>
 struct MemoryOf {
   using type = NoMemory;
@@ -53,7 +58,7 @@ struct MemoryOf<L> {
   using type = typename L::Memory;
 };
 
-/// The pieces of a law, as its proxies hold them.
+/// The type of a law's pieces.
 template <Law L>
 using PiecesOf = std::remove_cvref_t<decltype(std::declval<const L&>().pieces())>;
 

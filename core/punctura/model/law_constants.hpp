@@ -1,4 +1,4 @@
-// What K06's laws take from a needle and a membrane.
+// The constants of K06's laws, computed from a needle and a membrane.
 #pragma once
 
 #include "punctura/model/lane.hpp"
@@ -7,13 +7,13 @@
 
 namespace punctura {
 
-/// The five numbers in which needle and membrane enter the law, K06 (15).
+/// The five constants of the thin and the thick law, K06 (15).
 template <typename Scalar>
 struct LawConstants {
   Scalar X;    ///< length of the tip, m
-  Scalar A_I;  ///< growth of the resistance while the tip goes in, N/m
-  Scalar A_O;  ///< the same while it comes out; negative where the membrane expels the tip, N/m
-  Scalar Q;    ///< precompression as a depth, m
+  Scalar A_I;  ///< slope of -phi_I on the tip, N/m
+  Scalar A_O;  ///< slope of phi_O on the tip, N/m; negative if the membrane expels the tip
+  Scalar Q;    ///< depth that is equivalent to the precompression, m
   Scalar F;    ///< dry friction of the shaft, N
 
   LawConstants(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {

@@ -5,7 +5,7 @@
 
 namespace punctura {
 
-/// A needle: a wedge of one slanted face, then a shaft (K06 Fig. 1).
+/// A needle: a tip with one slanted face, and a shaft behind it (K06 Fig. 1).
 template <typename Scalar>
 struct BasicNeedle {
   Scalar diameter;   ///< w, m
@@ -15,7 +15,7 @@ struct BasicNeedle {
 using Needle = BasicNeedle<double>;
 using NeedleF = BasicNeedle<float>;
 
-/// Length of the slanted face along the needle, m: X = w / tan(theta). K06 (15)
+/// X, the length of the tip along the needle, m: X = w / tan(theta). K06 (15)
 template <typename Scalar>
 Scalar tip_length(const BasicNeedle<Scalar>& needle) noexcept {
   return needle.diameter / std::tan(needle.tip_angle);

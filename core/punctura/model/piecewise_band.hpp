@@ -1,4 +1,4 @@
-// A friction band that is at most quadratic in depth between a few break points: what both solvers work on.
+// A friction band whose edges are quadratic in depth between breaks. Both solvers compute with it.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace punctura {
 
-/// c0 + c1 x + c2 x^2, N, with x the depth beyond the start of its piece, m.
+/// One edge of a piece: c0 + c1 x + c2 x^2, N. x is the depth behind the origin of the piece, m.
 template <typename Scalar>
 struct Quadratic {
   Scalar c0{}, c1{}, c2{};
@@ -19,7 +19,7 @@ struct Quadratic {
   constexpr Scalar slope(Scalar x) const noexcept { return c1 + 2 * c2 * x; }
 };
 
-/// Both edges between two break points.
+/// Both edges of the band between two breaks.
 template <typename Scalar>
 struct BandPiece {
   Scalar origin{};                     ///< depth where x = 0, m
@@ -35,8 +35,10 @@ BandPiece<V> select(const M& mask, const BandPiece<V>& a, const BandPiece<V>& b)
   return {select(mask, a.origin, b.origin), select(mask, a.lower, b.lower), select(mask, a.upper, b.upper)};
 }
 
-/// N pieces, N-1 breaks in ascending order. The first break (the surface) belongs to the piece behind it, the
-/// others to the piece before them, as the closed interval [0, X] of K06 (13) asks.
+/// A band of N pieces with N-1 breaks (m) in ascending order.
+///
+/// The first break, the surface, belongs to the piece behind it. Every other break belongs to the piece in front of it.
+/// The closed interval [0, X] of K06 (13) requires this.
 template <typename Scalar_, std::size_t N>
 struct PiecewiseBand {
   using Scalar = Scalar_;
@@ -53,31 +55,33 @@ struct PiecewiseBand {
       parameters.numbers(p.origin, p.lower.c0, p.lower.c1, p.lower.c2, p.upper.c0, p.upper.c1, p.upper.c2);
   }
 
-  /// Index of the piece that holds depth q. Counts comparisons, so that no branch depends on the depth.
+  /// Index of the piece that contains depth q (m). It counts comparisons, so that no branch depends on the depth.
   constexpr std::size_t index(Scalar q) const noexcept {
     std::size_t i = q >= breaks[0] ? 1 : 0;
     for (std::size_t k = 1; k < N - 1; ++k) i += q > breaks[k] ? 1 : 0;
     return i;
   }
 
-  /// Whether depth q is behind break k: in piece k + 1 or a later one.
+  /// Whether depth q (m) is behind break k, in piece k + 1 or a later piece.
   constexpr auto behind(std::size_t k, Scalar q) const noexcept { return k == 0 ? q >= breaks[0] : q > breaks[k]; }
 
+  /// The band at depth q (m), N.
   constexpr Band<Scalar> band(Scalar q) const noexcept {
     if constexpr (OneNumber<Scalar>) {
       return band(q, index(q));
-    } else {  // no lane can be an index: each takes the last piece that it has reached
+    } else {  // a SIMD type cannot be an index: each lane selects the last piece that it has reached
       Piece piece = pieces[0];
       for (std::size_t k = 0; k < N - 1; ++k) piece = select(behind(k, q), pieces[k + 1], piece);
       return band(q, piece);
     }
   }
 
-  /// The same where piece i is known to hold q.
+  /// The band at depth q (m), N, if piece i contains q.
   constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept { return band(q, pieces[i]); }
 
-  /// The same band with room for M >= N pieces, so that laws with different numbers of pieces fit into one type. The last piece
-  /// goes on without end.
+  /// The same band as a PiecewiseBand of M >= N pieces. Laws with different numbers of pieces then have one type.
+  ///
+  /// The added breaks are at infinity, and the added pieces are copies of the last piece.
   template <std::size_t M>
   constexpr PiecewiseBand<Scalar, M> with_room() const noexcept {
     static_assert(M >= N);

@@ -1,4 +1,4 @@
-// Where the classes that run keep what they have several of: on the heap, or inside themselves.
+// Where an insertion stores its membranes and samples: on the heap, or inside the object.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,10 @@
 
 namespace punctura {
 
-/// A vector of at most N elements, all inside itself. More than N end the program: a tissue with a membrane left out would give a hand
-/// a wrong force.
+/// A vector that stores at most N elements inside the object.
+///
+/// It aborts the program if there are more than N elements: without one of its membranes, a scene would give a wrong
+/// force.
 template <typename T, std::size_t N>
 class FixedVector {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -45,7 +47,7 @@ class FixedVector {
   std::size_t size_ = 0;
 };
 
-/// As much as is wanted, taken from the heap at construction.
+/// Storage on the heap, allocated at construction. It has no limit.
 struct HeapStorage {
   template <typename T>
   using Membranes = std::vector<T>;
@@ -53,7 +55,10 @@ struct HeapStorage {
   using Samples = std::vector<T>;
 };
 
-/// No heap. most_in_10_ms: samples that conditioning and the direction from motion look back at: 10 ms of them and one, 17 at 1600 Hz.
+/// Storage without a heap, for at most most_membranes membranes.
+///
+/// most_in_10_ms: how many samples conditioning and direction from motion look back at. This is the number of samples
+/// in 10 ms, plus one: 17 at 1600 Hz.
 template <std::size_t most_membranes, std::size_t most_in_10_ms = 17>
 struct FixedStorage {
   template <typename T>

@@ -1,4 +1,4 @@
-// K06 section 2.2: a membrane of thickness H, crossed at an angle beta to its normal.
+// The law of K06 section 2.2: a membrane of thickness H, crossed at an angle beta to its normal.
 #pragma once
 
 #include <array>
@@ -9,20 +9,21 @@
 
 namespace punctura {
 
-/// Phi(q) = 1/H * integral of phi from q - U to q, with U = H / cos(beta). K06 (16) to (19).
+/// The thick law, K06 (16) to (19): Phi(q) = 1/H * integral of phi from q - U to q, N, with U = H / cos(beta).
 ///
-/// At depth q the needle runs through a length U of membrane: a part of it lies on the tip, where phi grows linearly
-/// (so its integral is length times phi at the middle), the rest on the shaft, where phi is F. The lengths change their
-/// rule at 0, min(U,X), max(U,X) and X + U, which gives the six cases of (18) and (19).
+/// phi is the thin law. The path of the needle through the membrane has the length U. Part of the membrane lies on
+/// the tip. There phi is linear in depth, so its integral is the length times phi at the middle. The rest lies on the
+/// shaft, where phi is constant. The formulas of both lengths change at q = 0, min(U, X), max(U, X) and X + U.
+/// Therefore (18) and (19) have six cases.
 ///
-/// H = 0 is the limit: the thin law times 1 / cos(beta). Parameters must have passed check() (model/validity.hpp).
+/// H = 0 gives the limit, the thin law times 1 / cos(beta). Parameters must have passed check() (model/validity.hpp).
 template <typename Scalar_>
 class BasicThickLaw {
  public:
   using Scalar = Scalar_;
   using Pieces = PiecewiseBand<Scalar, 5>;
 
-  /// obliquity: beta, rad, of pieces() and band().
+  /// obliquity: beta, rad. pieces() and band() use it.
   BasicThickLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, Scalar obliquity = 0) noexcept
       : constants_(needle, membrane), H_(membrane.thickness) {
     using namespace lane;
@@ -31,7 +32,7 @@ class BasicThickLaw {
     pieces_ = pieces(cos_beta);
   }
 
-  /// The law of a needle that enters with n.b = cos_beta > 0.
+  /// The pieces for a needle that enters with n.b = cos_beta > 0.
   Pieces pieces(Scalar cos_beta) const noexcept {
     using namespace lane;
     const Scalar U = H_ / cos_beta;  // K06 (17)
@@ -50,32 +51,36 @@ class BasicThickLaw {
   Scalar path_length() const noexcept { return U_; }  ///< U, m
 
  private:
-  /// sign * Phi: (18) with A = A_I and sign -1, (19) with A = A_O and sign +1. Each piece is written from its own start: x = q - start.
-  /// U_over_H is handed in since H may be 0.
+  /// The pieces of one edge: K06 (18) for A = A_I and sign = -1, K06 (19) for A = A_O and sign = +1.
+  ///
+  /// The comments give the printed cases without the sign. Each piece is a function of x = q - (start of the piece).
+  /// U_over_H is a parameter because H may be 0.
   std::array<Quadratic<Scalar>, 5> edge(Scalar A, Scalar U, Scalar U_over_H, int sign) const noexcept {
     using namespace lane;
     using Piece = Quadratic<Scalar>;
     const auto& [X, A_I, A_O, Q, F] = constants_;
-    const auto thin = U <= X;    // all of the membrane fits on the tip
-    const Scalar m = min(U, X);  // most membrane that ever lies on the tip
+    const auto thin = U <= X;    // the tip is longer than the path through the membrane
+    const Scalar m = min(U, X);  // the largest length of membrane on the tip
     const Scalar m_over_H = select(thin, U_over_H, X / H_);
     const Scalar shaft_over_H =
-        select(thin, Scalar(0), (U - X) / H_);  // membrane on the shaft when the tip begins to leave
+        select(thin, Scalar(0), (U - X) / H_);  // length of membrane on the shaft at q = max(U, X), over H
 
-    std::array<Piece, 5> phi{};  // phi[0], q < 0: 0
-    // q in [U, X]: A U (2q - U + 2Q) / 2H; or q in [X, U]: F (q - X) / H + A X (X + 2Q) / 2H
+    std::array<Piece, 5> phi{};
+    // Case 1, q < 0: phi[0] is 0.
+    // Case 3, q in [U, X]: A U (2q - U + 2Q) / 2H
+    // Case 4, q in [X, U]: F (q - X) / H + A X (X + 2Q) / 2H
     phi[2] = {A * m_over_H * (m / 2 + Q), select(thin, A * U_over_H, F / H_), 0};
-    // q > X + U: F U / H
+    // Case 6, q > X + U: F U / H
     phi[4] = {F * U_over_H, 0, 0};
-    // Where H = 0 the surface is met at once, and the far face left at once.
+    // With H = 0, cases 2 and 5 have intervals of length 0 and would divide by 0. The next case replaces them.
     const auto thick = U > 0;
-    // q in [0, min(U,X)]: A q (q + 2Q) / 2H
+    // Case 2, q in [0, min(U, X)]: A q (q + 2Q) / 2H
     phi[1] = select(thick, Piece{0, A * Q / H_, A / (2 * H_)}, phi[2]);
-    // q in [max(U,X), X+U]: F (q - X) / H + A (U + X - q)(q - U + X + 2Q) / 2H
+    // Case 5, q in [max(U, X), X + U]: F (q - X) / H + A (U + X - q)(q - U + X + 2Q) / 2H
     const Piece leaving{A * m_over_H * (X + Q - m / 2) + F * shaft_over_H, (A * (m - X - Q) + F) / H_, -A / (2 * H_)};
     phi[3] = select(thick, leaving, phi[4]);
     if (sign < 0)
-      for (auto& piece : phi) piece = {0 - piece.c0, 0 - piece.c1, 0 - piece.c2};  // 0 - x: no negative zero
+      for (auto& piece : phi) piece = {0 - piece.c0, 0 - piece.c1, 0 - piece.c2};  // 0 - x, because -x could be -0
     return phi;
   }
 

@@ -1,4 +1,4 @@
-// K06 section 2.1: an infinitely thin membrane, crossed along its normal.
+// The law of K06 section 2.1: an infinitely thin membrane, crossed along its normal.
 #pragma once
 
 #include "punctura/model/law_constants.hpp"
@@ -6,9 +6,13 @@
 
 namespace punctura {
 
-/// phi_I = -A_I (q + Q), phi_O = A_O (q + Q) on [0, X]; -F and F beyond; 0 before. K06 (13) and (14).
+/// The thin law, K06 (13) and (14), N. Depth q in m.
 ///
-/// The thickness of the membrane is not read. Parameters must have passed check() (model/validity.hpp).
+/// - q < 0: phi_I = phi_O = 0.
+/// - q in [0, X]: phi_I = -A_I (q + Q) and phi_O = A_O (q + Q).
+/// - q > X: phi_I = -F and phi_O = F.
+///
+/// The law ignores the thickness of the membrane. Parameters must have passed check() (model/validity.hpp).
 template <typename Scalar_>
 class BasicThinLaw {
  public:
@@ -18,8 +22,9 @@ class BasicThinLaw {
       : constants_(needle, membrane) {
     const auto& [X, A_I, A_O, Q, F] = constants_;
     pieces_.breaks = {0, X};
-    pieces_.pieces[1] = {0, {-A_I * Q, -A_I, 0}, {A_O * Q, A_O, 0}};
-    pieces_.pieces[2] = {X, {-F, 0, 0}, {F, 0, 0}};
+    // Case 1, q < 0: pieces[0] is 0.
+    pieces_.pieces[1] = {0, {-A_I * Q, -A_I, 0}, {A_O * Q, A_O, 0}};  // K06 (13), (14), case 2: q in [0, X]
+    pieces_.pieces[2] = {X, {-F, 0, 0}, {F, 0, 0}};                   // K06 (13), (14), case 3: q > X
   }
 
   /// The band at depth q (m), N.

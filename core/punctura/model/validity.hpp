@@ -1,4 +1,4 @@
-// What a needle, a membrane and their pair must fulfil before a law may be built of them.
+// The permitted values of a needle, of a membrane and of a pair of them. Check them before you construct a law.
 #pragma once
 
 #include <cmath>
@@ -15,14 +15,14 @@
 
 namespace punctura {
 
-/// One thing that is wrong with a configuration. `value` is in SI units.
+/// One problem of a configuration.
 struct Problem {
   std::string path;    ///< field, as in "membrane[1].friction"
-  double value;        ///< what was given
-  std::string reason;  ///< the bound that it breaks, and why that bound is there
+  double value;        ///< the given value, SI
+  std::string reason;  ///< the bound that the value breaks, and the reason for the bound
 };
 
-/// The admissible range of one field, SI. The one place where bounds stand; schemas and documents read them here.
+/// The permitted range of one field, SI. Schemas and documents read their bounds from here.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -34,13 +34,13 @@ struct Range {
   }
 };
 
-/// A quantity with its range: its name, the symbol of K06, the unit.
+/// A quantity: its name, its symbol in K06, its unit and its range.
 struct Field {
   std::string_view name, symbol, unit;
   Range range;
 };
 
-/// A field of a struct: what it is, and where it stands.
+/// A field of a struct: the quantity, and a pointer to the member.
 template <typename Owner>
 struct FieldOf : Field {
   double Owner::* member;
@@ -83,7 +83,7 @@ inline constexpr Field obliquity_field = {
     "rad",
     {0, std::numbers::pi / 2, false, true, "must be 0 or more and less than pi/2, K06 (17)"}};
 
-/// Adds a problem where v is outside the field's range. Returns whether it is inside.
+/// Adds a problem if v (SI) is outside the field's range. Returns true if v is inside.
 inline bool check_field(const Field& field, double v, const std::string& path, std::vector<Problem>& problems) {
   if (field.range.holds(v)) return true;
   const std::string dot = path.empty() ? "" : ".";
@@ -92,7 +92,7 @@ inline bool check_field(const Field& field, double v, const std::string& path, s
   return false;
 }
 
-/// Adds a problem for each field of `owner` that is outside its range. Returns whether there is none.
+/// Adds a problem for each field of `owner` that is outside its range. Returns true if there is no such field.
 template <typename Owner, std::size_t n>
 bool check_fields(const FieldOf<Owner> (&fields)[n], const Owner& owner, const std::string& path,
                   std::vector<Problem>& problems) {
@@ -109,7 +109,9 @@ inline bool check(const Membrane& membrane, const std::string& path, std::vector
   return check_fields(membrane_fields, membrane, path, problems);
 }
 
-/// K06 (7): insertion is possible at all only where mu tan(theta) < 1. Call it with a sound needle and membrane.
+/// Adds a problem if mu tan(theta) >= 1: insertion is then impossible, K06 (7). Returns true if mu tan(theta) < 1.
+///
+/// The tip angle and the friction must be inside their ranges.
 inline bool check_insertion(const Needle& needle, const Membrane& membrane, const std::string& membrane_path,
                             std::vector<Problem>& problems) {
   const double mu_tan = membrane.friction * std::tan(needle.tip_angle);

@@ -14,8 +14,9 @@
 
 namespace punctura {
 
-/// A vector that is trivially copyable, so that states and records may hold it. The names are those of Eigen, whose vectors
-/// convert by `Eigen::Vector3d(v.data())` and `Vector3d(e.data())`.
+/// A vector of three numbers. It is trivially copyable, so that states and records can contain it.
+///
+/// The names are those of Eigen. `Eigen::Vector3d(v.data())` and `Vector3d(e.data())` convert to and from Eigen.
 template <typename Scalar_>
 class Vector3 {
  public:
@@ -24,8 +25,8 @@ class Vector3 {
   constexpr Vector3() noexcept = default;  ///< zero
   constexpr Vector3(Scalar x, Scalar y, Scalar z) noexcept : v_{x, y, z} {}
   constexpr explicit Vector3(const std::array<Scalar, 3>& v) noexcept : v_(v) {}
-  Vector3(std::nullptr_t) = delete;                                               // of Vector3(0)
-  constexpr explicit Vector3(const Scalar* v) noexcept : v_{v[0], v[1], v[2]} {}  ///< of three numbers in a row
+  Vector3(std::nullptr_t) = delete;  // Vector3(0) would read a null pointer
+  constexpr explicit Vector3(const Scalar* v) noexcept : v_{v[0], v[1], v[2]} {}  ///< from three consecutive numbers
 
   static constexpr Vector3 Zero() noexcept { return {}; }
   static constexpr Vector3 Constant(Scalar s) noexcept { return {s, s, s}; }
@@ -72,8 +73,8 @@ class Vector3 {
 
   constexpr void setZero() noexcept { *this = {}; }
 
-  /// The order of the sum is part of the promise that forces keep their bits; it was not the same for both scalars when they
-  /// were recorded.
+  /// The order of the sums is fixed, because forces must keep the bits of the recorded ones. When they were recorded,
+  /// float and double had different orders.
   constexpr Scalar dot(const Vector3& b) const noexcept {
     const Scalar x = v_[0] * b.v_[0], y = v_[1] * b.v_[1], z = v_[2] * b.v_[2];
     if constexpr (std::is_same_v<Lane<Scalar>, float>) return x + (y + z);
@@ -85,21 +86,21 @@ class Vector3 {
   constexpr Scalar squaredNorm() const noexcept { return dot(*this); }
   Scalar norm() const noexcept { return std::sqrt(squaredNorm()); }
 
-  /// The length, also where squares overflow or vanish.
+  /// The length, also if squares overflow or underflow.
   Scalar stableNorm() const noexcept {
     if (!allFinite()) return std::abs(v_[0]) + std::abs(v_[1]) + std::abs(v_[2]);  // infinite, or NaN
     const Scalar largest = maxAbs();
     if (largest < 1 / std::numeric_limits<Scalar>::max())
-      return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest has no number
+      return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest would overflow
     return largest * (*this * (1 / largest)).norm();
   }
 
-  /// Of length 1; itself where it has no length.
+  /// The vector scaled to length 1. A vector of length 0 stays unchanged.
   Vector3 normalized() const noexcept {
     const Scalar squared = squaredNorm();
     return squared > 0 ? *this / std::sqrt(squared) : *this;
   }
-  /// The same, also where squares overflow or vanish.
+  /// The same as normalized(), also if squares overflow or underflow.
   Vector3 stableNormalized() const noexcept {
     const Scalar largest = maxAbs();
     if (!(largest > 0)) return *this;
@@ -119,26 +120,30 @@ Vector3<V> select(const M& mask, const Vector3<V>& a, const Vector3<V>& b) noexc
   return {select(mask, a.x(), b.x()), select(mask, a.y(), b.y()), select(mask, a.z(), b.z())};
 }
 
-/// Whether a position can be one: NaN cannot, nor what is more than 1000 km away, where filters and couplings might overflow later.
+/// Whether p (m) is a valid coordinate: finite, and at most 1000 km from 0. Beyond that, filters and couplings could
+/// overflow.
 template <std::floating_point Scalar>
 bool is_place(Scalar p) noexcept {
   return std::abs(p) <= Scalar(1e6);
 }
+/// Whether all coordinates of p (m) are valid.
 template <typename Scalar>
 bool is_place(const Vector3<Scalar>& p) noexcept {
   return is_place(p.x()) && is_place(p.y()) && is_place(p.z());
 }
+/// Whether v has the length 1, within 0.5 %.
 template <typename Scalar>
 bool is_unit(const Vector3<Scalar>& v) noexcept {
   return std::abs(v.squaredNorm() - 1) < Scalar(1e-2);
 }
 static_assert(std::is_trivially_copyable_v<Vector3d>);
 
-/// Plain storage for records, which are double.
+/// The vector as three doubles, the type that records store.
 template <OneNumber Scalar>
-std::array<double, 3> plain(const Vector3<Scalar>& v) noexcept {
+std::array<double, 3> to_array(const Vector3<Scalar>& v) noexcept {
   return v.template cast<double>().array();
 }
-inline Vector3d vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
+/// The vector of three doubles.
+inline Vector3d to_vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

@@ -1,4 +1,4 @@
-// The mechanics of an impedance-type haptic device as its user feels them at the tip.
+// The mechanics of an impedance-type haptic device at the tip.
 #pragma once
 
 #include "punctura/model/omni.hpp"
@@ -6,14 +6,17 @@
 
 namespace punctura {
 
-/// The defaults are those of a PHANTOM Omni. That they change over the workspace and with the direction is not modelled.
+/// The mechanics of a device at the tip. The defaults are those of a PHANTOM Omni.
+///
+/// The values are constant. On a real device they change over the workspace and with the direction.
 template <typename Scalar>
 struct BasicDeviceDynamics {
   Scalar mass = Scalar(Omni::mass);                  ///< kg
-  Scalar friction = Scalar(Omni::friction);          ///< N, dry
+  Scalar friction = Scalar(Omni::friction);          ///< dry friction, N
   Scalar encoder_step = Scalar(Omni::encoder_step);  ///< m; 0 is an ideal sensor
-  Scalar max_force = Scalar(Omni::max_force);        ///< N, norm, at which the motors saturate
+  Scalar max_force = Scalar(Omni::max_force);        ///< norm at which the motors saturate, N
 
+  /// The force that the motors give for a commanded force, N.
   Vector3<Scalar> saturate(const Vector3<Scalar>& force) const noexcept {
     const Scalar norm = force.norm();
     return norm > max_force ? force * (max_force / norm) : force;

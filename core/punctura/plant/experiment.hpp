@@ -1,4 +1,4 @@
-// K06 section 4 without hardware: plant and servo step in lockstep.
+// The experiment of K06 section 4 without hardware: a simulated plant and the servo step.
 #pragma once
 
 #include <cstdint>
@@ -10,39 +10,39 @@
 
 namespace punctura {
 
-/// A simulated operator at a simulated device, through the very step that drives a real one.
+/// A simulated operator with a simulated device. It uses the same servo step as a real device.
 ///
 /// Motion: StrokesMotion, RecordedMotion, Target, or anything with `Desired at(double time)`, time from 0.
 template <typename Motion>
 class Experiment {
  public:
-  /// axis: the direction in which the stylus points, constant. Throws SceneError.
+  /// axis: the constant direction of the stylus. Throws SceneError.
   Experiment(const Scene& scene, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {},
              const Hand& hand = {}, std::uint64_t seed = 0)
       : servo_(build(scene)),
         plant_(device, hand, 1 / scene.servo.rate, seed),
         motion_(std::move(motion)),
-        axis_(plain(axis.stableNormalized())),
+        axis_(to_array(axis.stableNormalized())),
         period_(1 / scene.servo.rate) {
     plant_.place(motion_.at(0).position);
     servo_.arm();
   }
 
-  /// One servo period: read the encoders, compute, hold the force while the hand moves on.
+  /// One servo period: reads the encoders, computes the force and holds it while the plant moves.
   const Snapshot& step() noexcept {
     const double time = static_cast<double>(tick_) * period_;
     desired_ = motion_.at(time);
-    const Snapshot& snapshot = servo_.step({tick_, time, plain(plant_.measured()), axis_, 0, true});
+    const Snapshot& snapshot = servo_.step({tick_, time, to_array(plant_.measured()), axis_, 0, true});
     tip_ = plant_.tip();
-    plant_.step(vector(snapshot.force), desired_);
+    plant_.step(to_vector(snapshot.force), desired_);
     ++tick_;
     return snapshot;
   }
 
-  /// Of the last step.
-  ExperimentExtra extra() const noexcept { return {plain(tip_), plain(desired_.position)}; }
-  const Desired& desired() const noexcept { return desired_; }  ///< of the last step
-  const Vector3d& tip() const noexcept { return tip_; }         ///< true position at the last step, m
+  /// The true and the desired position of the last step.
+  ExperimentExtra extra() const noexcept { return {to_array(tip_), to_array(desired_.position)}; }
+  const Desired& desired() const noexcept { return desired_; }  ///< desired motion of the last step
+  const Vector3d& tip() const noexcept { return tip_; }         ///< true position of the tip in the last step, m
   Motion& motion() noexcept { return motion_; }
   ServoStep& servo() noexcept { return servo_; }
 

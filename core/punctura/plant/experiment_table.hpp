@@ -1,4 +1,4 @@
-// What an experiment knows of a tick besides its snapshot.
+// The fields of a tick that only an experiment has.
 #pragma once
 
 #include <tuple>
@@ -7,14 +7,14 @@
 
 namespace punctura {
 
-/// Of a simulated operator at a simulated device.
+/// The record of a simulated operator and device in a tick.
 struct ExperimentExtra {
-  std::array<double, 3> true_position;  ///< where the plant's tip is, m
-  std::array<double, 3> desired;        ///< where the hand wants to be, m
+  std::array<double, 3> true_position;  ///< position of the plant's tip, m
+  std::array<double, 3> desired;        ///< desired position of the hand, m
 };
 
 // clang-format off
-/// The fields of a tick, and those that only an experiment has.
+/// The fields of a tick and the fields that only an experiment has.
 inline constexpr auto experiment_table = std::tuple_cat(tick_table, std::tuple{
     detail::tick_field<TickPart::extra>("true_position", "true_{a}_m", "m", use_file,
         [](auto& e) -> auto& { return e.true_position; },

@@ -1,4 +1,4 @@
-// The hand that holds the stylus.
+// A model of the hand that holds the stylus.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace punctura {
 
-/// Where the hand wants the tip to be.
+/// The desired motion of the tip.
 template <typename Scalar>
 struct BasicDesired {
   Vector3<Scalar> position;  ///< m
@@ -22,22 +22,24 @@ struct BasicDesired {
 };
 using Desired = BasicDesired<double>;
 
-/// Mass, and a spring and a damper to the desired motion. The second-order form and the order of magnitude are those of
-/// measured pen-hold and pinch grasps (Hasser and Cutkosky 2002; Fu and Cavusoglu 2012); the numbers are illustrative, since
-/// stiffness and damping change several-fold with grip force and from person to person.
+/// A hand: a mass with a spring and a damper to the desired motion.
+///
+/// The second-order form and the order of magnitude are those of measured pen-hold and pinch grasps (Hasser and
+/// Cutkosky 2002; Fu and Cavusoglu 2012). The numbers are illustrative: stiffness and damping change several-fold
+/// with the grip force and between persons.
 template <typename Scalar>
 struct BasicHand {
-  Scalar mass = Scalar(0.05);        ///< kg, of hand and stylus that moves with the tip
+  Scalar mass = Scalar(0.05);        ///< mass of hand and stylus that moves with the tip, kg
   Scalar damping = Scalar(4);        ///< N s/m
   Scalar stiffness = Scalar(500);    ///< N/m
-  Scalar tremor_rms = Scalar(3e-5);  ///< m, along each axis; 0 is a hand that never trembles. Illustrative
-  Scalar tremor_hz = Scalar(9);      ///< physiological tremor lies between 8 and 12 Hz
+  Scalar tremor_rms = Scalar(3e-5);  ///< m, along each axis; 0 is no tremor. Illustrative
+  Scalar tremor_hz = Scalar(9);      ///< Hz; physiological tremor is between 8 and 12 Hz
 };
 
 using Hand = BasicHand<double>;
 using HandF = BasicHand<float>;
 
-/// Physiological tremor: white noise through a resonance of quality 3, with the rms asked for.
+/// Physiological tremor: white noise through a resonance of quality 3, scaled to tremor_rms.
 template <typename Scalar>
 class BasicTremor {
  public:
@@ -49,11 +51,12 @@ class BasicTremor {
     const Scalar radius = std::exp(-omega / (2 * quality) * step);
     a1_ = 2 * radius * std::cos(omega * std::sqrt(1 - 1 / (4 * quality * quality)) * step);
     a2_ = -radius * radius;
-    // Variance of y = a1 y' + a2 y'' + b u for white u of variance 1, solved for b.
+    // b_ from the variance of y(k) = a1 y(k-1) + a2 y(k-2) + b u(k), with white noise u of variance 1.
     const Scalar variance = (1 - a2_) / ((1 + a2_) * ((1 - a2_) * (1 - a2_) - a1_ * a1_));
     b_ = hand.tremor_rms / std::sqrt(variance);
   }
 
+  /// The displacement in the next period, m.
   Vector step(Noise& noise) noexcept {
     if (b_ == 0) return Vector::Zero();
     const Vector u = noise.normal_vector().template cast<Scalar>();

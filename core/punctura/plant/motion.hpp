@@ -1,4 +1,4 @@
-// What the hand wants to do: strokes to and fro, a recorded motion, a target that somebody moves.
+// Desired motions of a hand: repeated strokes, a recorded motion, a target that a user moves.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,17 @@
 
 namespace punctura {
 
-/// Repeated strokes from `start` to `end` and back, each a minimum-jerk movement (Flash and Hogan 1985) with a rest at both
-/// ends. Depth and duration vary from stroke to stroke, as a person's do.
+/// Repeated strokes from `start` to `end` and back. Each is a minimum-jerk movement (Flash and Hogan 1985), with a
+/// rest at both ends. Depth and duration vary from stroke to stroke, as with a person.
 struct Strokes {
   Vector3d start, end;     ///< m
-  std::size_t count = 3;   ///< strokes to and fro
+  std::size_t count = 3;   ///< number of strokes, each to `end` and back
   double duration = 1.5;   ///< s, one way
   double rest = 0.6;       ///< s at each end, and before the first stroke
-  double variation = 0.1;  ///< standard deviation of depth and duration, relative; both are kept within 3 of them
+  double variation = 0.1;  ///< relative standard deviation of depth and duration; variations are clamped to 3 of them
 };
 
-/// The motion of Strokes, laid out for one seed.
+/// The motion of Strokes for a seed.
 class StrokesMotion {
  public:
   StrokesMotion(const Strokes& strokes, std::uint64_t seed) : rest_(strokes.rest) {
@@ -40,8 +40,9 @@ class StrokesMotion {
     home_ = strokes.start;
   }
 
-  double duration() const noexcept { return duration_; }
+  double duration() const noexcept { return duration_; }  ///< s
 
+  /// The desired motion at a time (s, from 0). Times must not decrease from call to call.
   Desired at(double time) noexcept {
     while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
     if (next_ == 0) return {home_, Vector3d::Zero()};
@@ -64,16 +65,16 @@ class StrokesMotion {
   std::vector<Segment> segments_;
 };
 
-/// A motion given by samples, linear between them, at rest before the first and after the last.
+/// A motion from samples: linear between the samples, at rest before the first and after the last.
 class RecordedMotion {
  public:
-  /// time: s, ascending, at least one. position: m, as many.
+  /// time: s, ascending, at least one. position: m, as many as times.
   RecordedMotion(std::vector<double> time, std::vector<Vector3d> position)
       : time_(std::move(time)), position_(std::move(position)) {}
 
-  double duration() const noexcept { return time_.back() - time_.front(); }
+  double duration() const noexcept { return time_.back() - time_.front(); }  ///< s
 
-  /// time counts from the first sample.
+  /// The desired motion at a time (s, from the first sample). Times must not decrease from call to call.
   Desired at(double time) noexcept {
     const double t = time_.front() + time;
     while (next_ < time_.size() && t >= time_[next_]) ++next_;
@@ -89,8 +90,8 @@ class RecordedMotion {
   std::size_t next_ = 0;
 };
 
-/// A target that somebody moves, a mouse say, in steps of any size. The hand follows it as smoothly as an arm would: through
-/// two lags of `lag` each.
+/// A target that a user moves in steps of any size, for example with a mouse. The hand follows it smoothly, through two
+/// first-order lags of `lag` (s) each.
 class Target {
  public:
   explicit Target(const Vector3d& position, double lag = 0.02) noexcept
@@ -99,7 +100,7 @@ class Target {
   void move_to(const Vector3d& position) noexcept { target_ = position; }
   const Vector3d& position() const noexcept { return target_; }
 
-  /// Ever later times only: a target has no past to go back to.
+  /// The desired motion at a time (s). Times must not decrease from call to call.
   Desired at(double time) noexcept {
     const double gain = 1 - std::exp(-std::max(0.0, time - time_) / lag_);
     time_ = time;

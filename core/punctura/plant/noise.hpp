@@ -10,15 +10,16 @@
 
 namespace punctura {
 
-/// The standard fixes the engine's numbers but not its distributions, so those stand here.
+/// A random number generator. The C++ standard defines the numbers of std::mt19937_64, but not those of its
+/// distributions. Therefore the distributions are implemented here.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) noexcept : engine_(seed) {}
 
-  /// In [0, 1), 53 bits.
+  /// Uniform in [0, 1), with 53 bits.
   double uniform() noexcept { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  /// Mean 0, variance 1, by Box and Muller.
+  /// Normal with mean 0 and variance 1, by the Box-Muller method.
   double normal() noexcept {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());

@@ -1,4 +1,4 @@
-// A haptic device in a hand: what the servo loop acts on when there is no hardware.
+// The simulated plant: a haptic device in a hand.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,12 @@
 
 namespace punctura {
 
-/// m v' = f_device + k (x_d - x) + b (v_d - v) + dry friction, with m = device + hand. K06 section 4 without the hardware.
+/// A haptic device in a hand, at its tip: m v' = f_device + k (x_d - x) + b (v_d - v) + dry friction, with m = device
+/// + hand.
 ///
-/// The device's force is held over the servo period, as a digital-to-analogue converter does, and saturates; the period is
-/// integrated in `substeps` semi-implicit Euler steps. Dry friction is taken implicitly: it stops the mass within a step or
-/// takes its full force from it, so it neither chatters nor creeps.
+/// The force of the device saturates and is constant over the servo period, as with a digital-to-analogue converter.
+/// The period is integrated in `substeps` semi-implicit Euler steps. Dry friction is implicit: in a step it stops the
+/// mass or acts with its full force. So it does not chatter, and the mass does not creep.
 template <typename Scalar>
 class BasicPlant {
  public:
@@ -26,13 +27,13 @@ class BasicPlant {
     phase_ = noise_.uniform_vector().template cast<Scalar>();
   }
 
-  /// Puts the tip somewhere, at rest.
+  /// Sets the position of the tip, m, at rest.
   void place(const Vector& position) noexcept {
     x_ = position;
     v_.setZero();
   }
 
-  /// One servo period under a held force (N), with the hand on its way to `desired`.
+  /// One servo period. force: constant force of the device, N. desired: the desired motion of the hand.
   void step(const Vector& force, const BasicDesired<Scalar>& desired) noexcept {
     const Vector held = device_.saturate(force);
     const Vector tremor = tremor_.step(noise_);
@@ -40,7 +41,7 @@ class BasicPlant {
     for (int i = 0; i < substeps; ++i) {
       const Vector wanted = desired.position + (static_cast<Scalar>(i) * h_) * desired.velocity + tremor;
       const Vector pull = hand_.stiffness * (wanted - x_) + hand_.damping * desired.velocity;
-      // The hand's damper is implicit too, so that a firm grip on a light device stays stable.
+      // The damper of the hand is implicit as well, so that a firm grip on a light device stays stable.
       v_ = (v_ + h_ / mass * (held + pull)) / (1 + h_ * hand_.damping / mass);
       const Scalar speed = v_.norm(), lost = h_ * device_.friction / mass;
       v_ *= speed > lost ? 1 - lost / speed : Scalar(0);
@@ -48,10 +49,10 @@ class BasicPlant {
     }
   }
 
-  const Vector& tip() const noexcept { return x_; }       ///< where the tip is, m
+  const Vector& tip() const noexcept { return x_; }       ///< true position of the tip, m
   const Vector& velocity() const noexcept { return v_; }  ///< m/s
 
-  /// What the encoders say, m: a grid of encoder_step whose offset comes from the seed.
+  /// The position that the encoders report, m: a multiple of encoder_step plus an offset that depends on the seed.
   Vector measured() const noexcept {
     if (device_.encoder_step == 0) return x_;
     Vector counts = x_ / device_.encoder_step + phase_;

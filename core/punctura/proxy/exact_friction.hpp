@@ -1,4 +1,4 @@
-// The true solution of K06 (21)-(23): where the proxy stops, and with what force.
+// The friction force of one tick: the true solution of K06 (21)-(23), and the paper's clamp (32).
 #pragma once
 
 #include <cstddef>
@@ -8,33 +8,38 @@
 
 namespace punctura {
 
-/// The friction force of one tick, and what the proxy did under it.
+/// The friction force of one tick, and the resulting phase.
 template <typename Scalar>
 struct Friction {
   Scalar force;  ///< N, along the needle
   PhaseOf<Scalar> phase;
 };
 
-/// First x > 0 with c + b x + a x^2 = 0 for c > 0, or a negative number or NaN where there is none.
+/// The first root x > 0 of c + b x + a x^2 for c > 0. A negative number or NaN if there is no such root.
 ///
-/// The smaller root of a parabola that starts above zero is 2c / (sqrt(b^2 - 4ac) - b), whatever the sign of a. Where b > 0
-/// that denominator cancels (then a < 0, or there is no root), and the same root is written from the other side.
+/// The parabola starts above zero. Its first root is 2c / (sqrt(b^2 - 4ac) - b) for both signs of a. For b > 0 the
+/// denominator loses digits by cancellation. Then either a < 0 or there is no root, and -(sqrt(b^2 - 4ac) + b) / 2a
+/// is the same root without cancellation.
 template <typename Scalar>
 Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
   using namespace lane;
   if constexpr (OneNumber<Scalar>)
-    if (a == 0) return -c / b;  // a straight piece, as most are: the same number without the square root
+    if (a == 0) return -c / b;  // most pieces are straight: this skips the square root
   const Scalar root = sqrt(b * b - 4 * a * c);
   const Scalar curved = select(b <= 0, 2 * c / (root - b), -(root + b) / (2 * a));
   return select(a == 0, -c / b, curved);
 }
 
-/// Slides the proxy from q_prev, in piece i, in one direction (+1 in, -1 out) to the first depth where the coupling's force
-/// f* + g (q - q_prev), by (26), meets the edge of the band: the continuation of the motion when there are several.
+/// Slides the proxy from q_prev (m) in one direction: +1 in, -1 out. Returns the friction force, N. Piece i contains
+/// q_prev.
 ///
-/// With x the distance slid, gap(x) = direction (edge(q) - f*) - g x starts positive and ends negative, since the edges
-/// are bounded. On each piece it is at most quadratic; at a break where the edge jumps (thin law) gap may pass zero in the
-/// jump, and the proxy then rests on the break with a force between the two edges.
+/// The proxy stops at the first depth where the force of the coupling, f* + g (q - q_prev) by (26), equals the edge
+/// of the band. If there are several such depths, the first one continues the motion.
+///
+/// x is the distance that the proxy slides. gap(x) = direction (edge(q) - f*) - g x starts positive and ends
+/// negative, because the edges are bounded. On each piece, gap is at most quadratic. At a break where the edge jumps
+/// (thin law), gap can change its sign in the jump. The proxy then rests on the break, and its force lies between the
+/// two values of the edge.
 template <int direction, typename Pieces>
 typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
                               typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
@@ -48,7 +53,7 @@ typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces
     const Scalar coupling = f_star + g * (start - q_prev);
     const Scalar gap = direction * (edge.value(y) - coupling);
     if (gap <= 0) return coupling;
-    if (i == last) return edge.c0;  // constant from here on: the coupling meets it somewhere
+    if (i == last) return edge.c0;  // the edge is constant from here on, so the coupling reaches it
 
     const Scalar x = first_root(direction * edge.c2, edge.slope(y) - g, gap);
     const Scalar end = band.breaks[direction > 0 ? i : i - 1];
@@ -57,8 +62,10 @@ typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces
   }
 }
 
-/// The same for lanes. Each lane starts and stops in a piece of its own, so all lanes visit all pieces, and each keeps the first force
-/// that it finds. slide() stands beside it for speed: one number mostly needs one piece, and leaves the others out.
+/// slide() for lanes. Lanes start and stop in different pieces. Therefore all lanes visit all pieces, and each lane
+/// keeps the first force that it finds.
+///
+/// slide() is faster for one number: it mostly needs one piece and skips the others.
 template <int direction, typename Pieces>
 typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar q_prev, typename Pieces::Scalar f_star,
                                      typename Pieces::Scalar g) noexcept {
@@ -71,7 +78,7 @@ typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar
     const std::size_t i = direction > 0 ? trip : last - trip;
     const auto& piece = band.pieces[i];
     const auto& edge = direction > 0 ? piece.lower : piece.upper;
-    // A lane joins in the piece that holds q_prev.
+    // A lane starts in the piece that contains q_prev.
     if (trip == last)
       sliding = Mask<Scalar>(true);
     else
@@ -94,10 +101,10 @@ typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar
   return force;
 }
 
-/// Solves K06 (21)-(23) for one tick from the band at q_prev.
+/// Solves K06 (21)-(23) for one tick. q_prev: m. f_star: f*, N, by (27). g: N/m.
 ///
-/// f*, by (27), is what holds the proxy still. If the band at q_prev allows it, the proxy sticks; else it slides towards
-/// the side on which f* lies. Bounded time: every piece is visited at most once.
+/// f* holds the proxy still. If f* lies in the band at q_prev, the proxy sticks. If f* is below the band, the proxy
+/// slides in. If f* is above the band, it slides out. Each piece is visited at most once, so the time is bounded.
 template <typename Pieces>
 Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename Pieces::Scalar q_prev,
                                                  typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
@@ -121,13 +128,13 @@ Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename 
   }
 }
 
-/// K06 (32): the clamp of f* to the band at q*, and the phase that (29) reads from it.
+/// f* (N), clamped to the band at q*, K06 (32), and the phase by (29).
 template <typename Scalar>
 Friction<Scalar> clamped_friction(const Band<Scalar>& band, Scalar f_star) noexcept {
   using namespace lane;
   using P = PhaseOf<Scalar>;
   const Scalar f = band.clamp(f_star);
-  if constexpr (OneNumber<Scalar>)  // select() would compute both comparisons: 4 % of a tick of many membranes
+  if constexpr (OneNumber<Scalar>)  // select() always computes both comparisons: 4 % of a tick with many membranes
     return {f, f > f_star ? Phase::sliding_in : f < f_star ? Phase::sliding_out : Phase::sticking};
   else
     return {f, select(f > f_star, P(Phase::sliding_in), select(f < f_star, P(Phase::sliding_out), P(Phase::sticking)))};

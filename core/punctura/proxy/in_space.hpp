@@ -1,4 +1,4 @@
-// K06 section 3.2 as plain data: what is fixed, what a tick changes, what a tick gives. One proxy and one membrane in space.
+// One proxy and one membrane in space (K06 section 3.2): parameters, state and result of a tick, as plain data.
 #pragma once
 
 #include <type_traits>
@@ -10,12 +10,12 @@
 
 namespace punctura {
 
-/// cos(80 degrees): a needle that enters flatter than that grazes, U = H / cos(beta) has no bound there, and it is given no
-/// force (docs/errata.md, E6).
+/// cos(80 degrees), the smallest n.b of a needle that enters. A needle with a smaller n.b grazes and gives no force,
+/// because U = H / cos(beta) would grow without bound (docs/errata.md, E6).
 template <typename Scalar>
 inline constexpr Scalar grazing_cosine = Scalar(0.17364817766693034885);
 
-/// What is fixed while a proxy runs.
+/// The parameters of a proxy in space. They stay fixed while it runs.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, Vector3<typename L::Scalar>>
 struct SpaceParams {
@@ -36,8 +36,10 @@ struct SpaceParams {
   }
 };
 
-/// What a tick leaves to the next. SpaceState<L>{} is a proxy that has not seen a sample: one that starts inside stays barred until
-/// it has been outside, in front.
+/// The state of a proxy between two ticks.
+///
+/// SpaceState<L>{} is the state before the first sample. A proxy that starts inside stays barred until it has been
+/// outside, in front of the membrane.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
 struct SpaceState {
   using Scalar = typename L::Scalar;
@@ -45,16 +47,16 @@ struct SpaceState {
 
   Mask<Scalar> started{};
   PhaseOf<Scalar> phase = Phase::barred;
-  Vector p{};  ///< p(k), m: the device's position
-  Vector e{};  ///< e(k) = q(k) - p(k), m
-  Vector f{};  ///< f(k), N
-  Vector b{};  ///< the needle's direction at entry, held while inside
-  Scalar cos_beta{1};
-  PiecesOf<L> pieces{};  ///< of the law for cos_beta, while inside
+  Vector p{};            ///< p(k), m: the device's position
+  Vector e{};            ///< e(k) = q(k) - p(k), m
+  Vector f{};            ///< f(k), N
+  Vector b{};            ///< the needle's direction at entry, constant while inside
+  Scalar cos_beta{1};    ///< n.b
+  PiecesOf<L> pieces{};  ///< the pieces of the law for cos_beta, valid while inside
   typename MemoryOf<L>::type law{};
   typename C::template Memory<Vector> coupling{};
 
-  /// Without the pieces: lay_out() makes them of the rest.
+  /// Reads or writes the state without the pieces. lay_out() computes them.
   static void archive(auto& self, auto& state) {
     state.flag(self.started);
     state.choice(self.phase, Phase::barred);
@@ -68,16 +70,17 @@ struct SpaceState {
   }
 };
 
-/// What a tick gives.
+/// The result of a tick in space.
 template <typename Scalar>
 struct SpaceTick {
   Vector3<Scalar> force;      ///< f(k), N, on the device
   Vector3<Scalar> proxy;      ///< q(k), m
-  Vector3<Scalar> direction;  ///< b, held from entry on
+  Vector3<Scalar> direction;  ///< b, constant from entry on
   Scalar axial_force;         ///< b.f(k), N
-  /// Along b while inside, m: of the proxy q(k), or of q* with the paper's solver. Else along the normal, from the surface.
+  /// m. Inside: the depth of the proxy q(k) along b; with the paper's solver the depth of q*. Otherwise: the depth of
+  /// q(k) along the normal, from the surface.
   Scalar depth;
-  Band<Scalar> band;  ///< bounds the axial force, N: taken at depth, 0 outside
+  Band<Scalar> band;  ///< the band at depth, N: it bounds the axial force; 0 outside
   PhaseOf<Scalar> phase;
 
   static void archive(auto& self, auto& state) {
@@ -95,7 +98,7 @@ SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b)
           select(mask, a.phase, b.phase)};
 }
 
-/// Lays the law out for the needle as it stands in the membrane, and the membrane as it is now.
+/// Computes the pieces of the law for the angle of the needle and for the memory of the membrane.
 template <typename L, typename C>
 void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>)
@@ -104,7 +107,10 @@ void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept 
     state.pieces = params.law.pieces(state.cos_beta);
 }
 
-/// Where `passed` is true the tip has just passed the surface: b and U are fixed until it leaves. K06 (41)
+/// Fixes b and U at entry, K06 (41) and (17), for the lanes in which the tip has `passed` the surface. They stay
+/// until the tip leaves.
+///
+/// A needle that grazes becomes barred.
 template <typename L, typename C>
 void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typename SpaceState<L, C>::Vector& axis,
            const Mask<typename L::Scalar>& passed) noexcept {
@@ -117,10 +123,10 @@ void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typen
   state.cos_beta = select(passed, cos_beta, state.cos_beta);
   if (!any(enters)) return;
   state.b = select(enters, axis, state.b);
-  lay_out(params, state);  // a lane that does not enter gets the pieces that it had
+  lay_out(params, state);  // a lane that is inside already keeps its cos_beta, and so its pieces
 }
 
-/// The end of a tick inside: friction along b is known, so is where the proxy goes.
+/// Ends a tick inside: computes the force and moves the proxy, from the friction along b.
 template <typename L, typename C, typename Scalar>
 SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p,
                                 const Vector3<Scalar>& p_prev, const Vector3<Scalar>& f_star,
@@ -140,12 +146,12 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   return {state.f, p + state.e, state.b, friction.force, depth, band, state.phase};
 }
 
-/// The end of a tick outside, or barred: no force.
+/// Ends a tick outside or barred: f = 0.
 template <typename L, typename C, typename Scalar>
 SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
                                  const Vector3<Scalar>& p) noexcept {
   const Vector3<Scalar> e_prev = state.e;
-  state.f = {};
+  state.f = {};                                                                      // K06 (41), outside
   state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0
   params.coupling.advance(state.coupling, state.e, e_prev);
   state.started = Mask<Scalar>(true);
@@ -153,7 +159,7 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
 }
 
-/// The end of a tick of which some lanes are inside and some are not.
+/// Ends a tick in which some lanes are inside and some are not.
 template <typename L, typename C, typename Scalar>
 SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p,
                               const Vector3<Scalar>& p_prev, const Vector3<Scalar>& f_star,

@@ -1,4 +1,4 @@
-// Different laws in one scene, membrane by membrane.
+// A scene in which membranes have different laws.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,17 @@
 
 namespace punctura {
 
-/// One of several laws. The solvers see its pieces alone, which are made when a needle enters and when a law with memory says that
-/// they have changed; on a line, in each tick.
+/// One of several laws, with a common type. `room` is the number of pieces of the largest law.
+///
+/// The solvers use only its pieces. They are computed when a needle enters and when advance() of a law with memory
+/// returns true. On a line they are computed in each tick.
 template <ObliqueLaw... Laws>
 class MixedLaw {
  public:
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
   static constexpr std::size_t room = std::max({PiecesOf<Laws>::size...});
   using Pieces = PiecewiseBand<Scalar, room>;
-  /// Of the law in use, from its first advance() on.
+  /// The memory of the law in use, from its first advance() on. Before that, the law has an untouched Memory{}.
   struct Memory : std::variant<typename MemoryOf<Laws>::type...> {
     using Each = std::variant<typename MemoryOf<Laws>::type...>;
     using Each::Each;
@@ -47,12 +49,12 @@ class MixedLaw {
   const Pieces& pieces() const noexcept { return pieces_; }
   Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
 
-  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept { return made(memory, cos_beta); }
-  Pieces pieces(const Memory& memory) const noexcept { return made(memory); }
+  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept { return compute_pieces(memory, cos_beta); }
+  Pieces pieces(const Memory& memory) const noexcept { return compute_pieces(memory); }
 
   bool advance(Memory& memory, Scalar depth) const noexcept {
     bool changed = false;
-    ask([&]<std::size_t i>(const auto& law) {
+    visit([&]<std::size_t i>(const auto& law) {
       if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
         if (memory.index() != i) memory.template emplace<i>();
         changed = law.advance(*std::get_if<i>(&memory), depth);
@@ -62,11 +64,11 @@ class MixedLaw {
   }
 
  private:
-  /// The pieces of the law in use, for cos_beta or, without it, as the law was made.
+  /// The pieces of the law in use for cos_beta. Without cos_beta: for the obliquity of the law's constructor.
   template <typename... Angle>
-  Pieces made(const Memory& memory, Angle... cos_beta) const noexcept {
+  Pieces compute_pieces(const Memory& memory, Angle... cos_beta) const noexcept {
     Pieces all;
-    ask([&]<std::size_t i>(const auto& law) {
+    visit([&]<std::size_t i>(const auto& law) {
       if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
         using Own = std::variant_alternative_t<i, typename Memory::Each>;
         const auto* own = std::get_if<i>(&memory);
@@ -78,11 +80,11 @@ class MixedLaw {
     return all;
   }
 
-  /// Calls ask<i>(law) for the law in use, the i-th.
-  template <typename Ask>
-  void ask(Ask&& with) const noexcept {
+  /// Calls visitor<i>(law) for the law in use. i is its index in Laws.
+  template <typename Visitor>
+  void visit(Visitor&& visitor) const noexcept {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
-      ((law_.index() == i ? with.template operator()<i>(*std::get_if<i>(&law_)) : void()), ...);
+      ((law_.index() == i ? visitor.template operator()<i>(*std::get_if<i>(&law_)) : void()), ...);
     }(std::index_sequence_for<Laws...>());
   }
 

@@ -1,4 +1,4 @@
-// K06 section 3.1 as plain data: what is fixed, what a tick changes, what a tick gives. One proxy on the axis of the needle.
+// One proxy on the axis of the needle (K06 section 3.1): parameters, state and result of a tick, as plain data.
 #pragma once
 
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace punctura {
 
-/// What is fixed while a proxy runs.
+/// The parameters of a proxy on a line. They stay fixed while it runs.
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, typename L::Scalar>
 struct LineParams {
@@ -25,7 +25,7 @@ struct LineParams {
   }
 };
 
-/// What a tick leaves to the next. LineState<L>{} is a proxy that has not seen a sample: e = f = 0.
+/// The state of a proxy between two ticks. LineState<L>{} is the state before the first sample: e = f = 0.
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
 struct LineState {
   using Scalar = typename L::Scalar;
@@ -48,13 +48,13 @@ struct LineState {
   }
 };
 
-/// What a tick gives.
+/// The result of a tick on a line.
 template <typename Scalar>
 struct LineTick {
   Scalar force;       ///< f(k), N, on the device
   Scalar proxy;       ///< q(k), m
-  Scalar depth;       ///< where the band was taken, m: q(k), or q* with the paper's solver
-  Band<Scalar> band;  ///< N, at depth
+  Scalar depth;       ///< the depth of the band, m: q(k); with the paper's solver q*
+  Band<Scalar> band;  ///< the band at depth, N
   PhaseOf<Scalar> phase;
 
   static void archive(auto& self, auto& state) {
@@ -63,7 +63,7 @@ struct LineTick {
   }
 };
 
-/// The pieces of the law as the membrane is now.
+/// The pieces of the law for the present memory of the membrane.
 template <typename L, typename C>
 decltype(auto) pieces_now(const LineParams<L, C>& params, const LineState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>)
@@ -72,12 +72,12 @@ decltype(auto) pieces_now(const LineParams<L, C>& params, const LineState<L, C>&
     return params.law.pieces();
 }
 
-/// The end of a tick: friction is known, so is where the proxy goes.
+/// Ends a tick: moves the proxy, from the friction force.
 template <typename L, typename C, typename Scalar>
 void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Scalar p_prev, Scalar f_star,
             const Friction<Scalar>& friction) noexcept {
   const Scalar e_prev = state.e;
-  // K06 (25) and (26) in one: a proxy that sticks (f = f*) keeps its place to the last bit.
+  // K06 (25) and (26) combined. In this form, a proxy that sticks (f = f*) keeps its position to the last bit.
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);
   params.coupling.advance(state.coupling, state.e, e_prev);
   if constexpr (LawWithMemory<L>)

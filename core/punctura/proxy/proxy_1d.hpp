@@ -1,4 +1,4 @@
-// K06 section 3.1: one proxy on the axis of the needle.
+// The proxy of K06 section 3.1: one proxy on the axis of the needle.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace punctura {
 
-/// The proxy of K06 Fig. 6, in one dimension: depth of the device in, force on the device out.
+/// The proxy of K06 Fig. 6, in one dimension. step() takes the depth of the device and returns the force on the device.
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
 class Proxy1d {
  public:
@@ -25,18 +25,19 @@ class Proxy1d {
   Proxy1d(const L& law, const BasicCoupling<Scalar>& coupling, Scalar period, Solver solver = Solver::exact) noexcept
       : Proxy1d(law, C(coupling, period), solver) {}
 
-  /// Forgets all motion: the next sample is where the device starts, at e = f = 0.
+  /// Clears the state: e = f = 0, and the next sample is the first one.
   void reset() noexcept { set_state({}); }
 
-  /// One tick: p (m), the depth of the device, gives f (N), the force on it. K06 (33). A p that is no place (NaN, or beyond
-  /// 1000 km) gives NaN, and the proxy is as if that tick had not been.
+  /// One tick. p: depth of the device, m. Returns f, the force on the device, N. K06 (33).
+  ///
+  /// If p is NaN or beyond 1000 km, it returns NaN and the state does not change.
   Scalar step(Scalar p) noexcept {
     if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p) : Exact::step(params_, state_, p);
     return tick_.force;
   }
 
-  /// All that the next tick depends on: a copy of it, given back, goes on to the same bits.
+  /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
   const State& state() const noexcept { return state_; }
   void set_state(const State& state) noexcept {
     state_ = state;
@@ -55,13 +56,13 @@ class Proxy1d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
+  const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
   const L& law() const noexcept { return params_.law; }
-  Scalar force() const noexcept { return state_.f; }                ///< f(k), N
+  Scalar force() const noexcept { return state_.f; }                ///< f(k), N, on the device
   Scalar offset() const noexcept { return state_.e; }               ///< e(k) = q(k) - p(k), m
   Scalar position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
   Phase phase() const noexcept { return state_.phase; }
-  /// The depth at which the band was taken, m: q(k), or q*(k) with Solver::paper.
+  /// The depth of the band, m: q(k); with Solver::paper q*(k).
   Scalar depth() const noexcept { return tick_.depth; }
 
  private:

@@ -1,4 +1,4 @@
-// K06 section 3.2: one proxy, one membrane, in space.
+// The proxy of K06 section 3.2: one proxy and one membrane in space.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,8 @@ namespace punctura {
 template <ObliqueLaw L, typename C, typename Storage>
 class InsertionOf;
 
-/// The proxy of K06 Fig. 7: it moves along b, the needle's direction at entry, and friction acts along b alone.
+/// The proxy of K06 Fig. 7. Inside, it moves only along b, the needle's direction at entry, and friction acts only
+/// along b.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
 class Proxy3d {
  public:
@@ -21,7 +22,7 @@ class Proxy3d {
   using State = SpaceState<L, C>;
   static_assert(std::is_trivially_copyable_v<State>);
 
-  /// point: any point of the surface (a), m. inward_normal: n, of length 1.
+  /// point: a, any point of the surface, m. inward_normal: n, of length 1. period: T, s.
   Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const C& coupling,
           Solver solver = Solver::exact) noexcept
       : params_{law, point, inward_normal, coupling}, solver_(solver) {
@@ -31,11 +32,13 @@ class Proxy3d {
           Scalar period, Solver solver = Solver::exact) noexcept
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
 
-  /// Forgets all motion. A proxy that starts inside stays barred until it has been outside, in front.
+  /// Clears the state. A proxy that starts inside stays barred until it has been outside, in front.
   void reset() noexcept { set_state({}); }
 
-  /// One tick: p (m), the device's position, and the needle's unit direction give the force on the device (N). K06 (41). A p or an
-  /// axis that is not finite gives NaN, and the proxy is as if that tick had not been.
+  /// One tick. p: position of the device, m. axis: the needle's unit direction. Returns the force on the device, N.
+  /// K06 (41).
+  ///
+  /// If p is NaN or beyond 1000 km, or axis is not finite, it returns NaN and the state does not change.
   Vector step(const Vector& p, const Vector& axis) noexcept {
     if (!is_place(p) || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     return step_finite(p, axis);
@@ -44,14 +47,14 @@ class Proxy3d {
   bool same_place(const Proxy3d& other) const noexcept {
     return params_.a == other.params_.a && params_.n == other.params_.n;
   }
-  /// Goes on from where another proxy at the same membrane is, under its own law and coupling.
+  /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
   void resume(const Proxy3d& previous) noexcept {
     state_ = previous.state_;
     tick_ = previous.tick_;
     if (inside(state_.phase)) lay_out(params_, state_);
   }
 
-  /// All that the next tick depends on: a copy of it, given back, goes on to the same bits.
+  /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
   const State& state() const noexcept { return state_; }
   void set_state(const State& state) noexcept {
     state_ = state;
@@ -71,22 +74,22 @@ class Proxy3d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< what the last step gave
+  const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
   const L& law() const noexcept { return params_.law; }
   const Vector& force() const noexcept { return state_.f; }          ///< f(k), N
   const Vector& offset() const noexcept { return state_.e; }         ///< e(k) = q(k) - p(k), m
   Vector position() const noexcept { return state_.p + state_.e; }   ///< q(k), m
-  const Vector& direction() const noexcept { return state_.b; }      ///< b, held from entry on
+  const Vector& direction() const noexcept { return state_.b; }      ///< b, constant from entry on
   Scalar axial_force() const noexcept { return tick_.axial_force; }  ///< b.f(k), N
   Phase phase() const noexcept { return state_.phase; }
-  const Band<Scalar>& band() const noexcept { return tick_.band; }  ///< bounds the axial force, N
+  const Band<Scalar>& band() const noexcept { return tick_.band; }  ///< the band of the axial force, N
   Scalar depth() const noexcept { return tick_.depth; }             ///< m, see SpaceTick
 
  private:
   template <ObliqueLaw, typename, typename>
-  friend class InsertionOf;  // which checks p and axis once for all membranes
+  friend class InsertionOf;  // it checks p and axis once for all membranes
 
-  /// A tick at a place and along an axis that were checked.
+  /// step() without the check of p and axis.
   const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
     tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
     return tick_.force;

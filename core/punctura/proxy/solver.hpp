@@ -1,4 +1,4 @@
-// The two ways to solve K06 (21)-(23), and the state a membrane can be in.
+// The two solvers of K06 (21)-(23), and the phases of a needle in a membrane.
 #pragma once
 
 #include <cstdint>
@@ -7,24 +7,25 @@
 
 namespace punctura {
 
+/// How a tick solves K06 (21)-(23).
 enum class Solver : std::uint8_t {
-  paper,  ///< K06 (33): the band is taken at q*, which stands for q (31)
+  paper,  ///< K06 (33): q* approximates q (31), and the band is taken at q*
   exact,  ///< the true solution of (21)-(23)
 };
 
-/// What the needle is doing in one membrane.
+/// The phase of a needle in one membrane.
 enum class Phase : std::uint8_t {
-  outside,
+  outside,      ///< in front of the surface: no force
   sticking,     ///< the proxy rests: the force is inside the band
-  sliding_in,   ///< the force is on the lower edge
-  sliding_out,  ///< the force is on the upper edge
-  barred,       ///< inside, but not entered from the front: no force until the tip has been outside, in front
+  sliding_in,   ///< the proxy moves in: the force is on the lower edge
+  sliding_out,  ///< the proxy moves out: the force is on the upper edge
+  barred,       ///< inside without a valid entry: no force until the tip has been outside, in front
 };
 
-/// Whether friction acts.
+/// Whether friction acts in this phase.
 constexpr bool inside(Phase phase) noexcept { return phase != Phase::outside && phase != Phase::barred; }
 
-/// A phase for each lane, as its number: a small whole number has its exact place in every floating-point type.
+/// A phase for each lane, stored as a number. Floating-point types represent small integers exactly.
 template <Lanes V>
 struct Phases {
   V number{};
@@ -45,7 +46,7 @@ Phases<V> select(const M& mask, const Phases<V>& a, const Phases<V>& b) noexcept
   return Phases<V>(select(mask, a.number, b.number));
 }
 
-/// What stands for the phase of one number or of several.
+/// The type of a phase: Phase for one number, Phases for lanes.
 template <typename V>
 struct PhaseFor {
   using type = Phases<V>;

@@ -1,33 +1,36 @@
-// Why a tick gave no force.
+// The faults: why a tick gave no force.
 #pragma once
 
 #include <cstdint>
 
 namespace punctura {
 
-/// The first fault is latched: force zero until an explicit reset.
+/// The reason for a fault. The first fault is latched: the force is zero until an explicit reset.
 enum class Fault : std::uint8_t {
   none,
   non_finite_input,  ///< the device reported NaN or infinity
-  bad_axis,          ///< the reported needle direction is not of length 1
+  bad_axis,          ///< the reported needle direction does not have length 1
   position_jump,     ///< the position moved faster than a hand can
   stale_sample,      ///< the device repeated the same sample for too long
   missed_deadline,   ///< the tick came too late
-  clock,             ///< time went back
-  non_finite_force,  ///< the model gave NaN or infinity: a defect, please report it
-  device,            ///< the back-end reported a fault of its own
+  clock,             ///< the time went back
+  non_finite_force,  ///< the model computed NaN or infinity: a defect, please report it
+  device,            ///< the back-end reported a fault
 };
 
-/// What a fault means and what to do, as a fixed text (a tick formats nothing).
+/// The meaning of a fault, and what to do. The text is constant, because a tick formats nothing.
 constexpr const char* describe(Fault fault) noexcept {
   switch (fault) {
     case Fault::none: return "no fault";
     case Fault::non_finite_input:
-      return "the device reported a position or direction that is not a number: check its cable and calibration, then reset";
+      return "the device reported a position or direction that is not a number: "
+             "check its cable and calibration, then reset";
     case Fault::bad_axis:
-      return "the device reported a needle direction that is not of length 1: check its orientation sensors, or set direction = \"motion\" in the scene";
+      return "the device reported a needle direction that is not of length 1: "
+             "check its orientation sensors, or set direction = \"motion\" in the scene";
     case Fault::position_jump:
-      return "the device's position moved faster than a hand can: check its cable, calibrate it, then reset with the tip outside tissue";
+      return "the device's position moved faster than a hand can: "
+             "check its cable, calibrate it, then reset with the tip outside tissue";
     case Fault::stale_sample: return "the device sent no new sample in time: check its connection, then reset";
     case Fault::missed_deadline: return "a tick came too late: close programs that keep the processor busy, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";

@@ -1,4 +1,4 @@
-// How much force a device's motors have given lately, and how much they may still give.
+// The budget for continuous force: how much force the motors may still give.
 #pragma once
 
 #include <algorithm>
@@ -6,14 +6,15 @@
 
 namespace punctura {
 
-/// A token bucket of squared force, N^2 s, which is what heats motors. It keeps this promise: in no interval of length
-/// `window` is the force above `rating` N rms.
+/// A token bucket of squared force, N^2 s. Squared force heats motors.
 ///
-/// A quarter of what the promise permits in a window is the bucket's depth, for bursts. The rest comes back evenly, at
-/// `rate` N^2. So an interval of any length t holds at most depth + rate * t, and for t = window that is
-/// rating^2 * window. A force that lasts is held at sqrt(rate), 87 % of the rating.
+/// Guarantee: in no interval of length `window` (s) is the force above `rating` (N rms).
 ///
-/// The budget belongs to a device: motors do not cool because a new run begins.
+/// A window permits rating^2 * window. The depth of the bucket is a quarter of this, for bursts. The rest returns at
+/// the constant rate `rate` (N^2). Therefore an interval of length t contains at most depth + rate * t. For t =
+/// window this is rating^2 * window. A constant force can be at most sqrt(rate), 87 % of the rating.
+///
+/// The budget belongs to a device and outlasts a run, because motors do not cool when a new run begins.
 template <typename Scalar>
 class BasicForceBudget {
  public:
@@ -23,22 +24,22 @@ class BasicForceBudget {
   BasicForceBudget(Scalar window, Scalar rating) noexcept
       : depth_(burst_share * rating * rating * window), rate_((1 - burst_share) * rating * rating) {}
 
-  /// Counts a force, squared, N^2, that was given for a time, s. A force that is not a number uses all up.
+  /// Counts a force that was given for a time. square: the squared force, N^2. time: s. NaN empties the budget.
   void spend(Scalar square, Scalar time) noexcept {
     const Scalar spent = spent_ + (square - rate_) * time;
     spent_ = std::isnan(spent) ? most() : std::clamp(spent, Scalar(0), most());
   }
 
-  /// The square, N^2, of the greatest force that the promise permits for a time, s.
+  /// The square (N^2) of the largest force that the guarantee permits for a time (s).
   Scalar permitted_square(Scalar time) const noexcept { return rate_ + std::max(Scalar(0), depth_ - spent_) / time; }
 
-  /// What is left of the bucket, 0 to 1.
+  /// The part of the bucket that is left, 0 to 1.
   Scalar left() const noexcept { return std::clamp(1 - spent_ / depth_, Scalar(0), Scalar(1)); }
 
-  /// The square, N^2, of the force that may be given without end.
+  /// The square (N^2) of the largest constant force.
   Scalar rate() const noexcept { return rate_; }
 
-  /// What was taken from the bucket and has not come back yet, N^2 s.
+  /// The amount that was taken from the bucket and has not returned yet, N^2 s.
   Scalar spent() const noexcept { return spent_; }
   void set_spent(Scalar spent) noexcept { spent_ = spent > 0 ? spent : 0; }
 
@@ -49,7 +50,7 @@ class BasicForceBudget {
   void describe(auto& parameters) const { parameters.numbers(depth_, rate_); }
 
  private:
-  /// More is not remembered: it comes back within `window`, whatever was given.
+  /// The upper bound of spent_. With it, the budget has room again after a rest of `window` at the latest.
   Scalar most() const noexcept { return depth_ / burst_share; }
 
   Scalar depth_, rate_;

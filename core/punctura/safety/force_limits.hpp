@@ -1,4 +1,4 @@
-// What leaves for the device is bounded here. Every bound that acts is counted and named.
+// The limits on the force for the device. Each limit that acts is counted and reported.
 #pragma once
 
 #include <algorithm>
@@ -12,20 +12,21 @@
 
 namespace punctura {
 
+/// The limits on the force for the device.
 struct ForceLimits {
   double max_force = Omni::max_force;                ///< N, norm
-  double continuous_force = Omni::continuous_force;  ///< N rms in any continuous_time
-  double continuous_time = 10;  ///< s. A choice: no data sheet gives the motors' thermal time constant
-  double ramp_time = 0.5;       ///< s from zero to full force after arming
-  double warm_motor = 0.8;      ///< motor temperature (0 to 1) above which the ceiling comes down, to no force at 1
+  double continuous_force = Omni::continuous_force;  ///< N rms in any interval of continuous_time
+  double continuous_time = 10;  ///< s. A chosen value: no data sheet gives the thermal time constant of the motors
+  double ramp_time = 0.5;       ///< s from zero force to full force after arming
+  double warm_motor = 0.8;      ///< motor temperature, 0 to 1, above which the ceiling decreases; it is 0 N at 1
 };
 
-/// The limit that makes the force of a tick smaller than the model's.
+/// The limit that makes the force of a tick smaller than the force of the model.
 enum class Limit : std::uint8_t {
-  none,         ///< no limit acts: the whole force goes out, or none is asked for
-  ramp,         ///< the force still grows after arming
+  none,         ///< no limit acts, or the force of the model is zero
+  ramp,         ///< the ramp after arming
   peak,         ///< max_force
-  continuous,   ///< continuous_force: the budget is used up
+  continuous,   ///< continuous_force: the budget lowers the ceiling
   temperature,  ///< the device reports warm motors
 };
 
@@ -34,21 +35,24 @@ struct LimitCounters {
   std::uint64_t peak = 0, continuous = 0, temperature = 0, ramp = 0;
 };
 
-/// Clamp by norm (never per axis: that would turn the force), budget for continuous force, ramp in.
+/// Limits the force: a ramp after arming, a budget for continuous force and a ceiling on the norm.
 ///
-/// While more than half of the budget is left, the ceiling is max_force. Then it comes down evenly, to the force that may
-/// be given without end. It comes up again only while the force is below that, so a force that a limit holds never rises
-/// by itself. There is no limit on the rate of change: the pop is an intended step.
+/// It clamps the norm of the force, not its components: this keeps the direction.
 ///
-/// A device holds a force until the next tick, however late that comes. So each tick counts the force of the one before,
-/// for the time that has passed.
+/// While more than half of the budget is left, the ceiling is max_force. With less than half, the ceiling decreases
+/// linearly to the largest constant force. The ceiling increases again only while the force is below this constant
+/// force. A limited force therefore never increases by itself. The rate of change has no limit, because the pop is an
+/// intended step.
+///
+/// A device holds a force until the next tick, also if this tick is late. Therefore each tick counts the force of the
+/// previous tick, for the time that has passed.
 template <typename Scalar>
 class BasicForceLimiter {
  public:
   using Vector = Vector3<Scalar>;
-  /// s. A force is held so long at most, by the gate's deadline; the budget always has room for that.
+  /// The longest time that a device holds a force, s: the deadline of the gate. The budget always has room for it.
   static constexpr Scalar longest_hold = Scalar(0.020);
-  static constexpr Scalar unknown_time = -1;
+  static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
   BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
       : max_force_(static_cast<Scalar>(limits.max_force)),
@@ -60,10 +64,10 @@ class BasicForceLimiter {
         ramp_step_(period / static_cast<Scalar>(limits.ramp_time)),
         ceiling_(permitted(0)) {}
 
-  /// Starts a new ramp. The budget and the counters stay: motors do not cool by a reset.
+  /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
   void reset() noexcept { gain_ = 0; }
 
-  /// Goes on from where another limiter is, with its own limits: ramp, budget and counters.
+  /// Takes over the ramp, the budget and the counters of another limiter, but keeps its own limits.
   void resume(const BasicForceLimiter& previous) noexcept {
     gain_ = previous.gain_;
     held_square_ = previous.held_square_;
@@ -71,8 +75,8 @@ class BasicForceLimiter {
     budget_.set_spent(previous.budget_.spent());
   }
 
-  /// One tick: the model's force (N, finite) gives the force for the device. motor_temperature: 0 to 1. elapsed: s since
-  /// the tick before; a period if not given; NaN in the first tick of a run.
+  /// One tick. wanted: the force of the model, N, finite. Returns the force for the device, N. motor_temperature: 0
+  /// to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is left out.
   Vector step(const Vector& wanted, Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
     gain_ = std::min(Scalar(1), gain_ + ramp_step_);
@@ -82,7 +86,7 @@ class BasicForceLimiter {
     ceiling_ = permitted(motor_temperature);
     if (const Scalar norm = force.stableNorm(); !(norm <= ceiling_)) {
       force = force / norm * ceiling_;
-      if (cool(motor_temperature) < 1)
+      if (thermal_factor(motor_temperature) < 1)
         act(Limit::temperature, counters_.temperature);
       else if (ceiling_ < max_force_)
         act(Limit::continuous, counters_.continuous);
@@ -93,22 +97,22 @@ class BasicForceLimiter {
     return force;
   }
 
-  /// One tick without force.
+  /// One tick without force. motor_temperature: 0 to 1. elapsed: s since the previous tick, as in step().
   void rest(Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
     ceiling_ = permitted(motor_temperature);
   }
 
-  /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
+  /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
   void end(Scalar elapsed) noexcept { count(elapsed); }
 
-  Scalar ceiling() const noexcept { return ceiling_; }  ///< the greatest force that the last tick permitted, N
-  Limit limit() const noexcept { return limit_; }       ///< what cut the force of the last tick
-  Scalar gain() const noexcept { return gain_; }        ///< of the ramp, 0 to 1
+  Scalar ceiling() const noexcept { return ceiling_; }  ///< the largest force that the last tick permitted, N
+  Limit limit() const noexcept { return limit_; }       ///< the limit that reduced the force of the last tick
+  Scalar gain() const noexcept { return gain_; }        ///< gain of the ramp, 0 to 1
   const LimitCounters& counters() const noexcept { return counters_; }
 
   const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
-  /// Goes on with a device whose motors have given that much, N^2 s, see ForceBudget::spent.
+  /// Sets how much the motors of the device have given before, N^2 s. See ForceBudget::spent.
   void set_spent(Scalar spent) noexcept { budget_.set_spent(spent); }
 
   static void archive(auto& self, auto& state) {
@@ -127,8 +131,8 @@ class BasicForceLimiter {
   }
 
  private:
-  /// By how much warm motors bring the ceiling down: 1 is not at all.
-  Scalar cool(Scalar temperature) const noexcept {
+  /// The factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction.
+  Scalar thermal_factor(Scalar temperature) const noexcept {
     if (temperature <= warm_motor_) return 1;
     return std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_));
   }
@@ -136,14 +140,14 @@ class BasicForceLimiter {
   Scalar permitted(Scalar temperature) const noexcept {
     const Scalar share = std::min(Scalar(1), 2 * budget_.left());
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
-    return cool(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
+    return thermal_factor(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
   }
 
-  /// The force of the tick before, for the time that it was held.
+  /// Counts the force of the previous tick for the time that the device held it.
   void count(Scalar elapsed) noexcept {
     const bool known = elapsed >= 0 && std::isfinite(elapsed);
-    // Before the first tick of a run no time has passed: a period of rest for each run would add up over many runs.
-    // So would one for each wrong stamp.
+    // Before the first tick of a run no time has passed. A period of rest for each run would add up over many runs,
+    // and so would a period of rest for each wrong time stamp.
     const bool no_time = !known && elapsed != unknown_time && held_square_ == 0;
     budget_.spend(held_square_, known ? elapsed : no_time ? 0 : period_);
     held_square_ = 0;
@@ -159,10 +163,10 @@ class BasicForceLimiter {
   Scalar warm_motor_;  ///< 0 to 1
   BasicForceBudget<Scalar> budget_;
   Scalar period_;
-  Scalar steady_;  ///< the force that may be given without end, N
+  Scalar steady_;  ///< the largest constant force, N
   Scalar hold_, ramp_step_;
   Scalar gain_ = 0, ceiling_;
-  Scalar held_square_ = 0;  ///< of the force that the device holds since the last tick, N^2
+  Scalar held_square_ = 0;  ///< the square of the force that the device holds since the last tick, N^2
   Limit limit_ = Limit::none;
   LimitCounters counters_{};
 };

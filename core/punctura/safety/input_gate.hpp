@@ -1,4 +1,4 @@
-// What a sample must fulfil before the model sees it.
+// The checks of a sample before the model uses it.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,18 @@
 
 namespace punctura {
 
+/// The limits of the input gate.
 struct GateLimits {
-  double max_speed = 8;          ///< m/s from one reading to the next: 5 mm at 1600 Hz
-  double stale = 0.015;          ///< s without a new reading
-  double deadline = 0.020;       ///< s from one tick to the next
-  double axis_tolerance = 1e-3;  ///< of the axis' length from 1
-  std::uint32_t dead_man = 0;    ///< buttons of which one must be held for force to be given; 0 asks for none
+  double max_speed = 8;          ///< m/s from one reading to the next; at 1600 Hz this is 5 mm
+  double stale = 0.015;          ///< longest time without a new reading, s
+  double deadline = 0.020;       ///< longest time from one tick to the next, s
+  double axis_tolerance = 1e-3;  ///< largest difference of the axis' length from 1
+  std::uint32_t dead_man = 0;    ///< bits of the dead-man buttons: force needs one of them held; 0 needs none
 };
 
-/// Judges one sample after the other. Each comparison is written so that NaN fails it. Times are double for each Scalar: a float
-/// that counts seconds has no milliseconds after some hours.
+/// Checks each sample. Each comparison is written so that NaN fails the check.
+///
+/// Times are double for every Scalar, because a float in seconds cannot resolve milliseconds after some hours.
 template <typename Scalar>
 class BasicInputGate {
  public:
@@ -33,7 +35,7 @@ class BasicInputGate {
 
   void reset() noexcept { started_ = false; }
 
-  /// Goes on from where another gate is, with its own limits.
+  /// Takes over the state of another gate, but keeps its own limits.
   void resume(const BasicInputGate& previous) noexcept {
     started_ = previous.started_;
     time_ = previous.time_;
@@ -42,14 +44,16 @@ class BasicInputGate {
     position_ = previous.position_;
   }
 
-  /// Whether the hand allows force: no fault, but no force either while it does not.
+  /// Whether a dead-man button is held, or none is needed. If not, there is no force, but this is no fault.
   bool held(const DeviceSample& s) const noexcept {
     return limits_.dead_man == 0 || (s.buttons & limits_.dead_man) != 0;
   }
 
+  /// Checks a sample. Returns its fault, or Fault::none.
   Fault step(const DeviceSample& s) noexcept {
     if (!s.healthy) return Fault::device;
-    const Vector position = vector(s.position).template cast<Scalar>(), axis = vector(s.axis).template cast<Scalar>();
+    const Vector position = to_vector(s.position).template cast<Scalar>(),
+                 axis = to_vector(s.axis).template cast<Scalar>();
     if (!position.allFinite() || !std::isfinite(s.time)) return Fault::non_finite_input;
     if (axis_is_used_) {
       if (!axis.allFinite()) return Fault::non_finite_input;
@@ -58,7 +62,7 @@ class BasicInputGate {
     if (started_) {
       if (!(s.time >= time_)) return Fault::clock;
       if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
-      // Two readings that come close together may still be a period apart: T is the least time taken.
+      // Two readings that arrive close together can be a period apart. Therefore the time is at least T.
       const double since_reading = std::max(period_, s.time - fresh_time_);
       if (!((position - position_).norm() <= static_cast<Scalar>(limits_.max_speed * since_reading)))
         return Fault::position_jump;

@@ -1,4 +1,4 @@
-// From a scene to what runs. try_build() returns the problems; build() throws them, and is the one place in core that throws.
+// Builds an insertion or a servo step from a scene. try_build() returns the problems of the scene. build() throws them.
 #pragma once
 
 #include <concepts>
@@ -15,7 +15,7 @@
 namespace punctura {
 
 namespace detail {
-/// Of a scene that has passed check().
+/// The insertion of a scene that has passed check().
 template <typename Scalar, typename LawOf>
 auto insertion_of(const Scene& scene, LawOf&& law_of) {
   using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}, std::size_t{}))>;
@@ -25,8 +25,8 @@ auto insertion_of(const Scene& scene, LawOf&& law_of) {
   for (const PlacedMembrane& placed : scene.membranes) {
     const Membrane& m = placed.membrane;
     const BasicMembrane<Scalar> membrane{to(m.stiffness), to(m.precompression), to(m.friction), to(m.thickness)};
-    const Vector3d normal = vector(placed.inward_normal).stableNormalized();
-    sites.push_back({law_of(needle, membrane, sites.size()), vector(placed.point).template cast<Scalar>(),
+    const Vector3d normal = to_vector(placed.inward_normal).stableNormalized();
+    sites.push_back({law_of(needle, membrane, sites.size()), to_vector(placed.point).template cast<Scalar>(),
                      normal.template cast<Scalar>()});
   }
   const Scalar period = to(1 / scene.servo.rate);
@@ -35,45 +35,47 @@ auto insertion_of(const Scene& scene, LawOf&& law_of) {
                         scene.servo.conditioning, to(scene.servo.encoder_step));
 }
 
-/// K06's law, whichever membrane it is.
+/// K06's law for each membrane.
 template <typename Scalar>
 BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, std::size_t) {
   return {needle, membrane};
 }
 }  // namespace detail
 
-/// Gives the law of membrane i: `law_of(needle, membrane, i)`.
+/// A function that returns the law of membrane i: `law_of(needle, membrane, i)`.
 template <typename LawOf, typename Scalar>
 concept GivesLaws = std::invocable<LawOf, const BasicNeedle<Scalar>&, const BasicMembrane<Scalar>&, std::size_t>;
 
-/// The model of a scene without device and safety, with a law for each membrane from `law_of(needle, membrane, i)`: both in
-/// Scalar, and the membrane's number in the scene. Empty where the scene has problems, which are added to `problems`.
+/// Builds the model of a scene, without device and safety limits. Scalar: double or float.
+///
+/// law_of(needle, membrane, i) returns the law of each membrane. needle and membrane are in Scalar. i is the number
+/// of the membrane in the scene. The result is empty if the scene has problems. They are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
-  using Made = decltype(detail::insertion_of<Scalar>(scene, law_of));
+  using Result = decltype(detail::insertion_of<Scalar>(scene, law_of));
   const auto found = check(scene);
   problems.insert(problems.end(), found.begin(), found.end());
-  return found.empty() ? std::make_optional<Made>(detail::insertion_of<Scalar>(scene, law_of)) : std::nullopt;
+  return found.empty() ? std::make_optional<Result>(detail::insertion_of<Scalar>(scene, law_of)) : std::nullopt;
 }
-/// The same with K06's law. Scalar: double, or float.
+/// Builds the model of a scene with K06's law.
 template <typename Scalar = double>
 std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, std::vector<Problem>& problems) {
   return try_build_insertion<Scalar>(scene, problems, detail::k06_law<Scalar>);
 }
 
-/// The whole tick of a scene: input gate, model, force limits. Laws as in try_build_insertion(). Empty where scene or limits have
-/// problems, which are added to `problems`.
+/// The whole tick of a scene: input gate, model, force limits. Laws as in try_build_insertion(). Empty where scene or
+/// limits have problems, which are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of, const GateLimits& gate = {},
                const ForceLimits& limits = {}) {
   auto insertion = try_build_insertion<Scalar>(scene, problems, law_of);
-  using Made = ServoStepOf<std::remove_reference_t<decltype(*insertion)>>;
+  using Result = ServoStepOf<std::remove_reference_t<decltype(*insertion)>>;
   const auto found = check(gate, limits);
   problems.insert(problems.end(), found.begin(), found.end());
-  if (!insertion || !found.empty()) return std::optional<Made>();
-  return std::make_optional<Made>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits);
+  if (!insertion || !found.empty()) return std::optional<Result>();
+  return std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits);
 }
-/// The same with K06's law. Scalar: double, or float.
+/// Builds the servo step of a scene with K06's law.
 template <typename Scalar = double>
 std::optional<BasicServoStep<Scalar>> try_build(const Scene& scene, std::vector<Problem>& problems,
                                                 const GateLimits& gate = {}, const ForceLimits& limits = {}) {
@@ -81,7 +83,7 @@ std::optional<BasicServoStep<Scalar>> try_build(const Scene& scene, std::vector<
 }
 
 #if defined(__cpp_exceptions)
-/// A scene that cannot be built, with all of its problems.
+/// A scene cannot be built. problems() are all of its problems.
 class SceneError : public std::invalid_argument {
  public:
   explicit SceneError(std::vector<Problem> problems)
@@ -105,7 +107,7 @@ T or_throw(std::optional<T> made, std::vector<Problem> problems) {
 }
 }  // namespace detail
 
-/// As try_build_insertion(). Throws SceneError.
+/// The same as try_build_insertion(), but throws SceneError.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto build_insertion(const Scene& scene, LawOf&& law_of) {
   std::vector<Problem> problems;
@@ -117,7 +119,7 @@ BasicInsertion<Scalar> build_insertion(const Scene& scene) {
   return build_insertion<Scalar>(scene, detail::k06_law<Scalar>);
 }
 
-/// As try_build(). Throws SceneError, for scene and limits together.
+/// The same as try_build(), but throws SceneError with the problems of scene and limits.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto build(const Scene& scene, LawOf&& law_of, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
   std::vector<Problem> problems;

@@ -1,4 +1,4 @@
-// Everything that can be wrong with a scene, found at once.
+// The checks of a scene. They find all problems at once.
 #pragma once
 
 #include <cmath>
@@ -69,8 +69,8 @@ namespace detail {
 inline bool finite(const std::array<double, 3>& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
-/// The first entry that is not finite, or else the first of all: what to show of a vector that is wrong.
-inline double offender(const std::array<double, 3>& v) noexcept {
+/// The value to show for a wrong vector: its first entry that is not finite, otherwise its first entry.
+inline double value_to_show(const std::array<double, 3>& v) noexcept {
   for (double x : v)
     if (!std::isfinite(x)) return x;
   return v[0];
@@ -81,7 +81,8 @@ inline bool check(const Coupling& coupling, std::vector<Problem>& problems) {
   return check_fields(coupling_fields, coupling, "coupling", problems);
 }
 
-/// All problems of a scene, each with its path (`membrane[1].friction`), SI value and reason. Empty: it may be built.
+/// All problems of a scene, each with its path (`membrane[1].friction`), its SI value and the reason. If there are
+/// none, the scene can be built.
 inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
   check(scene.needle, "needle", problems);
@@ -99,10 +100,10 @@ inline std::vector<Problem> check(const Scene& scene) {
         membrane_fields[2].range.holds(placed.membrane.friction))
       check_insertion(scene.needle, placed.membrane, path, problems);
     if (!detail::finite(placed.point))
-      problems.push_back({path + ".point", detail::offender(placed.point), "must be three finite numbers"});
+      problems.push_back({path + ".point", detail::value_to_show(placed.point), "must be three finite numbers"});
     const auto& n = placed.inward_normal;
     if (!detail::finite(n))
-      problems.push_back({path + ".inward_normal", detail::offender(n), "must be three finite numbers"});
+      problems.push_back({path + ".inward_normal", detail::value_to_show(n), "must be three finite numbers"});
     else if (!(std::hypot(n[0], n[1], n[2]) > 0))
       problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
   }
@@ -118,7 +119,7 @@ inline std::vector<Problem> check(const Placement& placement) {
   if (!(length > 0 && std::isfinite(length)))
     problems.push_back({"placement.rotation", r[0], "must be a quaternion w, x, y, z: four finite numbers, not all 0"});
   if (!detail::finite(placement.offset))
-    problems.push_back({"placement.offset", detail::offender(placement.offset), "must be three finite numbers"});
+    problems.push_back({"placement.offset", detail::value_to_show(placement.offset), "must be three finite numbers"});
   check_fields(placement_fields, placement, "placement", problems);
   return problems;
 }

@@ -1,4 +1,4 @@
-// Where blood is: behind the one membrane that says so, up to the next one in the way.
+// The lumen of a vessel: the space between the membrane with `behind = blood` and the next membrane.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace punctura {
 
-/// The membrane that a needle meets next after membrane i, going straight in. Empty if there is no other.
+/// The next membrane behind membrane i, along the inward normal of membrane i. Empty if there is none.
 inline std::optional<std::size_t> next_behind(const Scene& scene, std::size_t i) noexcept {
-  const Vector3d here = vector(scene.membranes[i].point), inward = vector(scene.membranes[i].inward_normal);
+  const Vector3d here = to_vector(scene.membranes[i].point), inward = to_vector(scene.membranes[i].inward_normal);
   std::optional<std::size_t> next;
   double nearest = no_bound;
   for (std::size_t j = 0; j < scene.membranes.size(); ++j) {
-    const double way = (vector(scene.membranes[j].point) - here).dot(inward);
-    if (j == i || !(way > 0 && way < nearest)) continue;
-    nearest = way;
+    const double distance = (to_vector(scene.membranes[j].point) - here).dot(inward);
+    if (j == i || !(distance > 0 && distance < nearest)) continue;
+    nearest = distance;
     next = j;
   }
   return next;
 }
 
-/// The two membranes between which blood is, if any.
+/// The two membranes that bound the lumen: the one in front and the one behind. Empty if the scene has no blood.
 inline std::optional<std::pair<std::size_t, std::size_t>> lumen(const Scene& scene) noexcept {
   for (std::size_t i = 0; i < scene.membranes.size(); ++i)
     if (scene.membranes[i].behind == Behind::blood)
@@ -34,7 +34,7 @@ inline std::optional<std::pair<std::size_t, std::size_t>> lumen(const Scene& sce
   return std::nullopt;
 }
 
-/// At most one membrane may have blood behind it, and another membrane must bound it.
+/// Adds a problem if more than one membrane has blood behind it, or if no other membrane bounds the blood.
 inline void check_lumen(const Scene& scene, std::vector<Problem>& problems) {
   const auto blood = static_cast<double>(Behind::blood);
   std::optional<std::size_t> first;

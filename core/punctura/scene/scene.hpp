@@ -1,4 +1,4 @@
-// Everything a run needs, as plain structs in SI units.
+// A scene: the description of a run, as plain structs in SI units.
 #pragma once
 
 #include <array>
@@ -16,29 +16,32 @@
 
 namespace punctura {
 
-/// What is between a membrane and the next one in the way. No force depends on it.
+/// The space behind a membrane, up to the next membrane. The force does not depend on it.
 enum class Behind : std::uint8_t { tissue, blood };
 
+/// A membrane with its place in the scene.
 struct PlacedMembrane {
   std::string name;
-  Membrane membrane{};                    ///< has no default: check() names what is missing
+  Membrane membrane{};                    ///< no default: check() reports missing values
   std::array<double, 3> point{};          ///< any point of the surface, m
-  std::array<double, 3> inward_normal{};  ///< a direction of any length but 0
+  std::array<double, 3> inward_normal{};  ///< a direction of any length except 0
   Behind behind = Behind::tissue;
 };
 
+/// The settings of the servo step.
 struct ServoSettings {
   double rate = usual_rate;  ///< 1/T, Hz
-  double low_pass = 300;     ///< cutoff, Hz, for Conditioning::low_pass; 0 is off. K06 section 4
+  double low_pass = 300;     ///< cutoff for Conditioning::low_pass, Hz; 0 is off. K06 section 4
   Solver solver = Solver::exact;
   Conditioning conditioning = Conditioning::low_pass;
   double encoder_step = Omni::encoder_step;  ///< m, for line_fit; 0 is an ideal sensor
 };
 
+/// The description of a run: needle, coupling, membranes and settings, in SI units.
 struct Scene {
   std::string name;
-  Needle needle{};      ///< has no default: all 0 is a problem that check() names
-  Coupling coupling{};  ///< likewise
+  Needle needle{};      ///< no default: check() reports missing values
+  Coupling coupling{};  ///< no default: check() reports missing values
   std::vector<PlacedMembrane> membranes;
   ServoSettings servo{};
   Direction direction = Direction::stylus;

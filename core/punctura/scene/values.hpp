@@ -1,4 +1,4 @@
-// Every number of a scene by its path, as problems name it: "membrane[0].friction".
+// The numbers of a scene by their path, for example "membrane[0].friction". Problems use the same paths.
 #pragma once
 
 #include <string>
@@ -12,7 +12,9 @@ inline constexpr Field point_fields[] = {
 inline constexpr Field normal_fields[] = {
     {"inward_normal[0]", "n", "-", {}}, {"inward_normal[1]", "n", "-", {}}, {"inward_normal[2]", "n", "-", {}}};
 
-/// Calls visit(path, field, number) for each number, in the order of the file. SceneT: Scene or const Scene; number is a reference into it.
+/// Calls visit(path, field, number) for each number of a scene, in the order of the file.
+///
+/// SceneT: Scene or const Scene. number is a reference into the scene.
 template <typename SceneT, typename Visit>
 void for_each_value(SceneT& scene, Visit&& visit) {
   const auto all = [&](const std::string& path, const auto& fields, auto& owner) {

@@ -1,4 +1,4 @@
-// What a membrane's proxy gave, as a tick's record has it.
+// Converts the result of a proxy to the record of a membrane.
 #pragma once
 
 #include "punctura/proxy/in_space.hpp"
@@ -7,12 +7,13 @@
 
 namespace punctura {
 
+/// The record of a tick in space.
 template <typename Scalar>
 MembraneRecord record_of(const SpaceTick<Scalar>& t) noexcept {
-  return {t.depth, t.axial_force, t.band.lower, t.band.upper, plain(t.proxy), plain(t.direction), t.phase};
+  return {t.depth, t.axial_force, t.band.lower, t.band.upper, to_array(t.proxy), to_array(t.direction), t.phase};
 }
 
-/// On a line, the needle's direction is the first axis.
+/// The record of a tick on a line. The needle's direction is the x axis.
 template <typename Scalar>
 MembraneRecord record_of(const LineTick<Scalar>& t) noexcept {
   return {t.depth, t.force, t.band.lower, t.band.upper, {t.proxy, 0, 0}, {1, 0, 0}, t.phase};

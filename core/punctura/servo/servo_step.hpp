@@ -1,10 +1,10 @@
-// ONE TICK: sample in, force out. Read this first.
+// One tick, from the sample of the device to the force for the device. Read this first.
 //
 //   device -> input gate -> conditioning -> proxy 1..n -> sum -> force limits -> device
 //                |          '--------- Insertion ---------'           |
 //                +--------- fault (latched) -> zero force <-----------+
 //
-// Everything here is noexcept and takes no memory: a tick throws nothing, allocates nothing, locks nothing, logs nothing.
+// A tick throws nothing, allocates no memory, takes no lock and writes no log.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,18 @@
 
 namespace punctura {
 
-/// Insertion: an InsertionOf, with laws and coupling of any author. Its Scalar computes the tick; the record is double.
+/// The servo step: input gate, model, force limits and the record of a tick.
+///
+/// Insertion: an InsertionOf, with K06's or your own laws and coupling. A tick is computed in its Scalar. The record is
+/// double.
 template <typename Insertion>
 class ServoStepOf {
  public:
   using Scalar = typename Insertion::Scalar;
   using Vector = Vector3<Scalar>;
 
-  /// period: T, s. insertion: of max_membranes at most; more end the program. Made by build() (scene/build.hpp), which checks the
-  /// scene first.
+  /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. If insertion has more than
+  /// max_membranes membranes, the program aborts.
   ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {})
       : insertion_(std::move(insertion)),
         gate_(gate, period, insertion_.uses_axis()),
@@ -40,20 +43,22 @@ class ServoStepOf {
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
   }
 
-  /// Asks for force. It comes as soon as the tip is in front of every membrane, over ForceLimits::ramp_time. A latched fault
-  /// is not left by this: it takes reset().
+  /// Requests force. The force starts when the tip is in front of every membrane, with a ramp of
+  /// ForceLimits::ramp_time.
+  ///
+  /// It does not clear a latched fault: only reset() does.
   void arm() noexcept {
     commands_ |= command_arm;
     if (state_ == ServoState::disarmed) state_ = ServoState::waiting;
   }
 
-  /// Ends force at once.
+  /// Ends the force immediately.
   void disarm() noexcept {
     commands_ |= command_disarm;
     if (state_ != ServoState::faulted) state_ = ServoState::disarmed;
   }
 
-  /// Leaves a fault, forgets all motion, and is disarmed.
+  /// Clears a fault and the state of gate and model. The step is then disarmed.
   void reset() noexcept {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
@@ -63,10 +68,10 @@ class ServoStepOf {
     state_ = ServoState::disarmed;
   }
 
-  /// Goes on where another step of the same period is: a scene changed while somebody holds the device.
+  /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
   ///
-  /// Membranes in the same place keep their proxies. What the change does to the force is faded in over `fade_time`: the hand
-  /// feels no jump. Takes no memory; `previous` is of no use afterwards.
+  /// Membranes at the same place keep their proxies. The change of the force is faded in over `fade_time`, so that
+  /// the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
   void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     gate_.resume(previous.gate_);
@@ -76,20 +81,20 @@ class ServoStepOf {
     tick_ = previous.tick_;
     time_ = previous.time_;
     commands_ = previous.commands_ | command_scene;
-    wanted_ = previous.wanted_;
+    faded_force_ = previous.faded_force_;
     fade_ = 1;
     fade_starts_ = true;
   }
   static constexpr Scalar fade_time = Scalar(0.2);  ///< s
 
-  /// One tick. Gives the record of it; its `force` is for the device. Valid until the next step.
+  /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.
   const Snapshot& step(const DeviceSample& sample) noexcept {
     if (fault_ == Fault::none) fault_ = gate_.step(sample);
 
     Vector model_force = Vector::Zero(), force = Vector::Zero();
     if (fault_ == Fault::none) {
-      model_force = insertion_.step(vector(sample.position).template cast<Scalar>(),
-                                    vector(sample.axis).template cast<Scalar>().stableNormalized());
+      model_force = insertion_.step(to_vector(sample.position).template cast<Scalar>(),
+                                    to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) {
@@ -101,33 +106,34 @@ class ServoStepOf {
       state_ = ServoState::active;
       limiter_.reset();
     }
-    // NaN or below 0 where the clock is at fault, or a new run begins
+    // NaN or negative after a fault of the clock or at the start of a run
     const auto elapsed = static_cast<Scalar>(sample.time - time_);
     const auto temperature = static_cast<Scalar>(sample.motor_temperature);
     if (std::isfinite(sample.time)) time_ = sample.time;
     if (state_ == ServoState::active) {
       force = limiter_.step(faded(model_force), temperature, elapsed);
-      if (!force.allFinite()) {  // cannot be, with limits that passed check(); a hand must not depend on that
+      if (!force.allFinite()) {  // impossible with limits that passed check(), but safety must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
         force.setZero();
       }
     } else {
       limiter_.rest(temperature, elapsed);
-      wanted_.setZero();
+      faded_force_.setZero();
       fade_ = 0;
     }
     record(sample, model_force, force);
     return snapshot_;
   }
 
-  /// What the device's motors have given and not yet recovered from, N^2 s: see ForceBudget. A run goes on with it.
+  /// How much the motors have given and not yet recovered from, N^2 s. See ForceBudget. The next run must continue
+  /// with it.
   Scalar spent() const noexcept { return limiter_.budget().spent(); }
   void set_spent(Scalar spent) noexcept {
     limiter_.set_spent(spent);
-    time_ = std::numeric_limits<double>::quiet_NaN();  // no time of the last run counts as rest
+    time_ = std::numeric_limits<double>::quiet_NaN();  // the time since the last run does not count as rest
   }
-  /// Ticks have ended: the device has held the last force for so long, s, and now gives none.
+  /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
   void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
   const Snapshot& snapshot() const noexcept { return snapshot_; }
@@ -163,21 +169,21 @@ class ServoStepOf {
   }
 
  private:
-  /// The model's force, on its way from what the hand felt before resume().
+  /// Fades from the force before resume() to the force of the model.
   Vector faded(const Vector& model_force) noexcept {
-    if (fade_starts_) offset_ = wanted_ - model_force;
+    if (fade_starts_) fade_offset_ = faded_force_ - model_force;
     fade_starts_ = false;
-    wanted_ = model_force + fade_ * offset_;
+    faded_force_ = model_force + fade_ * fade_offset_;
     fade_ = std::max(Scalar(0), fade_ - fade_step_);
-    return wanted_;
+    return faded_force_;
   }
 
   void record(const DeviceSample& sample, const Vector& model_force, const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
-    snapshot_.tip = plain(insertion_.tip());
-    snapshot_.model_force = plain(model_force);
-    snapshot_.force = plain(force);
+    snapshot_.tip = to_array(insertion_.tip());
+    snapshot_.model_force = to_array(model_force);
+    snapshot_.force = to_array(force);
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
     snapshot_.limit = limiter_.limit();
@@ -195,14 +201,14 @@ class ServoStepOf {
   Fault fault_ = Fault::none;
   std::uint64_t tick_ = 0;
   std::uint32_t commands_ = 0;
-  double time_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last sample of this run, s
+  double time_ = std::numeric_limits<double>::quiet_NaN();  ///< time of the last sample in this run, s
   Scalar fade_step_, fade_ = 0;
   bool fade_starts_ = false;
-  Vector wanted_{}, offset_{};
+  Vector faded_force_{}, fade_offset_{};
   Snapshot snapshot_{};
 };
 
-/// With K06's law and coupling.
+/// The servo step with K06's law and coupling.
 template <typename Scalar>
 using BasicServoStep = ServoStepOf<BasicInsertion<Scalar>>;
 using ServoStep = BasicServoStep<double>;

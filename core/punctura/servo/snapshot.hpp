@@ -1,4 +1,4 @@
-// The plain record of a tick: all that recorder, studio and tests ever see of one.
+// The snapshot, the complete record of a tick. Recorder, studio and tests read nothing else.
 #pragma once
 
 #include <array>
@@ -12,42 +12,45 @@
 
 namespace punctura {
 
-/// A scene may hold this many membranes, so that a snapshot has a fixed size.
+/// The largest number of membranes in a scene. It gives a snapshot a fixed size.
 inline constexpr std::size_t max_membranes = 64;
 
+/// The state of the servo step.
 enum class ServoState : std::uint8_t {
-  disarmed,  ///< the model runs, the device gets no force
-  waiting,   ///< armed, but the tip is not in front of every membrane, or the dead-man button is not held
-  active,    ///< forces go out, ramped in at first
-  faulted,   ///< a fault is latched, the force is zero
+  disarmed,  ///< the model runs, and the device gets no force
+  waiting,   ///< armed, but the tip is not in front of every membrane, or no dead-man button is held
+  active,    ///< the device gets force, with a ramp at the start
+  faulted,   ///< a fault is latched, and the force is zero
 };
 
-/// What was asked of the step since the tick before, as bits: with them, and the samples, a recording can be run again.
+/// The commands to the step since the previous tick, as bits. A replay needs them and the samples.
 enum Command : std::uint32_t { command_arm = 1, command_disarm = 2, command_reset = 4, command_scene = 8 };
 
+/// The record of a membrane in a tick.
 struct MembraneRecord {
-  double depth;                     ///< m, see Proxy3d::depth
+  double depth;                     ///< m, see SpaceTick::depth
   double axial_force;               ///< N, along b
-  double lower, upper;              ///< N, the band
+  double lower, upper;              ///< the band, N
   std::array<double, 3> proxy;      ///< q(k), m
-  std::array<double, 3> direction;  ///< b, while inside
+  std::array<double, 3> direction;  ///< b, valid while inside
   Phase phase;
 };
 
+/// The record of a tick.
 struct Snapshot {
   std::uint64_t tick;
   DeviceSample sample;
   std::array<double, 3> tip;          ///< the conditioned position, m
-  std::array<double, 3> model_force;  ///< the sum of all membranes, N
-  std::array<double, 3> force;        ///< what goes to the device, N
-  double ceiling;                     ///< the largest force permitted in this tick, by all limits, N
+  std::array<double, 3> model_force;  ///< the force of the model: the sum of all membranes, N
+  std::array<double, 3> force;        ///< the force for the device, N
+  double ceiling;                     ///< the largest force that all limits permit in this tick, N
   LimitCounters limits;
   ServoState state;
   Fault fault;
-  Limit limit;             ///< what makes `force` smaller than `model_force`
-  std::uint32_t commands;  ///< bits of Command, obeyed in the order reset, arm, disarm
+  Limit limit;             ///< the limit that makes `force` smaller than `model_force`
+  std::uint32_t commands;  ///< bits of Command, executed in the order reset, arm, disarm
   std::uint32_t membrane_count;
-  std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are filled
+  std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are valid
 };
 
 static_assert(std::is_trivially_copyable_v<Snapshot>);

@@ -1,4 +1,5 @@
-// The one table of a tick's fields. A new field is one line here: recordings, exports, the page, Python and docs/tick.md follow it.
+// The table of the fields of a tick. Recordings, exports, the page, Python and docs/tick.md are generated from it.
+// To add a field, add one entry here.
 #pragma once
 
 #include <tuple>
@@ -8,30 +9,30 @@
 
 namespace punctura {
 
-/// Who reads a field besides recordings and exports. Bits.
+/// The readers of a field besides recordings and exports, as bits.
 enum TickUse : unsigned {
   use_file = 0,
-  use_input = 1,  ///< what the tick was given: a replay needs it
+  use_input = 1,  ///< an input of the tick: a replay needs it
   use_page = 2,   ///< sent to the studio's page
 };
 
-/// What holds a field.
+/// The record that contains a field.
 enum class TickPart {
   snapshot,
-  membrane,  ///< a membrane's record in the snapshot
-  extra,     ///< what stands beside the snapshot: ExperimentExtra
+  membrane,  ///< the record of a membrane in the snapshot
+  extra,     ///< a record beside the snapshot: ExperimentExtra
 };
 
-/// One field. `get` reads it from its part. It gives a reference where the field is stored, so that a replay can set it, and a
-/// value where it is derived.
+/// One field. `get` reads it from its part. It returns a reference to a stored field, so that a replay can set it. It
+/// returns a value for a derived field.
 template <TickPart part_, typename Get>
 struct TickField {
   static constexpr TickPart part = part_;
   static constexpr bool per_membrane = part == TickPart::membrane;
   const char* name;
-  /// In a file: {a} is x, y or z, {i} the membrane's number.
+  /// Name of the column in a file. {a} is x, y or z. {i} is the number of the membrane.
   const char* column;
-  const char* unit;  ///< empty for numbers without one
+  const char* unit;  ///< empty for numbers without a unit
   const char* says;
   unsigned use;
   Get get;
@@ -49,7 +50,7 @@ constexpr auto tick_field(const char* name, const char* column, const char* unit
 }  // namespace detail
 
 // clang-format off
-/// In the order of the columns in a file: what a person looks for first stands first.
+/// The fields in the order of the columns in a file. The fields that a person looks for first come first.
 inline constexpr std::tuple tick_table{
     detail::tick_field<TickPart::snapshot>("tick", "tick", "", use_file,
         [](auto& s) -> auto& { return s.tick; },

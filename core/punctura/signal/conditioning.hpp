@@ -1,4 +1,4 @@
-// What stands between encoders and model: the paper's filter, or what keeps an encoder's steps from shaking the force.
+// Position conditioning between encoders and model: the paper's low-pass, or a line fit against encoder noise.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,20 @@
 
 namespace punctura {
 
-/// How measured positions become those of the model. Compared, with others, in docs/conditioning.md.
+/// How measured positions are conditioned for the model. docs/conditioning.md compares these methods with others.
 enum class Conditioning : std::uint8_t {
   low_pass,  ///< a first-order low-pass, as in K06 section 4
-  line_fit,  ///< LineFit on each axis, then a low-pass whose lag it makes up for: for real devices
+  line_fit,  ///< for real devices: LineFit on each axis, then a low-pass; the fit compensates the lag of the low-pass
 };
 
-/// How much a line fit smooths: what the Omni's step needs, and less for finer encoders. With the root of the step the force
-/// noise stays about the same, and a fine device is not made to lag for noise that it does not have.
+/// How strongly the line fit smooths: as the encoder of the Omni needs it, and less for finer encoders.
+///
+/// The window scales with the square root of the encoder step. The force noise then stays about constant, and a
+/// device with a fine encoder does not get a lag that it does not need.
 template <typename Scalar>
 struct Smoothing {
-  Scalar window;     ///< of LineFit, s
-  Scalar cutoff_hz;  ///< of the low-pass behind it; 0 is off, for an ideal sensor
+  Scalar window;     ///< the window of LineFit, s
+  Scalar cutoff_hz;  ///< the cutoff of the low-pass behind LineFit; 0 is off, for an ideal sensor
 
   static Smoothing of(Scalar encoder_step) noexcept {
     const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
@@ -33,9 +35,9 @@ struct Smoothing {
   }
 };
 
-/// From the measured position (m) to the one that the model is given (m).
+/// Computes the position for the model (m) from the measured position (m).
 ///
-/// Each axis by itself: encoders count axis by axis, and an axis that rests stays quiet while another moves.
+/// It treats each axis separately. An axis that rests then stays quiet while another axis moves.
 template <typename Scalar, typename Storage = HeapStorage>
 class PositionConditioner {
  public:
@@ -43,6 +45,7 @@ class PositionConditioner {
   using Line = LineFit<Scalar, Storage>;
 
   /// low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m; 0 is off.
+  /// period: s.
   PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
       : fits_(conditioning == Conditioning::line_fit),
         low_pass_(fits_ ? Smoothing<Scalar>::of(encoder_step).cutoff_hz : low_pass_hz, period),
@@ -53,7 +56,7 @@ class PositionConditioner {
     low_pass_.reset();
   }
 
-  /// Goes on from where another conditioner of the same period is, which loses its history.
+  /// Takes over the samples of another conditioner of the same period. `previous` loses its history.
   void resume(PositionConditioner& previous) noexcept {
     for (std::size_t i = 0; i < 3; ++i) lines_[i].resume(previous.lines_[i]);
     low_pass_.resume(previous.low_pass_);

@@ -1,4 +1,4 @@
-// For devices that report no orientation: the needle's direction from its motion (K06, after (41)).
+// The needle's direction from its motion, for devices that report no orientation (K06, after (41)).
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,13 @@
 
 namespace punctura {
 
-/// Unit direction of the tip's displacement over the last 10 ms, or over the last 0.2 mm of its path where that reaches
-/// further back in time. Zero while the tip has not moved.
+/// The unit direction of the tip's displacement in a recent window. It is zero as long as the tip has not moved.
 ///
-/// The 10 ms are kept sample by sample. Of the path, which may take a slow hand minutes, only one point in every 1/64 of
-/// 0.2 mm is kept, so the memory is fixed and the window is 0.2 mm to 0.2031 mm long. All memory is taken at construction.
+/// The window is the last 10 ms, or the last 0.2 mm of the path if that began earlier.
+///
+/// All samples of the last 10 ms are stored. A slow hand can need minutes for 0.2 mm. Therefore only one point of the
+/// path is stored for each 1/64 of 0.2 mm. The memory is fixed, and the window of the path is 0.2 mm to 0.2031 mm
+/// long. All memory is allocated at construction.
 template <typename Scalar, typename Storage = HeapStorage>
 class EntryDirection {
  public:
@@ -36,7 +38,7 @@ class EntryDirection {
     last_ = {};
   }
 
-  /// Goes on with the history of another one of the same period, which loses it. Takes no memory.
+  /// Takes over the history of another EntryDirection of the same period. `previous` loses it. Allocates no memory.
   void resume(EntryDirection& previous) noexcept {
     if (previous.recent_.size() == recent_.size()) std::swap(*this, previous);
   }
@@ -55,7 +57,7 @@ class EntryDirection {
   }
   void describe(auto& parameters) const { parameters.index(recent_.size(), 0); }
 
-  /// One tick: p (m), the filtered tip, gives the direction in which it has come.
+  /// One tick. p: conditioned position of the tip, m. Returns the direction of the motion.
   Vector step(const Vector& p) noexcept {
     if (ticks_ == 0) {
       length_ = 0;
@@ -89,12 +91,12 @@ class EntryDirection {
  private:
   struct Mark {
     Vector point;
-    Scalar length{};       ///< of the path up to here, m
-    std::uint64_t tick{};  ///< when
+    Scalar length{};       ///< length of the path up to this point, m
+    std::uint64_t tick{};  ///< the tick in which the tip was here
   };
   static constexpr std::size_t marks = 64;
 
-  /// Counts the path from here on, so that its digits (float's above all) are not used up by a long session.
+  /// Sets the length of the path to 0 at the present point. A long path would lose digits, above all in float.
   void shorten() noexcept {
     for (Mark& mark : path_) mark.length -= length_;
     length_ = 0;

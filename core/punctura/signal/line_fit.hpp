@@ -1,4 +1,4 @@
-// Where a device is, from the steps of its encoder: the end of a line through its last samples.
+// A position estimate against encoder noise: the end of a straight line through the last samples.
 #pragma once
 
 #include <algorithm>
@@ -10,23 +10,26 @@
 
 namespace punctura {
 
-/// A straight line through the last samples, by least squares, and where it leads.
+/// Fits a straight line to the last samples by least squares. step() returns the end of the line.
 ///
-/// Where the samples do not lie on a line, within `tolerance`, the window is halved until they do: 17, 9, 5 and 3 samples for
-/// 10 ms at 1600 Hz, then the newest alone. So a steady motion is followed without lag and a sudden one is not smeared. Fitting over the
-/// longest window that the noise allows is the first-order adaptive windowing of Janabi-Sharifi, Hayward and Chen (2000),
-/// who want the slope, a velocity; here the line's end is wanted, a position. All memory is taken at construction.
+/// If the samples do not lie on the line within `tolerance`, the window is halved until they do: 17, 9, 5 and 3
+/// samples for 10 ms at 1600 Hz, then only the newest sample. So the estimate follows a steady motion without lag and
+/// does not smear a sudden motion. All memory is allocated at construction.
 ///
-/// Every window is odd: an encoder that toggles every tick then moves the end of the line by 1/n of a step, not by 3/n.
+/// The longest window that the noise permits is the first-order adaptive window of Janabi-Sharifi, Hayward and Chen
+/// (2000). They compute the slope of the line, a velocity. LineFit computes the end of the line, a position.
+///
+/// Each window has an odd number n of samples. An encoder that toggles in each tick then moves the end of the line by
+/// 1/n of a step. With an even n it would be 3/n.
 template <typename Scalar, typename Storage = HeapStorage>
 class LineFit {
  public:
-  static constexpr std::size_t most_samples = 129;         ///< bounds what a tick costs
-  static constexpr Scalar steps_of_tolerance = Scalar(2);  ///< noise of a step either way, and a step from the grid
+  static constexpr std::size_t most_samples = 129;         ///< it bounds the time of a tick
+  static constexpr Scalar steps_of_tolerance = Scalar(2);  ///< one step of noise, and one step of quantization
 
-  /// encoder_step: how far the position steps when an encoder counts, m; 0 is an ideal sensor, whose samples pass unchanged.
-  /// window: the longest, s. lead: how many ticks beyond the newest sample the line is followed, to make up for the lag of a
-  /// filter behind it.
+  /// encoder_step: the resolution of the encoder, m; 0 is an ideal sensor, and its samples pass unchanged. window:
+  /// length of the longest window, s. period: s. lead: step() extrapolates the line by this many ticks, to compensate
+  /// the lag of a filter behind it.
   LineFit(Scalar encoder_step, Scalar window, Scalar period, Scalar lead = 0)
       : tolerance_(steps_of_tolerance * encoder_step), lead_(lead), size_(samples(window, period)), ring_(2 * size_) {}
 
@@ -36,7 +39,9 @@ class LineFit {
     std::fill(ring_.begin(), ring_.end(), Scalar{});
   }
 
-  /// Goes on from the samples of another fit, which loses them, with its own tolerance and lead.
+  /// Takes over the samples of another fit, but keeps its own tolerance and lead. `previous` loses its samples.
+  ///
+  /// If the windows differ in size, it starts without samples.
   void resume(LineFit& previous) noexcept {
     if (previous.size_ != size_) return reset();
     ring_.swap(previous.ring_);
@@ -54,11 +59,12 @@ class LineFit {
     parameters.index(size_, most_samples + 1);
   }
 
+  /// One tick. x: measured position, m. Returns the estimated position, m.
   Scalar step(Scalar x) noexcept {
     if (tolerance_ == 0) return x;
     if (!started_) std::fill(ring_.begin(), ring_.end(), x);
     started_ = true;
-    // Every sample is written twice, so that the last size_ of them always lie in one piece, the newest first.
+    // Each sample is written twice. So the last size_ samples are always contiguous, the newest first.
     newest_ = newest_ == 0 ? size_ - 1 : newest_ - 1;
     ring_[newest_] = ring_[newest_ + size_] = x;
     for (std::size_t n = size_; n >= 3; n = (n / 2) | 1) {
@@ -80,7 +86,7 @@ class LineFit {
     return 2 * static_cast<std::size_t>(std::clamp(half, Scalar(1), Scalar(most_samples / 2))) + 1;
   }
 
-  /// Counted from the newest sample, so that a place far from the origin costs no digits.
+  /// A sample relative to the newest one, m. So a position far from the origin loses no digits.
   Scalar sample(std::size_t age) const noexcept { return ring_[newest_ + age] - ring_[newest_]; }
 
   Line fit(std::size_t n) const noexcept {

@@ -1,4 +1,4 @@
-// The filter between encoders and model, K06 section 4.
+// The low-pass between encoders and model, K06 section 4.
 #pragma once
 
 #include <cmath>
@@ -6,10 +6,12 @@
 
 namespace punctura {
 
-/// First-order low-pass y += gain (x - y), gain = 1 - exp(-2 pi f T): the exact response to a held input.
+/// A first-order low-pass: y += gain (x - y) with gain = 1 - exp(-2 pi f T). This is the exact response to a held
+/// input.
 ///
-/// K06 does not give the discretisation; at its 300 Hz and 1600 Hz explicit Euler (gain 2 pi f T = 1.18) would overshoot
-/// (docs/errata.md, E5). The state starts at the first sample. A cutoff of 0 Hz is off: samples pass unchanged.
+/// K06 does not give the discretization. With its 300 Hz and 1600 Hz, explicit Euler (gain 2 pi f T = 1.18) would
+/// overshoot (docs/errata.md, E5). y starts at the first sample. A cutoff of 0 Hz switches the filter off: samples
+/// pass unchanged.
 template <typename Scalar, typename Value = Scalar>
 class LowPass {
  public:
@@ -21,7 +23,7 @@ class LowPass {
     y_ = {};
   }
 
-  /// Goes on from where another filter is, with its own cutoff.
+  /// Takes over the state of another filter, but keeps its own cutoff.
   void resume(const LowPass& previous) noexcept {
     y_ = previous.y_;
     started_ = previous.started_;
@@ -47,7 +49,7 @@ class LowPass {
   }
 
   Scalar gain() const noexcept { return off_ ? Scalar{1} : gain_; }
-  /// By how many ticks it is behind a steady motion.
+  /// The lag behind a steady motion, in ticks.
   Scalar lag() const noexcept { return 1 / gain() - 1; }
 
  private:

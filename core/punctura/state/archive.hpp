@@ -1,4 +1,6 @@
-// States as bytes: to keep one, to send it to another process, to go on from it to the same bits. Not for a tick: it takes memory.
+// States as bytes: save a state, send it to another process, continue from it with the same bits.
+//
+// These functions allocate memory. Do not call them in a tick.
 #pragma once
 
 #include <cmath>
@@ -15,10 +17,11 @@
 
 namespace punctura {
 
-/// Writes a state field by field, in this machine's byte order.
+/// Writes a state field by field, in the byte order of this machine.
 ///
-/// A class with state names its fields once, for both directions: `static void archive(auto& self, auto& state)`. It names what it was
-/// made of in `void describe(auto& parameters) const`. What a law or a coupling of one's own remembers has an `archive` as well.
+/// A class with state lists its fields in `static void archive(auto& self, auto& state)`, for writing and for
+/// reading. It lists its parameters in `void describe(auto& parameters) const`. The memory of your own law or
+/// coupling also needs an `archive`.
 class StateWriter {
  public:
   static constexpr bool reading = false;
@@ -35,7 +38,7 @@ class StateWriter {
     const std::uint64_t wide = value;
     bytes(&wide, sizeof wide);
   }
-  /// An enumerator up to `last`.
+  /// An enumerator, at most `last`.
   template <typename Enum>
   void choice(Enum value, Enum) {
     index(static_cast<std::uint64_t>(value), 0);
@@ -63,13 +66,13 @@ class StateWriter {
   std::vector<std::byte>& to_;
 };
 
-/// Reads what StateWriter has written. What no state can have makes it not good().
+/// Reads a state that StateWriter has written. If a value is impossible in a state, good() becomes false.
 class StateReader {
  public:
   static constexpr bool reading = true;
   explicit StateReader(std::span<const std::byte> from) noexcept : from_(from) {}
 
-  /// Whether all bytes were read, none was missing, and each was what a state can have.
+  /// Whether all bytes were read, no byte was missing and all values are possible in a state.
   bool good() const noexcept { return good_ && from_.empty(); }
 
   template <typename... Numbers>
@@ -98,7 +101,7 @@ class StateReader {
   void memory(Memory& value) noexcept {
     if constexpr (!std::is_empty_v<Memory>) Memory::archive(value, *this);
   }
-  /// What holds in every state.
+  /// Checks a condition that every state fulfils.
   void require(bool holds) noexcept { good_ = good_ && holds; }
 
  private:
@@ -122,15 +125,15 @@ class StateReader {
   bool good_ = true;
 };
 
-/// What stands in front of every state.
+/// The header of the bytes of a state.
 struct StateHeader {
-  std::uint64_t format = 1;      ///< raised when a class writes other fields, or in another order
-  std::uint64_t parameters = 0;  ///< digest of what the object was made of
+  std::uint64_t format = 1;      ///< increased when the fields of a class, or their order, change
+  std::uint64_t parameters = 0;  ///< digest of the object's parameters
   std::uint64_t state = 0;       ///< digest of the bytes that follow
 };
 
 namespace detail {
-/// FNV-1a, 64 bits: finds damage, not forgery.
+/// FNV-1a, 64 bits. It detects damaged bytes, but not forged ones.
 inline std::uint64_t digest(std::span<const std::byte> bytes) noexcept {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
@@ -145,7 +148,7 @@ std::uint64_t parameters_of(const T& object) {
 }
 }  // namespace detail
 
-/// All that the next tick depends on, as bytes.
+/// The complete state of an object, as bytes.
 template <typename T>
 std::vector<std::byte> save_state(const T& object) {
   std::vector<std::byte> bytes(sizeof(StateHeader));
@@ -157,8 +160,10 @@ std::vector<std::byte> save_state(const T& object) {
   return bytes;
 }
 
-/// Goes on from bytes that save_state() gave for an object of the same parameters. Returns false, and leaves the object as it was, for bytes
-/// of other parameters or another version, and for damaged ones. A forged state is not found: it may hold any finite numbers.
+/// Sets the state of an object from the bytes of save_state(). The object then continues with the same bits.
+///
+/// Returns false, and does not change the object, if the bytes are damaged, belong to other parameters or have
+/// another format version. It does not detect forged bytes: they can contain any finite numbers.
 template <typename T>
 bool load_state(T& object, std::span<const std::byte> bytes) {
   StateHeader header;

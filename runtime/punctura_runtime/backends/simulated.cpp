@@ -16,12 +16,12 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
     : options_(options),
       motion_(std::move(motion)),
       plant_(options.dynamics, options.hand, 1 / options.rate, options.seed),
-      wish_{plain(desired_at(motion_, 0).position), options.axis, 0},
+      wish_{to_array(desired_at(motion_, 0).position), options.axis, 0},
       wishes_(wish_) {
   info_ = {"simulated", "PHANTOM Omni, simulated", "", true, 1, options.dynamics.max_force, Omni::continuous_force};
   info_.encoder_step = options.dynamics.encoder_step;
   info_.rate = options.rate;
-  plant_.place(vector(wish_.target));
+  plant_.place(to_vector(wish_.target));
 }
 
 void SimulatedDevice::start(Tick tick) {
@@ -69,15 +69,15 @@ void SimulatedDevice::run(Tick tick) noexcept {
 
 void SimulatedDevice::one_tick(Tick tick, std::uint64_t k, double time) noexcept {
   const Wish& wish = wishes_.read();
-  if (Target* target = std::get_if<Target>(&motion_)) target->move_to(vector(wish.target));
+  if (Target* target = std::get_if<Target>(&motion_)) target->move_to(to_vector(wish.target));
   // The hand moves on the plant's own time, so that a late tick does not make it jump.
   const Desired desired = desired_at(motion_, static_cast<double>(k) / options_.rate);
 
-  DeviceSample sample{k, time, plain(plant_.measured()), wish.axis, wish.buttons, true};
+  DeviceSample sample{k, time, to_array(plant_.measured()), wish.axis, wish.buttons, true};
   if (auto* how = spoiler_.exchange(nullptr)) how(sample);
   const Tick::Force force = tick(sample);
   last_force_.write([&](std::array<double, 3>& to) { to = force; });
-  plant_.step(vector(force), desired);
+  plant_.step(to_vector(force), desired);
 }
 
 }  // namespace punctura

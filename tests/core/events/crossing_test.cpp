@@ -1,4 +1,4 @@
-// The depths at which a crossing turns, against K06's formulas; and the curves to draw.
+// The characteristic depths of a crossing, compared with K06's formulas, and the curves for plots.
 #include "punctura/events/crossing.hpp"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ using namespace punctura::test;
 
 namespace {
 
-/// One that came with its pieces.
+/// A law with given pieces.
 template <std::size_t n>
 struct TableLaw {
   using Scalar = double;
@@ -26,7 +26,7 @@ Crossing crossing_of(const LawCase& c, double cos_beta) {
 
 }  // namespace
 
-TEST_CASE("for K06's law the crossing turns where its formulas say") {
+TEST_CASE("for K06's law, crossing() agrees with the formulas of the paper") {
   Noise noise(21);
   for (int i = 0; i < 2000; ++i) {
     LawCase c = random_law(noise);
@@ -34,7 +34,8 @@ TEST_CASE("for K06's law the crossing turns where its formulas say") {
     const double cos_beta = std::cos(c.obliquity), U = c.membrane.thickness / cos_beta;
     const auto [X, A_I, A_O, Q, F] = ThickLaw(c.needle, c.membrane).constants();
     const Crossing turns = crossing_of(c, cos_beta);
-    // Behind max(U, X) the slope of -Phi_I is A_I (m - X - Q) + F at first, and falls with A_I.
+    // At max(U, X) the slope of -Phi_I is (A_I (m - X - Q) + F) / H. Behind it, the slope decreases by A_I / H per
+    // metre.
     const double peak = std::max(U, X) + std::max(0.0, std::min(U, X) - X - Q + F / A_I);
     REQUIRE(turns.cos_beta == cos_beta);
     REQUIRE(turns.far_face == U);
@@ -45,7 +46,7 @@ TEST_CASE("for K06's law the crossing turns where its formulas say") {
   }
 }
 
-TEST_CASE("the peak is where no other depth resists more") {
+TEST_CASE("no depth has more resistance than the peak") {
   Noise noise(22);
   for (int i = 0; i < 200; ++i) {
     const LawCase c = random_law(noise);
@@ -56,7 +57,7 @@ TEST_CASE("the peak is where no other depth resists more") {
   }
 }
 
-TEST_CASE("a needle that grazes counts as one at 80 degrees, and one without a direction as upright") {
+TEST_CASE("a grazing needle counts as 80 degrees, and a needle without a direction as 0 degrees") {
   Noise noise(23);
   const LawCase c = random_law(noise);
   CHECK(crossing_of(c, 0.01).cos_beta == grazing_cosine<double>);
@@ -64,9 +65,9 @@ TEST_CASE("a needle that grazes counts as one at 80 degrees, and one without a d
   CHECK(crossing_of(c, std::numeric_limits<double>::quiet_NaN()).cos_beta == 1);
 }
 
-TEST_CASE("another law turns at its own breaks, and room for more pieces changes nothing") {
+TEST_CASE("the crossing of a custom law is at its breaks, and with_room() does not change it") {
   const Needle needle = paper_needle;
-  // Grows by 100 N/m up to 2 mm, falls by 50 N/m up to 4 mm, and rubs with 0.05 N behind.
+  // The resistance grows by 100 N/m up to 2 mm and decreases by 50 N/m up to 4 mm. Behind it, the friction is 0.05 N.
   const PiecewiseBand<double, 4> table{
       {0, 2e-3, 4e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 50, 0}, {}}, {4e-3, {-0.05, 0, 0}, {}}}}};
   for (const Crossing& turns :
@@ -81,12 +82,12 @@ TEST_CASE("another law turns at its own breaks, and room for more pieces changes
   CHECK(crossing(small, needle, 1e-3, 1).through == doctest::Approx(tip_length(needle) + 1e-3));
 }
 
-TEST_CASE("a law whose resistance never falls has no pop") {
+TEST_CASE("a law whose resistance never decreases has no pop") {
   const PiecewiseBand<double, 3> table{{0, 2e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 0, 0}, {}}}}};
   CHECK(std::isinf(crossing(TableLaw<3>{table}, paper_needle, 0, 1).through));
 }
 
-TEST_CASE("a law's curve has both sides of each break") {
+TEST_CASE("the curve of a law has points on both sides of each break") {
   for (const double thickness : {0.0, 1e-3, 9e-3}) {
     const auto law = ThickLaw(paper_needle, paper_membrane(thickness), 0.5).pieces();
     const LawCurve curve = law_curve(law);

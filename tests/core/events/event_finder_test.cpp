@@ -16,7 +16,7 @@ static_assert(std::is_trivially_copyable_v<Contact> && std::is_trivially_copyabl
 
 namespace {
 
-constexpr double speed = 3e-6;  // m a tick
+constexpr double speed = 3e-6;  // m per tick
 const double no_number = std::numeric_limits<double>::quiet_NaN();
 
 Scene quick_scene(double thickness = 1e-3) {
@@ -25,7 +25,7 @@ Scene quick_scene(double thickness = 1e-3) {
   return scene;
 }
 
-/// Drives a scene along depths at one speed, and gives all events.
+/// Moves the tip through the given depths at constant speed. Returns all events.
 std::vector<Event> run(const Scene& scene, EventFinder& finder, std::initializer_list<double> depths) {
   ServoStep step = build(scene);
   std::vector<Event> found;
@@ -65,7 +65,7 @@ std::vector<EventKind> steps(EventFinder& finder, std::initializer_list<Membrane
 
 }  // namespace
 
-TEST_CASE("a needle in and out gives touch, pop and out, with the law's forces") {
+TEST_CASE("insertion and withdrawal give touch, pop and out, with the forces of the law") {
   const Scene scene = quick_scene();
   const auto events = run(scene, {-2e-3, 15e-3, -2e-3});
   REQUIRE(kinds(events) == std::vector{EventKind::touch, EventKind::pop, EventKind::out});
@@ -82,7 +82,7 @@ TEST_CASE("a needle in and out gives touch, pop and out, with the law's forces")
   for (const Event& event : {events[0], events[2]}) CHECK(event.drop() == 0);
 }
 
-TEST_CASE("a pop counts again only after the tip has come back before the peak") {
+TEST_CASE("a second pop needs a tip that came back before the peak") {
   EventFinder finder(quick_scene());
   const Crossing turns = crossing(ThickLaw(paper_needle, paper_membrane(1e-3)), paper_needle, 1e-3, 1);
   const double in = turns.through, near = std::nextafter(turns.again, 1.0);
@@ -90,12 +90,12 @@ TEST_CASE("a pop counts again only after the tip has come back before the peak")
   CHECK(steps(finder, {at(1e-3), at(in), at(near), at(in)}) == std::vector{touch, pop});
   CHECK(steps(finder, {at(turns.again, 0.7), at(in)}) == std::vector{pop});
   CHECK(steps(finder, {at(-0.1e-3, 0, Phase::outside), at(in)}) ==
-        std::vector{pop});  // in again, and not out in between
+        std::vector{pop});  // in again, without an `out` in between
   CHECK(steps(finder, {at(-0.25e-3, 0, Phase::outside), at(-1, 0, Phase::outside), at(in)}) ==
         std::vector{out, touch, pop});
 }
 
-TEST_CASE("ticks without a depth are passed over, a barred membrane has no pop, a number that is no phase is none") {
+TEST_CASE("ticks without depth or with an invalid phase are ignored, and a barred membrane has no pop") {
   EventFinder finder(quick_scene());
   using enum EventKind;
   constexpr auto none = static_cast<Phase>(255);
@@ -106,7 +106,7 @@ TEST_CASE("ticks without a depth are passed over, a barred membrane has no pop, 
   CHECK(steps(finder, {at(20e-3, 0, Phase::barred), at(20e-3, 0, none)}).empty());
 }
 
-TEST_CASE("a pop has the shaft's friction where no number tells it, and a NaN does not hide the peak") {
+TEST_CASE("a pop uses the friction of the shaft if the record has NaN, and NaN does not hide the peak") {
   EventFinder finder(quick_scene());
   MembraneRecord blind = at(9e-3);
   blind.axial_force = blind.lower = no_number;
@@ -118,7 +118,7 @@ TEST_CASE("a pop has the shaft's friction where no number tells it, and a NaN do
   CHECK(found[1].force_after == -ThickLaw(paper_needle, paper_membrane(1e-3)).band(1).lower);
 }
 
-TEST_CASE("after a change of scene a membrane in the same place goes on under its new law, whatever its number") {
+TEST_CASE("after a change of scene, a membrane at the same place keeps its contact under the new law") {
   Scene two = quick_scene(3e-3);
   two.membranes.insert(two.membranes.begin(), {"above", paper_membrane(0), {0, 4e-3, 0}, {0, -1, 0}});
   EventFinder finder(quick_scene());
@@ -132,16 +132,16 @@ TEST_CASE("after a change of scene a membrane in the same place goes on under it
   const MembraneRecord records[2] = {at(5e-3), at(1e-3)}, deep[2] = {at(5e-3), at(through)},
                        before[2] = {at(5e-3), at(std::nextafter(through, 0.0))};
   const auto changed = finder.step(EventTick{2, 0, {}, command_scene, records});
-  REQUIRE(changed.size() == 2);  // the new membrane alone
+  REQUIRE(changed.size() == 2);  // only the new membrane has events
   CHECK(changed[0].membrane + changed[1].membrane == 0);
   CHECK(finder.scene().membranes[1].name == "wall");
-  CHECK(finder.step(EventTick{3, 0, {}, 0, before}).empty());  // the old law would have let it through
+  CHECK(finder.step(EventTick{3, 0, {}, 0, before}).empty());  // with the old law this would be a pop
   const auto popped = finder.step(EventTick{3, 0, {}, 0, deep});
   REQUIRE(popped.size() == 1);
   CHECK((popped[0].membrane == 1 && popped[0].what == EventKind::pop));
 }
 
-TEST_CASE("a slanted needle's depths are those of its direction at entry") {
+TEST_CASE("the depths of an oblique needle are those of its direction at entry") {
   const double cos_beta = 0.6;
   const double through = tip_length(paper_needle) + 3e-3 / cos_beta;
   for (const bool by_axis : {false, true}) {
@@ -156,7 +156,7 @@ TEST_CASE("a slanted needle's depths are those of its direction at entry") {
 }
 
 namespace {
-/// Resists with 0.5 N/mm up to 1 mm, then lets go but for 0.1 N.
+/// The resistance grows with 0.5 N/mm up to 1 mm. Behind it, the friction is 0.1 N.
 struct FoilLaw {
   using Scalar = double;
   PiecewiseBand<double, 3> pieces(double = 1) const noexcept {
@@ -165,7 +165,7 @@ struct FoilLaw {
 };
 }  // namespace
 
-TEST_CASE("the events of another law are those of its breaks") {
+TEST_CASE("the events of a custom law are at its breaks") {
   const Scene scene = quick_scene();
   const auto foil = [](const Needle&, const Membrane&, std::size_t) { return FoilLaw{}; };
   auto insertion = build_insertion<double>(scene, foil);
@@ -174,8 +174,8 @@ TEST_CASE("the events of another law are those of its breaks") {
   for (std::uint64_t k = 0; k < 3000; ++k) {
     insertion.step({0, 1e-3 - speed * static_cast<double>(k), 0}, {0, -1, 0});
     const auto& tick = insertion.proxies()[0].tick();
-    const MembraneRecord record{tick.depth, tick.axial_force,      tick.band.lower, tick.band.upper,
-                                {},         plain(tick.direction), tick.phase};
+    const MembraneRecord record{tick.depth, tick.axial_force,         tick.band.lower, tick.band.upper,
+                                {},         to_array(tick.direction), tick.phase};
     for (const Event& event : finder.step(EventTick{k, 0, {}, 0, {&record, 1}})) found.push_back(event);
   }
   REQUIRE(kinds(found) == std::vector{EventKind::touch, EventKind::pop});
@@ -184,7 +184,7 @@ TEST_CASE("the events of another law are those of its breaks") {
   CHECK(found[1].force_after == 0.1);
 }
 
-TEST_CASE("a tick takes no memory, also one that changes the scene") {
+TEST_CASE("a tick allocates no memory, also if it changes the scene") {
   const Scene scene = quick_scene();
   EventFinder finder(scene);
   finder.change(quick_scene(2e-3));

@@ -1,4 +1,4 @@
-// The forces of K06 as they were recorded once, bit for bit: both solvers, both scalars, one and three dimensions.
+// The forces of K06 equal the recorded forces, bit for bit: both solvers, both scalars, one and three dimensions.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -15,7 +15,7 @@ constexpr GoldenHashes recorded[golden_count] = {
 };
 }  // namespace
 
-TEST_CASE("the forces on 200 random scenes are those that were recorded once, to the last bit") {
+TEST_CASE("the forces of 200 random scenes equal the recorded forces, bit for bit") {
   const std::size_t count = std::min(golden_count, static_cast<std::size_t>(cases(golden_count)));
   for (std::size_t k = 0; k < count; ++k) {
     const GoldenHashes now = golden_hashes(k);
@@ -26,7 +26,7 @@ TEST_CASE("the forces on 200 random scenes are those that were recorded once, to
   }
 }
 
-TEST_CASE("the golden scenes reach every phase with both solvers") {
+TEST_CASE("the golden scenes reach each phase with both solvers") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     std::array<int, 5> ticks{};
     for (std::size_t k = 0; k < 40; ++k) {

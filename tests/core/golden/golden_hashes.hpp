@@ -1,4 +1,4 @@
-// One number for all forces of a golden scene: what the test compares and record_forces.cpp writes down.
+// One hash for all forces of a golden scene. The test compares it, and record_forces.cpp writes it.
 #pragma once
 
 #include <bit>
@@ -25,7 +25,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-/// The first wall alone, on the axis: its thin and its thick law.
+/// The first wall alone, on the axis of the needle, with its thin and its thick law.
 template <typename Scalar>
 std::uint64_t forces_1d(const GoldenCase& c, Solver solver) {
   const auto to = [](double x) { return static_cast<Scalar>(x); };

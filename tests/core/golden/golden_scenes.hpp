@@ -1,4 +1,4 @@
-// 200 random scenes and motions whose bits are the same on every machine: they use only + - * / and sqrt, and tangents that are safe.
+// 200 random scenes and motions with the same bits on every machine. They use only + - * /, sqrt and safe tangents.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,20 @@ namespace punctura::test {
 inline constexpr std::size_t golden_count = 200;
 inline constexpr std::size_t golden_ticks = 1000;
 
-/// Tip angles, rad, whose tangents lie so near to a number of double and of float (0.05 of a unit in the last place) that every
-/// C library rounds to it.
+/// Tip angles, rad, with safe tangents: each is within 0.05 units in the last place of a double and of a float.
+/// Therefore every C library rounds it to the same number.
 inline constexpr std::array golden_angles = {0.2979525, 0.3709212, 0.3742132, 0.4893193, 0.5003197, 0.5670633,
                                              0.5909259, 0.6773731, 0.705416,  0.8561216, 0.9474528, 0.9595543,
                                              1.1373115, 1.2361852, 1.2818929, 1.2987622};
 
 struct GoldenCase {
   Scene scene;
-  std::vector<Vector3d> positions;  ///< of the tip, m, one a tick
+  std::vector<Vector3d> positions;  ///< of the tip, m, one per tick
   Vector3d axis;                    ///< of the needle
 };
 
-/// Scene k: 1 to 4 walls across y, one in ten of thickness 0; a needle up to 40 degrees from the normal, in strokes.
+/// Scene k: 1 to 4 walls across y. One wall in ten has thickness 0. The needle moves in strokes, up to 40 degrees
+/// from the normal.
 inline GoldenCase golden_case(std::size_t k) {
   Noise noise(1000 + k);
   const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(); };
@@ -37,11 +38,11 @@ inline GoldenCase golden_case(std::size_t k) {
   c.scene.coupling = {between(100, 2000), one_in(10) ? 0 : between(0.05, 5)};
   c.scene.direction = one_in(5) ? Direction::motion : Direction::stylus;
   c.scene.servo.rate = one_in(3) ? 1000 : 1600;
-  c.scene.servo.low_pass = 0;  // its gain takes an exponential
+  c.scene.servo.low_pass = 0;  // its gain needs exp(), which differs between C libraries
   double depth = 0;
   const std::size_t walls = 1 + static_cast<std::size_t>(between(0, 4));
   for (std::size_t i = 0; i < walls; ++i) {
-    const double tangent_bound = 4;  // of the steepest tip above: mu tan(theta) < 1, K06 (7)
+    const double tangent_bound = 4;  // the largest tangent of the angles above: mu tan(theta) < 1, K06 (7)
     const Membrane wall{between(50, 2000), between(0, 1), between(0.01, 0.9 / tangent_bound),
                         one_in(10) ? 0 : between(0.02e-3, 4e-3)};
     c.scene.membranes.push_back({"wall", wall, {0, -depth, 0}, {0, -1, between(-0.2, 0.2)}});
@@ -51,7 +52,7 @@ inline GoldenCase golden_case(std::size_t k) {
   const Vector3d axis{between(-0.6, 0.6), -1, between(-0.6, 0.6)};  // braces fix the order of the calls
   c.axis = axis / std::sqrt(axis.dot(axis));
   const double reach = depth + 10e-3, period = 1 / c.scene.servo.rate;
-  double along = -2e-3;  // of the surface, along the axis, m
+  double along = -2e-3;  // distance from the surface along the axis, m
   Vector3d sideways = Vector3d::Zero();
   while (c.positions.size() < golden_ticks) {
     const double goal = between(-3e-3, reach), speed = between(0.005, 0.3), kind = noise.uniform();

@@ -1,5 +1,6 @@
-// Writes golden_forces.inc anew. Only for a change that is meant to change forces:
-//   cmake --build --preset dev --target record_forces && build/dev/tests/core/record_forces > tests/core/golden/golden_forces.inc
+// Writes golden_forces.inc. Use it only for a change that is intended to change forces:
+// cmake --build --preset dev --target record_forces && build/dev/tests/core/record_forces >
+// tests/core/golden/golden_forces.inc
 #include <cstdio>
 
 #include "golden_hashes.hpp"

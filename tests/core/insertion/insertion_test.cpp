@@ -18,7 +18,7 @@ Scene scene(std::vector<PlacedMembrane> membranes) {
 }
 }  // namespace
 
-TEST_CASE("membranes superpose: the force is the sum of what each gives alone, in scene order, to the last bit") {
+TEST_CASE("the force is the sum of the forces of single membranes in scene order, bit for bit") {
   Noise noise(50);
   const auto a = at_depth(0, 1e-3), b = at_depth(3e-3, 0.5e-3), c = at_depth(5e-3, 2e-3);
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -40,7 +40,7 @@ TEST_CASE("membranes superpose: the force is the sum of what each gives alone, i
   }
 }
 
-TEST_CASE("positions pass the low-pass first") {
+TEST_CASE("the model gets positions from the low-pass") {
   auto filtered = build_insertion(scene({at_depth(0, 1e-3)}));
   LowPass<double, Vector3d> filter(300, 1 / 1600.0);
   for (int k = 0; k < 100; ++k) {
@@ -50,7 +50,7 @@ TEST_CASE("positions pass the low-pass first") {
   }
 }
 
-TEST_CASE("with direction from motion the stylus is not read: b is the way the tip has come") {
+TEST_CASE("with Direction::motion, b is the direction of the motion and the stylus is ignored") {
   auto from_motion = scene({at_depth(0, 1e-3)});
   from_motion.direction = Direction::motion;
   auto insertion = build_insertion(from_motion);
@@ -73,7 +73,7 @@ TEST_CASE("a motion that grazes the membrane gives no force") {
   CHECK(insertion.proxies()[0].phase() == Phase::barred);
 }
 
-TEST_CASE("outside() holds only in front of every membrane") {
+TEST_CASE("outside() is true only in front of every membrane") {
   auto insertion = build_insertion(scene({at_depth(0, 1e-3), at_depth(3e-3, 1e-3)}));
   CHECK_FALSE(insertion.outside());
   insertion.step({0, 1e-3, 0}, down);
@@ -82,7 +82,7 @@ TEST_CASE("outside() holds only in front of every membrane") {
   CHECK_FALSE(insertion.outside());
 }
 
-TEST_CASE("float runs the same scene") {
+TEST_CASE("an insertion in float agrees with double") {
   auto d = build_insertion<double>(scene({at_depth(0, 1e-3), at_depth(3e-3, 0.5e-3)}));
   auto f = build_insertion<float>(scene({at_depth(0, 1e-3), at_depth(3e-3, 0.5e-3)}));
   double worst = 0;

@@ -1,4 +1,4 @@
-// An insertion without a heap: the same bits as one with it, and an end where its bounds are passed.
+// FixedStorage: an insertion without a heap has the same bits, and the program aborts if the bounds are exceeded.
 #include <doctest/doctest.h>
 
 #ifndef _WIN32
@@ -51,7 +51,7 @@ bool aborts([[maybe_unused]] Run run) {
 
 }  // namespace
 
-TEST_CASE("without a heap, forces and states have the same bits") {
+TEST_CASE("with FixedStorage, forces and states have the same bits as with HeapStorage") {
   for (Direction direction : {Direction::stylus, Direction::motion})
     for (Conditioning conditioning : {Conditioning::low_pass, Conditioning::line_fit}) {
       const auto sites = walls(3);
@@ -72,7 +72,7 @@ TEST_CASE("without a heap, forces and states have the same bits") {
     }
 }
 
-TEST_CASE("sites or a rate beyond the bounds end the program: no membrane is left out") {
+TEST_CASE("too many sites or a too high rate abort the program") {
   const auto four = walls(4);
   const auto one = walls(1);
   CHECK(aborts([&] { Fixed insertion(four, coupling, T); }));

@@ -14,7 +14,7 @@ static_assert(ObliqueLaw<ThickLaw> && ObliqueLaw<ThickLawF> && Law<ThinLaw> && L
 
 namespace {
 
-/// The six printed cases of K06 (18), E3 mended; `A` and `sign` make it (19).
+/// The six printed cases of K06 (18), with slip E3 corrected. With A = A_O and sign = +1 it is (19).
 double printed(double q, double A, double sign, const LawConstants<double>& k, double H, double U) {
   const double X = k.X, Q = k.Q, F = k.F;
   if (q < 0) return 0;
@@ -33,7 +33,7 @@ double largest(const ThickLaw& law) {
 
 }  // namespace
 
-TEST_CASE("the pieces are the printed six cases of (18) and (19)") {
+TEST_CASE("the pieces are the six printed cases of (18) and (19)") {
   Noise noise(2);
   double worst = 0;
   for (int i = 0; i < cases(20000); ++i) {
@@ -50,10 +50,10 @@ TEST_CASE("the pieces are the printed six cases of (18) and (19)") {
     }
   }
   MESSAGE("largest difference, relative to the law's largest force: " << worst);
-  CHECK(worst < 1e-10);  // the printed form itself loses digits at 1 micrometre: it subtracts nearly equal products
+  CHECK(worst < 1e-10);  // for H = 1 um, the printed form loses digits by cancellation
 }
 
-TEST_CASE("the lower edge is never positive and never above the upper one; both are zero in front") {
+TEST_CASE("the lower edge is <= 0 and <= the upper edge, and both edges are 0 in front") {
   Noise noise(3);
   for (int i = 0; i < cases(20000); ++i) {
     const LawCase c = random_law(noise);
@@ -70,7 +70,7 @@ TEST_CASE("the lower edge is never positive and never above the upper one; both 
   }
 }
 
-TEST_CASE("the edges are continuous where the pieces meet") {
+TEST_CASE("the edges of the thick law are continuous at the breaks") {
   Noise noise(4);
   for (int i = 0; i < cases(5000); ++i) {
     const LawCase c = random_law(noise);
@@ -84,7 +84,7 @@ TEST_CASE("the edges are continuous where the pieces meet") {
   }
 }
 
-TEST_CASE("no thickness is the thin law, times 1 / cos(beta)") {
+TEST_CASE("with thickness 0 the thick law is the thin law times 1 / cos(beta)") {
   const ThinLaw thin(paper_needle, paper_membrane(0));
   for (double beta : {0.0, 0.5, 1.2}) {
     const ThickLaw law(paper_needle, paper_membrane(0), beta);
@@ -95,7 +95,7 @@ TEST_CASE("no thickness is the thin law, times 1 / cos(beta)") {
   }
 }
 
-TEST_CASE("float and double agree to float's digits") {
+TEST_CASE("float and double agree within the precision of float") {
   Noise noise(5);
   double worst = 0;
   for (int i = 0; i < cases(5000); ++i) {
@@ -105,12 +105,13 @@ TEST_CASE("float and double agree to float's digits") {
         {f(c.needle.diameter), f(c.needle.tip_angle)},
         {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
         f(c.obliquity));
-    // The double law of the rounded parameters, so that only the arithmetic is compared.
+    // The double law has the rounded parameters, so that only the arithmetic is compared.
     const ThickLaw law(
         {f(c.needle.diameter), f(c.needle.tip_angle)},
         {f(c.membrane.stiffness), f(c.membrane.precompression), f(c.membrane.friction), f(c.membrane.thickness)},
         f(c.obliquity));
-    // mu tan(theta) near 1 divides by a small difference; that is the parameters' conditioning, not the arithmetic.
+    // mu tan(theta) near 1 divides by a small difference. This error comes from the parameters, not from the
+    // arithmetic.
     if (c.membrane.friction * std::tan(c.needle.tip_angle) > 0.9) continue;
     const float q = f(between(noise, 0, 1.2) * (law.constants().X + law.path_length()));
     worst = std::max(worst, std::abs(static_cast<double>(single.band(q).lower) - law.band(q).lower) / largest(law));

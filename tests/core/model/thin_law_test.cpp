@@ -18,19 +18,19 @@ TEST_CASE("the constants of K06 section 4 have their reference values to 12 digi
   CHECK(c.A_I * (c.X + c.Q) == doctest::Approx(0.7357).epsilon(1e-4));
 }
 
-TEST_CASE("the thin law is zero in front, grows on the tip, and drops to dry friction behind it") {
+TEST_CASE("the thin law is zero in front, linear on the tip and constant on the shaft") {
   const ThinLaw law(paper_needle, paper_membrane(0));
   const auto& [X, A_I, A_O, Q, F] = law.constants();
   CHECK(law.band(-1e-9).lower == 0);
   CHECK(law.band(-1e-9).upper == 0);
   CHECK(law.band(0).lower == doctest::Approx(-A_I * Q));
-  CHECK(law.band(X).lower == doctest::Approx(-A_I * (X + Q)));  // K06 (13): the tip's interval is closed
+  CHECK(law.band(X).lower == doctest::Approx(-A_I * (X + Q)));  // K06 (13): [0, X] is closed
   CHECK(law.band(std::nextafter(X, 1.0)).lower == -F);
   CHECK(law.band(1).upper == F);
   CHECK(law.band(X / 3).upper == doctest::Approx(A_O * (X / 3 + Q)));
 }
 
-TEST_CASE("what K06 says of the constants holds for every admissible pair") {
+TEST_CASE("the inequalities of K06 after (15) hold for random needles and membranes") {
   Noise noise(1);
   int expelling = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -42,10 +42,10 @@ TEST_CASE("what K06 says of the constants holds for every admissible pair") {
     REQUIRE(k.A_O * (k.X + k.Q) < k.F);
     expelling += k.A_O < 0;
   }
-  CHECK(expelling > 1000);  // A_O of either sign is met
+  CHECK(expelling > 1000);  // A_O has both signs
 }
 
-TEST_CASE("float and double agree to float's digits") {
+TEST_CASE("float and double agree within the precision of float") {
   const ThinLawF f({1.08e-3f, 0.28f}, {570.f, 0.41f, 0.2f, 0.f});
   const ThinLaw d(paper_needle, paper_membrane(0));
   for (double q : {-1e-3, 0.0, 1e-3, 3e-3, 5e-3}) {

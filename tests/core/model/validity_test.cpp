@@ -8,7 +8,7 @@
 
 using namespace punctura;
 
-TEST_CASE("every bound that is broken is named, all at once") {
+TEST_CASE("check() reports all broken bounds at once") {
   std::vector<Problem> problems;
   CHECK_FALSE(check(Needle{-1e-3, 2}, "needle", problems));
   CHECK_FALSE(check(Membrane{0, -0.1, 0, -1e-3}, "membrane[0]", problems));
@@ -20,7 +20,7 @@ TEST_CASE("every bound that is broken is named, all at once") {
   CHECK(problems[5].value == -1e-3);
 }
 
-TEST_CASE("a number that is not finite is told so") {
+TEST_CASE("check() reports a number that is not finite") {
   std::vector<Problem> problems;
   CHECK_FALSE(check(Needle{std::nan(""), INFINITY}, "needle", problems));
   REQUIRE(problems.size() == 2);
@@ -28,7 +28,7 @@ TEST_CASE("a number that is not finite is told so") {
   CHECK(problems[1].reason == "must be a finite number");
 }
 
-TEST_CASE("insertion needs mu tan(theta) < 1, and the message says how far off it is") {
+TEST_CASE("insertion needs mu tan(theta) < 1, and the message contains the value") {
   std::vector<Problem> problems;
   CHECK_FALSE(check_insertion({1.08e-3, 0.28}, {570, 0.41, 3.6, 1e-3}, "membrane[1]", problems));
   REQUIRE(problems.size() == 1);
@@ -37,7 +37,7 @@ TEST_CASE("insertion needs mu tan(theta) < 1, and the message says how far off i
   CHECK(check_insertion({1.08e-3, 0.28}, {570, 0.41, 3.4, 1e-3}, "membrane[1]", problems));
 }
 
-TEST_CASE("what is admissible passes without a word") {
+TEST_CASE("permitted values give no problem") {
   Noise noise(6);
   std::vector<Problem> problems;
   for (int i = 0; i < 1000; ++i) {

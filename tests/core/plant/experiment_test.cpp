@@ -11,7 +11,7 @@ namespace {
 const Strokes strokes{{0, 5e-3, 0}, {0, -10e-3, 0}, 2, 1.5, 0.6, 0.05};
 }
 
-TEST_CASE("the simulated operator feels the pop of K06 Fig. 10, both ways, without a fault or a limit") {
+TEST_CASE("the simulated operator reproduces the pop of K06 Fig. 10 without a fault or a limit") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     StrokesMotion motion(strokes, 5);
     const auto ticks = static_cast<int>(motion.duration() * 1600);
@@ -33,7 +33,7 @@ TEST_CASE("the simulated operator feels the pop of K06 Fig. 10, both ways, witho
   }
 }
 
-TEST_CASE("the same seed repeats the experiment to the last bit") {
+TEST_CASE("the same seed repeats the experiment, bit for bit") {
   const auto run = [](std::uint64_t seed) {
     Experiment experiment(paper_scene(), StrokesMotion(strokes, seed), Vector3d(0, -1, 0), {}, {}, seed);
     double sum = 0;
@@ -44,7 +44,7 @@ TEST_CASE("the same seed repeats the experiment to the last bit") {
   CHECK(run(1) != run(2));
 }
 
-TEST_CASE("a hand that rests in the tissue stays at rest: nothing creeps, nothing buzzes") {
+TEST_CASE("a hand that rests in tissue neither creeps nor buzzes") {
   Hand steady;
   steady.tremor_rms = 0;
   Experiment experiment(paper_scene(), RecordedMotion({0, 1, 2}, {{0, 2e-3, 0}, {0, 2e-3, 0}, {0, -4e-3, 0}}),

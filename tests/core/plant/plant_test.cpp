@@ -13,13 +13,13 @@ const DeviceDynamics frictionless{0.045, 0, 0, 3.3};
 const Hand steady{0.05, 4, 500, 0, 9};
 }  // namespace
 
-TEST_CASE("without friction the tip settles where spring and force balance") {
+TEST_CASE("without friction the tip settles at the balance of spring and force") {
   Plant plant(frictionless, steady, T);
   for (int k = 0; k < 3200; ++k) plant.step({0, 0.5, 0}, origin);
   CHECK(plant.tip().y() == doctest::Approx(0.5 / 500).epsilon(1e-9));
 }
 
-TEST_CASE("the free response is that of mass, damper and spring") {
+TEST_CASE("the free response is that of a mass, a damper and a spring") {
   Plant plant(frictionless, steady, T);
   plant.place({1e-2, 0, 0});
   const double m = 0.095, omega = std::sqrt(500 / m - 4 * 4 / (4 * m * m)), decay = 4 / (2 * m);
@@ -33,24 +33,24 @@ TEST_CASE("the free response is that of mass, damper and spring") {
   CHECK(worst < 1e-5);  // first-order integration at T/16
 }
 
-TEST_CASE("dry friction holds the tip below its force and takes exactly its force above") {
+TEST_CASE("dry friction holds the tip below the friction force and subtracts that force above") {
   Plant plant(DeviceDynamics{}, steady, T);
   for (int k = 0; k < 1600; ++k) plant.step({0.2, 0, 0}, origin);
   CHECK(plant.tip() == Vector3d::Zero());
   for (int k = 0; k < 4800; ++k) plant.step({0.6, 0, 0}, origin);
-  CHECK(plant.velocity() == Vector3d::Zero());  // it rests, and does not creep
+  CHECK(plant.velocity() == Vector3d::Zero());  // it rests and does not creep
   CHECK(plant.tip().x() > (0.6 - 0.26) / 500 - 1e-6);
   CHECK(plant.tip().x() < (0.6 + 0.26) / 500);
 }
 
-TEST_CASE("the motors saturate by norm") {
+TEST_CASE("saturate() limits the norm of the force and keeps its direction") {
   const DeviceDynamics device;
   CHECK(device.saturate({3, 4, 0}).norm() == doctest::Approx(3.3));
   CHECK(device.saturate({3, 4, 0}).x() == doctest::Approx(3.3 * 0.6));
   CHECK(device.saturate({1, 2, 0}) == Vector3d(1, 2, 0));
 }
 
-TEST_CASE("the encoders report steps, within half a step of the truth") {
+TEST_CASE("the encoders report steps within half a step of the true position") {
   DeviceDynamics device;
   device.friction = 0;
   Plant plant(device, steady, T, 7);
@@ -67,7 +67,7 @@ TEST_CASE("the encoders report steps, within half a step of the truth") {
   }
 }
 
-TEST_CASE("the same seed gives the same run to the last bit, another seed another one") {
+TEST_CASE("the same seed gives the same run, bit for bit, and another seed a different run") {
   const auto run = [](std::uint64_t seed) {
     Plant plant(DeviceDynamics{}, Hand{}, T, seed);
     for (int k = 0; k < 2000; ++k)
@@ -78,7 +78,7 @@ TEST_CASE("the same seed gives the same run to the last bit, another seed anothe
   CHECK(run(3) != run(4));
 }
 
-TEST_CASE("tremor has the rms and the frequency asked for") {
+TEST_CASE("tremor has the given rms and frequency") {
   Hand hand;
   hand.tremor_rms = 5e-5;
   Tremor tremor(hand, T);
@@ -100,7 +100,7 @@ TEST_CASE("tremor has the rms and the frequency asked for") {
   CHECK(none.step(noise) == Vector3d::Zero());
 }
 
-TEST_CASE("strokes go from start to end and back, at rest at both ends, and vary with the seed") {
+TEST_CASE("strokes go from start to end and back, rest at both ends and vary with the seed") {
   const Strokes strokes{{0, 5e-3, 0}, {0, -8e-3, 0}, 3, 1.0, 0.5, 0.1};
   StrokesMotion motion(strokes, 1), other(strokes, 2);
   CHECK(motion.duration() != other.duration());
@@ -130,7 +130,7 @@ TEST_CASE("the velocity of strokes is the derivative of their position") {
   }
 }
 
-TEST_CASE("a recorded motion is linear between its samples and rests at its ends") {
+TEST_CASE("a recorded motion is linear between samples and rests before and after them") {
   RecordedMotion motion({1, 2, 4}, {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}});
   CHECK(motion.duration() == 3);
   CHECK(motion.at(0).position == Vector3d::Zero());
@@ -141,7 +141,7 @@ TEST_CASE("a recorded motion is linear between its samples and rests at its ends
   CHECK(motion.at(9).velocity == Vector3d::Zero());
 }
 
-TEST_CASE("a target that jumps is followed without a jump, to its end") {
+TEST_CASE("the hand follows a target that jumps smoothly and reaches it") {
   Target target(Vector3d::Zero());
   target.at(0);
   target.move_to({1e-2, 0, 0});

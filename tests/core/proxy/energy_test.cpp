@@ -1,8 +1,9 @@
-// What the model may give out over a closed cycle, with work counted as f(k).(p(k) - p(k-1)).
+// The work of the model on the hand over a closed cycle: the sum of f(k).(p(k) - p(k-1)).
 //
-// f = K e + B (e - e_prev) / T makes sum f.de >= 0 over a cycle that begins and ends at e = 0 (backward Euler dissipates), and
-// friction makes sum f.dq <= 0 as long as the band holds 0. dp = dq - de, so nothing is given out. Where A_O < 0 the upper edge is
-// below zero in the tip zone, and the membrane pushes the needle out: that much, and no more.
+// A cycle begins and ends at e = 0. The coupling f = K e + B (e - e_prev) / T dissipates (backward Euler), so
+// sum f.de >= 0. Friction gives sum f.dq <= 0 if the band contains 0. With dp = dq - de, sum f.dp <= 0.
+// If A_O < 0, the upper edge is below 0 on the tip, and the membrane expels the needle. The work of the expulsion is
+// then the upper bound.
 #include <doctest/doctest.h>
 
 #include "../support/cases.hpp"
@@ -21,12 +22,13 @@ Vector3d random_direction(Noise& noise) {
 }
 
 struct Cycle {
-  double given = 0;      ///< sum f.dp, J: above 0 the hand has been given work
-  double expelled = 0;   ///< what the law gives while the needle slides out under a negative upper edge, J
-  double exchanged = 0;  ///< sum |f.dp|, J: the scale of rounding
+  double given = 0;      ///< sum f.dp, J: the work on the hand
+  double expelled = 0;   ///< the work of the law while the needle slides out on a negative upper edge, J
+  double exchanged = 0;  ///< sum |f.dp|, J: the scale of rounding errors
 };
 
-/// Up to three membranes at random angles; press, hold, tremble, jump, release, and back where it began, at rest.
+/// A random closed cycle through up to three membranes at random angles. It begins and ends at rest at the same
+/// position.
 Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
   std::vector<MembraneSite<double>> sites;
   const Vector3d axis = random_direction(noise);
@@ -44,7 +46,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
   Insertion insertion(sites, random_coupling(noise), T, solver);
 
   auto path = random_motion(noise, 1500, reach, T);
-  const Vector3d home = -0.5 * reach * axis;  // in front of all, however they are turned
+  const Vector3d home = -0.5 * reach * axis;  // in front of all membranes at all angles
   const Vector3d side = axis.cross(std::abs(axis.x()) < 0.5 ? Vector3d(1, 0, 0) : Vector3d(0, 1, 0)).normalized();
   Cycle cycle;
   Vector3d p_prev = home;
@@ -72,7 +74,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
 }
 }  // namespace
 
-TEST_CASE("over a closed cycle the model gives out no work where A_O >= 0, with either solver") {
+TEST_CASE("over a closed cycle the model does no work on the hand if A_O >= 0") {
   Noise noise(60);
   double worst = -1;
   int touched = 0;
@@ -86,10 +88,10 @@ TEST_CASE("over a closed cycle the model gives out no work where A_O >= 0, with 
   }
   MESSAGE("most given out, relative to what was exchanged: " << worst << ", in " << touched
                                                              << " cycles that met tissue");
-  CHECK(touched > cases(1000));  // of twice as many: most cycles do meet tissue
+  CHECK(touched > cases(1000));  // of 2000: most cycles reach tissue
 }
 
-TEST_CASE("where A_O < 0 the membrane gives out what its law says, and no more") {
+TEST_CASE("if A_O < 0 the membrane does at most the work that its law gives") {
   Noise noise(61);
   int gave = 0;
   for (int i = 0; i < cases(300); ++i) {

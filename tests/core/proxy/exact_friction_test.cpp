@@ -9,14 +9,14 @@
 using namespace punctura;
 using namespace punctura::test;
 
-TEST_CASE("the first root of a parabola is found for every sign of its coefficients") {
+TEST_CASE("first_root() is correct for all signs of the coefficients") {
   Noise noise(10);
   for (int i = 0; i < cases(100000); ++i) {
     const double r1 = between_log(noise, 1e-6, 1), r2 = (noise.uniform() < 0.5 ? -1 : 1) * between_log(noise, 1e-6, 1);
-    // s (x - r1)(x - r2) with the sign s that makes it positive at 0
+    // s (x - r1)(x - r2), with the sign s for which it is positive at 0
     const double s = r1 * r2 > 0 ? 1 : -1;
     const double first = r2 > 0 ? std::min(r1, r2) : r1;
-    if (std::abs(r1 - r2) < 1e-3 * r1) continue;  // near-double roots move by sqrt(eps)
+    if (std::abs(r1 - r2) < 1e-3 * r1) continue;  // rounding moves nearly equal roots by sqrt(eps)
     const double x = first_root(s, -s * (r1 + r2), s * r1 * r2);
     REQUIRE(x == doctest::Approx(first).epsilon(1e-9));
   }
@@ -28,14 +28,15 @@ TEST_CASE("the first root of a parabola is found for every sign of its coefficie
 
 namespace {
 
-/// How far f lies from an edge at q. Where the edge jumps within rounding of q, all values between are on it.
+/// The distance of f from an edge at q, N. If the edge jumps within rounding of q, all values in the jump have
+/// distance 0.
 template <typename L, typename Edge>
 double distance(const L& law, double q, double f, Edge edge) {
   const double a = edge(law.band(q - 1e-17)), b = edge(law.band(q)), c = edge(law.band(q + 1e-17));
   return std::max({0.0, std::min({a, b, c}) - f, f - std::max({a, b, c})});
 }
 
-/// Largest violation of K06 (21)-(23) over a motion, N, from the public state alone.
+/// The largest violation of K06 (21)-(23) during a motion, N, from the public state.
 template <typename L>
 double residual(const L& law, const BasicCoupling<double>& coupling, double T, const std::vector<double>& motion) {
   Proxy1d<L> proxy(law, coupling, T, Solver::exact);
@@ -67,7 +68,7 @@ double residual(const L& law, const BasicCoupling<double>& coupling, double T, c
 
 }  // namespace
 
-TEST_CASE("the exact solver leaves no residual in (21)-(23)") {
+TEST_CASE("the exact solver solves (21)-(23) without a residual") {
   Noise noise(11);
   double worst = 0;
   for (int i = 0; i < cases(2000); ++i) {
@@ -76,7 +77,8 @@ TEST_CASE("the exact solver leaves no residual in (21)-(23)") {
     const double T = 1 / between_log(noise, 500, 8000);
     const double reach = law.constants().X + law.path_length();
     const double r = residual(law, random_coupling(noise), T, random_motion(noise, 600, reach, T));
-    // Rounding of q moves the force by the law's slope: admit that much beyond 1e-11 N, for walls of newtons a micrometre.
+    // Rounding of q changes the force by the slope of the law. Permit this error, because slopes reach newtons per
+    // micrometre.
     const double slope = std::max({law.constants().A_I * (law.constants().X + law.constants().Q) / law.thickness(),
                                    law.constants().F / law.thickness()});
     worst = std::max(worst, r - 4e-16 * slope * reach);
@@ -106,7 +108,7 @@ TEST_CASE("the exact solver finds the first root in the direction of motion") {
       const double q = proxy.position();
       const double sense = proxy.phase() == Phase::sliding_in ? 1 : proxy.phase() == Phase::sliding_out ? -1 : 0;
       if (sense != 0 && std::abs(q - q_prev) > 1e-9) {
-        // Strictly between, the coupling has not met the edge yet.
+        // Strictly in between, the coupling has not reached the edge.
         for (int j = 1; j < 40; ++j) {
           const double x = q_prev + (q - q_prev) * j / 40.0;
           const auto band = law.band(x);
@@ -122,7 +124,7 @@ TEST_CASE("the exact solver finds the first root in the direction of motion") {
   CHECK(pops > 0);
 }
 
-TEST_CASE("at a constant speed the exact force turns at the pop and nowhere else") {
+TEST_CASE("at constant speed the exact force has at most one turning point") {
   int worst_paper = 0;
   for (double H = 1e-5; H < 4.1e-3; H *= 1.6) {
     for (double speed : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1}) {
@@ -150,7 +152,7 @@ TEST_CASE("at a constant speed the exact force turns at the pop and nowhere else
 }
 
 namespace {
-/// Somebody else's law: plain Coulomb friction from the surface on. It shows the door that law.hpp holds open.
+/// A custom law: constant Coulomb friction behind the surface.
 struct CoulombLaw {
   using Scalar = double;
   explicit CoulombLaw(double friction) {
@@ -165,7 +167,7 @@ struct CoulombLaw {
 };
 }  // namespace
 
-TEST_CASE("a law of another author runs on the same solvers") {
+TEST_CASE("a custom law runs with both solvers") {
   const CoulombLaw law(0.5);
   Noise noise(13);
   CHECK(residual(law, {400, 1}, 1 / 1600.0, random_motion(noise, 5000, 5e-3, 1 / 1600.0)) < 1e-11);

@@ -1,4 +1,4 @@
-// The doors for other authors: laws with memory and with any number of pieces, different laws in one scene, couplings that relax.
+// Custom laws and couplings: laws with memory, with any number of pieces, several laws in a scene, relaxing couplings.
 #include <doctest/doctest.h>
 
 #include "../support/allocations.hpp"
@@ -18,7 +18,7 @@ constexpr double T = 1 / 1600.0;
 
 static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
 
-/// A law that came with any number of pieces.
+/// A law with any number of given pieces.
 template <std::size_t n>
 struct TableLaw {
   using Scalar = double;
@@ -27,7 +27,8 @@ struct TableLaw {
   PiecewiseBand<double, n> pieces(double) const noexcept { return table; }
 };
 
-/// K06's coupling beside a branch of stiffness K_m that relaxes: f_m = a (f_m + K_m (e - e_prev)), a = exp(-T / tau).
+/// K06's coupling with a parallel branch of stiffness K_m that relaxes: f_m = a (f_m + K_m (e - e_prev)), a = exp(-T
+/// / tau).
 struct RelaxingCoupling {
   using Scalar = double;
   template <typename Vector>
@@ -58,8 +59,8 @@ static_assert(SampledCouplingOf<SampledCoupling<double>, double> &&
 
 }  // namespace
 
-// The exact solver only: this band jumps at the proxy itself, and (31) takes it there at a place where the proxy is not.
-TEST_CASE("a law with memory: the second pass through a hole meets nothing before its end") {
+// Only the exact solver: this band jumps at the proxy's position, and (31) takes the band at a different position.
+TEST_CASE("with a law with memory, the second pass has no force before the end of the hole") {
   Proxy1d line(CutLaw{}, Coupling{400, 1}, T);
   Proxy3d space(CutLaw{}, Vector3d(0, 0, 0), Vector3d(0, -1, 0), Coupling{400, 1}, T);
   const auto force_at = [&](double depth) {
@@ -82,7 +83,7 @@ TEST_CASE("a law with memory: the second pass through a hole meets nothing befor
   CHECK(space.state().law.cut > cut);
 }
 
-TEST_CASE("a law may have any number of pieces: K06's own among seventeen gives its forces to the last bit") {
+TEST_CASE("K06's law with 17 pieces has the same forces, bit for bit") {
   Noise noise(90);
   const LawCase c = random_law(noise, 1e-3);
   const ThickLaw law(c.needle, c.membrane);
@@ -94,7 +95,7 @@ TEST_CASE("a law may have any number of pieces: K06's own among seventeen gives 
   }
 }
 
-TEST_CASE("a scene may mix laws, and a tick of it takes no memory") {
+TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
   using Mixed = MixedLaw<ThickLaw, CutLaw>;
   Scene scene = paper_scene(1e-3);
   scene.servo.low_pass = 0;
@@ -119,10 +120,10 @@ TEST_CASE("a scene may mix laws, and a tick of it takes no memory") {
   }
 }
 
-TEST_CASE("a coupling with memory: a needle that is held still feels the tissue relax") {
+TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const RelaxingCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
-  const TableLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N, both ways
+  const TableLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N in both directions
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d line(grip, coupling, solver);
     Proxy3d space(grip, Vector3d(0, 0, 0), Vector3d(0, -1, 0), coupling, solver);
@@ -135,7 +136,7 @@ TEST_CASE("a coupling with memory: a needle that is held still feels the tissue 
       return f;
     };
     for (int k = 0; k <= 1600; ++k) hold(-1e-3 + 11e-3 * k / 1600, 1);
-    hold(9.6e-3, 1);  // unloads, with the proxy at rest from here on
+    hold(9.6e-3, 1);  // unloads; the proxy rests from here on
     const double offset = line.offset(), first = hold(9.6e-3, 160), second = hold(9.6e-3, 160),
                  last = hold(9.6e-3, 4000);
     CHECK(line.phase() == Phase::sticking);
@@ -145,7 +146,7 @@ TEST_CASE("a coupling with memory: a needle that is held still feels the tissue 
   }
 }
 
-TEST_CASE("with no stiffness in its branch, a coupling that relaxes is K06's") {
+TEST_CASE("a relaxing coupling with branch stiffness 0 equals K06's coupling") {
   Noise noise(92);
   const ThickLaw law(paper_needle, paper_membrane(1e-3));
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -158,7 +159,7 @@ TEST_CASE("with no stiffness in its branch, a coupling that relaxes is K06's") {
   }
 }
 
-TEST_CASE("a state that is given back, and a copy of an insertion, go on to the same bits") {
+TEST_CASE("set_state() and a copy of an insertion continue with the same bits") {
   Noise noise(93);
   const auto motion = random_motion(noise, 2000, 10e-3, T);
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -178,7 +179,7 @@ TEST_CASE("a state that is given back, and a copy of an insertion, go on to the 
   }
 }
 
-TEST_CASE("a tick that is not finite gives NaN and leaves no trace") {
+TEST_CASE("a tick with an input that is not finite gives NaN and changes nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   Noise noise(94);
   const auto motion = random_motion(noise, 2000, 8e-3, T);
@@ -205,7 +206,7 @@ TEST_CASE("a tick that is not finite gives NaN and leaves no trace") {
   }
 }
 
-TEST_CASE("on a line, a law among others keeps the obliquity that it was made with") {
+TEST_CASE("on a line, a MixedLaw keeps the obliquity of its law") {
   Noise noise(95);
   const ThickLaw oblique(paper_needle, paper_membrane(1e-3), 0.5);
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -215,7 +216,7 @@ TEST_CASE("on a line, a law among others keeps the obliquity that it was made wi
   }
 }
 
-TEST_CASE("the memory of a membrane outlasts a change of the scene, and ends with a reset") {
+TEST_CASE("the memory of a membrane survives a change of scene and is cleared by a reset") {
   Proxy3d first(CutLaw{}, Vector3d(), Vector3d(0, -1, 0), Coupling{400, 1}, T);
   for (int k = 0; k <= 800; ++k) first.step({0, 2e-3 - 10e-3 * k / 800, 0}, {0, -1, 0});
   const double cut = first.state().law.cut;
@@ -233,7 +234,7 @@ TEST_CASE("the memory of a membrane outlasts a change of the scene, and ends wit
   }
 }
 
-TEST_CASE("lengths of vectors that are zero, tiny, huge or no numbers") {
+TEST_CASE("norms are correct for vectors that are zero, tiny, huge or NaN") {
   const double inf = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::denorm_min();
   CHECK(Vector3d().stableNorm() == 0);
   CHECK(Vector3d().stableNormalized() == Vector3d());

@@ -1,4 +1,4 @@
-// Both solvers on a vector of four lanes: each lane gives the bits of a run of its own with one number.
+// Both solvers with four lanes. Each lane has the bits of a single run.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -64,13 +64,13 @@ bool same_band(const Band<FourLanes<Scalar>>& lanes, std::size_t i, const Band<S
   return same_bits(of_lane(lanes.lower, i), one.lower) && same_bits(of_lane(lanes.upper, i), one.upper);
 }
 
-/// Four laws and couplings, as numbers of Scalar.
+/// Four laws and couplings in Scalar.
 template <typename Scalar>
 struct Cases {
   std::array<BasicNeedle<Scalar>, 4> needle;
   std::array<BasicMembrane<Scalar>, 4> membrane;
   std::array<BasicCoupling<Scalar>, 4> coupling;
-  std::array<double, 4> reach{};  ///< of motions that meet all of the law, m
+  std::array<double, 4> reach{};  ///< of motions through all pieces of the law, m
 
   explicit Cases(Noise& noise) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -106,7 +106,7 @@ struct Cases {
   }
 };
 
-/// How often the lanes were in each phase, and in how many ticks in different ones.
+/// How often the lanes had each phase, and in how many ticks they had different phases.
 struct Seen {
   std::array<int, 5> phases{};
   int different = 0;
@@ -180,7 +180,7 @@ void compare_in_space(Noise& noise, Seen& seen) {
   for (std::size_t k = 0; k < ticks; ++k) {
     std::array<Vector3<Scalar>, 4> p;
     for (std::size_t i = 0; i < 4; ++i) {
-      if (k % 100 == 0) {  // often oblique, sometimes flatter than 80 degrees, sometimes from the wrong side
+      if (k % 100 == 0) {  // often oblique, sometimes beyond 80 degrees, sometimes from behind
         axis[i] = direction(noise.uniform() < 0.2 ? 20 : 1);
         if (noise.uniform() < 0.1) axis[i] = -axis[i];
       }
@@ -208,7 +208,7 @@ void compare_in_space(Noise& noise, Seen& seen) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("on a line, each of four lanes gives the bits of a run of its own", Scalar, double, float) {
+TEST_CASE_TEMPLATE("on a line, each of four lanes has the bits of a single run", Scalar, double, float) {
   Noise noise(120);
   Seen paper, exact;
   for (int k = 0; k < cases(20); ++k) {
@@ -224,7 +224,7 @@ TEST_CASE_TEMPLATE("on a line, each of four lanes gives the bits of a run of its
   }
 }
 
-TEST_CASE_TEMPLATE("in space, each of four lanes gives the bits of a run of its own", Scalar, double, float) {
+TEST_CASE_TEMPLATE("in space, each of four lanes has the bits of a single run", Scalar, double, float) {
   Noise noise(121);
   Seen paper, exact;
   for (int k = 0; k < cases(40); ++k) {
@@ -237,8 +237,8 @@ TEST_CASE_TEMPLATE("in space, each of four lanes gives the bits of a run of its 
   }
 }
 
-// The motions above meet few of the many ways through a band; here every piece is a start and an end.
-TEST_CASE_TEMPLATE("the slide of all pieces in turn gives the bits of the slide that stops", Scalar, double, float) {
+// The motions above use few combinations of pieces. Here each piece is a start and an end.
+TEST_CASE_TEMPLATE("masked_slide() has the bits of slide()", Scalar, double, float) {
   Noise noise(122);
   std::array<int, 5> started{};
   int pops = 0;

@@ -12,7 +12,7 @@ namespace {
 constexpr double T = 1 / 1600.0;
 }
 
-TEST_CASE("K06 Fig. 10 in numbers: peak, plateau after the pop, withdrawal") {
+TEST_CASE("the forces of K06 Fig. 10 are correct: peak, plateau after the pop, withdrawal") {
   const ThickLaw law(paper_needle, paper_membrane(1e-4));
   Proxy1d<ThickLaw> proxy(law, {400, 1}, T, Solver::exact);
   double lowest = 0;
@@ -24,8 +24,7 @@ TEST_CASE("K06 Fig. 10 in numbers: peak, plateau after the pop, withdrawal") {
   CHECK(highest == doctest::Approx(0.41024));
 }
 
-TEST_CASE_TEMPLATE("a still device holds a constant force, to the last bit, for a million ticks", L, ThickLaw,
-                   ThickLawF) {
+TEST_CASE_TEMPLATE("a device at rest has a constant force, bit for bit, for a million ticks", L, ThickLaw, ThickLawF) {
   using Scalar = typename L::Scalar;
   const L law({Scalar(1.08e-3), Scalar(0.28)}, {Scalar(570), Scalar(0.41), Scalar(0.2), Scalar(1e-4)});
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -42,7 +41,7 @@ TEST_CASE_TEMPLATE("a still device holds a constant force, to the last bit, for 
   }
 }
 
-TEST_CASE("sticking leaves the proxy where it is") {
+TEST_CASE("a proxy that sticks does not move") {
   Noise noise(20);
   long stuck = 0;
   for (int i = 0; i < cases(500); ++i) {
@@ -66,7 +65,7 @@ TEST_CASE("sticking leaves the proxy where it is") {
   CHECK(stuck > 0);
 }
 
-TEST_CASE("the force lies in its band, always") {
+TEST_CASE("the force always lies in its band") {
   Noise noise(21);
   for (int i = 0; i < cases(500); ++i) {
     const LawCase c = random_law(noise);
@@ -84,7 +83,7 @@ TEST_CASE("the force lies in its band, always") {
   }
 }
 
-TEST_CASE("float follows double to float's digits along a stroke") {
+TEST_CASE("float and double agree within the precision of float during a stroke") {
   const ThickLaw law(paper_needle, paper_membrane(1e-3));
   const ThickLawF single({1.08e-3f, 0.28f}, {570.f, 0.41f, 0.2f, 1e-3f});
   for (Solver solver : {Solver::paper, Solver::exact}) {
@@ -100,7 +99,7 @@ TEST_CASE("float follows double to float's digits along a stroke") {
   }
 }
 
-TEST_CASE("reset forgets all motion") {
+TEST_CASE("reset() clears the state") {
   const ThickLaw law(paper_needle, paper_membrane(1e-3));
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d<ThickLaw> used(law, {400, 1}, T, solver), fresh(law, {400, 1}, T, solver);
@@ -110,7 +109,7 @@ TEST_CASE("reset forgets all motion") {
   }
 }
 
-TEST_CASE("the paper's solver is K06 (33), line by line") {
+TEST_CASE("the paper's solver equals K06 (33), line by line") {
   Noise noise(22);
   double worst = 0;
   for (int i = 0; i < cases(500); ++i) {
@@ -128,7 +127,7 @@ TEST_CASE("the paper's solver is K06 (33), line by line") {
       const auto [lower, upper] = law.band(q_star);
       const double expected = f_star < lower ? lower : f_star > upper ? upper : f_star;
       worst = std::max(worst, std::abs(proxy.step(p) - expected) / (1 + std::abs(expected)));
-      // From the proxy's own state on, since a gain above 1 would amplify rounding from tick to tick.
+      // Each tick starts from the proxy's own state, because a gain above 1 would amplify rounding from tick to tick.
       f = proxy.force();
       e = proxy.offset();
       p_prev = p;

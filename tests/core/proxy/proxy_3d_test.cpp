@@ -23,7 +23,7 @@ Vector3d random_direction(Noise& noise) {
 }
 }  // namespace
 
-TEST_CASE("along the normal, three dimensions are one") {
+TEST_CASE("along the normal, Proxy3d equals Proxy1d") {
   Noise noise(30);
   double worst = 0;
   for (int i = 0; i < cases(500); ++i) {
@@ -34,7 +34,8 @@ TEST_CASE("along the normal, three dimensions are one") {
     for (Solver solver : {Solver::paper, Solver::exact}) {
       Proxy1d<ThickLaw> line(law, spring, T, solver);
       Proxy3d<ThickLaw> space(law, a, n, spring, T, solver);
-      // Where the paper's substitution has gain above 1 it amplifies rounding from tick to tick; there, short runs only.
+      // If the paper's substitution (31) has a gain above 1, it amplifies rounding from tick to tick. Such runs are
+      // short.
       const double slope =
           std::max(law.constants().A_I * (law.constants().X + law.constants().Q), law.constants().F) / law.thickness();
       const double gain = slope / SampledCoupling<double>(spring, T).g;
@@ -74,7 +75,7 @@ TEST_CASE("rotating and moving the scene rotates the force") {
     const Vector3d shift(0.01, -0.02, 0.03);
     const Vector3d axis = (down + 0.5 * random_direction(noise)).normalized();
     for (Solver solver : {Solver::paper, Solver::exact}) {
-      if (solver == Solver::paper && steepest(law) > 0.5 * 3600) continue;  // (31) makes rounding errors grow there
+      if (solver == Solver::paper && steepest(law) > 0.5 * 3600) continue;  // (31) amplifies rounding errors there
       of_paper += solver == Solver::paper;
       Proxy3d<ThickLaw> here(law, Vector3d::Zero(), down, {2000, 1}, T, solver);
       Proxy3d<ThickLaw> there(law, shift, turn(down), {2000, 1}, T, solver);
@@ -88,7 +89,7 @@ TEST_CASE("rotating and moving the scene rotates the force") {
   CHECK(of_paper >= cases(200) / 10);
 }
 
-TEST_CASE("there is no force outside, and at rest no motion") {
+TEST_CASE("there is no force outside and no motion at rest") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     auto proxy = proxy_at_origin(solver);
     for (int k = 0; k < 500; ++k) {
@@ -103,7 +104,7 @@ TEST_CASE("there is no force outside, and at rest no motion") {
   }
 }
 
-TEST_CASE("outside, the offset fades to next to nothing, and never into denormal numbers") {
+TEST_CASE("outside, the offset decays towards 0 without denormal numbers") {
   auto proxy = proxy_at_origin(Solver::exact);
   for (int k = 0; k < 1600; ++k) proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, down);
   bool normal = true;
@@ -129,7 +130,7 @@ TEST_CASE("a start inside gives no force until the tip has been outside, in fron
   }
 }
 
-TEST_CASE("a grazing entry, and one from behind, give no force until the tip has been outside, in front") {
+TEST_CASE("a grazing entry and an entry from behind give no force until the tip has been outside, in front") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     for (double degrees : {80.1, 89.9, 120.0, 180.0}) {
       const double beta = degrees * 3.14159265358979 / 180;
@@ -137,7 +138,7 @@ TEST_CASE("a grazing entry, and one from behind, give no force until the tip has
       auto proxy = proxy_at_origin(solver);
       proxy.step({0, 1e-3, 0}, axis);
       for (int k = 0; k < 1600; ++k) {
-        proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, k < 800 ? axis : down);  // turning the stylus inside does not help
+        proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, k < 800 ? axis : down);  // a turn of the stylus inside has no effect
         REQUIRE(proxy.force() == Vector3d::Zero());
       }
       CHECK(proxy.phase() == Phase::barred);
@@ -160,7 +161,7 @@ TEST_CASE("b and U are held from entry until the membrane is left") {
   }
 }
 
-TEST_CASE("across the needle the proxy does not move, and the coupling pulls back") {
+TEST_CASE("the proxy does not move across the needle, and the coupling pulls back") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     auto proxy = proxy_at_origin(solver);
     for (int k = 0; k < 1600; ++k) proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, down);
@@ -172,9 +173,9 @@ TEST_CASE("across the needle the proxy does not move, and the coupling pulls bac
   }
 }
 
-TEST_CASE("while the solution is inside, the exact solver stays inside, even with the free position already out") {
-  // On a wall whose grip grows faster than the coupling yields (here 4800 against 2000 N/m), friction still holds the proxy
-  // when the position it would have without force is in front of the surface.
+TEST_CASE("the exact solver stays inside while its solution is inside, even if the free position is outside") {
+  // In this wall the friction grows faster with depth (4800 N/m) than the force of the coupling (2000 N/m). Therefore
+  // friction holds the proxy inside, although the position without force is in front of the surface.
   auto proxy = proxy_at_origin(Solver::exact, 1e-5);
   const SampledCoupling<double> sampled(coupling, T);
   for (int k = 0; k < 3200; ++k) proxy.step({0, 1e-3 - 5e-3 * k * T, 0}, down);
@@ -193,7 +194,7 @@ TEST_CASE("while the solution is inside, the exact solver stays inside, even wit
   CHECK(proxy.phase() == Phase::outside);
 }
 
-TEST_CASE("an infinitely thin membrane carries load on its surface before it is entered") {
+TEST_CASE("an infinitely thin membrane carries load on its surface before entry") {
   auto proxy = proxy_at_origin(Solver::exact, 0);
   const auto& k15 = proxy.law().constants();
   double largest_before = 0;

@@ -21,7 +21,7 @@ ForceLimiter ramped(const ForceLimits& limits = {}) {
 }
 }  // namespace
 
-TEST_CASE("force comes in linearly over half a second") {
+TEST_CASE("after a reset the force increases linearly over half a second") {
   ForceLimiter limiter({}, T);
   for (int k = 1; k <= 800; ++k) CHECK(limiter.step({0, 0.5, 0}).y() == doctest::Approx(0.5 * k / 800.0));
   CHECK(limiter.step({0, 0.5, 0}).y() == 0.5);
@@ -30,7 +30,7 @@ TEST_CASE("force comes in linearly over half a second") {
   CHECK(limiter.step({0, 0.5, 0}).y() == doctest::Approx(0.5 / 800));
 }
 
-TEST_CASE("a force is clamped by its norm: its direction stays") {
+TEST_CASE("the clamp keeps the direction of the force") {
   auto limiter = ramped();
   const Vector3d wanted(3, -4, 12);
   const Vector3d force = limiter.step(wanted);
@@ -39,7 +39,7 @@ TEST_CASE("a force is clamped by its norm: its direction stays") {
   CHECK(limiter.counters().peak == 1);
 }
 
-TEST_CASE("a force within the limits passes to the last bit and is not counted") {
+TEST_CASE("a force within the limits is unchanged, bit for bit, and not counted") {
   auto limiter = ramped();
   const Vector3d wanted(0.1, 0.7, -0.2);
   for (int k = 0; k < 1000; ++k) REQUIRE(limiter.step(wanted) == wanted);
@@ -47,14 +47,14 @@ TEST_CASE("a force within the limits passes to the last bit and is not counted")
   CHECK(limiter.counters().continuous == 0);
 }
 
-TEST_CASE("the pop is not blunted") {
+TEST_CASE("the limiter does not smooth the pop") {
   auto limiter = ramped();
   CHECK(limiter.step({0, 0.73, 0}).y() == 0.73);
   CHECK(limiter.step({0, 0.41, 0}).y() == 0.41);
 }
 
 namespace {
-/// The greatest rms of a force over any `window` seconds, N.
+/// The largest rms of a force over any `window` seconds, N.
 class WorstWindow {
  public:
   explicit WorstWindow(double window = 10) : window_(window), squares_(static_cast<std::size_t>(window / T + 1e-9)) {}
@@ -68,13 +68,13 @@ class WorstWindow {
 
  private:
   double window_;
-  std::vector<double> squares_;  // of as many ticks as fit into the window
+  std::vector<double> squares_;  // of the ticks in the window
   std::size_t k_ = 0;
   double sum_ = 0, worst_ = 0;
 };
 }  // namespace
 
-TEST_CASE("in no 10 s is the force above its rating, and the ceiling comes down without a step") {
+TEST_CASE("the rms force of each 10 s is within the rating, and the ceiling decreases without a step") {
   auto limiter = ramped();
   WorstWindow worst;
   double last = 3.3, largest_step = 0;
@@ -86,12 +86,12 @@ TEST_CASE("in no 10 s is the force above its rating, and the ceiling comes down 
   CHECK(worst.rms() <= 0.88);
   CHECK(worst.rms() > 0.85);
   CHECK(largest_step < 0.02);
-  CHECK(last == doctest::Approx(0.88 * std::sqrt(0.75)));  // what is held without end
+  CHECK(last == doctest::Approx(0.88 * std::sqrt(0.75)));  // the largest constant force
   CHECK(limiter.counters().continuous > 0);
   CHECK(limiter.limit() == Limit::continuous);
 }
 
-TEST_CASE("in no 10 s is the force above its rating, whatever is asked, and through many runs and resets") {
+TEST_CASE("the rms force of each 10 s is within the rating for any input, runs and resets") {
   std::mt19937_64 random(20261122);
   std::uniform_real_distribution<double> share(0, 1);
   const ForceLimits limits;
@@ -117,13 +117,13 @@ TEST_CASE("in no 10 s is the force above its rating, whatever is asked, and thro
   CHECK(worst.rms() > 0.7);
 }
 
-TEST_CASE("the promise holds in real time: late ticks, a slow device, and every gap that the deadline allows") {
+TEST_CASE("the rms force is within the rating for late ticks, a slow device and all permitted gaps") {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> share(0, 1);
   for (const double slowest : {1.0, 1.05, 2.0, 3.2, 10.0, 30.0}) {  // times the period; 32 is 20 ms
     for (const bool always : {true, false}) {
       ForceLimiter limiter({}, T);
-      // The worst over any 10 s: of the energy that was held, by its time, in steps of a tenth of a period.
+      // The largest sum of squared force over any 10 s, in steps of a tenth of a period.
       constexpr double grid = T / 10;
       std::vector<double> energy(static_cast<std::size_t>(40 / grid), 0.0);
       double time = 0, held = 0;
@@ -146,7 +146,7 @@ TEST_CASE("the promise holds in real time: late ticks, a slow device, and every 
   }
 }
 
-TEST_CASE("a force that is not a number uses the budget up, and it comes back") {
+TEST_CASE("a force that is not a number empties the budget, and the budget recovers") {
   ForceBudget budget(10, 0.88);
   budget.spend(std::nan(""), T);
   CHECK(budget.left() == 0);
@@ -158,7 +158,7 @@ TEST_CASE("a force that is not a number uses the budget up, and it comes back") 
   CHECK(budget.left() == 1);
 }
 
-TEST_CASE("the ramp is no limit while no force is asked for") {
+TEST_CASE("the ramp is not reported while the model force is zero") {
   ForceLimiter limiter({}, T);
   limiter.step(Vector3d::Zero());
   CHECK(limiter.limit() == Limit::none);
@@ -166,7 +166,7 @@ TEST_CASE("the ramp is no limit while no force is asked for") {
   CHECK(limiter.limit() == Limit::ramp);
 }
 
-TEST_CASE("the promise holds for limits of any size") {
+TEST_CASE("the rms force is within the rating for limits of any size") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-2, 2);
   for (int i = 0; i < 50; ++i) {
@@ -185,7 +185,7 @@ TEST_CASE("the promise holds for limits of any size") {
   }
 }
 
-TEST_CASE("rest gives the budget back; a reset does not") {
+TEST_CASE("rest restores the budget and a reset does not") {
   auto limiter = ramped();
   for (int k = 0; k < 1600 * 20; ++k) limiter.step({0, 3, 0});
   const double spent = limiter.ceiling();
@@ -197,7 +197,7 @@ TEST_CASE("rest gives the budget back; a reset does not") {
   CHECK(limiter.ceiling() == 3.3);
 }
 
-TEST_CASE("the ceiling says what is permitted, warm motors included, and the limit says what cut the force") {
+TEST_CASE("ceiling() includes warm motors, and limit() is the limit that reduced the force") {
   auto limiter = ramped();
   limiter.step({0, 2, 0}, 0);
   CHECK(limiter.ceiling() == 3.3);
@@ -215,16 +215,16 @@ TEST_CASE("the ceiling says what is permitted, warm motors included, and the lim
   CHECK(limiter.limit() == Limit::ramp);
 }
 
-TEST_CASE("a force too great for its square to be a number is clamped like any other") {
+TEST_CASE("a force whose square overflows is clamped correctly") {
   auto limiter = ramped();
   const Vector3d force = limiter.step({3e300, -4e300, 0});
   CHECK(force.norm() == doctest::Approx(3.3));
   CHECK(force.y() < 0);
 }
 
-TEST_CASE("a time that is not known gives no rest: wrong stamps do not fill the budget") {
+TEST_CASE("an unknown time does not count as rest: wrong time stamps do not restore the budget") {
   ForceLimiter limiter({}, 1 / 1600.0);
-  const double all = 4 * 0.25 * 0.88 * 0.88 * 10;  // N^2 s, more than it can hold
+  const double all = 4 * 0.25 * 0.88 * 0.88 * 10;  // N^2 s, more than the budget can hold
   limiter.set_spent(all);
   const double spent = limiter.budget().spent();
   for (int k = 0; k < 1000; ++k) limiter.rest(0, k % 2 == 0 ? -0.01 : std::numeric_limits<double>::quiet_NaN());

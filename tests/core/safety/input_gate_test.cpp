@@ -11,7 +11,7 @@ namespace {
 constexpr double T = 1 / 1600.0;
 DeviceSample sample(std::uint64_t k) { return {k, static_cast<double>(k) * T, {0, 1e-3, 0}, {0, -1, 0}, 0, true}; }
 
-/// A gate that has seen one good sample, and its verdict on the next.
+/// The result of a gate for a second sample, after a valid first sample.
 Fault second(DeviceSample s, bool axis_is_used = true) {
   InputGate gate({}, T, axis_is_used);
   CHECK(gate.step(sample(0)) == Fault::none);
@@ -19,12 +19,12 @@ Fault second(DeviceSample s, bool axis_is_used = true) {
 }
 }  // namespace
 
-TEST_CASE("ordinary samples pass") {
+TEST_CASE("valid samples pass the gate") {
   InputGate gate({}, T, true);
   for (std::uint64_t k = 0; k < 1000; ++k) REQUIRE(gate.step(sample(k)) == Fault::none);
 }
 
-TEST_CASE("what is not a number is refused, wherever it stands") {
+TEST_CASE("a number that is not finite is refused in every field") {
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (std::size_t i = 0; i < 3; ++i) {
       auto s = sample(1);
@@ -33,7 +33,7 @@ TEST_CASE("what is not a number is refused, wherever it stands") {
       s = sample(1);
       s.axis[i] = bad;
       CHECK(second(s) == Fault::non_finite_input);
-      CHECK(second(s, false) == Fault::none);  // an axis that is not used may hold anything
+      CHECK(second(s, false) == Fault::none);  // an axis that is not used can have any value
     }
     auto s = sample(1);
     s.time = bad;
@@ -41,7 +41,7 @@ TEST_CASE("what is not a number is refused, wherever it stands") {
   }
 }
 
-TEST_CASE("an axis must have length 1") {
+TEST_CASE("an axis that does not have length 1 is refused") {
   auto s = sample(1);
   s.axis = {0, -1.01, 0};
   CHECK(second(s) == Fault::bad_axis);
@@ -52,7 +52,7 @@ TEST_CASE("an axis must have length 1") {
   CHECK(second(s) == Fault::none);
 }
 
-TEST_CASE("a position that moves faster than 8 m/s is refused, the first sample apart") {
+TEST_CASE("a position that moves faster than 8 m/s is refused, except in the first sample") {
   auto s = sample(1);
   s.position[1] += 5.1e-3;
   CHECK(second(s) == Fault::position_jump);
@@ -64,7 +64,7 @@ TEST_CASE("a position that moves faster than 8 m/s is refused, the first sample 
 }
 
 namespace {
-/// The verdict on a hand that moves at a speed (m/s), with readings every `between` seconds.
+/// The result for a hand that moves at a speed (m/s), with readings every `between` seconds.
 Fault moving(double speed, double between, double period) {
   InputGate gate({}, period, true);
   Fault fault = Fault::none;
@@ -78,21 +78,21 @@ Fault moving(double speed, double between, double period) {
 }
 }  // namespace
 
-TEST_CASE("speed is judged, not distance: a slow device and an allowed gap are no jump") {
+TEST_CASE("the gate checks speed, not distance: a slow device and a permitted gap are no jump") {
   CHECK(moving(1.5, 1 / 300.0, 1 / 300.0) == Fault::none);  // 5 mm from one reading to the next
-  CHECK(moving(0.3, 0.019, T) == Fault::none);              // 5.7 mm in a gap that the deadline allows
+  CHECK(moving(0.3, 0.019, T) == Fault::none);              // 5.7 mm in a gap that the deadline permits
   CHECK(moving(8.1, 1 / 300.0, 1 / 300.0) == Fault::position_jump);
   CHECK(moving(8.1, 0.019, T) == Fault::position_jump);
 }
 
-TEST_CASE("readings that come close together are taken to be a period apart") {
+TEST_CASE("the time between two readings counts as at least one period") {
   auto s = sample(1);
   s.time = 1e-5;
   s.position[1] += 4.9e-3;
   CHECK(second(s) == Fault::none);
 }
 
-TEST_CASE("while the same reading repeats, the time since it was new counts") {
+TEST_CASE("the speed of a new reading is computed from the time of the last new reading") {
   InputGate gate({}, T, true);
   CHECK(gate.step(sample(0)) == Fault::none);
   auto s = sample(0);
@@ -133,13 +133,13 @@ TEST_CASE("a clock that goes back is refused") {
   CHECK(second(s) == Fault::clock);
 }
 
-TEST_CASE("a back-end that reports a fault is believed") {
+TEST_CASE("a fault that the back-end reports is a fault of the gate") {
   auto s = sample(1);
   s.healthy = false;
   CHECK(second(s) == Fault::device);
 }
 
-TEST_CASE("after a reset the first sample is judged by itself") {
+TEST_CASE("after a reset the first sample is checked without history") {
   InputGate gate({}, T, true);
   gate.step(sample(0));
   gate.reset();
@@ -148,7 +148,7 @@ TEST_CASE("after a reset the first sample is judged by itself") {
   CHECK(gate.step(s) == Fault::none);
 }
 
-TEST_CASE("every fault has words of its own, and says what to do") {
+TEST_CASE("each fault has its own description") {
   for (int i = 1; i <= static_cast<int>(Fault::device); ++i) {
     CHECK(std::string(describe(static_cast<Fault>(i))).size() > 20);
     for (int j = 0; j < i; ++j) CHECK(std::string(describe(static_cast<Fault>(i))) != describe(static_cast<Fault>(j)));

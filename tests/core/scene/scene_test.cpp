@@ -8,13 +8,13 @@
 using namespace punctura;
 using namespace punctura::test;
 
-TEST_CASE("a sound scene has no problem and is built") {
+TEST_CASE("a valid scene has no problem and can be built") {
   CHECK(check(paper_scene()).empty());
   CHECK_NOTHROW(build(paper_scene()));
   CHECK_NOTHROW(build_insertion<float>(paper_scene()));
 }
 
-TEST_CASE("a scene that cannot be is refused with all of its problems at once") {
+TEST_CASE("an invalid scene is refused with all of its problems") {
   auto scene = paper_scene();
   scene.needle.diameter = 0;
   scene.coupling = {0, -1};
@@ -34,7 +34,7 @@ TEST_CASE("a scene that cannot be is refused with all of its problems at once") 
   }
 }
 
-TEST_CASE("each membrane is paired with the needle for K06 (7), and named by its number") {
+TEST_CASE("K06 (7) is checked for each membrane, and the path contains the number of the membrane") {
   auto scene = paper_scene();
   scene.membranes.push_back(scene.membranes[0]);
   scene.membranes[1].membrane.friction = 3.6;
@@ -43,7 +43,7 @@ TEST_CASE("each membrane is paired with the needle for K06 (7), and named by its
   CHECK(problems[0].path == "membrane[1].friction");
 }
 
-TEST_CASE("blood is between the membrane that says so and the next in the way") {
+TEST_CASE("the lumen is between the membrane with blood behind it and the next one") {
   auto scene = paper_scene();
   const auto at_depth = [&](double depth) {
     auto placed = scene.membranes[0];
@@ -65,7 +65,7 @@ TEST_CASE("blood is between the membrane that says so and the next in the way") 
   CHECK(check(scene)[0].path == "membrane[0].behind");
 }
 
-TEST_CASE("a scene needs a membrane, and has room for 64") {
+TEST_CASE("a scene needs 1 to 64 membranes") {
   auto scene = paper_scene();
   const auto one = scene.membranes[0];
   scene.membranes.clear();
@@ -77,7 +77,7 @@ TEST_CASE("a scene needs a membrane, and has room for 64") {
   CHECK(check(scene)[0].path == "membrane");
 }
 
-TEST_CASE("safety limits that would switch safety off are refused, together with what is wrong with the scene") {
+TEST_CASE("safety limits that disable safety are refused, together with the problems of the scene") {
   auto scene = paper_scene();
   scene.needle.diameter = 0;
   GateLimits gate;
@@ -93,7 +93,7 @@ TEST_CASE("safety limits that would switch safety off are refused, together with
   }
 }
 
-TEST_CASE("an inward normal may have any length") {
+TEST_CASE("an inward normal can have any length") {
   auto scene = paper_scene();
   scene.membranes[0].inward_normal = {0, -17, 0};
   auto a = build_insertion(scene), b = build_insertion(paper_scene());

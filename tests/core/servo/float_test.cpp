@@ -1,4 +1,4 @@
-// The whole tick, and the simulated device, in float.
+// The servo step and the simulated device in float.
 #include <doctest/doctest.h>
 
 #include "../support/paper_scene.hpp"
@@ -24,7 +24,7 @@ static_assert(sizeof(InputGateF) < sizeof(InputGate) && sizeof(ForceLimiterF) < 
 
 }  // namespace
 
-TEST_CASE("the servo step in float gives the forces of the one in double, without a fault") {
+TEST_CASE("the servo step in float has the forces of the step in double and no fault") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     ServoStep in_double = build(paper_scene(1e-3, solver));
     ServoStepF in_float = build<float>(paper_scene(1e-3, solver));
@@ -48,11 +48,11 @@ TEST_CASE("the servo step in float gives the forces of the one in double, withou
       }
     CHECK(felt > 0.6);
     CHECK(largest < 2e-3);
-    CHECK(largest > 0);  // it was computed in float
+    CHECK(largest > 0);  // the results differ, so float was used
   }
 }
 
-TEST_CASE("the gate in float finds the faults that the one in double finds, after a day as in the first second") {
+TEST_CASE("the gate in float finds the same faults as the gate in double, also after a day") {
   const double day = 86400;
   const auto at = [&](std::uint64_t k, double y) {
     DeviceSample sample = reading(k, y);
@@ -68,11 +68,11 @@ TEST_CASE("the gate in float finds the faults that the one in double finds, afte
   other = gate;
   CHECK(other.step(at(98, 1e-3)) == Fault::clock);
   DeviceSample sample = at(100, 1e-3);
-  sample.position[0] = 1e300;  // no number of float
+  sample.position[0] = 1e300;  // infinite in float
   CHECK(gate.step(sample) == Fault::non_finite_input);
 }
 
-TEST_CASE("the budget in float keeps the promise of the rating: no window above it") {
+TEST_CASE("the budget in float keeps the force of each window below the rating") {
   const ForceLimits limits;
   ForceLimiterF limiter(limits, static_cast<float>(T));
   const auto window = static_cast<std::size_t>(limits.continuous_time / T);
@@ -92,9 +92,9 @@ TEST_CASE("the budget in float keeps the promise of the rating: no window above 
   CHECK(limiter.counters().continuous > 0);
 }
 
-TEST_CASE("the simulated device in float moves as the one in double") {
+TEST_CASE("the simulated device in float moves like the device in double") {
   DeviceDynamics device;
-  device.encoder_step = 0;  // a step more or less would hide the rest
+  device.encoder_step = 0;  // a difference of one encoder step would hide other differences
   DeviceDynamicsF device_f;
   device_f.encoder_step = 0;
   Plant plant(device, Hand{}, T, 5);

@@ -1,4 +1,4 @@
-// The whole tick, gate and limits included, around laws of another author.
+// The whole servo step, with gate and limits, with custom laws.
 #include <doctest/doctest.h>
 
 #include "../support/allocations.hpp"
@@ -15,7 +15,7 @@ namespace {
 using Mixed = MixedLaw<ThickLaw, CutLaw>;
 using OwnStep = ServoStepOf<InsertionOf<Mixed>>;
 
-/// The wall of K06 at y = 0, and 4 mm behind it the membrane that remembers its cut.
+/// The wall of K06 at y = 0, and 4 mm behind it a membrane with CutLaw.
 Scene wall_and_cut(double stiffness = 570) {
   Scene scene = paper_scene(1e-3);
   scene.membranes[0].membrane.stiffness = stiffness;
@@ -36,7 +36,7 @@ double cut_of(const OwnStep& step) {
   return cut ? cut->cut : 0;
 }
 
-/// A hand that moves along y at 20 mm/s, one healthy sample a tick. No tick may take memory.
+/// Moves the tip along y at 20 mm/s, one healthy sample per tick. It checks that no tick allocates memory.
 struct Driver {
   double y = 2e-3;
   std::uint64_t k = 0;
@@ -61,33 +61,33 @@ struct Driver {
 
 }  // namespace
 
-TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
+TEST_CASE("gate, ramp, fault, reset and a new scene work with a law with memory") {
   OwnStep step = build<double>(wall_and_cut(), own_law);
   auto model = build_insertion<double>(wall_and_cut(), own_law);
   Driver hand;
 
-  // disarmed: the model runs, the device gets nothing
+  // disarmed: the model runs, and the device gets no force
   hand.move_to(step, 1e-3, [&](const Snapshot& s) {
-    model.step(vector(s.sample.position), vector(s.sample.axis));
+    model.step(to_vector(s.sample.position), to_vector(s.sample.axis));
     CHECK(s.force == std::array<double, 3>{});
   });
 
-  // armed: the force is the model's share by the ramp, then the model's own
+  // armed: the ramp scales the force of the model, then the whole force goes to the device
   step.arm();
   int ramped = 0;
   Snapshot last = hand.move_to(step, -10e-3, [&](const Snapshot& s) {
-    const Vector3d force = model.step(vector(s.sample.position), vector(s.sample.axis));
-    REQUIRE(vector(s.model_force) == force);
+    const Vector3d force = model.step(to_vector(s.sample.position), to_vector(s.sample.axis));
+    REQUIRE(to_vector(s.model_force) == force);
     REQUIRE(std::abs(s.force[1]) <= std::abs(s.model_force[1]));
     ramped += s.limit == Limit::ramp;
   });
   CHECK(ramped > 100);
   CHECK(last.state == ServoState::active);
   CHECK(last.force == last.model_force);
-  CHECK(last.membranes[1].axial_force == doctest::Approx(-1));  // what CutLaw gives
+  CHECK(last.membranes[1].axial_force == doctest::Approx(-1));  // the force of CutLaw
   CHECK(last.membrane_count == 2);
 
-  // another scene while the hand holds on: the cut stays, and the force does not jump
+  // a change of scene during the insertion: the cut stays, and the force does not jump
   const double cut = cut_of(step);
   CHECK(cut > 3e-3);
   OwnStep next = build<double>(wall_and_cut(300), own_law);
@@ -100,7 +100,7 @@ TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
   for (int k = 0; k < 400; ++k) hand.move_to(next, hand.y);
   CHECK(next.snapshot().force == next.snapshot().model_force);
 
-  // a fault is latched; reset forgets the cut, too, and is disarmed
+  // a fault is latched; reset() also clears the cut and disarms
   DeviceSample broken = reading(hand.k++, hand.y);
   broken.healthy = false;
   CHECK(next.step(broken).fault == Fault::device);
@@ -110,7 +110,7 @@ TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
   CHECK(cut_of(next) == 0);
   CHECK(next.state() == ServoState::disarmed);
 
-  // armed in the tissue: no force before the tip has been outside
+  // armed inside tissue: no force until the tip has been outside
   next.arm();
   hand.move_to(next, 2e-3, [](const Snapshot& s) {
     CHECK((s.state == ServoState::waiting || s.membranes[0].phase == Phase::outside));
@@ -121,7 +121,7 @@ TEST_CASE("gate, ramp, fault, reset and a new scene around a law with memory") {
   CHECK(last.force[1] > 1);
 }
 
-TEST_CASE("a peak limit acts on the force of an own law") {
+TEST_CASE("the peak limit acts on the force of a custom law") {
   ForceLimits limits;
   limits.max_force = 0.5;
   OwnStep step = build<double>(wall_and_cut(), own_law, {}, limits);
@@ -133,7 +133,7 @@ TEST_CASE("a peak limit acts on the force of an own law") {
   CHECK(last.limits.peak > 0);
 }
 
-TEST_CASE("problems of scene and limits are returned, with an own law as with K06's") {
+TEST_CASE("try_build() returns the problems of scene and limits, for a custom law and for K06's law") {
   Scene scene = wall_and_cut(-1);
   ForceLimits limits;
   limits.max_force = 0;

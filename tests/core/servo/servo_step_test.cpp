@@ -31,7 +31,7 @@ static_assert(noexcept(std::declval<InputGate&>().step(std::declval<const Device
 namespace {
 const std::array<double, 3> zero{0, 0, 0};
 
-/// Drives a step along heights, one reading a tick.
+/// Moves the tip of a servo step along y, one reading per tick.
 class Driver {
  public:
   explicit Driver(ServoStep& step) : step_(step) {}
@@ -48,7 +48,7 @@ class Driver {
 };
 }  // namespace
 
-TEST_CASE("disarmed, the model runs and the device gets nothing") {
+TEST_CASE("while disarmed, the model runs and the device gets no force") {
   auto step = build(paper_scene());
   Driver drive(step);
   drive.stay(1e-3, 10);
@@ -58,7 +58,7 @@ TEST_CASE("disarmed, the model runs and the device gets nothing") {
   CHECK(s.state == ServoState::disarmed);
 }
 
-TEST_CASE("force is given only after the tip has been in front of every membrane, then ramps in over half a second") {
+TEST_CASE("force starts only after the tip was in front of every membrane, with a ramp of half a second") {
   auto step = build(paper_scene());
   Driver drive(step);
   step.arm();
@@ -72,7 +72,7 @@ TEST_CASE("force is given only after the tip has been in front of every membrane
   CHECK(late.force == late.model_force);
 }
 
-TEST_CASE("armed inside tissue, with the model already running, it waits until the tip is out") {
+TEST_CASE("a step that is armed inside tissue waits until the tip is outside") {
   auto step = build(paper_scene());
   Driver drive(step);
   drive.stay(1e-3, 10);
@@ -84,8 +84,7 @@ TEST_CASE("armed inside tissue, with the model already running, it waits until t
   CHECK(s.model_force[1] > 0.1);
 }
 
-TEST_CASE(
-    "every fault ends force in its own tick, is latched while ticks go on, and takes a reset and a new arming to leave") {
+TEST_CASE("each fault sets the force to zero in its tick and stays latched until reset and arming") {
   struct Case {
     Fault fault;
     void (*spoil)(DeviceSample&);
@@ -128,7 +127,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a reading that never changes ends in the fault that says so") {
+TEST_CASE("a reading that never changes gives the fault stale_sample") {
   auto step = build(paper_scene());
   DeviceSample s = reading(0, 1e-3);
   for (int k = 0; k < 40; ++k) {
@@ -138,7 +137,7 @@ TEST_CASE("a reading that never changes ends in the fault that says so") {
   CHECK(step.fault() == Fault::stale_sample);
 }
 
-TEST_CASE("a model whose force is not a number is a fault, not a force") {
+TEST_CASE("a model force that is not a number gives a fault and zero force") {
   auto scene = paper_scene();
   scene.coupling.damping = 1e307;  // B / T is infinite
   auto step = build(scene);
@@ -152,7 +151,7 @@ TEST_CASE("a model whose force is not a number is a fault, not a force") {
   CHECK(s.model_force == zero);
 }
 
-TEST_CASE("a scene that was filled in by nobody is refused, and says which fields are missing") {
+TEST_CASE("build() refuses an empty scene and names the missing fields") {
   const Scene empty;
   std::string missing;
   for (const Problem& problem : check(empty)) missing += problem.path + " ";
@@ -166,7 +165,7 @@ TEST_CASE("a scene that was filled in by nobody is refused, and says which field
         "membrane[0].inward_normal ");
 }
 
-TEST_CASE("the snapshot tells the whole tick") {
+TEST_CASE("the snapshot contains the whole tick") {
   auto step = build(paper_scene());
   step.arm();
   Driver drive(step);
@@ -183,7 +182,7 @@ TEST_CASE("the snapshot tells the whole tick") {
 }
 
 namespace {
-/// Three walls along the way, 4 mm apart.
+/// Three walls, 4 mm apart.
 Scene three_walls() {
   auto scene = paper_scene();
   scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -4e-3, 0}, {0, -1, 0}});
@@ -196,7 +195,7 @@ Scene without(Scene scene, std::ptrdiff_t i) {
 }
 }  // namespace
 
-TEST_CASE("a membrane that is taken away takes only its own force with it") {
+TEST_CASE("a membrane that is removed removes only its own force") {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     auto scene = three_walls();
     scene.servo.solver = solver;
@@ -214,11 +213,11 @@ TEST_CASE("a membrane that is taken away takes only its own force with it") {
     CHECK(s.membranes[0].phase == Phase::sticking);
     CHECK(s.membranes[0].axial_force == doctest::Approx(before.membranes[1].axial_force).epsilon(0.05));
     CHECK(s.membranes[1].phase == Phase::outside);
-    CHECK((vector(s.force) - vector(before.force)).norm() < 0.02);  // the rest is faded out
+    CHECK((to_vector(s.force) - to_vector(before.force)).norm() < 0.02);  // the rest is faded out
   }
 }
 
-TEST_CASE("membranes may change their order, and two may stand in one place") {
+TEST_CASE("membranes can change their order, and two can be at one place") {
   auto scene = three_walls();
   scene.membranes[2].point = scene.membranes[1].point;
   auto step = build(scene);
@@ -234,7 +233,7 @@ TEST_CASE("membranes may change their order, and two may stand in one place") {
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) CHECK(s.membranes[i].phase != Phase::barred);
 }
 
-TEST_CASE("a run goes on with what the motors have given before") {
+TEST_CASE("a run starts with the budget that the last run has left") {
   auto step = build(paper_scene());
   step.set_spent(3);
   CHECK(step.spent() == 3);
@@ -245,7 +244,7 @@ TEST_CASE("a run goes on with what the motors have given before") {
   CHECK(next.spent() == step.spent());
 }
 
-TEST_CASE("many ticks take no memory and end where they began to the last bit") {
+TEST_CASE("many ticks allocate no memory, and two runs have the same force, bit for bit") {
   auto scene = paper_scene();
   scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -3e-3, 0}, {0, -1, 0}});
   for (Solver solver : {Solver::paper, Solver::exact}) {

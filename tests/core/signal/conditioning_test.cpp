@@ -24,7 +24,7 @@ class Conditioned {
   PositionConditioner<double> filter_;
 };
 
-/// Mean lag behind a steady motion seen through the encoder, s, over 16 phases of its grid.
+/// The mean lag behind a steady motion with an encoder, s, over 16 phases of the encoder grid.
 double lag(Conditioning how, double speed) {
   double sum = 0;
   int n = 0;
@@ -42,7 +42,7 @@ double lag(Conditioning how, double speed) {
 
 }  // namespace
 
-TEST_CASE("K06's filter stays what it is, to the last bit, whatever the encoder's step") {
+TEST_CASE("the encoder step does not change K06's filter, bit for bit") {
   PositionConditioner<double> filter(Conditioning::low_pass, 300, count, T);
   LowPass<double, Vector3d> alone(300, T);
   for (int k = 0; k < 500; ++k) {
@@ -51,25 +51,25 @@ TEST_CASE("K06's filter stays what it is, to the last bit, whatever the encoder'
   }
 }
 
-TEST_CASE("for an ideal sensor the line fit passes every sample unchanged") {
+TEST_CASE("for an ideal sensor the conditioning with line fit leaves samples unchanged") {
   PositionConditioner<double> filter(Conditioning::line_fit, 300, 0, T);
   for (int k = 0; k < 50; ++k)
     CHECK(filter.step({0.1 * k, -1.0 * k, 1.0 / (k + 1)}) == Vector3d(0.1 * k, -1.0 * k, 1.0 / (k + 1)));
 }
 
-TEST_CASE("at 10 mm/s the line fit adds no delay to that of K06's filter, and none to the truth") {
+TEST_CASE("at 10 mm/s the line fit has no more delay than K06's filter, and no delay to the true position") {
   CHECK(lag(Conditioning::low_pass, 10e-3) == doctest::Approx(0.278e-3).epsilon(0.1));
   CHECK(lag(Conditioning::line_fit, 10e-3) < lag(Conditioning::low_pass, 10e-3));
   for (const double speed : {5e-3, 10e-3, 20e-3, 100e-3}) CHECK(std::abs(lag(Conditioning::line_fit, speed)) < 0.1e-3);
 }
 
-TEST_CASE("a finer encoder is smoothed less, and the force is as quiet") {
+TEST_CASE("a finer encoder gets less smoothing and the force noise stays the same") {
   double window = 0;
   for (const double step : {1e-6, 5e-6, 1e-5, 2e-5, 3e-5, count}) {
     PositionConditioner<double> filter(Conditioning::line_fit, 300, step, T);
     Noise noise(5);
     double y = 0, f = 0, square = 0;
-    for (int k = 0; k < 20000; ++k) {  // n-1, n or n+1 at random; the force of K06's coupling to a proxy that sticks
+    for (int k = 0; k < 20000; ++k) {  // n-1, n or n+1 at random; the force of K06's coupling if the proxy sticks
       const double y_now = filter.step({0, (std::floor(3 * noise.uniform()) - 1) * step, 0})[1];
       const double f_now = -400 * y_now - (y_now - y) / T;
       if (k >= 100) square += (f_now - f) * (f_now - f) / 19900;
@@ -83,11 +83,11 @@ TEST_CASE("a finer encoder is smoothed less, and the force is as quiet") {
   CHECK(Smoothing<double>::of(1e-3).window == doctest::Approx(0.010));
 }
 
-TEST_CASE("a reversal has no dead band: way in and way out are one line") {
+TEST_CASE("a reversal has no dead band") {
   Conditioned filter(Conditioning::line_fit);
   double width = 0;
   int n = 0;
-  for (int k = 0; k < 12800; ++k) {  // 1 mm to and fro at 1 mm/s
+  for (int k = 0; k < 12800; ++k) {  // 1 mm in and out at 1 mm/s
     const int place = k % 3200, way = place < 1600 ? 1 : -1;
     const double x = 1e-3 * T * (way > 0 ? place : 3200 - place), y = filter(encoder(x, 0.3));
     CHECK(std::abs(y - x) < count);
@@ -98,7 +98,7 @@ TEST_CASE("a reversal has no dead band: way in and way out are one line") {
   CHECK(std::abs(width / n) < 0.05 * count);
 }
 
-TEST_CASE("an axis that rests stays still while another moves") {
+TEST_CASE("an axis at rest stays at rest while another axis moves") {
   PositionConditioner<double> filter(Conditioning::line_fit, 300, count, T);
   for (int k = 0; k < 500; ++k) {
     const Vector3d p = filter.step({0.02, encoder(2e-5 * k), -0.01});
@@ -107,7 +107,7 @@ TEST_CASE("an axis that rests stays still while another moves") {
   }
 }
 
-TEST_CASE("after a sudden stop the position has settled within 15 ms") {
+TEST_CASE("after a sudden stop the position settles within 15 ms") {
   for (const double speed : {10e-3, 0.2}) {
     Conditioned filter(Conditioning::line_fit);
     double x = 0, worst = 0;
@@ -122,7 +122,7 @@ TEST_CASE("after a sudden stop the position has settled within 15 ms") {
   }
 }
 
-TEST_CASE("from one conditioning to the other the position goes on without a jump") {
+TEST_CASE("the position has no jump when the conditioning changes") {
   for (const auto& [from, to] : {std::pair{Conditioning::low_pass, Conditioning::line_fit},
                                  {Conditioning::line_fit, Conditioning::low_pass},
                                  {Conditioning::line_fit, Conditioning::line_fit}}) {
@@ -133,12 +133,12 @@ TEST_CASE("from one conditioning to the other the position goes on without a jum
     for (int k = 200; k < 260; ++k) {
       const double y_prev = y;
       y = second.step({0, encoder(10e-3 * T * k), 0})[1];
-      CHECK(std::abs(y - y_prev) < 0.75 * count);  // a count behind K06's filter is 0.69
+      CHECK(std::abs(y - y_prev) < 0.75 * count);  // K06's filter changes a step of one count to 0.69 counts
     }
   }
 }
 
-TEST_CASE("conditioning takes no memory after its construction") {
+TEST_CASE("conditioning allocates no memory after its construction") {
   PositionConditioner<double> filter(Conditioning::line_fit, 300, count, T), other = filter;
   const std::size_t before = allocations();
   for (int k = 0; k < 100; ++k) filter.step({encoder(1e-5 * k), 0, encoder(-1e-3 * k)});

@@ -1,4 +1,4 @@
-// What encoder noise does to the force, and what is left of it behind conditioning: the promises of docs/conditioning.md.
+// The effect of encoder noise on the force, with and without conditioning: the values in docs/conditioning.md.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ Scene scene_with(Conditioning how, Solver solver, double low_pass = 300, double 
   return scene;
 }
 
-/// rms of f(k) - f(k-1) along each axis, N: in to 12 mm, out by 1 mm so that the needle sticks, then 2 s of dither on the
-/// axes chosen, of which the first 0.5 s do not count.
+/// The rms of f(k) - f(k-1) along each axis, N. The needle goes in to 12 mm and back by 1 mm, so that it sticks. Then
+/// the given axes dither for 2 s. The first 0.5 s do not count.
 Vector3d rest_noise(const Scene& scene, Dither kind, std::array<bool, 3> axes = {false, true, false}) {
   Insertion insertion = build_insertion(scene);
   Noise noise(3);
@@ -53,7 +53,7 @@ Vector3d rest_noise(const Scene& scene, Dither kind, std::array<bool, 3> axes = 
   return {std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2])};
 }
 
-/// The fall of the force at the pop of K06's 0.1 mm membrane, N: the greatest force less the plateau's mean.
+/// The drop of the force at the pop of K06's 0.1 mm membrane, N: the largest force minus the mean of the plateau.
 double pop(const Scene& scene, double speed, bool ideal, double phase = 0) {
   Insertion insertion = build_insertion(scene);
   double greatest = 0, plateau = 0;
@@ -70,14 +70,14 @@ double pop(const Scene& scene, double speed, bool ideal, double phase = 0) {
 
 }  // namespace
 
-TEST_CASE("without conditioning a dither of one count shakes the force by 0.20 N, behind K06's filter by 0.114 N") {
+TEST_CASE("a dither of one count changes the force by 0.20 N rms, behind K06's filter by 0.114 N rms") {
   for (const Solver solver : {Solver::exact, Solver::paper}) {
     CHECK(rest_noise(scene_with(Conditioning::low_pass, solver, 0), Dither::three)[1] ==
           doctest::Approx(0.20).epsilon(0.02));
     CHECK(rest_noise(scene_with(Conditioning::low_pass, solver), Dither::three)[1] ==
           doctest::Approx(0.114).epsilon(0.02));
-    // In turn, by hand: a count moves f* by g, the next one back by g - K, with g = K + B/T; the filter's gain at half the
-    // rate is a / (2 - a).
+    // The expected value for `toggle`: a count changes f* by g, and the next count changes it back by g - K, with
+    // g = K + B/T. The gain of the filter at half the rate is a / (2 - a).
     const double plain = (2 * 2000 - 400) * count, a = 0.6921;
     CHECK(rest_noise(scene_with(Conditioning::low_pass, solver, 0), Dither::toggle)[1] ==
           doctest::Approx(plain).epsilon(1e-3));
@@ -86,7 +86,7 @@ TEST_CASE("without conditioning a dither of one count shakes the force by 0.20 N
   }
 }
 
-TEST_CASE("at rest the line fit leaves at most 0.016 N from tick to tick, however the encoder dithers") {
+TEST_CASE("at rest, the line fit leaves at most 0.016 N rms from tick to tick for every dither") {
   for (const Solver solver : {Solver::exact, Solver::paper})
     for (const Dither kind : all_dithers) {
       const Scene scene = scene_with(Conditioning::line_fit, solver);
@@ -97,7 +97,7 @@ TEST_CASE("at rest the line fit leaves at most 0.016 N from tick to tick, howeve
     }
 }
 
-TEST_CASE("behind the line fit the pop keeps its size within 2 %, at every speed and phase of the encoder") {
+TEST_CASE("the line fit changes the pop by at most 2 %, at every speed and encoder phase") {
   for (const Solver solver : {Solver::exact, Solver::paper})
     for (const double speed : {5e-3, 10e-3, 20e-3}) {
       const double right = pop(scene_with(Conditioning::low_pass, solver, 300, 1e-4), speed, true);
@@ -107,7 +107,7 @@ TEST_CASE("behind the line fit the pop keeps its size within 2 %, at every speed
     }
 }
 
-TEST_CASE("a slow stroke across the counts is felt as one, not count by count") {
+TEST_CASE("with the line fit, a slow stroke gives a smooth force without steps at the counts") {
   for (const double speed : {0.2e-3, 1e-3, 3e-3}) {
     Scene scene = scene_with(Conditioning::line_fit, Solver::exact);
     Insertion noisy = build_insertion(scene);
@@ -117,7 +117,7 @@ TEST_CASE("a slow stroke across the counts is felt as one, not count by count") 
     double before = noisy.force()[1], square = 0;
     const double start = y;
     int n = 0;
-    for (; y < start + 0.8e-3; y += speed * T) {  // the proxy sticks all the way
+    for (; y < start + 0.8e-3; y += speed * T) {  // the proxy sticks during the whole stroke
       const double f = noisy.step({0, encoder(y, 0.3), 0}, down)[1], f_right = right.step({0, y, 0}, down)[1];
       if (++n > 48) {
         square += (f - before) * (f - before);
@@ -129,11 +129,11 @@ TEST_CASE("a slow stroke across the counts is felt as one, not count by count") 
   }
 }
 
-TEST_CASE("at the simulated Omni in a hand that rests in tissue, nothing buzzes and nothing creeps") {
+TEST_CASE("a simulated Omni in a resting hand neither buzzes nor creeps in tissue") {
   for (const Solver solver : {Solver::exact, Solver::paper})
     for (const bool friction : {true, false}) {
       DeviceDynamics omni;
-      if (!friction) omni.friction = 0;  // a device that only the hand calms, and whose tremor crosses the counts
+      if (!friction) omni.friction = 0;  // only the hand damps this device, and its tremor crosses counts
       const RecordedMotion motion({0, 1, 2, 2.3, 6},
                                   {{0, 3e-3, 0}, {0, 3e-3, 0}, {0, -12e-3, 0}, {0, -11.5e-3, 0}, {0, -11.5e-3, 0}});
       Experiment experiment(scene_with(Conditioning::line_fit, solver), motion, down, omni, Hand{}, 5);
@@ -141,7 +141,7 @@ TEST_CASE("at the simulated Omni in a hand that rests in tissue, nothing buzzes 
       double square = 0;
       for (int k = 0; k < 11200; ++k) {
         const Snapshot& s = experiment.step();
-        const Vector3d force = vector(s.force);
+        const Vector3d force = to_vector(s.force);
         if (k >= 4800) {
           square += (force - previous).squaredNorm() / 6400;
           (k < 8000 ? begin : mean) += experiment.tip() / 3200;
@@ -149,7 +149,7 @@ TEST_CASE("at the simulated Omni in a hand that rests in tissue, nothing buzzes 
         previous = force;
       }
       CHECK(experiment.servo().fault() == Fault::none);
-      CHECK(previous.norm() > 0.05);  // it is held by the tissue
+      CHECK(previous.norm() > 0.05);  // the tissue holds the needle
       CHECK(std::sqrt(square) < (friction ? 1e-9 : allowed / 2));
       CHECK((mean - begin).norm() < (friction ? 1e-9 : 2e-5));
     }

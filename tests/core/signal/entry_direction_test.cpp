@@ -8,7 +8,7 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-/// All samples kept, the rule taken from its words.
+/// The reference: it stores all samples and follows the definition of EntryDirection.
 Vector3d oracle(const std::vector<Vector3d>& history, double T) {
   const std::size_t now = history.size() - 1, ticks = static_cast<std::size_t>(std::lround(0.010 / T));
   const std::size_t by_time = now >= ticks ? now - ticks : 0;
@@ -19,7 +19,7 @@ Vector3d oracle(const std::vector<Vector3d>& history, double T) {
 }
 }  // namespace
 
-TEST_CASE("at speed it is the displacement of the last 10 ms, exactly") {
+TEST_CASE("for a fast tip, the direction is exactly the displacement of the last 10 ms") {
   for (double rate : {500.0, 1000.0, 1600.0, 4000.0}) {
     EntryDirection<double> direction(1 / rate);
     std::vector<Vector3d> history;
@@ -31,7 +31,7 @@ TEST_CASE("at speed it is the displacement of the last 10 ms, exactly") {
   }
 }
 
-TEST_CASE("a slow hand is followed over 0.2 mm of its path, to within a degree") {
+TEST_CASE("for a slow tip, the direction is that of the last 0.2 mm of path, within one degree") {
   Noise noise(40);
   const double T = 1 / 1600.0;
   for (int i = 0; i < 20; ++i) {
@@ -49,7 +49,7 @@ TEST_CASE("a slow hand is followed over 0.2 mm of its path, to within a degree")
   }
 }
 
-TEST_CASE("it is zero while nothing has moved, and after a reset") {
+TEST_CASE("the direction is zero before the tip moves and after a reset") {
   EntryDirection<double> direction(1 / 1600.0);
   for (int k = 0; k < 100; ++k) CHECK(direction.step({1, 2, 3}) == Vector3d::Zero());
   direction.step({1, 2, 3.001});
@@ -58,7 +58,7 @@ TEST_CASE("it is zero while nothing has moved, and after a reset") {
   CHECK(direction.step({5, 5, 5}) == Vector3d::Zero());
 }
 
-TEST_CASE("a session of many metres does not use up float's digits") {
+TEST_CASE("a path of many metres does not lose precision in float") {
   EntryDirection<float> direction(1 / 1600.0f);
   for (int k = 0; k < 2000000; ++k) direction.step({0.05f * std::sin(0.01f * static_cast<float>(k % 628)), 0, 0});
   Vector3<float> found;

@@ -13,7 +13,7 @@ namespace {
 constexpr double T = 1 / 1600.0, window = 0.010;
 }
 
-TEST_CASE("a steady motion is followed without lag, whatever its speed") {
+TEST_CASE("the line fit follows a steady motion of any speed without lag") {
   for (const double speed : {1e-4, 1e-2, 1.0}) {
     LineFit<double> fit(count, window, T);
     for (int k = 0; k < 100; ++k) {
@@ -23,7 +23,7 @@ TEST_CASE("a steady motion is followed without lag, whatever its speed") {
   }
 }
 
-TEST_CASE("with a lead the line is followed beyond the newest sample") {
+TEST_CASE("with a lead the line is extrapolated beyond the newest sample") {
   LineFit<double> fit(count, window, T, 1.25);
   for (int k = 0; k < 100; ++k) {
     const double y = fit.step(1e-5 * k);
@@ -31,34 +31,34 @@ TEST_CASE("with a lead the line is followed beyond the newest sample") {
   }
 }
 
-TEST_CASE("a device at rest is where it is, to the last bit") {
+TEST_CASE("the line fit returns the position of a device at rest, bit for bit") {
   LineFit<double> fit(count, window, T, 1.25);
   for (int k = 0; k < 100; ++k) CHECK(fit.step(-0.0123456789) == -0.0123456789);
 }
 
-TEST_CASE("before the first sample the device has always been there, after a reset again") {
+TEST_CASE("the window starts with copies of the first sample, also after a reset") {
   LineFit<double> fit(count, window, T, 1.25), fresh(count, window, T, 1.25);
   for (int k = 0; k < 30; ++k) fit.step(0.1 * k);
   fit.reset();
   for (int k = 0; k < 40; ++k) CHECK(fit.step(1 + 1e-5 * k) == fresh.step(1 + 1e-5 * k));
 }
 
-TEST_CASE("a fit goes on from another one's samples with its own tolerance and lead") {
+TEST_CASE("resume() takes over the samples and keeps tolerance and lead") {
   LineFit<double> first(count, window, T), second(2 * count, window, T, 1.25), whole(2 * count, window, T, 1.25);
   for (int k = 0; k < 30; ++k) first.step(1e-5 * k), whole.step(1e-5 * k);
   second.resume(first);
   for (int k = 30; k < 60; ++k) CHECK(second.step(1e-5 * k) == whole.step(1e-5 * k));
   LineFit<double> other_rate(count, window, T / 2);
-  other_rate.resume(second);  // has no use for them, and starts anew
+  other_rate.resume(second);  // the windows differ in size, so it starts without samples
   CHECK(other_rate.step(7) == 7);
 }
 
-TEST_CASE("an ideal sensor's samples pass unchanged") {
+TEST_CASE("the line fit leaves the samples of an ideal sensor unchanged") {
   LineFit<double> fit(0, window, T, 1.25);
   for (const double x : {0.1, -3.7e-5, 1e9, 0.3}) CHECK(fit.step(x) == x);
 }
 
-TEST_CASE("the line never ends further than two counts from the newest sample") {
+TEST_CASE("the end of the line is at most two counts from the newest sample") {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> any(-1, 1);
   for (const double rough : {0.5, 3.0, 50.0}) {
@@ -72,7 +72,7 @@ TEST_CASE("the line never ends further than two counts from the newest sample") 
   }
 }
 
-TEST_CASE("a jump is there in the same tick, and so is a stop") {
+TEST_CASE("the line fit follows a jump and a stop in the same tick") {
   LineFit<double> fit(count, window, T);
   for (int k = 0; k < 40; ++k) fit.step(0);
   CHECK(fit.step(5e-3) == 5e-3);
@@ -81,7 +81,7 @@ TEST_CASE("a jump is there in the same tick, and so is a stop") {
   for (int k = 0; k < 4; ++k) CHECK(std::abs(fit.step(end) - end) <= 2 * count);
 }
 
-TEST_CASE("the window is odd, of at least three samples, and bounded where the rate is high") {
+TEST_CASE("the window has an odd number of samples, from 3 to 129") {
   const auto size = [](double rate, double seconds = window) {
     return LineFit<double>(count, seconds, 1 / rate).size();
   };
@@ -94,7 +94,7 @@ TEST_CASE("the window is odd, of at least three samples, and bounded where the r
   for (double rate = 100; rate < 2e4; rate += 7) CHECK(size(rate) % 2 == 1);
 }
 
-TEST_CASE("an encoder that toggles moves the line by one nth of its step") {
+TEST_CASE("an encoder that toggles moves the end of the line by 1/n of its step") {
   LineFit<double> fit(count, window, T);
   double y = 0;
   for (int k = 0; k < 60; ++k) {
@@ -104,12 +104,12 @@ TEST_CASE("an encoder that toggles moves the line by one nth of its step") {
   }
 }
 
-TEST_CASE("in float the line is the same to float's rounding, also far from the origin") {
+TEST_CASE("float and double fit the same line within the precision of float, also far from the origin") {
   LineFit<double> exact(count, window, T, 1.25);
   LineFit<float> rounded(static_cast<float>(count), static_cast<float>(window), static_cast<float>(T), 1.25f);
   for (int k = 0; k < 400; ++k) {
     const double x = encoder(0.4 + 3e-3 * std::sin(0.05 * k));
-    const double seen = static_cast<float>(x);  // both see what float holds, or windows could differ
+    const double seen = static_cast<float>(x);  // both get the value in float, otherwise the windows could differ
     CHECK(rounded.step(static_cast<float>(seen)) == doctest::Approx(exact.step(seen)).epsilon(1e-6));
   }
 }

@@ -1,4 +1,4 @@
-// A state that was kept goes on to the same bits; bytes that are no state change nothing.
+// A saved state continues with the same bits. Invalid bytes change nothing.
 #include "punctura/state/archive.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ Scene two_membranes() {
   return scene;
 }
 
-/// A law that remembers the deepest point and grips less in front of it.
+/// A law that remembers the deepest point. Its friction decreases with this depth.
 struct Worn {
   double deepest = 0;
   static void archive(auto& self, auto& state) {
@@ -52,7 +52,7 @@ struct WornLaw : ThickLaw {
 
 }  // namespace
 
-TEST_CASE("an insertion that was kept goes on to the same bits in another one, wherever it was kept") {
+TEST_CASE("a saved insertion continues in another object with the same bits") {
   Noise noise(7);
   for (const Direction direction : {Direction::stylus, Direction::motion})
     for (const Conditioning conditioning : {Conditioning::low_pass, Conditioning::line_fit})
@@ -82,7 +82,7 @@ TEST_CASE("an insertion that was kept goes on to the same bits in another one, w
       }
 }
 
-TEST_CASE("what a law of one's own remembers is kept, and its pieces with it") {
+TEST_CASE("the memory of a custom law and its pieces are saved") {
   Noise noise(8);
   const auto depths = random_motion(noise, 2000, 8e-3, T);
   const WornLaw law(paper_needle, paper_membrane(1e-3));
@@ -105,7 +105,7 @@ TEST_CASE("what a law of one's own remembers is kept, and its pieces with it") {
   }
 }
 
-TEST_CASE("what each law of a mixed scene remembers is kept") {
+TEST_CASE("the memory of each law in a MixedLaw scene is saved") {
   using Mixed = MixedLaw<ThickLaw, WornLaw>;
   Noise noise(9);
   const auto depths = random_motion(noise, 2000, 8e-3, T);
@@ -122,7 +122,7 @@ TEST_CASE("what each law of a mixed scene remembers is kept") {
   }
 }
 
-TEST_CASE("after a reset nothing is left of what was") {
+TEST_CASE("after a reset the state equals that of a new object") {
   Scene scene = two_membranes();
   scene.direction = Direction::motion;
   scene.servo.conditioning = Conditioning::line_fit;
@@ -132,7 +132,7 @@ TEST_CASE("after a reset nothing is left of what was") {
   CHECK(save_state(used) == save_state(build_insertion(scene)));
 }
 
-TEST_CASE("bytes of another object, of another version and damaged ones are refused, and leave it as it was") {
+TEST_CASE("load_state() refuses bytes of another object or version and damaged bytes, without a change") {
   const Scene scene = two_membranes();
   Insertion insertion = build_insertion(scene);
   for (int k = 0; k < 100; ++k) insertion.step({0, 1e-3 - 1e-4 * k, 0}, {0, -1, 0});
@@ -165,7 +165,7 @@ TEST_CASE("bytes of another object, of another version and damaged ones are refu
   CHECK(refused(other_length));
 }
 
-/// With the digest that belongs to the changed bytes: what a forger would write.
+/// Forged bytes: the digest matches the changed bytes.
 std::vector<std::byte> forged(std::vector<std::byte> bytes) {
   StateHeader header;
   std::memcpy(&header, bytes.data(), sizeof header);
@@ -174,8 +174,7 @@ std::vector<std::byte> forged(std::vector<std::byte> bytes) {
   return bytes;
 }
 
-TEST_CASE(
-    "a forged state reads and writes no memory but its own, and a phase, a direction and a place that cannot be are refused") {
+TEST_CASE("forged bytes cause no invalid memory access, and impossible phases, directions and positions are refused") {
   Scene scene = two_membranes();
   scene.direction = Direction::motion;
   scene.servo.conditioning = Conditioning::line_fit;
@@ -195,7 +194,8 @@ TEST_CASE(
 
   const Proxy3d<ThickLaw>& inside_one = insertion.proxies()[0];
   REQUIRE(inside(inside_one.phase()));
-  const auto with = [&](std::size_t number, double value) {  // numbers after started and phase: p, e, f, b, cos_beta
+  const auto with = [&](std::size_t number,
+                        double value) {  // the numbers behind started and phase: p, e, f, b, cos_beta
     auto changed = save_state(inside_one);
     std::memcpy(changed.data() + sizeof(StateHeader) + (2 + number) * sizeof value, &value, sizeof value);
     Proxy3d<ThickLaw> other = inside_one;
@@ -209,8 +209,8 @@ TEST_CASE(
   CHECK(!with(12, 2));
 }
 
-// One that fails here has other fields, or the same in another order: raise StateHeader::format, then write the new numbers.
-TEST_CASE("the bytes of a state are those of its format") {
+// If this fails, the fields or their order have changed. Increase StateHeader::format, then enter the new numbers.
+TEST_CASE("the bytes of a state match its format number") {
   Scene scene = two_membranes();
   scene.direction = Direction::motion;
   scene.servo.conditioning = Conditioning::line_fit;
@@ -230,7 +230,7 @@ TEST_CASE("the bytes of a state are those of its format") {
   CHECK(digest_of(save_state(line)) == 14501851911586491772u);
 }
 
-TEST_CASE("a place beyond 1000 km is no place: NaN, and nothing changes") {
+TEST_CASE("a position beyond 1000 km gives NaN and changes nothing") {
   Insertion insertion = build_insertion(two_membranes());
   Proxy1d line(ThickLaw(paper_needle, paper_membrane(1e-3)), Coupling{400, 1}, T);
   for (int k = 0; k < 100; ++k) {

@@ -43,7 +43,7 @@ void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
 void* operator new(std::size_t size, std::align_val_t a) { return counted_aligned(size, a); }
 void* operator new[](std::size_t size, std::align_val_t a) { return counted_aligned(size, a); }
-// std::stable_sort asks in this way; left to the library, its memory would come from another place than it goes back to.
+// std::stable_sort uses this form. Without it, the library would allocate with its own operator and free with ours.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++count;
   return std::malloc(size ? size : 1);

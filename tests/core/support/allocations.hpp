@@ -1,4 +1,4 @@
-// Counts every call to operator new in the test program (the operators stand in allocations.cpp).
+// Counts the calls of operator new in the test program. allocations.cpp replaces the operators.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,8 @@
 
 namespace punctura::test {
 
-/// As many as the test wants, or PUNCTURA_CASES of the environment: a few for the sanitizers, a million for a long night.
+/// The number of random cases: `ordinary`, or the environment variable PUNCTURA_CASES. Use few for sanitizers and
+/// many for a long run.
 inline int cases(int ordinary) {
   const char* wanted = std::getenv("PUNCTURA_CASES");
   const int n = wanted ? std::atoi(wanted) : 0;

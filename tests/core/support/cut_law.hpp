@@ -1,4 +1,4 @@
-// A law with memory, as another author may write one: it remembers the deepest point cut.
+// A custom law with memory: it remembers the deepest point of the cut.
 #pragma once
 
 #include "punctura/model/law.hpp"
@@ -8,7 +8,7 @@ namespace punctura::test {
 struct Cut {
   double cut = 0;  ///< the deepest point, m
 };
-/// One newton to cut further than the deepest point cut so far; nothing in the hole.
+/// A cut needs 1 N behind the deepest point of the cut. There is no force in the hole.
 struct CutLaw {
   using Scalar = double;
   using Memory = Cut;

@@ -1,4 +1,4 @@
-// An encoder of a PHANTOM Omni: its counts, and the ways in which it dithers.
+// The encoder of a PHANTOM Omni: its counts and its dither.
 #pragma once
 
 #include <cmath>
@@ -9,18 +9,18 @@ namespace punctura::test {
 
 inline constexpr double count = 0.055e-3;  ///< m
 
-/// What it says of x (m); its grid is shifted by `phase` counts.
+/// The reported position (m) for a true position x (m). `phase` shifts the grid, in counts.
 inline double encoder(double x, double phase = 0) { return (std::floor(x / count + phase + 0.5) - phase) * count; }
 
 enum class Dither {
-  toggle,    ///< n and n+1 in turn
+  toggle,    ///< alternates between n and n+1
   two,       ///< n or n+1 at random
   three,     ///< n-1, n or n+1 at random
-  boundary,  ///< a place on the boundary of two counts, seen with a noise of a twentieth of a count
+  boundary,  ///< a position on the boundary of two counts, with a noise of 1/20 count
 };
 inline constexpr Dither all_dithers[] = {Dither::toggle, Dither::two, Dither::three, Dither::boundary};
 
-/// What it adds in tick k, m.
+/// The error of the encoder in tick k, m.
 inline double dither(Dither kind, int k, Noise& noise) {
   switch (kind) {
     case Dither::toggle: return k % 2 * count;

@@ -1,4 +1,4 @@
-// A stand-in for a SIMD type: four numbers in an array, and a mask that no `if` can read.
+// A simple SIMD type for tests: four numbers in an array. Its mask does not convert to bool.
 #pragma once
 
 #include <array>

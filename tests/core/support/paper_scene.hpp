@@ -1,4 +1,4 @@
-// The scene of K06 section 4, in the ways in which tests want it.
+// The scene of K06 section 4 for tests.
 #pragma once
 
 #include "punctura/device/sample.hpp"
@@ -7,7 +7,7 @@
 
 namespace punctura::test {
 
-/// One membrane, surface at y = 0, needle from above.
+/// One membrane with its surface at y = 0. The needle comes from above.
 inline Scene paper_scene(double thickness = 1e-3, Solver solver = Solver::exact) {
   Scene scene{"K06", paper_needle,     {400, 1}, {{"wall", paper_membrane(thickness), {0, 0, 0}, {0, -1, 0}}},
               {},    Direction::stylus};

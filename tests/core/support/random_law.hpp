@@ -17,7 +17,7 @@ struct LawCase {
   double obliquity;
 };
 
-/// Tips from 5 to 85 degrees, walls from `thinnest` to 10 mm, mu up to the bound of K06 (7): A_O of either sign.
+/// Tips from 5 to 85 degrees, walls from `thinnest` (m) to 10 mm, mu up to the bound of K06 (7). A_O has both signs.
 inline LawCase random_law(Noise& noise, double thinnest = 1e-5) {
   LawCase c{};
   c.needle = {between_log(noise, 0.2e-3, 4e-3), between(noise, 0.09, 1.48)};
@@ -28,7 +28,7 @@ inline LawCase random_law(Noise& noise, double thinnest = 1e-5) {
   return c;
 }
 
-/// K06 section 4.
+/// Needle and membrane of K06 section 4.
 inline constexpr Needle paper_needle{1.08e-3, 0.28};
 inline constexpr Membrane paper_membrane(double thickness) { return {570, 0.41, 0.2, thickness}; }
 

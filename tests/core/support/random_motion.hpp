@@ -10,11 +10,11 @@
 
 namespace punctura::test {
 
-/// n depths (m) between -0.3 and 1.3 times `reach`: moves at constant speed, rests, trembles, and now and then jumps.
+/// n depths (m) between -0.3 and 1.3 times `reach`: moves at constant speed, rests, tremor and some jumps.
 inline std::vector<double> random_motion(Noise& noise, std::size_t n, double reach, double period) {
   std::vector<double> p;
   double x = -0.3 * reach;
-  p.push_back(x);  // in front of the surface, however fast the first move
+  p.push_back(x);  // in front of the surface, also if the first move is fast
   while (p.size() < n) {
     const double goal = between(noise, -0.3, 1.3) * reach;
     const double speed = between_log(noise, 1e-3, 0.3);

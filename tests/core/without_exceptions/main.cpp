@@ -1,4 +1,4 @@
-// The core in a program that has no exceptions and no run-time types, as firmware and web pages have none.
+// The core in a program without exceptions and run-time type information, as in firmware and web pages.
 #include <cmath>
 #include <cstdio>
 

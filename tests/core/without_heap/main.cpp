@@ -1,4 +1,5 @@
-// The whole tick in a program that has no heap: it is linked without the C++ library, so that an operator new would not be found.
+// The servo step in a program without a heap. The program is linked without the C++ library. So a use of operator new
+// does not link.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +26,7 @@ SmallInsertion two_walls(Direction direction, Conditioning conditioning) {
           0.055e-3f};
 }
 
-/// The needle goes in at 5 mm/s, to 10 mm, and rests. Behind both walls it rubs with 2 F.
+/// The needle goes in at 5 mm/s to 10 mm and rests. Behind both walls, the friction of the shaft is 2 F.
 bool passes(Direction direction, Conditioning conditioning) {
   SmallStep step(two_walls(direction, conditioning), period);
   step.arm();

@@ -11,7 +11,7 @@ namespace fake_hd {
 namespace {
 using Locked = std::lock_guard<std::mutex>;
 
-using punctura::plain;
+using punctura::to_array;
 
 /// A rotation whose third column points against the axis, with the columns stretched.
 std::array<double, 16> pose(const fake_hd_settings& s, const std::array<double, 3>& position) {
@@ -110,7 +110,7 @@ void Fake::sense(const punctura::Desired& desired) {
     held = {};
     return;
   }
-  reading.position = plain(1e3 * (settings.ideal ? desired.position : plant_[0].measured()));
+  reading.position = to_array(1e3 * (settings.ideal ? desired.position : plant_[0].measured()));
   if (unsigned mm = 0; injected(FAKE_HD_JUMP, &mm)) reading.position[1] += mm;
   if (injected(FAKE_HD_NOT_A_NUMBER)) reading.position[0] = std::numeric_limits<double>::quiet_NaN();
   reading.transform = pose(settings, reading.position);

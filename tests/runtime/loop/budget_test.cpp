@@ -45,7 +45,7 @@ struct ArmedRun {
 /// Forces that went to a device over many runs, one a tick.
 class Felt {
  public:
-  void add(const Tick::Force& force) { squares_.push_back(vector(force).squaredNorm()); }
+  void add(const Tick::Force& force) { squares_.push_back(to_vector(force).squaredNorm()); }
   /// The greatest rms over any 10 s, N.
   double worst(double rate = 1600) const {
     const auto window = static_cast<std::size_t>(10 * rate);
@@ -99,7 +99,7 @@ TEST_CASE("the force that a device holds after its last tick counts until the st
   ArmedRun run;
   auto& [device, loop] = run;
   clock_ns += 1'000'000'000;
-  const auto held = vector(device->move(1e-3, -6e-3, 400)).squaredNorm();
+  const auto held = to_vector(device->move(1e-3, -6e-3, 400)).squaredNorm();
   REQUIRE(held > 3);
   clock_ns += 200'000'000;  // ticks have ceased
   loop.stop();
