@@ -19,7 +19,7 @@ from tree_sitter import Language, Node, Parser
 
 PARSER = Parser(Language(tree_sitter_cpp.language()))
 # What else lies below runtime/ is not for users: makers' libraries, sockets, the parts of a back-end.
-PRIVATE = re.compile(r"runtime/punctura_runtime/(os/(?!os\.hpp)|backends/(force_dimension|inverse|openhaptics)/)")
+PRIVATE = re.compile(r"runtime/punctura_runtime/(os/(?!os\.hpp)|backends/(force_dimension|haply|openhaptics)/)")
 CLASSES = {"class_specifier": "class", "struct_specifier": "struct"}
 
 
@@ -145,8 +145,11 @@ def declaration(node: Node, text: str, comment: str, owner: str, prefix: str) ->
     if re.match(rf"(explicit )?(?!{owner}\b)\w+\(.*->", head) and not owner:
         return  # a deduction guide
     if node.type == "function_definition" or is_function(node):
+        head = re.sub(r"= \[\] \{[^}]*\}", "= {}", head)  # Sphinx cannot parse a lambda
         yield Entry("function", f"{prefix} {head}".strip(), comment)
         return
+    if "[](" in head:  # Sphinx cannot parse a lambda: the value of a variable stays in the header
+        head = head.split(" =")[0]
     head = re.sub(r"\s*\{.*\}$|\s*=\s*\{.*$|(\[\w*\])\s*=.*$", r"\1", head)
     several = re.fullmatch(r"((?:[\w:]+(?:<.*>)?\s+)+)(\w+(?: = [^,]+)?(?:, \w+(?: = [^,]+)?)+)", head)
     for one in several[2].split(", ") if several else [head]:
