@@ -63,15 +63,23 @@ GivenTableLaw make_table_law(std::vector<double> depth, std::vector<double> lowe
   return {TableLaw(depth, lower, upper), depth, lower, upper};
 }
 
+/// Python's numbers, NumPy's, and arrays without a dimension.
+bool is_one_number(const nb::object& value) {
+  if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) return true;
+  return nb::hasattr(value, "ndim") && nb::cast<int>(value.attr("ndim")) == 0;
+}
+
 template <typename L>
 void def_bounds(nb::class_<L>& law) {
   law.def(
          "bounds",
-         [](const L& l, double q) {
-           const auto b = l.band(q);
+         [](const L& l, const nb::object& q) {
+           if (!is_one_number(q)) throw nb::next_overload();
+           const auto b = l.band(nb::cast<double>(nb::float_(q)));
            return nb::make_tuple(b.lower, b.upper);
          },
-         nb::arg("depth").noconvert(), nb::sig("def bounds(self, depth: float) -> tuple[float, float]"),
+         nb::arg("depth"),
+         nb::sig("def bounds(self, depth: float | numpy.floating | numpy.integer) -> tuple[float, float]"),
          "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
       .def("bounds", &bounds<L>, nb::arg("depth"),
            nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "

@@ -39,6 +39,9 @@ struct TickField {
 
   template <typename Record>
   using Value = std::remove_cvref_t<std::invoke_result_t<const Get&, const Record&>>;
+  /// Whether a replay can set the field in a Record.
+  template <typename Record>
+  static constexpr bool stored = std::is_lvalue_reference_v<std::invoke_result_t<const Get&, Record&>>;
 };
 
 namespace detail {

@@ -92,3 +92,11 @@ def test_the_band_has_no_jump_for_a_membrane_with_a_thickness():
         for depth in (0.0, L.U[lane], L.X[lane], L.X[lane] + L.U[lane]):
             before, after = (np.array(law.bounds(float(depth + side * step))) for side in (-1, 1))
             assert abs(after - before).max() <= 2 * step * steepest + 1e-10 * L.largest[lane]
+
+
+@pytest.mark.parametrize("depth", [3, 1e-3, np.float64(1e-3), np.float32(1e-3), np.int64(2), np.array(1e-3)], ids=repr)
+def test_one_depth_of_any_number_type_gives_two_plain_numbers(depth):
+    law = punctura.ThinLaw(punctura.Needle(1.08e-3, 0.28), punctura.Membrane(570.0, 0.41, 0.2, 0.0))
+    lower, upper = law.bounds(depth)
+    assert type(lower) is type(upper) is float
+    assert ([lower], [upper]) == tuple(edge.tolist() for edge in law.bounds([float(depth)]))
