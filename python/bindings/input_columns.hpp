@@ -45,8 +45,10 @@ class InputColumns {
   static void each_of(Self& self, Do&& act) {
     for_each_field(tick_table, [&](const auto& field, auto i) {
       using F = std::remove_cvref_t<decltype(field)>;
-      if constexpr (F::part == TickPart::snapshot && F::template stored<Snapshot>)
-        if (field.use & use_input) act(field, std::get<i>(self.columns_));
+      if constexpr (F::part == TickPart::snapshot) {
+        if constexpr (F::template stored<Snapshot>)
+          if (field.use & use_input) act(field, std::get<i>(self.columns_));
+      }
     });
   }
   template <typename Do>

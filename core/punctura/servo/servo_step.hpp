@@ -155,7 +155,7 @@ class ServoStepOf {
     bool timed = std::isfinite(self.time_);
     double time = timed ? self.time_ : 0;
     state.flag(timed);
-    state.numbers(time, self.fade_, self.wanted_, self.offset_);
+    state.numbers(time, self.fade_, self.faded_force_, self.fade_offset_);
     state.flag(self.fade_starts_);
     state.require(self.fade_ >= 0 && self.fade_ <= 1);
     if constexpr (std::remove_reference_t<decltype(state)>::reading)
