@@ -28,14 +28,15 @@ import punctura
 ticks = punctura.simulate("k06-fig12", numpy.linspace(-1e-3, 9e-3, 3200))
 print(ticks.force[-1], ticks["depth"][:, 0].max(), ticks[100:200])  # arrays; a slice gives Ticks
 table, frame = ticks.to_arrow(), ticks.to_pandas()  # with the columns of a file; to_polars() needs the package polars
-ticks.save("run.parquet")  # or .csv
+ticks.save("ticks.parquet")  # or .csv
 ticks.plot("depth").figure.savefig("run.png")  # each membrane's force along the needle, and its band
 ```
 
 In Python a field is an attribute, for example `ticks.force`. It is an array with one row per tick: n ticks, m
 membranes. In a file, a field has one column for each component and each membrane, in the order of this table. All
 columns of the first membrane come first, then those of the next. The membranes are numbered from 0, in the order of
-the scene. If the scene of a tick lacks a membrane, its values are NaN in Python and empty cells (null) in a file.
+the scene. If the scene of a tick lacks a membrane, its values
+are NaN in Python, its `phase` is 255, and a file has empty cells (null).
 
 | field | shape | columns of a file | unit | what it is |
 |---|---|---|---|---|
@@ -58,7 +59,7 @@ words:
 | `simulate` in memory | the same as `Insertion.run`, and tick, time |
 | `Experiment.run` | all |
 | a loop's `Listener.read`, `latest`, `fault_history` | all but true_position and desired |
-| `open_recording(...).ticks()` | the same, and `lost`: the number of ticks that are missing before the row |
+| `open_recording(...).ticks()` | the same, and `ticks["lost"]`: the number of ticks that are missing before the row |
 """
 
 MODULE = """// Made by tools/make_tick_table.py, from core's table of a tick's fields.

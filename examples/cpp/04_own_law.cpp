@@ -9,6 +9,8 @@ class GelLaw {
   using Scalar = double;
 
   GelLaw(double slope, double bottom) {
+    // A piece is {origin, lower, upper}. An edge is {c0, c1, c2}: c0 + c1 x + c2 x^2, N, with x = depth - origin, m.
+    // pieces[0], before the first break, stays 0.
     pieces_.breaks = {0, bottom};
     pieces_.pieces[1] = {0, {0, -slope, 0}, {0, slope, 0}};
     pieces_.pieces[2] = {bottom, {-slope * bottom, 0, 0}, {slope * bottom, 0, 0}};

@@ -71,6 +71,11 @@ Phase phase_of(double number) noexcept {
   return static_cast<Phase>(number >= 0 && number < 255 ? static_cast<std::uint8_t>(number) : std::uint8_t{255});
 }
 
+/// 0 for a number without bits, such as NaN.
+std::uint32_t bits_of(double number) noexcept {
+  return number >= 0 && number < 0x1p32 ? static_cast<std::uint32_t>(number) : 0;
+}
+
 /// Finds the events of a batch without holding the GIL.
 nb::list add(BatchFinder& finder, const nb::object& columns) {
   const Input depth = input(columns["depth"]);
@@ -95,9 +100,10 @@ nb::list add(BatchFinder& finder, const nb::object& columns) {
                       .proxy = {},
                       .direction = direction.triple(i, j),
                       .phase = phase_of(phase(i, j))};
-      const auto number = tick ? static_cast<std::uint64_t>(tick(i)) : finder.ticks;
+      const double told = tick(i);  // NaN in a batch without that column
+      const auto number = told >= 0 && told < 0x1p63 ? static_cast<std::uint64_t>(told) : finder.ticks;
       // Without a commands column, the first tick of the batch takes the new scene.
-      const auto asked = commands ? static_cast<std::uint32_t>(commands(i)) : i == 0 ? command_scene : 0u;
+      const auto asked = commands ? bits_of(commands(i)) : i == 0 ? command_scene : 0u;
       const double at = time ? time(i) : static_cast<double>(number) / finder.rate;
       for (const Event& event : finder.step(EventTick{number, at, axis.triple(i), asked, records}))
         found.push_back({event, finder.scene().membranes[event.membrane].name});

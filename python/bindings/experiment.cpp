@@ -4,6 +4,7 @@
 #include <nanobind/stl/variant.h>
 
 #include "bindings.hpp"
+#include "state.hpp"
 #include "tick_columns.hpp"
 #include "ticks.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
 /// One Python class for all kinds of motion.
-class AnyExperiment {
+class AnyExperiment : public OneThread {
  public:
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
                 const Hand& hand, std::uint64_t seed)
@@ -34,6 +35,7 @@ class AnyExperiment {
   double duration() const noexcept { return duration_; }
 
   void move_to(const Triple& position) {
+    must_rest();
     auto* with_target = std::get_if<Experiment<Target>>(&experiment_);
     if (!with_target) throw nb::type_error("move_to needs an experiment whose motion is a Target");
     with_target->motion().move_to(to_vector(position));
@@ -54,6 +56,7 @@ class AnyExperiment {
   nb::object run(E& experiment, std::size_t n) {
     TickColumns<decltype(experiment_table), ExperimentExtra> columns(experiment_table);
     columns.reserve(n, experiment.servo().snapshot().membrane_count);
+    const Running running(*this);
     make_ticks(n, [&](std::size_t) {
       const Snapshot& snapshot = experiment.step();
       ++ticks_;

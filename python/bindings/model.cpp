@@ -156,7 +156,7 @@ void bind_model(nb::module_& m) {
   def_init(
       table, {{"depth", "Sequence[float]"}, {"lower", "Sequence[float]"}, {"upper", "Sequence[float]"}},
       &make_table_law,
-      "depth: of the knots, m, ascending. lower, upper: the edges Phi_I and Phi_O there, N. Raises ConfigurationError.");
+      "depth: of the knots, m, ascending. lower: Phi_I there, N, 0 or less. upper: Phi_O, N. Raises ConfigurationError.");
   def_value(table, {"depth", "lower", "upper"});
   const auto knots = [&table](const char* name, auto member, const char* doc) {
     const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";

@@ -7,6 +7,8 @@
 #include "bindings.hpp"
 #include "input_columns.hpp"
 #include "punctura/scene/build.hpp"
+#include "state.hpp"
+#include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -28,7 +30,7 @@ std::string compiler() {
 }
 
 /// A servo step that gets the recorded inputs in the order of the original loop.
-class Replay {
+class Replay : public OneThread {
  public:
   Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent)
       : rate_(scene.servo.rate), gate_(gate), limits_(limits), step_(built(scene)) {
@@ -46,20 +48,18 @@ class Replay {
     if (asked != scenes.size()) throw std::invalid_argument("there must be scenes for every tick that took one");
 
     SnapshotColumns columns;
-    {
-      nb::gil_scoped_release release;
-      columns.reserve(given.rows(), step_->snapshot().membrane_count);
-      auto taken = scenes.begin();
-      for (std::size_t k = 0; k < given.rows(); ++k) {
-        given.read(k, now);
-        if (now.commands & command_scene)
-          for (const Scene& scene : *taken++) take(scene);
-        if (now.commands & command_reset) step_->reset();
-        if (now.commands & command_arm) step_->arm();
-        if (now.commands & command_disarm) step_->disarm();
-        columns.add(step_->step(now.sample));
-      }
-    }
+    columns.reserve(given.rows(), step_->snapshot().membrane_count);
+    auto taken = scenes.begin();
+    const Running running(*this);
+    make_ticks(given.rows(), [&](std::size_t k) {
+      given.read(k, now);
+      if (now.commands & command_scene)
+        for (const Scene& scene : *taken++) take(scene);
+      if (now.commands & command_reset) step_->reset();
+      if (now.commands & command_arm) step_->arm();
+      if (now.commands & command_disarm) step_->disarm();
+      columns.add(step_->step(now.sample));
+    });
     return columns.to_ticks();
   }
 

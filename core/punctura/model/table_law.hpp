@@ -22,16 +22,17 @@ inline void check_table(std::span<const double> depth, std::span<const double> l
     problems.push_back({std::string(column) + "[" + std::to_string(i) + "]", value, reason});
   };
   const std::size_t n = depth.size();
+  static_assert(max_knots == 32);
   if (n == 0 || n > max_knots) problems.push_back({"depth", static_cast<double>(n), "must have 1 to 32 knots"});
-  if (lower.size() != n || upper.size() != n) {
-    problems.push_back({"lower", static_cast<double>(lower.size()), "lower and upper must have one number a knot"});
-    return;
-  }
+  if (lower.size() != n) problems.push_back({"lower", static_cast<double>(lower.size()), "must have one number a knot"});
+  if (upper.size() != n) problems.push_back({"upper", static_cast<double>(upper.size()), "must have one number a knot"});
+  if (lower.size() != n || upper.size() != n) return;
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(depth[i]) || depth[i] < 0) add("depth", i, depth[i], "must be a finite number, 0 m or more");
     if (i > 0 && !(depth[i] > depth[i - 1])) add("depth", i, depth[i], "must be greater than the depth before it");
     if (!std::isfinite(lower[i])) add("lower", i, lower[i], "must be a finite number");
     if (!std::isfinite(upper[i])) add("upper", i, upper[i], "must be a finite number");
+    if (lower[i] > 0) add("lower", i, lower[i], "must be 0 N or less: the lower edge resists insertion");
     if (lower[i] > upper[i]) add("lower", i, lower[i], "must not be greater than upper at the same knot");
   }
 }

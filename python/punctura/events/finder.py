@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from numpy.typing import NDArray
@@ -19,8 +20,10 @@ class EventFinder:
     """
 
     def __init__(self, scene: Scene, rate: float | None = None) -> None:
-        """rate: ticks per second, for runs without a time column; default: the scene's rate."""
-        self._finder = _core.EventFinder(scene, rate or scene.servo.rate)
+        """rate: ticks per second, for runs without a time column; default: the scene's rate. Raises ValueError."""
+        if rate is not None and not (math.isfinite(rate) and rate > 0):
+            raise ValueError(f"rate must be greater than 0 Hz, not {rate}")
+        self._finder = _core.EventFinder(scene, scene.servo.rate if rate is None else rate)
 
     def __repr__(self) -> str:
         return repr(self._finder)

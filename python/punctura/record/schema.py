@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from punctura.record.columns import INPUTS, LOST, NEW_SCENES
 from punctura.record.errors import RecordingError
 from punctura.ticks import ABSENT, FIELDS, Ticks
-from punctura.ticks.arrow import WORD, array, number_type, with_words, words_of
+from punctura.ticks.arrow import WORD, arrays, number_type, with_words, words_of
 from punctura.ticks.fields import file_column, file_columns
 from punctura.ticks.flat import flatten, gather
 
@@ -25,10 +25,10 @@ _REQUIRED = (*INPUTS, "tick", "ceiling", "force", "state", "fault", "depth", "ax
 
 def raw_batch(ticks: Ticks, membranes: int, lost: NDArray[np.uint32], scenes: list[list[str] | None]) -> pa.RecordBatch:
     """A batch for the .part file, with columns for `membranes` membranes. Absent values are null."""
-    arrays = {name: array(name, column) for name, column in flatten(ticks, membranes).items()}
-    arrays[LOST] = pa.array(lost)
-    arrays[NEW_SCENES] = pa.array(scenes, type=SCENES_TYPE)
-    return pa.RecordBatch.from_arrays(list(arrays.values()), names=list(arrays))
+    columns = arrays(flatten(ticks, membranes))
+    columns[LOST] = pa.array(lost)
+    columns[NEW_SCENES] = pa.array(scenes, type=SCENES_TYPE)
+    return pa.RecordBatch.from_arrays(list(columns.values()), names=list(columns))
 
 
 def membranes_in(schema: pa.Schema) -> int:

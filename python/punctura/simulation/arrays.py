@@ -29,12 +29,24 @@ def simulate_arrays(
     if p.ndim != 2 or p.shape[1] != 3:
         raise ValueError(f"position must have shape (n, 3), m, or (n,), depths in m, not {p.shape}")
     b = normal if axis is None else np.asarray(axis, dtype=np.float64)
+    if b.shape not in ((3,), p.shape):
+        raise ValueError(f"axis must have shape (3,) or {p.shape}, not {b.shape}")
+    _check_rows("position", p, np.isfinite(p).all(axis=1), "must be finite")
+    directions = np.atleast_2d(b)
+    _check_rows("axis", directions, np.isfinite(directions).all(axis=1), "must be finite")
+    _check_rows("axis", directions, directions.any(axis=1), "must be a direction: at least one of its numbers not 0")
     stamps = np.arange(len(p)) / scene.servo.rate
     if time is not None:
         stamps, p, b = _resampled(scene, np.asarray(time, dtype=np.float64), p, b)
     names = [placed.name for placed in scene.membranes]
     ticks = Insertion(scene).run(p, b)
     return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
+
+
+def _check_rows(name: str, rows: Array, good: npt.NDArray[np.bool_], rule: str) -> None:
+    bad = np.flatnonzero(~good)
+    if len(bad):
+        raise ValueError(f"{name}[{bad[0]}] {rule} and holds {rows[bad[0]]}")
 
 
 def _resampled(scene: Scene, time: Array, position: Array, axis: Array) -> tuple[Array, Array, Array]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,10 +10,11 @@ import numpy.typing as npt
 import pyarrow as pa
 
 from punctura.ticks.columns import Columns
-from punctura.ticks.fields import ABSENT, file_column
+from punctura.ticks.fields import ABSENT, FIELDS, file_column
 from punctura.ticks.flat import flatten
 
 WORD = pa.dictionary(pa.int8(), pa.string())
+_PHASE = FIELDS["phase"].column
 
 
 def words_of(column: str) -> list[str] | None:
@@ -27,14 +29,17 @@ def number_type(column: str) -> pa.DataType | None:
     return pa.from_numpy_dtype(np.dtype(known.field.dtype)) if known else None
 
 
-def array(column: str, values: npt.NDArray[Any]) -> pa.Array:
-    """An Arrow array of numbers. Values of an absent membrane are null."""
+def arrays(flat: Mapping[str, npt.NDArray[Any]]) -> dict[str, pa.Array]:
+    """The columns of a file. A membrane is absent from a tick if its phase is ABSENT; then its fields are null."""
+    return {name: _array(name, values, flat) for name, values in flat.items() if values.ndim == 1}
+
+
+def _array(column: str, values: npt.NDArray[Any], flat: Mapping[str, npt.NDArray[Any]]) -> pa.Array:
     known = file_column(column)
     values = np.ascontiguousarray(values)
-    if known is None or known.membrane is None:
-        return pa.array(values)
-    absent = values == ABSENT if known.field.words else np.isnan(values)
-    return pa.array(values, mask=absent if absent.any() else None)  # without a mask Arrow does not copy
+    phase = None if known is None or known.membrane is None else flat.get(_PHASE.format(i=known.membrane))
+    absent = None if phase is None else phase == ABSENT
+    return pa.array(values, mask=absent if absent is not None and absent.any() else None)  # no mask, no copy
 
 
 def with_words(column: str, codes: pa.Array) -> pa.Array:
@@ -47,5 +52,4 @@ def with_words(column: str, codes: pa.Array) -> pa.Array:
 
 def to_arrow(ticks: Columns, words: bool = True) -> pa.Table:
     """See Ticks.to_arrow. Of columns outside the tick table, only those with one number per tick are included."""
-    flat = {name: array(name, values) for name, values in flatten(ticks).items() if values.ndim == 1}
-    return pa.table({name: with_words(name, values) if words else values for name, values in flat.items()})
+    return pa.table({n: with_words(n, values) if words else values for n, values in arrays(flatten(ticks)).items()})

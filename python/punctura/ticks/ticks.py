@@ -55,7 +55,8 @@ class Ticks(TickArrays):
                 raise KeyError(f"no field {which}; these ticks have {', '.join(self.columns)}")
             return self.columns[which]
         if isinstance(which, (int, np.integer)):
-            raise TypeError(f"a single index is not supported; use a slice: ticks[{which}:{int(which) + 1}]")
+            end = int(which) + 1 or ""  # ticks[-1:] is the last tick
+            raise TypeError(f"a single index is not supported; use a slice: ticks[{which}:{end}]")
         return Ticks({name: column[which] for name, column in self.columns.items()}, self.membranes)
 
     def __contains__(self, name: object) -> bool:

@@ -42,7 +42,7 @@ class TickingThread {
     std::future<bool> prepared = ready.get_future();
     try {
       thread_ = std::thread([this, realtime, prepare, run, ready = std::move(ready)]() mutable noexcept {
-        if (realtime) realtime_ = os::make_realtime(*realtime);
+        realtime_ = realtime ? os::make_realtime(*realtime) : std::vector<os::RealtimeItem>{};
         const bool good = prepare();
         ready.set_value(good);
         if (good) run();

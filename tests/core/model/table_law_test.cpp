@@ -61,6 +61,8 @@ TEST_CASE("a table with 32 knots works, and everything that is no table is told"
   CHECK(problems_of({0, 1}, {0}, {0, 0}).at(0).path == "lower");
   CHECK(problems_of({-1}, {0}, {0}).at(0).path == "depth[0]");
   CHECK(problems_of({0, 0}, {0, 0}, {0, 0}).at(0).path == "depth[1]");
-  CHECK(problems_of({0}, {1}, {0.5}).at(0).reason == "must not be greater than upper at the same knot");
+  CHECK(problems_of({0}, {0}, {-0.5}).at(0).reason == "must not be greater than upper at the same knot");
+  CHECK(problems_of({0}, {1}, {1.5}).at(0).reason == "must be 0 N or less: the lower edge resists insertion");
+  CHECK(problems_of({0, 1}, {0, 0}, {0}).at(0).path == "upper");
   CHECK(problems_of({0}, {0}, {std::numeric_limits<double>::infinity()}).at(0).path == "upper[0]");
 }

@@ -25,6 +25,7 @@ TEST_CASE("every field has a name and a column of its own, a description, and th
     CHECK((column.find("{a}") != std::string::npos) == is_vector);
     CHECK((column.find("{i}") != std::string::npos) == F::per_membrane);
     if (field.use & use_input) CHECK(F::template stored<Part>);
+    if (field.use & use_page) CHECK(fits_the_page<typename F::template Value<Part>>);
   });
   CHECK(names.size() == std::tuple_size_v<decltype(experiment_table)>);
 }

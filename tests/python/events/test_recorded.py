@@ -31,6 +31,16 @@ def record(path, scene, ticks, exchange=None):
     return batches
 
 
+def test_ticks_in_memory_have_events_too():
+    scene = pn.load_scene("k06-fig12")
+    ticks = pn.simulate(scene, np.linspace(-1e-3, 20e-3, 4000))
+    assert [event.what for event in find_events(ticks, scene)] == ["touch", "touch", "pop", "pop"]
+    with pytest.raises(TypeError, match=r"find_events\(ticks, scene\)"):
+        find_events(ticks)
+    with pytest.raises(ValueError, match="rate must be greater than 0 Hz, not -5"):
+        EventFinder(scene, -5)
+
+
 def test_a_recordings_events_are_those_of_the_live_run(tmp_path):
     scene = pn.load_scene("k06-fig12")
     batches = record(tmp_path / "run.parquet", scene, 6000)

@@ -37,9 +37,11 @@ def test_a_proxy_slides_on_its_edges(solver):
 
 def test_every_problem_of_a_table_is_told():
     with pytest.raises(pn.ConfigurationError) as caught:
-        pn.TableLaw([0, 0, 0.1], [0, 0, 1], [0, 0, 0.5])
+        pn.TableLaw([0, 0, 0.1], [0, 0, -1], [0, 0, -1.5])
     assert [problem.path for problem in caught.value.problems] == ["depth[1]", "lower[2]"]
+    with pytest.raises(pn.ConfigurationError, match="the lower edge resists insertion"):
+        pn.TableLaw([0], [1], [1.2])
     with pytest.raises(pn.ConfigurationError, match="1 to 32 knots"):
-        pn.TableLaw(range(33), range(33), range(33))
+        pn.TableLaw(range(33), [0] * 33, range(33))
     with pytest.raises(pn.ConfigurationError, match="one number a knot"):
         pn.TableLaw([0, 1], [0], [0, 0])

@@ -52,7 +52,9 @@ def test_depths_go_along_the_normal_of_the_first_membrane():
         ({"motion": np.zeros(5), "time": [0, 0.001, 0.002, 0.002, 0.004]}, r"time\[3\]: .*stays at 0.002"),
         ({"motion": np.zeros(3), "time": [0, np.nan, 1]}, r"time\[1\] is not a finite number"),
         ({"motion": np.zeros(3), "time": [0, 1000, 2000]}, "grows by 1000 s from row to row"),
-        ({"motion": [0.0, np.nan]}, r"p\[1\] must be finite"),
+        ({"motion": np.zeros(4), "axis": np.zeros((2, 3))}, r"axis must have shape \(3,\) or \(4, 3\), not \(2, 3\)"),
+        ({"motion": np.zeros(4), "axis": [0, 0, 0]}, r"axis\[0\] must be a direction"),
+        ({"motion": [0.0, np.nan]}, r"position\[1\] must be finite"),
     ],
 )
 def test_a_motion_that_cannot_be_used_says_why(arguments, says):

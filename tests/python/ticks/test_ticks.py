@@ -102,6 +102,8 @@ def test_a_missing_field_says_which_ones_there_are():
         _ = ticks["ceiling"]
     with pytest.raises(TypeError, match=r"ticks\[3:4\]"):
         _ = ticks[3]
+    with pytest.raises(TypeError, match=r"ticks\[-1:\]"):
+        _ = ticks[-1]
     with pytest.raises(ValueError, match="force 3, depth 2"):
         Ticks({"force": np.zeros((3, 3)), "depth": np.zeros((2, 1))})
 
@@ -166,3 +168,13 @@ def test_a_plot_has_each_membranes_force_and_band():
 def test_what_a_tick_does_not_have_of_a_membrane_is_absent():
     flat = flatten(insertion(), 3)
     assert np.isnan(flat["depth_2_m"]).all() and (flat["phase_2"] == ABSENT).all()
+
+
+def test_a_number_that_is_nan_is_not_taken_for_an_absent_membrane():
+    ticks = insertion()
+    depth, phase = ticks.depth.copy(), ticks.phase.copy()
+    depth[3, 0] = np.nan
+    depth[5, 1], phase[5, 1] = np.nan, ABSENT
+    table = ticks.replace(depth=depth, phase=phase).to_arrow()
+    assert table["depth_0_m"].null_count == 0 and np.isnan(table["depth_0_m"][3].as_py())
+    assert [table[name].null_count for name in ("depth_1_m", "phase_1", "force_1_N")] == [1, 1, 1]

@@ -1,10 +1,8 @@
 import type { ByteColumn, FloatColumn, TickBatch } from "../wire/ticks.ts";
-import { BYTE_COLUMNS, rowWidth } from "../wire/ticks.ts";
+import { BYTE_COLUMNS, FLOAT_COLUMNS, rowWidth } from "../wire/ticks.ts";
 
-const KEPT: readonly Exclude<FloatColumn, "time">[] = [
-  "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy",
-  "direction", "other_force",
-]; // biome-ignore format: a table
+const isKept = (name: FloatColumn): name is Exclude<FloatColumn, "time"> => name !== "time";
+const KEPT = [...FLOAT_COLUMNS.filter(isKept), "other_force" as const];
 
 /**
  * The most recent ticks, at full rate: ring buffers of columns, addressed by tick number.

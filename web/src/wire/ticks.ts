@@ -14,6 +14,7 @@ export type ByteColumn = WordField["name"];
 
 const FLOATS = FIELDS.filter((field): field is NumberField => field.words === null);
 const BYTES = FIELDS.filter((field): field is WordField => field.words !== null);
+export const FLOAT_COLUMNS: readonly FloatColumn[] = FLOATS.map((field) => field.name);
 export const BYTE_COLUMNS: readonly ByteColumn[] = BYTES.map((field) => field.name);
 
 /** The words of a field, indexed by their numbers. */
