@@ -36,8 +36,8 @@ inline void check_table(std::span<const double> depth, std::span<const double> l
   }
 }
 
-/// A band whose edges are straight lines between knots. Before the first knot there is no friction; behind the last one the edges
-/// are constant. The edges may jump at the first knot.
+/// A band whose edges are straight lines between knots. Before the first knot there is no friction; behind the last one
+/// the edges are constant. The edges may jump at the first knot.
 class TableLaw {
  public:
   using Scalar = double;
