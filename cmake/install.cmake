@@ -1,6 +1,6 @@
 # Installs the headers of core, and the runtime if it is built. find_package(punctura) provides punctura::punctura.
-# find_package(punctura COMPONENTS runtime) also provides punctura::loop and punctura::runtime. A wheel has the headers of
-# both, but no compiled runtime: the static library of one compiler may not link with code of another.
+# find_package(punctura COMPONENTS runtime) also provides punctura::loop and punctura::runtime. A wheel has the headers
+# of both, but no compiled runtime: the static library of one compiler may not link with code of another.
 include(CMakePackageConfigHelpers)
 
 set(punctura_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/punctura)

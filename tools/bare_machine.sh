@@ -30,7 +30,9 @@ fi
 suite=${suites[0]}
 
 # A private mount namespace, so that no mount is left behind.
-if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "${words[@]}"; fi
+if [ -z "${PUNCTURA_IN_NAMESPACE:-}" ]; then
+  PUNCTURA_IN_NAMESPACE=1 exec unshare --mount --propagation private "$0" "${words[@]}"
+fi
 
 place=${folder:-$(mktemp -d /var/tmp/punctura-bare.XXXXXX)}
 place=$(mkdir -p "$place/$suite" && cd "$place/$suite" && pwd -P)
@@ -45,7 +47,11 @@ clean_up() {
 trap clean_up EXIT
 
 # Copies this machine's network settings for Debian's archive and PyPI.
-mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null | grep -v security | sort -u | head -n 1)}
+first_mirror() {
+  apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null |
+    grep -v security | sort -u | head -n 1
+}
+mirror=${MIRROR:-$(first_mirror)}
 mirror=${mirror:-http://deb.debian.org/debian}
 carry() {
   local into=$1 file name
@@ -56,7 +62,8 @@ carry() {
   if [ -d /usr/local/share/ca-certificates ]; then cp -rL /usr/local/share/ca-certificates "$into/usr/local/share/"; fi
   chroot "$into" update-ca-certificates >/dev/null 2>&1
   settings=()
-  for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_CERT SSL_CERT_FILE REQUESTS_CA_BUNDLE NODE_EXTRA_CA_CERTS; do
+  for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY \
+    PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_CERT SSL_CERT_FILE REQUESTS_CA_BUNDLE NODE_EXTRA_CA_CERTS; do
     if [ -n "${!name:-}" ]; then settings+=("$name=${!name}"); fi
   done
 }
@@ -111,7 +118,8 @@ report() {
 if [ ! -f "$place/base/.made" ]; then
   say "Creating a bare $suite ..."
   rm -rf --one-file-system "$place/base"
-  debootstrap --variant=minbase --include=git,python3,ca-certificates "$suite" "$place/base" "$mirror" >"$log/debootstrap.log" 2>&1 ||
+  debootstrap --variant=minbase --include=git,python3,ca-certificates "$suite" "$place/base" "$mirror" \
+    >"$log/debootstrap.log" 2>&1 ||
     { tail -n 20 "$log/debootstrap.log" >&2; exit 1; }
   touch "$place/base/.made"
 fi
@@ -126,12 +134,14 @@ timed "$system" root "run, second time" "'a clone/run' run --no-browser --durati
 timed "$system" root "run reproduce" "'a clone/run' reproduce" 0
 timed "$system" root "test, after run" "'a clone/test'" 0
 timed "$system" root "test tree, second time" "'a clone/test' tree" 0
-installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' | sed 's/.*--no-install-recommends//')
+installed=$(inside "$system" root 'awk "/^Commandline: apt-get/ { \$1 = \"\"; print }" /var/log/apt/history.log' |
+  sed 's/.*--no-install-recommends//')
 sizes=$(inside "$system" root 'cd "a clone" && du -sh .venv build | tr "\t\n" " ;"')
 
 # A user without root rights and sudo: ./run prints the command that root must type.
 system=$(a_system user)
-timed "$system" ann "run, by a user without rights" "git clone -q /srv/punctura.git punctura && punctura/run run --no-browser --duration 1" 1
+timed "$system" ann "run, by a user without rights" \
+  "git clone -q /srv/punctura.git punctura && punctura/run run --no-browser --duration 1" 1
 line=$(grep -m 1 -o 'apt-get update && apt-get install .*' "$log/user-run,-by-a-user-without-rights.log")
 inside "$system" root "$line" >"$log/line.log" 2>&1
 timed "$system" ann "run, by that user, after root typed the line" "punctura/run run --no-browser --duration 1" 0

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What a release is made of, checked as a stranger gets it: an sdist with every file of the tree; a wheel built from it outside of git and
-# without Node; the wheel through auditwheel, and abi3audit from Python 3.12 on; then installed into a new environment and used.
+# Checks a release as a user gets it: an sdist with every file of the tree; a wheel built from it outside of git and
+# without Node; the wheel through auditwheel, and abi3audit from Python 3.12 on. Then installs it into a new environment
+# and uses it.
 #   tools/check_release.sh                          with python3
 #   PYTHON=python3.13 tools/check_release.sh        with another one; for the stable ABI 3.12 or newer
 # About five minutes; not a part of ./test. What it made stays in build/release.
@@ -27,7 +28,10 @@ ls -l "$made"/*.tar.gz
 
 say "wheel from the sdist, outside of git, without Node"
 mkdir "$work/bin"  # PATH without node and npm
-for program in node npm; do printf '#!/bin/sh\necho "the build called %s" >&2\nexit 1\n' $program >"$work/bin/$program" && chmod +x "$work/bin/$program"; done
+for program in node npm; do
+  printf '#!/bin/sh\necho "the build called %s" >&2\nexit 1\n' $program >"$work/bin/$program"
+  chmod +x "$work/bin/$program"
+done
 (cd "$unpacked" && PATH=$work/bin:$PATH pip wheel -q --no-deps -w "$work/wheel" .)
 wheel=$(echo "$work"/wheel/*.whl)
 ls -l "$wheel"
@@ -43,9 +47,11 @@ case $repaired in *-abi3-*) say "abi3audit" && abi3audit --strict --report "$rep
 say "installed and used"
 python -m venv "$work/user"
 "$work/user/bin/pip" install -q "$repaired"
-(cd "$work" && "$work/user/bin/punctura" --version && "$work/user/bin/punctura" scenes && "$work/user/bin/punctura" paths &&
+(cd "$work" && "$work/user/bin/punctura" --version && "$work/user/bin/punctura" scenes &&
+  "$work/user/bin/punctura" paths &&
   "$work/user/bin/python" "$root/examples/python/01_pop.py" &&
-  "$work/user/bin/python" -c "from punctura.studio import __file__ as f; import pathlib; assert (pathlib.Path(f).parent / 'page/index.html').is_file()")
+  "$work/user/bin/python" -c "from punctura.studio import __file__ as f; import pathlib
+assert (pathlib.Path(f).parent / 'page/index.html').is_file()")
 
 [ "$before" = "$(git status --porcelain)" ] || { echo "The build changed the clone:" && git status --short && exit 1; }
 printf '\ngood: %s\n' "${repaired#"$root"/}"

@@ -11,7 +11,8 @@ out=build/macos/$machine
 venv=build/macos/venv
 
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
-"$venv/bin/python" -c 'import ziglang' 2>/dev/null || "$venv/bin/pip" install -q --disable-pip-version-check "ziglang==0.17.*"
+"$venv/bin/python" -c 'import ziglang' 2>/dev/null ||
+  "$venv/bin/pip" install -q --disable-pip-version-check "ziglang==0.17.*"
 mkdir -p "$out" build/macos/include && ln -sfn /usr/include/doctest build/macos/include/doctest
 export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/build/macos/cache
 
@@ -19,9 +20,10 @@ export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/bu
 # doctest needs a constant of <cfloat> without including it, and uses __COUNTER__, which this Clang reports as an
 # extension.
 compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
-flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
-  '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"' '-DFAKE_HD="fake_hd"'
-  '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
+flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core
+  -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
+  '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"'
+  '-DFAKE_HD="fake_hd"' '-DFAKE_HD_INCOMPLETE="fake_hd_incomplete"')
 
 # objects SOURCE...: compiles the sources and sets `made`. Zig caches unchanged files.
 objects() {

@@ -8,7 +8,8 @@ has_compiler() {
 }
 has_sanitizers() {
   local program
-  program=$(mktemp) && printf 'int main() { return 0; }\n' | clang++ -fsanitize=address,undefined -x c++ - -o "$program" >/dev/null 2>&1
+  program=$(mktemp) && printf 'int main() { return 0; }\n' |
+    clang++ -fsanitize=address,undefined -x c++ - -o "$program" >/dev/null 2>&1
   local code=$?
   rm -f "$program"
   return $code
@@ -16,7 +17,9 @@ has_sanitizers() {
 has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
 has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
 has_cyclictest() { command -v cyclictest >/dev/null; }
-has_siconos() { /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null; }
+has_siconos() {
+  /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null
+}
 
 # find_missing KIND: sets `missing` to Debian's package names, and `needs` to descriptions for other systems.
 find_missing() {
@@ -26,14 +29,16 @@ find_missing() {
   lack() { missing="$missing $1" needs="$needs
   - $2"; }
   if [ "$1" = test ]; then compiler=g++; fi  # the tests compile with GCC and Clang, independent of CXX
-  has_compiler "$compiler" || lack g++ "a C++20 compiler (g++ 10 or newer, clang 14 or newer; Fedora: gcc-c++; macOS: xcode-select --install)"
+  has_compiler "$compiler" ||
+    lack g++ "a C++20 compiler (g++ 10 or newer, clang 14 or newer; Fedora: gcc-c++; macOS: xcode-select --install)"
   case $lacking in *headers*) lack "$prefix-dev" "the headers of $python (Python.h; Fedora: python3-devel)" ;; esac
   case $lacking in *venv*) lack "$prefix-venv" "the modules venv and ensurepip of $python" ;; esac
   # The reference for the servo loop's wake-ups. If no archive has it, ./bench reports that and continues.
   if [ "$1" = bench ]; then has_cyclictest || ! known rt-tests || lack rt-tests "cyclictest, of rt-tests"; fi
   [ "$1" = test ] || return 0
   has_compiler clang++ || lack clang "clang++, the second compiler of the tests"
-  has_sanitizers || lack libclang-rt-dev "the address and undefined-behaviour sanitizers of clang++ (Fedora: compiler-rt)"
+  has_sanitizers ||
+    lack libclang-rt-dev "the address and undefined-behaviour sanitizers of clang++ (Fedora: compiler-rt)"
   has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
   # An independent solver for the system's Python, compared with the clamp. Only some Debian releases have it. Elsewhere

@@ -11,7 +11,8 @@ if not (importlib.util.find_spec("ensurepip") and importlib.util.find_spec("venv
     lacks.append("venv")
 if not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")):
     lacks.append("headers")
-print("%d.%d.%d" % sys.version_info[:3], "yes" if sys.version_info >= (3, 10) else "old", "+".join(lacks) or "complete", os.path.realpath(sys.executable))
+print("%d.%d.%d" % sys.version_info[:3], "yes" if sys.version_info >= (3, 10) else "old", "+".join(lacks) or "complete",
+      os.path.realpath(sys.executable))
 PY
 }
 
@@ -20,7 +21,8 @@ PY
 find_python() {
   local candidate path version new_enough lacks real best="" old=""
   for candidate in "${PYTHON:-/usr/bin/python3}" python3 python3.13 python3.12 python3.11 python3.10; do
-    if path=$(command -v "$candidate" 2>/dev/null) && read -r version new_enough lacks real <<<"$(python_facts "$path")"; then
+    if path=$(command -v "$candidate" 2>/dev/null) &&
+      read -r version new_enough lacks real <<<"$(python_facts "$path")"; then
       if [ "$new_enough" = old ]; then old="$old $path ($version)"; fi
       if [ "$new_enough" = yes ]; then
         [ -n "$best" ] || best="$version $lacks $real"
@@ -30,9 +32,11 @@ find_python() {
     [ -z "${PYTHON:-}" ] || break
   done
   if [ -z "$best" ] && [ -n "${PYTHON:-}" ]; then
-    fail "PYTHON=$PYTHON is $([ -n "$old" ] && echo "too old:$old" || echo "not a working Python"). Punctura needs Python 3.10 or newer: set another one, or leave PYTHON unset."
+    old=$([ -n "$old" ] && echo "too old:$old" || echo "not a working Python")
+    fail "PYTHON=$PYTHON is $old. Punctura needs Python 3.10 or newer: set another one, or leave PYTHON unset."
   elif [ -z "$best" ]; then
-    fail "Punctura needs Python 3.10 or newer.${old:+ Found only:$old.} Install one (Debian, Ubuntu: apt-get install python3), or give its path: PYTHON=/path/to/python3 ./run"
+    fail "Punctura needs Python 3.10 or newer.${old:+ Found only:$old.}" \
+      "Install one (Debian, Ubuntu: apt-get install python3), or give its path: PYTHON=/path/to/python3 ./run"
   fi
   read -r python_version python_lacks python <<<"$best"
   python_minor=${python_version%.*}

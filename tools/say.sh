@@ -23,15 +23,20 @@ The whole log: $log"
 # The remedy for the failure in a log.
 advice() {
   if grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif' "$1"; then
-    echo "A certificate was not trusted. Install ca-certificates (or your organisation's certificate), or set PIP_CERT, then start again."
-  elif grep -qiE 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve|Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
-    echo "The network is not reachable (see above). Check the connection, or the proxy and the package index in your settings, then start again."
+    echo "A certificate was not trusted. Install ca-certificates (or your organisation's certificate)," \
+      "or set PIP_CERT, then start again."
+  elif grep -qiE -e 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve' \
+    -e 'Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
+    echo "The network is not reachable (see above). Check the connection," \
+      "or the proxy and the package index in your settings, then start again."
   elif grep -qiE 'No matching distribution found' "$1"; then
-    echo "The package index does not answer, or has no package for this Python ($python_version). Check the network and pip's settings (pip config list), then start again."
+    echo "The package index does not answer, or has no package for this Python ($python_version)." \
+      "Check the network and pip's settings (pip config list), then start again."
   elif grep -qiE 'No space left on device' "$1"; then
     echo "The disk is full. Punctura needs about 2 GB; free some space, then start again."
   elif grep -qiE 'Permission denied' "$1"; then
-    echo "A file could not be written. If another user ran this before, make yourself the owner of the folder (chown -R), then start again."
+    echo "A file could not be written. If another user ran this before," \
+      "make yourself the owner of the folder (chown -R), then start again."
   elif grep -qiE 'dpkg was interrupted' "$1"; then
     echo "An earlier installation was interrupted. As root, run  dpkg --configure -a  and start again."
   elif grep -qiE 'Could not get lock|is another process using it' "$1"; then

@@ -15,12 +15,16 @@ digest() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 25
 
 # digest_files PATH...: one hash of names and contents of all files below the paths, without caches.
 digest_files() {
-  (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' ! -path '*/node_modules/*' ! -path '*/studio/page/*' -print0 2>/dev/null | LC_ALL=C sort -z |
+  (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' ! -path '*/node_modules/*' \
+    ! -path '*/studio/page/*' -print0 2>/dev/null | LC_ALL=C sort -z |
     xargs -0 $(command -v sha256sum || echo shasum -a 256)) | digest
 }
 
 stamped() { [ -f "$venv/.punctura/$1" ] && [ "$(cat "$venv/.punctura/$1")" = "$2" ]; }
-stamp() { mkdir -p "$venv/.punctura" && echo "$2" >"$venv/.punctura/$1.new" && mv "$venv/.punctura/$1.new" "$venv/.punctura/$1"; }
+stamp() {
+  mkdir -p "$venv/.punctura" && echo "$2" >"$venv/.punctura/$1.new" &&
+    mv "$venv/.punctura/$1.new" "$venv/.punctura/$1"
+}
 unstamp() { rm -f "$venv/.punctura/$1"; }
 
 # Only one set-up runs in a clone at a time; a second one waits. (Without flock, as on macOS, there is no lock.)
@@ -38,10 +42,13 @@ make_venv() {
   local key="$root $python $python_minor" made_by_hand=""
   stamped venv "$key" && [ -x "$venv/bin/python" ] && return 0
   if [ -d "$venv" ] && [ ! -d "$venv/.punctura" ]; then
-    made_by_hand=$("$venv/bin/python" -c 'import sys, pip; print("%d.%d" % sys.version_info[:2], sys.prefix)' 2>/dev/null || true)
+    made_by_hand=$(
+      "$venv/bin/python" -c 'import sys, pip; print("%d.%d" % sys.version_info[:2], sys.prefix)' 2>/dev/null || true
+    )
   fi
   if [ "$made_by_hand" != "$python_minor $venv" ]; then
-    rm -rf "$venv" "$root/build/python" && mkdir -p "$venv/.punctura"  # the folder .punctura marks this venv as ours, even after an interruption here
+    # The folder .punctura marks this venv as ours, even after an interruption here.
+    rm -rf "$venv" "$root/build/python" && mkdir -p "$venv/.punctura"
     step "Virtual environment .venv with Python $python_version" venv "$python" -m venv "$venv"
   fi
   stamp venv "$key"
@@ -84,7 +91,8 @@ set_up() {
     stamp "packages-$kind" "$(packages_key)"
   fi
   make_venv
-  node=$(command -v node || true)  # the system's Node; one from PyPI in the virtual environment would look like a change
+  # The system's Node: one from PyPI in the virtual environment would look like a change.
+  node=$(command -v node || true)
   export PATH="$venv/bin:$PATH"
   deps="$(digest_files pyproject.toml tools/build_backend)"
   sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python web) ${CXX:-}"
@@ -94,7 +102,8 @@ set_up() {
   fi
   if ! stamped "needs-$kind" "$deps"; then
     unstamp sources
-    step "Punctura, built and installed with its dependencies (a minute or two)" install pip_project "$root${extra:+[$extra]}"
+    step "Punctura, built and installed with its dependencies (a minute or two)" \
+      install pip_project "$root${extra:+[$extra]}"
     stamp "needs-$kind" "$deps"
     stamp sources "$sources"
   elif ! stamped sources "$sources"; then

@@ -3,12 +3,14 @@
 #   tools/small_targets.sh
 # Two programs each: tests/core/without_exceptions, and tests/core/without_heap, which is linked without the C++ library
 # and its operator new. Node runs the WebAssembly programs, which must compute the expected forces. The programs for the
-# Cortex are linked and their sizes printed, but they do not run. Needs packages of Debian 12 and prints the missing ones.
+# Cortex are linked and their sizes printed, but they do not run. Needs packages of Debian 12 and prints the missing
+# ones.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
 
-packages="gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32 nodejs"
+packages="gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib clang lld wasi-libc
+  libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32 nodejs"
 missing=""
 for package in $packages; do
   [ "$package" = nodejs ] && command -v node >/dev/null && continue
@@ -34,10 +36,12 @@ small() {
   "$2" --target=wasm32-wasi --sysroot=/usr $flags -O2 -x c++ "$source" -o "$out/$program.wasm"
   node --no-warnings "$out/run.mjs" "$out/$program.wasm"
   echo "$program, WebAssembly: $(stat -c %s "$out/$program.wasm") bytes, passed"
-  "arm-none-eabi-$3" $flags -Wno-psabi -Os -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -ffunction-sections -fdata-sections \
-    -Wl,--gc-sections,--no-warn-mismatch --specs=nosys.specs -x c++ "$source" -lm -o "$out/$program-m4f.elf" 2>"$out/m4f.log" ||
+  "arm-none-eabi-$3" $flags -Wno-psabi -Os -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 \
+    -ffunction-sections -fdata-sections -Wl,--gc-sections,--no-warn-mismatch --specs=nosys.specs \
+    -x c++ "$source" -lm -o "$out/$program-m4f.elf" 2>"$out/m4f.log" ||
     { cat "$out/m4f.log" >&2; return 1; }
-  echo "$program, Cortex-M4F: $(arm-none-eabi-size "$out/$program-m4f.elf" | awk 'NR == 2 { print $1 " bytes of code and constants, " $2 + $3 " bytes of data" }')"
+  echo "$program, Cortex-M4F: $(arm-none-eabi-size "$out/$program-m4f.elf" |
+    awk 'NR == 2 { print $1 " bytes of code and constants, " $2 + $3 " bytes of data" }')"
 }
 small without_exceptions clang++ g++
 small without_heap clang gcc

@@ -15,7 +15,10 @@ choose_steps() {
     *)
       steps=$*
       for name in "$@"; do
-        case " $all_steps tidy " in *" $name "*) ;; *) fail "No step is called '$name'. The steps: $all_steps tidy" ;; esac
+        case " $all_steps tidy " in
+          *" $name "*) ;;
+          *) fail "No step is called '$name'. The steps: $all_steps tidy" ;;
+        esac
       done
       ;;
   esac
@@ -45,7 +48,10 @@ run_steps() {
 }
 
 # The last line of the step's test runner with the number of passed tests.
-closing_line() { grep -aE '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):|^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true; }
+closing_line() {
+  grep -aE -e '^=+ .*(passed|failed).* =+$|[0-9]+ passed.* in [0-9.]+s|^\[doctest\] (test cases|assertions):' \
+    -e '^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true
+}
 
 # Checks the rules of the source tree: rooms, sizes and equations.
 step_tree() {
@@ -54,7 +60,10 @@ step_tree() {
   return $code
 }
 
-ours() { git ls-files -z --cached --others --exclude-standard "$@" | while IFS= read -r -d '' f; do [ ! -f "$f" ] || printf '%s\0' "$f"; done; }
+ours() {
+  git ls-files -z --cached --others --exclude-standard "$@" |
+    while IFS= read -r -d '' f; do [ ! -f "$f" ] || printf '%s\0' "$f"; done
+}
 step_format() {
   local code=0
   ruff check . || code=1
@@ -109,7 +118,9 @@ step_tsan() {
   compile tsan runtime_tests || return
   export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
   # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.
-  said=$($run --list-test-cases 2>&1) || case $said in *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;; esac
+  said=$($run --list-test-cases 2>&1) || case $said in
+    *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;;
+  esac
   $run
 }
 
@@ -137,8 +148,10 @@ step_python() {
       echo "Siconos is missing. Run: apt-get install python3-siconos"
       return 1
     fi
-    echo "note: this system's archives have no python3-siconos. The comparison with Siconos is skipped; that with SciPy runs."
-    but=(--deselect tests/python/proxy/test_relay_siconos.py::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
+    echo "note: this system's archives have no python3-siconos." \
+      "The comparison with Siconos is skipped; that with SciPy runs."
+    local file=tests/python/proxy/test_relay_siconos.py
+    but=(--deselect "$file"::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
   python -m pytest -n 3 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
 }
@@ -169,7 +182,10 @@ step_page() { python -m pytest -n 2 --durations=8 tests/page; }
 
 # The documentation: every code block runs, and the site builds without a warning.
 step_docs() { side_by_side docs_snippets docs_site; }
-docs_snippets() { PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets tests/docs README.md CONTRIBUTING.md examples/README.md docs; }
+docs_snippets() {
+  PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets \
+    tests/docs README.md CONTRIBUTING.md examples/README.md docs
+}
 docs_site() { python docs/site/build.py; }
 
 # Runs every example, each in its own folder.

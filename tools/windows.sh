@@ -29,15 +29,17 @@ wine=$(command -v wine64 || command -v wine || echo /usr/lib/wine/wine64)
 export PATH=$root/.venv/bin:$PATH
 # Copy doctest alone, because its folder also has system headers that are not for Windows.
 mkdir -p build/windows/include && ln -sfn /usr/include/doctest build/windows/include/doctest
-cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" -DCMAKE_BUILD_TYPE=Release \
-  -DPUNCTURA_TESTS=ON -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
+cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" \
+  -DCMAKE_BUILD_TYPE=Release -DPUNCTURA_TESTS=ON -DPUNCTURA_DOCTEST_DIR="$root/build/windows/include"
 
 # A separate Wine folder, without prompts for Mono and Gecko. Fewer random cases, because ./test runs all of them.
-export WINEPREFIX=$root/build/windows/wine WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml=" PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
+export WINEPREFIX=$root/build/windows/wine WINEDEBUG=-all WINEDLLOVERRIDES="mscoree=;mshtml="
+export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
 failed=0
 for tests in runtime core; do
   cmake --build build/windows/tree --target ${tests}_tests --parallel "${PUNCTURA_JOBS:-$(nproc)}"
   echo "== $tests under Wine"
-  "$wine" "build/windows/tree/tests/$tests/${tests}_tests.exe" ${left_out[@]+"--test-case-exclude=$(IFS=,; echo "${left_out[*]}")"} || failed=1
+  "$wine" "build/windows/tree/tests/$tests/${tests}_tests.exe" \
+    ${left_out[@]+"--test-case-exclude=$(IFS=,; echo "${left_out[*]}")"} || failed=1
 done
 exit $failed

@@ -76,7 +76,8 @@ class AnyExperiment : public OneThread {
 void bind_experiment(nb::module_& m) {
   auto experiment = nb::class_<AnyExperiment>(
       m, "Experiment",
-      "A simulated operator at a simulated device, run through the servo step that drives a real device. K06 section 4");
+      "A simulated operator at a simulated device, run through the servo step that drives a real device. "
+      "K06 section 4");
   def_repr(experiment, "<Experiment in {0.scene.name!r}: {0.ticks} ticks>");
   experiment
       .def(
@@ -89,9 +90,8 @@ void bind_experiment(nb::module_& m) {
           },
           nb::arg("scene"), nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("seed") = 0, nb::arg("axis") = nb::none(),
-          nb::sig(
-              "def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., hand: Hand = ..., "
-              "seed: int = 0, axis: _Vector | None = None) -> None"),
+          nb::sig("def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., "
+                  "hand: Hand = ..., seed: int = 0, axis: _Vector | None = None) -> None"),
           "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
       .def(
           "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),

@@ -128,15 +128,18 @@ void bind_given_devices(nb::module_& m) {
           "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
           nb::arg("real_time") = true,
           nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
-          "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten the\n"
-          "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not bound\n"
+          "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten "
+          "the\n"
+          "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not "
+          "bound\n"
           "to the clock. Raises ConfigurationError.")
       .def(
           "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
           nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
-          nb::sig(
-              "def feed(self, position: _Vector, axis: _Vector = ..., buttons: int = 0, healthy: bool = True, motor_temperature: float = 0.0) -> tuple[float, float, float]"),
-          "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction in\n"
+          nb::sig("def feed(self, position: _Vector, axis: _Vector = ..., buttons: int = 0, healthy: bool = True, "
+                  "motor_temperature: float = 0.0) -> tuple[float, float, float]"),
+          "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction "
+          "in\n"
           "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")
       .def(
           "make_realtime",

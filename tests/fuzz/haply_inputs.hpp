@@ -73,7 +73,8 @@ inline std::string spoilt_input(Noise& noise) {
   std::string text =
       R"({"session_id":7,"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":0.0,"y":-1.2e-1,"z":0.15},)"
       R"("current_cursor_force":{"x":0,"y":0,"z":1.5}},"status":{"calibrated":true,"in_use":false}}],)"
-      R"("wireless_verse_grip":[{"device_id":"1102","state":{"orientation":{"w":1,"x":0,"y":0,"z":0},"buttons":{"a":true}}}]})";
+      R"("wireless_verse_grip":[{"device_id":"1102","state":{"orientation":{"w":1,"x":0,"y":0,"z":0},)"
+      R"("buttons":{"a":true}}}]})";
   const std::size_t how = below(4) == 0 ? 0 : 2 + below(200);
   if (how != 0) {
     const std::size_t cut = below(text.size());

@@ -208,6 +208,26 @@ def test_too_many_files_over_200_lines_are_found(check, tmp_path):
     assert said(check("sizes"), root) == ["b.py:220: one of 2 files over 200 lines; the limit is a quarter of 3"]
 
 
+@pytest.mark.parametrize("name", ["a.py", "a.ts", "a.hpp", "a.sh", "a.cmake"])
+def test_a_line_of_121_columns_is_found_and_one_of_120_is_not(check, tmp_path, name):
+    (tmp_path / name).write_text("x\n" + "é" * 120 + "\n", encoding="utf-8")
+    assert said(check("sizes"), tmp_path) == []
+    (tmp_path / name).write_text("x\n" + "é" * 121 + "\n", encoding="utf-8")
+    assert said(check("sizes"), tmp_path) == [f"{name}:2: 121 columns; the limit is 120"]
+
+
+def test_a_web_address_a_generated_file_and_a_document_may_have_longer_lines(check, tmp_path):
+    long = "x" * 130 + "\n"
+    root = plant(
+        tmp_path,
+        a_dot_py=f"# https://example.org/{long}",
+        web__src__wire__messages_dot_ts=long,
+        web__src__wire__tick_table_dot_ts=long,
+        docs__a_dot_md=long,
+    )
+    assert said(check("sizes"), root) == []
+
+
 GOOD = {
     "core__punctura__model__a_dot_hpp": "// K06 (1), (2) and (4)-(6)\nint a;  // see K06\n// (8)\n",
     "tests__core__a_dot_cpp": 'TEST_CASE("it: adds") {}\nTEST_CASE_TEMPLATE("it \\"halves\\"", T, int) {}\n',

@@ -24,8 +24,10 @@ inline void check_table(std::span<const double> depth, std::span<const double> l
   const std::size_t n = depth.size();
   static_assert(max_knots == 32);
   if (n == 0 || n > max_knots) problems.push_back({"depth", static_cast<double>(n), "must have 1 to 32 knots"});
-  if (lower.size() != n) problems.push_back({"lower", static_cast<double>(lower.size()), "must have one number a knot"});
-  if (upper.size() != n) problems.push_back({"upper", static_cast<double>(upper.size()), "must have one number a knot"});
+  if (lower.size() != n)
+    problems.push_back({"lower", static_cast<double>(lower.size()), "must have one number a knot"});
+  if (upper.size() != n)
+    problems.push_back({"upper", static_cast<double>(upper.size()), "must have one number a knot"});
   if (lower.size() != n || upper.size() != n) return;
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(depth[i]) || depth[i] < 0) add("depth", i, depth[i], "must be a finite number, 0 m or more");
@@ -37,8 +39,8 @@ inline void check_table(std::span<const double> depth, std::span<const double> l
   }
 }
 
-/// A band whose edges are straight lines between knots. Before the first knot there is no friction; behind the last one the edges
-/// are constant. The edges may jump at the first knot.
+/// A band whose edges are straight lines between knots. Before the first knot there is no friction; behind the last one
+/// the edges are constant. The edges may jump at the first knot.
 class TableLaw {
  public:
   using Scalar = double;

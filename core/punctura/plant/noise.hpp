@@ -25,7 +25,7 @@ class Noise {
     return radius * std::cos(2 * std::numbers::pi * uniform());
   }
 
-  /// Three numbers. They are drawn in the order z, y, x: the order of arguments in a call would be the compiler's choice.
+  /// Three numbers. They are drawn in the order z, y, x: the compiler chooses the order of a call's arguments.
   Vector3d uniform_vector() noexcept {
     const double z = uniform(), y = uniform(), x = uniform();
     return {x, y, z};

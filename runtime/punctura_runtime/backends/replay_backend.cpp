@@ -16,8 +16,8 @@ BackendStatus status() {
 /// Recordings are Parquet and Arrow files, which only Python reads.
 std::shared_ptr<Device> open(const OpenOptions&) {
   throw DeviceError(
-      "a recording is opened by `--device replay:FILE.parquet` or punctura.record.replay_device(FILE) in Python; in C++, "
-      "give its samples to ReplayDevice");
+      "a recording is opened by `--device replay:FILE.parquet` or punctura.record.replay_device(FILE) in Python; "
+      "in C++, give its samples to ReplayDevice");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 /* A fake of the HD library of OpenHaptics with a simulated device inside: what tests tell it, and what it tells them.
-   It also exports the real library's functions, under their real names, with the real numbers (fake_hd_interface.cpp). */
+   It also exports the real library's functions, under their real names, with the real numbers
+   (fake_hd_interface.cpp). */
 #ifndef PUNCTURA_TESTS_FAKE_HD_H
 #define PUNCTURA_TESTS_FAKE_HD_H
 

@@ -72,10 +72,9 @@ TEST_CASE("the first message says who we are, from 3.5 on; no force is asked for
   }
   const auto messages = fake.messages();
   REQUIRE(messages.size() >= 2);
-  CHECK(
-      messages[0] ==
-      R"({"session":{"configure":{"profile":{"name":"org.punctura","required_version":">=3.5"},"basis":{"permutation":"XYZ"}}},)"
-      R"("inverse3":[{"device_id":"049D","configure":{"preset":{"preset":"arm_front_centered"}}}]})");
+  CHECK(messages[0] == R"({"session":{"configure":{"profile":{"name":"org.punctura","required_version":">=3.5"},)"
+                       R"("basis":{"permutation":"XYZ"}}},)"
+                       R"("inverse3":[{"device_id":"049D","configure":{"preset":{"preset":"arm_front_centered"}}}]})");
   CHECK(messages[1] ==
         R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":0.001}}}}]})");
   CHECK(messages[2].ends_with(R"({"vector":{"x":0,"y":0,"z":0}}}}]})"));

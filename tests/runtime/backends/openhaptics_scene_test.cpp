@@ -92,7 +92,7 @@ TEST_CASE("hand, device and scene through the HD library do what they do offline
 }
 
 TEST_CASE(
-    "on a path that is known exactly, the force is the offline curve's to within one tick's motion, and steadily the law's") {
+    "on a path known exactly, the force is the offline curve's to within one tick's motion, and steadily the law's") {
   for (double rate : {1600.0, 1000.0}) {
     const Run r = run(rate, true);
     auto insertion = build_insertion(r.scene);

@@ -192,7 +192,7 @@ TEST_CASE("a device that must not be closed is handed on to the next that opens 
 }
 
 TEST_CASE(
-    "the stylus points against the third column of its rotation, of length 1 whatever the library rounds; buttons come through") {
+    "the axis is minus the rotation's third column, of length 1 whatever the library rounds; buttons come through") {
   for (double stretch : {1.0, 1.004, 0.5}) {
     reset_fake_hd([&](auto& s) {
       s.stretch = stretch;

@@ -23,7 +23,8 @@ describe("the phase in words", () => {
 
 describe("what happened in words", () => {
   const event = (tick: number, what: MembraneEvent["what"]): MembraneEvent => ({
-    kind: "event", what, membrane: 0, name: "skin", tick, time: tick / 1600, depth: 0, force_before: 0.5, force_after: 0.26, drop: 0.24,
+    kind: "event", what, membrane: 0, name: "skin", tick, time: tick / 1600, depth: 0,
+    force_before: 0.5, force_after: 0.26, drop: 0.24,
   }); // biome-ignore format: one line
   it("a pop shows the drop of the force", () => {
     expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });

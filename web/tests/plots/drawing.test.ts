@@ -8,14 +8,20 @@ import { Window } from "../../src/plots/window.ts";
 import { Source } from "../../src/state/source.ts";
 import { batch, type Cell } from "../support/fill_history.ts";
 
-const theme: Theme = { panel: "white", line: "silver", text: "black", quiet: "gray", accent: "navy", danger: "maroon", data: ["blue", "red"] }; // biome-ignore format: one line
+const theme: Theme = {
+  panel: "white", line: "silver", text: "black", quiet: "gray", accent: "navy", danger: "maroon",
+  data: ["blue", "red"],
+}; // biome-ignore format: one line
 const SPIKE = 12_345;
 
 /** 20 s at 1 kHz: a slow stroke, and one tick with a force of 3 N. */
 function source(more: Cell = {}): Source {
   const made = new Source("test", true, 20_000);
   made.laws.value = [
-    { name: "skin", obliquity: 0, far_face: 1e-3, through: 5e-3, depth: [0, 4e-3, 5e-3], lower: [-0.2, -0.5, -0.25], upper: [0.1, 0.1, 0.25] }, // biome-ignore format: one line
+    {
+      name: "skin", obliquity: 0, far_face: 1e-3, through: 5e-3,
+      depth: [0, 4e-3, 5e-3], lower: [-0.2, -0.5, -0.25], upper: [0.1, 0.1, 0.25],
+    }, // biome-ignore format: one line
   ];
   const cells: Cell = {
     depth: (tick) => [(8e-3 * tick) / 20_000],
@@ -121,7 +127,10 @@ describe("force and depth against time", () => {
   it("a pop has a mark that says what the force lost, a fault its shade", () => {
     const from = source({ state: (tick) => [tick > 15_000 ? 3 : 2] });
     from.events.value = [
-      { kind: "event", what: "pop", membrane: 0, name: "skin", tick: 9000, time: 9, depth: 5e-3, force_before: 0.5, force_after: 0.25, drop: 0.25 }, // biome-ignore format: one line
+      {
+        kind: "event", what: "pop", membrane: 0, name: "skin", tick: 9000, time: 9, depth: 5e-3,
+        force_before: 0.5, force_after: 0.25, drop: 0.25,
+      }, // biome-ignore format: one line
     ];
     const { file } = drawn(from);
     expect(file).toContain(">pop −0.25 N<");

@@ -79,7 +79,7 @@ describe("a gesture over the view", () => {
     expect(log).toEqual(["pan 5 10"]);
   });
 
-  it("with two fingers lets the needle go, zooms and goes round; the finger that stays does not take the needle", () => {
+  it("two fingers let the needle go, zoom and go round; the finger that stays does not take the needle", () => {
     down(150, 80, { pointerId: 1 });
     down(250, 80, { pointerId: 2 });
     move(350, 80, { pointerId: 2 });

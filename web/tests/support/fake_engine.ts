@@ -7,7 +7,8 @@ import { LIMITS } from "./limits.ts";
 
 const RATE = 1600;
 const COLUMNS = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy", "direction",
+  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force",
+  "lower", "upper", "proxy", "direction",
 ] as const; // biome-ignore format: a table
 
 /** An engine without a server: a hand that strokes through three membranes at 1600 Hz. For looking at the page only. */
@@ -108,7 +109,10 @@ export class FakeEngine implements Engine {
           const tick = this.tick;
           const [a, b] = [before.force, membrane.force];
           const drop = Math.abs(a) - Math.abs(b);
-          events.push({ kind: "event", what, membrane: k, name: membrane.name, tick, time, depth: membrane.q, force_before: a, force_after: b, drop }); // biome-ignore format: one line
+          events.push({
+            kind: "event", what, membrane: k, name: membrane.name, tick, time, depth: membrane.q,
+            force_before: a, force_after: b, drop,
+          }); // biome-ignore format: one line
         };
         if (before.phase === 0 && membrane.phase) happened("touch");
         if (before.phase && membrane.phase === 0) happened("out");

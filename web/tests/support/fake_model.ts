@@ -1,6 +1,6 @@
 import type { LawCurve, SceneView } from "../../src/wire/messages.ts";
 
-/** One thin membrane under a needle along -y: K06 (13), (14) and a spring for the coupling. For tests of the page only. */
+/** One thin membrane under a needle along -y: K06 (13), (14), and a spring as coupling. For tests of the page only. */
 export class FakeMembrane {
   readonly tipLength: number;
   readonly growthIn: number;

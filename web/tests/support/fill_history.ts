@@ -3,7 +3,8 @@ import type { FloatColumn, TickBatch } from "../../src/wire/ticks.ts";
 import { rowWidth } from "../../src/wire/ticks.ts";
 
 const FLOATS = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force", "lower", "upper", "proxy", "direction",
+  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force",
+  "lower", "upper", "proxy", "direction",
 ] as const; // biome-ignore format: a table
 
 export interface Cell {

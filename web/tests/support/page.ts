@@ -1,5 +1,6 @@
 // The page with a made-up run, for looking at panels without a server: never part of the product.
-// ?seconds=20 of run are there at once, ?compare=1 shows the other solver, ?overlay=1 an earlier run, ?plots=1 leaves out all but plots and tables.
+// ?seconds=20 of run are there at once, ?compare=1 shows the other solver, ?overlay=1 an earlier run,
+// ?plots=1 leaves out all but plots and tables.
 import "../../src/style.css";
 import { healthPanel } from "../../src/controls/health.ts";
 import { phasesPanel } from "../../src/controls/phases.ts";

@@ -72,9 +72,10 @@ std::string words_for(const Api& api, int error) {
 
 std::string calibration_advice(const std::string& label) {
   return label +
-         " does not know where it is: it needs calibration, once each time it is switched on. Put the end of its handle into the "
-         "calibration pit (a Falcon: push its grip all the way in and pull it all the way out) until the status light stops "
-         "blinking, or run the maker's own initialisation program.";
+         " does not know where it is: it needs calibration, once each time it is switched on. "
+         "Put the end of its handle into the calibration pit "
+         "(a Falcon: push its grip all the way in and pull it all the way out) until the status light stops blinking, "
+         "or run the maker's own initialisation program.";
 }
 
 Connection::Connection(const Api& api, int index) : api_(api) {

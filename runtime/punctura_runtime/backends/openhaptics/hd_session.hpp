@@ -21,8 +21,8 @@ class Refused : public DeviceError {
 /// one stack of errors.
 class Session {
  public:
-  /// name: as the maker's setup tool shows it; empty tries the usual names of the default device. keep: leaves the device
-  /// open for the next session, since some FireWire drivers crash when it is closed. Throws Refused.
+  /// name: as the maker's setup tool shows it; empty tries the usual names of the default device. keep: leaves the
+  /// device open for the next session, since some FireWire drivers crash when it is closed. Throws Refused.
   Session(const Interface& hd, const std::string& name, bool keep);
   ~Session();
   Session(const Session&) = delete;

@@ -27,11 +27,12 @@ constexpr Words all[] = {
     {force_error, "FORCE_ERROR", "the device did not accept a force"},
     {device_fault, "DEVICE_FAULT", "the device reports a fault: check its power and cable, then open it again"},
     {device_already_initiated, "DEVICE_ALREADY_INITIATED",
-     "the device is already open: end the other program that has it, the maker's diagnosis included, or this one if an earlier "
-     "attempt in it did not close the device"},
+     "the device is already open: end the other program that has it, the maker's diagnosis included, "
+     "or this one if an earlier attempt in it did not close the device"},
     {comm_error, "COMM_ERROR", "the link to the device broke: check its cable and power, then open it again"},
     {comm_config_error, "COMM_CONFIG_ERROR",
-     "the link to the device is not set up: run the maker's setup tool, and on Linux check that you may use the serial port"},
+     "the link to the device is not set up: run the maker's setup tool, "
+     "and on Linux check that you may use the serial port"},
     {timer_error, "TIMER_ERROR", "the library's clock does not keep up: close programs that keep the processor busy"},
     {illegal_begin, "ILLEGAL_BEGIN", "a frame was begun where the library allows none"},
     {illegal_end, "ILLEGAL_END", "a frame was ended that had not been begun"},
@@ -39,7 +40,8 @@ constexpr Words all[] = {
     {invalid_priority, "INVALID_PRIORITY", "the scheduler refuses the priority"},
     {scheduler_full, "SCHEDULER_FULL", "the scheduler takes no more work"},
     {invalid_license, "INVALID_LICENSE",
-     "the maker's licence is missing or has run out: install the developer's licence of OpenHaptics, or ask the maker for one"},
+     "the maker's licence is missing or has run out: "
+     "install the developer's licence of OpenHaptics, or ask the maker for one"},
 };
 
 }  // namespace
@@ -55,9 +57,10 @@ std::string describe(const ErrorInfo& error) {
 std::string how_to_calibrate(std::uint32_t styles) {
   if (styles & inkwell) return "put the stylus into the inkwell, leave it there, and open the device again";
   if (styles & encoder_reset)
-    return "hold the arm in the position that the maker calls the reset position, its links at right angles, and open the device "
-           "again";
-  return "move the stylus once through the whole workspace, or run the maker's calibration tool, and open the device again";
+    return "hold the arm in the position that the maker calls the reset position, its links at right angles, "
+           "and open the device again";
+  return "move the stylus once through the whole workspace, or run the maker's calibration tool, "
+         "and open the device again";
 }
 
 }  // namespace punctura::hd

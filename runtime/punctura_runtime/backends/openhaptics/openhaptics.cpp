@@ -99,7 +99,8 @@ std::string OpenHapticsDevice::trouble() const {
     case Ending::error:
       return "Ticks have ended. " + hd::describe({error_code_, error_internal_, session_.handle()}) + ".";
     case Ending::calibration:
-      return "Ticks have ended: the device does not know any more where its stylus is. Stop, then calibrate and open it again.";
+      return "Ticks have ended: the device does not know any more where its stylus is. "
+             "Stop, then calibrate and open it again.";
   }
   const double silent = static_cast<double>(options_.now_ns() - last_call_) * 1e-9;
   if (!running_ || silent < 0.1) return {};

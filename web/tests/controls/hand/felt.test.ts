@@ -6,7 +6,8 @@ import { decodeTicks } from "../../../src/wire/ticks.ts";
 import { makeFrame } from "../../wire/frame.ts";
 
 const event = (tick: number, what: MembraneEvent["what"] = "pop", membrane = 0): MembraneEvent => ({
-  kind: "event", what, membrane, name: "skin", tick, time: tick / 1600, depth: 0, force_before: 0.7, force_after: 0.4, drop: 0.3,
+  kind: "event", what, membrane, name: "skin", tick, time: tick / 1600, depth: 0,
+  force_before: 0.7, force_after: 0.4, drop: 0.3,
 }); // biome-ignore format: short
 
 function source(ticks: number): Source {

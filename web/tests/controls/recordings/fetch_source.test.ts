@@ -17,7 +17,10 @@ const entry: RecordingEntry = {
   exercise: "",
   finished: true,
 };
-const event = { kind: "event", what: "pop", membrane: 0, name: "skin", tick: 12, time: 0.0075, depth: 0, force_before: 1, force_after: 0.5, drop: 0.5 }; // biome-ignore format: a record
+const event = {
+  kind: "event", what: "pop", membrane: 0, name: "skin", tick: 12, time: 0.0075, depth: 0,
+  force_before: 1, force_after: 0.5, drop: 0.5,
+}; // biome-ignore format: a record
 const overview = { info: {}, scene, events: [event], ticks: 10, first_tick: 4 };
 const stream = prefixed([
   makeFrame({ first: 4, count: 5, membranes: 3 }),

@@ -17,6 +17,9 @@ test("a date says its year where it is another one", () => {
 });
 
 test("an event in words", () => {
-  const event = { kind: "event", what: "pop", membrane: 0, name: "skin", tick: 1, time: 1.204, depth: 0, force_before: 0.5, force_after: 0.19, drop: 0.31 } as const; // biome-ignore format: a record
+  const event = {
+    kind: "event", what: "pop", membrane: 0, name: "skin", tick: 1, time: 1.204, depth: 0,
+    force_before: 0.5, force_after: 0.19, drop: 0.31,
+  } as const; // biome-ignore format: a record
   expect(eventText(event)).toBe("1.204 s: pop through skin, 0.31 N less");
 });
