@@ -153,10 +153,10 @@ void bind_model(nb::module_& m) {
       "A law from a table: straight lines between at most 32 knots. For Proxy1d.\n\n"
       "No friction before the first knot; constant edges behind the last one; the edges may jump at the first knot.");
   def_bounds(table);
-  def_init(
-      table, {{"depth", "Sequence[float]"}, {"lower", "Sequence[float]"}, {"upper", "Sequence[float]"}},
-      &make_table_law,
-      "depth: of the knots, m, ascending. lower: Phi_I there, N, 0 or less. upper: Phi_O, N. Raises ConfigurationError.");
+  def_init(table, {{"depth", "Sequence[float]"}, {"lower", "Sequence[float]"}, {"upper", "Sequence[float]"}},
+           &make_table_law,
+           "depth: of the knots, m, ascending. lower: Phi_I there, N, 0 or less. upper: Phi_O, N.\n"
+           "Raises ConfigurationError.");
   def_value(table, {"depth", "lower", "upper"});
   const auto knots = [&table](const char* name, auto member, const char* doc) {
     const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";

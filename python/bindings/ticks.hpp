@@ -9,8 +9,8 @@
 
 namespace punctura::bindings {
 
-/// Calls tick(i) for i = 0 ... n-1. Ctrl-C acts between two chunks: the object has then made some of the ticks, and their
-/// columns are lost.
+/// Calls tick(i) for i = 0 ... n-1. Ctrl-C acts between two chunks: the object has then made some of the ticks, and
+/// their columns are lost.
 template <typename Tick>
 void make_ticks(std::size_t n, Tick&& tick) {
   constexpr std::size_t chunk = 1 << 14;  // 64 membranes: about 0.1 s

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { csv, exactF32 } from "../../src/plots/csv.ts";
+import { FIELDS } from "../../src/wire/tick_table.ts";
 import { history } from "../support/fill_history.ts";
 
 describe("a table of ticks", () => {
@@ -22,6 +23,16 @@ describe("a table of ticks", () => {
     const cells = Object.fromEntries(head.map((name, i) => [name, row[i]]));
     expect(cells).toMatchObject({ tick: "3", time_s: "0.003000000", state: "active", limit: "continuous" });
     expect([cells.phase_0, cells.phase_1, cells.force_0_N]).toEqual(["sliding_in", "outside", "-0.1"]);
+  });
+
+  it("has a number or nothing in every cell, for every field of the table", () => {
+    const lines = csv(run, 0, 5, null).join("").trimEnd().split("\n");
+    const heads = new Set(lines[0]!.split(","));
+    for (const field of FIELDS) {
+      const head = field.column.replace("{i}", "0").replace("{a}", "x");
+      expect(heads.has(head), head).toBe(true);
+    }
+    expect(lines.slice(1).join("\n")).not.toContain("undefined");
   });
 
   it("keeps all digits of what was sent", () => {
