@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
+#include "state.hpp"
 #include "tick_columns.hpp"
 #include "without_lock.hpp"
 
@@ -23,11 +24,13 @@ SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
 }
 
 /// The snapshots of a running loop, for one reader.
-struct Listener {
+struct Listener : OneThread {
+  explicit Listener(SnapshotRing* of) : ring(of) {}
   SnapshotRing* ring;
 
   nb::object read(std::optional<std::size_t> limit) {
     SnapshotColumns columns;
+    const Running running(*this);
     {
       nb::gil_scoped_release release;
       const std::size_t most = limit.value_or(std::numeric_limits<std::size_t>::max());
@@ -193,7 +196,7 @@ void bind_runtime(nb::module_& m) {
       .def(
           "listen",
           [](ServoLoop& loop, std::optional<std::size_t> capacity) {
-            return Listener{&loop.listen(capacity.value_or(loop.room()))};
+            return Listener(&loop.listen(capacity.value_or(loop.room())));
           },
           nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
           nb::sig("def listen(self, capacity: int | None = None) -> Listener"),

@@ -21,7 +21,9 @@ class OneThread {
   /// Throws RuntimeError while run() is in progress.
   void must_rest() const {
     if (running_)
-      throw std::runtime_error("run() is at work on this object: give each thread a copy of its own (copy.copy)");
+      throw std::runtime_error(
+          "run() is at work on this object in another thread: use it in one thread at a time, or "
+          "give each thread a copy of its own");
   }
   class Running {
    public:

@@ -30,10 +30,11 @@ inline void check_table(std::span<const double> depth, std::span<const double> l
     problems.push_back({"upper", static_cast<double>(upper.size()), "must have one number a knot"});
   if (lower.size() != n || upper.size() != n) return;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!std::isfinite(depth[i]) || depth[i] < 0) add("depth", i, depth[i], "must be a finite number, 0 m or more");
-    if (i > 0 && !(depth[i] > depth[i - 1])) add("depth", i, depth[i], "must be greater than the depth before it");
-    if (!std::isfinite(lower[i])) add("lower", i, lower[i], "must be a finite number");
-    if (!std::isfinite(upper[i])) add("upper", i, upper[i], "must be a finite number");
+    if (!(depth[i] >= 0 && depth[i] <= 1e6)) add("depth", i, depth[i], "must be a number from 0 to 1e6 m");
+    if (i > 0 && !(depth[i] - depth[i - 1] >= 1e-9))
+      add("depth", i, depth[i], "must be greater than the depth before it, by 1e-9 m or more");
+    if (!(std::abs(lower[i]) <= 1e6)) add("lower", i, lower[i], "must be a number within 1e6 N");
+    if (!(std::abs(upper[i]) <= 1e6)) add("upper", i, upper[i], "must be a number within 1e6 N");
     if (lower[i] > 0) add("lower", i, lower[i], "must be 0 N or less: the lower edge resists insertion");
     if (lower[i] > upper[i]) add("lower", i, lower[i], "must not be greater than upper at the same knot");
   }

@@ -43,7 +43,7 @@ def open_plug_in(backend: str, rate: float, device: str) -> Device:
         opened = found.load().open(rate, device)
     except DeviceError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise DeviceError(f"{found.name} ({found.value}) cannot be opened: {type(error).__name__}: {error}") from error
     if not isinstance(opened, Device):
         raise DeviceError(f"{found.name} ({found.value}): open() returned {type(opened).__name__}, not a Device")
@@ -68,6 +68,6 @@ def _status(found: EntryPoint, taken: set[str]) -> BackendState:
             detail=str(said.get("detail", "")),
             devices=[str(name) for name in said.get("devices", [])],
         )
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         entry["detail"] = f"{found.value}: {type(error).__name__}: {error}"
         return entry

@@ -8,7 +8,9 @@ from punctura._core import FedDevice, ReplayDevice, ServoLoop, SimulatedDevice
 
 LONGEST_S = 0.1  # without a tick; a longer deadline of the gate extends it
 # These devices may stop ticking without danger: nobody holds them.
-HELD_BY_NOBODY: tuple[type, ...] = (SimulatedDevice, ReplayDevice, FedDevice)
+HELD_BY_NOBODY: tuple[type, ...] = (SimulatedDevice, ReplayDevice)
+FED_S = 1.0  # for a device that a program feeds: the program may be held up
+FIRST_READING_S = 30.0  # that such a program may take before its first reading
 
 
 class SilenceWatch:
@@ -20,7 +22,8 @@ class SilenceWatch:
     def __init__(self, loop: ServoLoop) -> None:
         self._loop = loop
         self._of_hardware = not isinstance(loop.device, HELD_BY_NOBODY)
-        self._longest = max(LONGEST_S, 5 * loop.gate.deadline)
+        self._fed = isinstance(loop.device, FedDevice)
+        self._longest = max(FED_S if self._fed else LONGEST_S, 5 * loop.gate.deadline)
         self._ticks, self._since = -1, time.monotonic()
 
     def __repr__(self) -> str:
@@ -34,7 +37,7 @@ class SilenceWatch:
         if ticks != self._ticks:
             self._ticks, self._since = ticks, now
             return ""
-        if now - self._since < self._longest:
+        if now - self._since < (FIRST_READING_S if self._fed and ticks == 0 else self._longest):
             return ""
         return (
             f"the device's ticks have ceased, for {now - self._since:.1f} s, and the run is stopped: "

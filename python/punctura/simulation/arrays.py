@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +44,7 @@ def simulate_arrays(
     return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
 
 
-def _check_rows(name: str, rows: Array, good: npt.NDArray[np.bool_], rule: str) -> None:
+def _check_rows(name: str, rows: Array, good: Any, rule: str) -> None:
     bad = np.flatnonzero(~good)
     if len(bad):
         raise ValueError(f"{name}[{bad[0]}] {rule} and holds {rows[bad[0]]}")

@@ -37,8 +37,12 @@ def arrays(flat: Mapping[str, npt.NDArray[Any]]) -> dict[str, pa.Array]:
 def _array(column: str, values: npt.NDArray[Any], flat: Mapping[str, npt.NDArray[Any]]) -> pa.Array:
     known = file_column(column)
     values = np.ascontiguousarray(values)
-    phase = None if known is None or known.membrane is None else flat.get(_PHASE.format(i=known.membrane))
-    absent = None if phase is None else phase == ABSENT
+    absent = None
+    if known is not None and known.membrane is not None:
+        phase = flat.get(_PHASE.format(i=known.membrane))
+        absent = None if phase is None else phase == ABSENT
+    elif known is not None and known.field.words:  # earlier recordings do not have every field
+        absent = values == ABSENT
     return pa.array(values, mask=absent if absent is not None and absent.any() else None)  # no mask, no copy
 
 

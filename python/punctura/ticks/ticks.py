@@ -20,6 +20,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+def _typed(name: str, column: npt.ArrayLike) -> Array:
+    """The column with its field's type. Raises ValueError for a number that the type does not hold."""
+    given = np.asarray(column)
+    if name not in FIELDS:
+        return given
+    typed = given.astype(FIELDS[name].dtype, copy=False) if given.dtype.kind in "biuf" else None
+    if typed is None or (typed.dtype.kind != "f" and not np.array_equal(typed, given)):
+        raise ValueError(f"{name} must hold numbers of type {FIELDS[name].dtype}, and holds others")
+    return typed
+
+
 class Ticks(TickArrays):
     """n ticks as arrays, one row per tick, in SI units: `ticks.force` or `ticks["force"]`, `ticks[100:200]`.
 
@@ -30,10 +41,7 @@ class Ticks(TickArrays):
 
     def __init__(self, columns: Mapping[str, npt.ArrayLike], membranes: Sequence[str] = ()) -> None:
         """membranes: names of the membranes, for plots. Raises ValueError if the columns differ in length."""
-        arrays = {
-            name: np.asarray(column, dtype=FIELDS[name].dtype if name in FIELDS else None)
-            for name, column in columns.items()
-        }
+        arrays = {name: _typed(name, column) for name, column in columns.items()}
         lengths = {name: len(array) for name, array in arrays.items()}
         if len(set(lengths.values())) > 1:
             listed = ", ".join(f"{name} {length}" for name, length in lengths.items())

@@ -29,6 +29,7 @@ from punctura.live import DeviceInfo, Ended, FedDevice, run_live
 why = sys.argv[1]
 if why == "ticks cease":
     punctura.live.silence.HELD_BY_NOBODY = ()
+    punctura.live.silence.FIRST_READING_S = 0.1
 
 def say(text):
     os.write(1, text.encode() + b"\\n")
@@ -84,7 +85,7 @@ def test_a_run_is_stopped_while_its_caller_waits_for_ever(why):
 
 
 def test_ticks_that_cease_end_a_run_also_in_another_thread(monkeypatch):
-    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
+    monkeypatch.setattr("punctura.live.silence.FIRST_READING_S", 0.1)
     device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
     found = []
     thread = threading.Thread(target=lambda: found.append(run_live(device, SCENE).fault), daemon=True)

@@ -49,8 +49,8 @@ def test_a_flipped_bit_costs_its_batch_and_is_reported(start, tmp_path, monkeypa
     kept = tmp_path / "killed.part"
     data = bytearray(run.recorder.status().file.read_bytes())
     run.recorder.finish()
-    value = open_recording(run.path).table()["x_m"][1234].as_py()
-    data[data.index(np.float64(value).tobytes(), len(data) // 2)] ^= 1  # not in the first batch
+    value = open_recording(run.path).table()["time_s"][1234].as_py()
+    data[data.index(np.float64(value).tobytes())] ^= 1  # in the third batch: no other tick has this time
     kept.write_bytes(data)
     recording = open_recording(kept)
     assert recording.lost == 500 and recording.rows == 2500

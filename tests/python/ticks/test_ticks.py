@@ -178,3 +178,9 @@ def test_a_number_that_is_nan_is_not_taken_for_an_absent_membrane():
     table = ticks.replace(depth=depth, phase=phase).to_arrow()
     assert table["depth_0_m"].null_count == 0 and np.isnan(table["depth_0_m"][3].as_py())
     assert [table[name].null_count for name in ("depth_1_m", "phase_1", "force_1_N")] == [1, 1, 1]
+
+
+@pytest.mark.parametrize("phase", [[300.0], [-1], [0.5], ["outside"]])
+def test_a_number_that_the_type_of_its_field_does_not_hold_is_refused(phase):
+    with pytest.raises(ValueError, match="phase must hold numbers of type uint8, and holds others"):
+        Ticks({"phase": phase})

@@ -67,7 +67,7 @@ def encode_ticks(ticks: Ticks, run: int, lost: int = 0, other_force: npt.NDArray
     """Encodes consecutive ticks as a frame. Raises FrameError if they are not consecutive."""
     tick = ticks.tick
     n = len(tick)
-    if n == 0 or int(tick[-1]) - int(tick[0]) != n - 1:
+    if n == 0 or (np.diff(tick.astype(np.int64)) != 1).any():
         raise FrameError("a frame holds at least one tick, and no gap")
     flags = 0 if other_force is None else OTHER_SOLVER
     first = float(ticks.time[0])
