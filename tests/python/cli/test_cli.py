@@ -186,7 +186,7 @@ def writes_in(folder, pid):
         opened = [os.readlink(f"/proc/{pid}/fd/{number}") for number in os.listdir(f"/proc/{pid}/fd")]
     except OSError:  # a file was closed meanwhile, or the process has ended
         return False
-    return any(name.startswith(str(folder)) and not name.endswith("slow.csv") for name in opened)
+    return any(name.startswith(f"{folder}/") and not name.endswith("slow.csv") for name in opened)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="sends a signal")
