@@ -26,7 +26,7 @@ def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law
     panel = page.locator(".force-depth")
     panel.get_by_text("Save").click()
     plotted = columns(saved(page, panel.get_by_role("button", name="CSV"), tmp_path))
-    depth, force = plotted["depth_thin_membrane_m"], np.abs(plotted["axial_force_thin_membrane_N"])
+    depth, force = plotted["depth_0_m"], np.abs(plotted["force_0_N"])
     through = np.array(depth) > THROUGH
     assert through.any() and (~through).any()
     assert np.nanmax(force[~through]) - np.nanmax(force[through]) == pytest.approx(expected, rel=0.02)
