@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 from punctura.studio.wire.frames import HEAD, NUMBERS, WORDS, encode_ticks
 from punctura.ticks import Ticks
+from punctura.ticks.fields import shape_of
 
 FOLDER = Path(__file__).resolve().parents[1] / "tests" / "contract"
 PLAIN = ("take_control", "arm", "pause", "reset", "stop_recording", "end_exercise", "trip_fault")
@@ -45,7 +46,7 @@ def columns(n: int, m: int, first: int, nan: bool) -> dict[str, Any]:
     """Numbers that float32 holds exactly, each different from its neighbours."""
     made: dict[str, Any] = {"tick": np.arange(first, first + n, dtype=np.uint64)}
     for at, field in enumerate(NUMBERS):
-        shape = (n, *((m,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
+        shape = shape_of(field, n, m)
         made[field.name] = (np.arange(int(np.prod(shape)), dtype=float).reshape(shape) + 1) / 64 - at
     made["time"] = 2.5 + np.arange(n) / 1024
     for at, field in enumerate(WORDS):

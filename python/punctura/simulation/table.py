@@ -7,6 +7,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from punctura.ticks import FIELDS, Ticks
+from punctura.ticks.fields import shape_of
 
 Floats = NDArray[np.float64]
 
@@ -16,15 +17,9 @@ WRITTEN = ("time", "position", "axis", "force", "depth", "axial_force", "lower",
 def output_schema(has_axis: bool, membranes: int, metadata: dict[str, str]) -> pa.Schema:
     """Names and types of the output's columns."""
     names = [name for name in WRITTEN if has_axis or name != "axis"]
-    none = Ticks({name: _none(name, membranes) for name in names})
+    none = Ticks({name: np.empty(shape_of(FIELDS[name], 0, membranes), FIELDS[name].dtype) for name in names})
     schema = none.to_arrow().schema
     return pa.schema([field.with_nullable(False) for field in schema], metadata)
-
-
-def _none(name: str, membranes: int) -> NDArray[np.generic]:
-    field = FIELDS[name]
-    shape = (0, *((membranes,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
-    return np.empty(shape, field.dtype)
 
 
 def output_table(schema: pa.Schema, time: Floats, position: Floats, axis: Floats | None, ticks: Ticks) -> pa.Table:

@@ -16,6 +16,11 @@ COMMAND_SCENE = 8  # bit of the field `commands`: this tick took a new scene
 FIELDS: Mapping[str, TickField] = {field.name: field for field in tick_fields()}
 
 
+def shape_of(field: TickField, ticks: int, membranes: int) -> tuple[int, ...]:
+    """The shape of a field's array: (n,), (n, 3), (n, m) or (n, m, 3)."""
+    return (ticks, *[membranes] * field.per_membrane, *[field.width] * (field.width > 1))
+
+
 class FileColumn(NamedTuple):
     """A column of a file: one component of a field, for one membrane if the field is per membrane."""
 

@@ -26,7 +26,7 @@ def _typed(name: str, column: npt.ArrayLike) -> Array:
     if name not in FIELDS:
         return given
     typed = given.astype(FIELDS[name].dtype, copy=False) if given.dtype.kind in "biuf" else None
-    if typed is None or (typed.dtype.kind != "f" and not np.array_equal(typed, given)):
+    if typed is None or (typed is not given and typed.dtype.kind != "f" and not np.array_equal(typed, given)):
         raise ValueError(f"{name} must hold numbers of type {FIELDS[name].dtype}, and holds others")
     return typed
 

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "../support/given_law.hpp"
 #include "../support/random_law.hpp"
 #include "punctura/events/law_curve.hpp"
 
@@ -10,15 +11,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-/// A law with given pieces.
-template <std::size_t n>
-struct TableLaw {
-  using Scalar = double;
-  PiecewiseBand<double, n> table;
-  const PiecewiseBand<double, n>& pieces() const noexcept { return table; }
-  PiecewiseBand<double, n> pieces(double) const noexcept { return table; }
-};
 
 Crossing crossing_of(const LawCase& c, double cos_beta) {
   return crossing(ThickLaw(c.needle, c.membrane), c.needle, c.membrane.thickness, cos_beta);
@@ -71,7 +63,7 @@ TEST_CASE("the crossing of a custom law is at its breaks, and with_room() does n
   const PiecewiseBand<double, 4> table{
       {0, 2e-3, 4e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 50, 0}, {}}, {4e-3, {-0.05, 0, 0}, {}}}}};
   for (const Crossing& turns :
-       {crossing(TableLaw<4>{table}, needle, 1e-3, 1), crossing(TableLaw<9>{table.with_room<9>()}, needle, 1e-3, 1)}) {
+       {crossing(GivenLaw<4>{table}, needle, 1e-3, 1), crossing(GivenLaw<9>{table.with_room<9>()}, needle, 1e-3, 1)}) {
     CHECK(turns.peak == 2e-3);
     CHECK(turns.through == 4e-3);
     CHECK(turns.shaft == 0.05);
@@ -84,7 +76,7 @@ TEST_CASE("the crossing of a custom law is at its breaks, and with_room() does n
 
 TEST_CASE("a law whose resistance never decreases has no pop") {
   const PiecewiseBand<double, 3> table{{0, 2e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 0, 0}, {}}}}};
-  CHECK(std::isinf(crossing(TableLaw<3>{table}, paper_needle, 0, 1).through));
+  CHECK(std::isinf(crossing(GivenLaw<3>{table}, paper_needle, 0, 1).through));
 }
 
 TEST_CASE("the curve of a law has points on both sides of each break") {

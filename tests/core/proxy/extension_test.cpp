@@ -3,6 +3,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/cut_law.hpp"
+#include "../support/given_law.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
 #include "punctura/proxy/mixed_law.hpp"
@@ -17,15 +18,6 @@ namespace {
 constexpr double T = 1 / 1600.0;
 
 static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
-
-/// A law with any number of given pieces.
-template <std::size_t n>
-struct TableLaw {
-  using Scalar = double;
-  PiecewiseBand<double, n> table;
-  const PiecewiseBand<double, n>& pieces() const noexcept { return table; }
-  PiecewiseBand<double, n> pieces(double) const noexcept { return table; }
-};
 
 /// K06's coupling with a parallel branch of stiffness K_m that relaxes: f_m = a (f_m + K_m (e - e_prev)), a = exp(-T
 /// / tau).
@@ -89,7 +81,7 @@ TEST_CASE("K06's law with 17 pieces has the same forces, bit for bit") {
   const ThickLaw law(c.needle, c.membrane);
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d own(law, Coupling{400, 1}, T, solver);
-    Proxy1d table(TableLaw<17>{law.pieces().with_room<17>()}, Coupling{400, 1}, T, solver);
+    Proxy1d table(GivenLaw<17>{law.pieces().with_room<17>()}, Coupling{400, 1}, T, solver);
     for (double p : random_motion(noise, 3000, law.constants().X + 2 * law.thickness(), T))
       REQUIRE(table.step(p) == own.step(p));
   }
@@ -123,7 +115,7 @@ TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const RelaxingCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
-  const TableLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N in both directions
+  const GivenLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N in both directions
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d line(grip, coupling, solver);
     Proxy3d space(grip, Vector3d(0, 0, 0), Vector3d(0, -1, 0), coupling, solver);

@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from punctura._core import TickField
 from punctura.ticks import FIELDS, Ticks
+from punctura.ticks.fields import shape_of
 
 MAGIC = 0x32544E50
 HEAD = struct.Struct("<IIIIQdII")
@@ -57,10 +57,6 @@ class Frame:
 
     def __len__(self) -> int:
         return len(self.ticks)
-
-
-def _shape(field: TickField, n: int, m: int) -> tuple[int, ...]:
-    return (n, *((m,) if field.per_membrane else ()), *((field.width,) if field.width > 1 else ()))
 
 
 def encode_ticks(ticks: Ticks, run: int, lost: int = 0, other_force: npt.NDArray[Any] | None = None) -> bytes:
@@ -99,10 +95,10 @@ def decode_ticks(frame: bytes) -> Frame:
         at += size
         return np.frombuffer(frame, kind, count, at - size).reshape(shape)
 
-    columns = {field.name: take(field.name, "<f4", _shape(field, n, m)) for field in NUMBERS}
+    columns = {field.name: take(field.name, "<f4", shape_of(field, n, m)) for field in NUMBERS}
     if flags & OTHER_SOLVER:
         columns[OTHER] = take(OTHER, "<f4", (n, 3))
-    columns |= {field.name: take(field.name, "u1", _shape(field, n, m)) for field in WORDS}
+    columns |= {field.name: take(field.name, "u1", shape_of(field, n, m)) for field in WORDS}
     if at != len(frame):
         raise FrameError(f"{len(frame) - at} bytes follow its end")
     return Frame(tick, time, run, lost, m, Ticks(columns))
