@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "punctura/events/contact.hpp"
+#include "punctura/insertion/match_by_place.hpp"
 #include "punctura/scene/build.hpp"
 
 namespace punctura {
@@ -104,13 +105,6 @@ class EventFinderOf {
       return punctura::crossing(site.law, scene.needle, site.thickness, cos_beta);
     }
 
-    /// The number of sites before site i that are at the same place.
-    std::size_t same_before(std::size_t i) const noexcept {
-      const auto first = sites.begin();
-      return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
-                                                    [&](const Site& other) { return other.same_place(sites[i]); }));
-    }
-
     Scene scene;
     std::vector<Site> sites;
   };
@@ -120,16 +114,10 @@ class EventFinderOf {
   void take_scene() noexcept {
     scene_is_pending_ = false;
     std::swap(now_, next_);
-    for (std::size_t i = 0; i < now_.sites.size(); ++i) {
-      Site& site = now_.sites[i];
-      std::size_t before = now_.same_before(i);
-      for (const Site& old : next_.sites)
-        if (site.same_place(old) && before-- == 0) {
-          site.contact = old.contact;
-          site.contact.change_law([&](double cos_beta) { return now_.crossing(site, cos_beta); });
-          break;
-        }
-    }
+    match_by_place(now_.sites, next_.sites, [&](Site& site, const Site& old) {
+      site.contact = old.contact;
+      site.contact.change_law([&](double cos_beta) { return now_.crossing(site, cos_beta); });
+    });
   }
 
   SceneSites now_;

@@ -1,11 +1,11 @@
 // A needle through several membranes, with one proxy and one coupling for each membrane. K06 Fig. 8
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
 
+#include "punctura/insertion/match_by_place.hpp"
 #include "punctura/model/storage.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
@@ -75,14 +75,7 @@ class InsertionOf {
   void resume(InsertionOf& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
-    for (std::size_t i = 0; i < proxies_.size(); ++i) {
-      std::size_t before = same_before(i);
-      for (const Proxy& other : previous.proxies_)
-        if (proxies_[i].same_place(other) && before-- == 0) {
-          proxies_[i].resume(other);
-          break;
-        }
-    }
+    match_by_place(proxies_, previous.proxies_, [](Proxy& proxy, const Proxy& old) { proxy.resume(old); });
   }
 
   /// One tick. position: measured, m. axis: the needle's unit direction. Returns the force on the device, N.
@@ -128,12 +121,6 @@ class InsertionOf {
   using Conditioner = PositionConditioner<Scalar, Storage>;
   using Tracker = EntryDirection<Scalar, Storage>;
 
-  /// The number of proxies before proxy i that are at the same place.
-  std::size_t same_before(std::size_t i) const noexcept {
-    const auto first = proxies_.begin();
-    return static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
-                                                  [&](const Proxy& other) { return other.same_place(proxies_[i]); }));
-  }
   /// Empty for Direction::stylus.
   static std::optional<Tracker> tracker(Direction direction, Scalar period) {
     if (direction == Direction::motion) return std::make_optional<Tracker>(period);
