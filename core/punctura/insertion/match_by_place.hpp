@@ -6,8 +6,8 @@
 
 namespace punctura {
 
-/// Calls resume(now[i], before[j]) for each pair of elements at the same place (`same_place`). If several elements share a
-/// place, they are paired in their order. An element at a new place has no pair. It allocates no memory.
+/// Calls resume(now[i], before[j]) for each pair of elements at the same place (`same_place`). If several elements
+/// share a place, they are paired in their order. An element at a new place has no pair. It allocates no memory.
 template <typename Now, typename Before, typename Resume>
 void match_by_place(Now& now, const Before& before, Resume&& resume) noexcept {
   for (auto one = now.begin(); one != now.end(); ++one) {
