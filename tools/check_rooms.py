@@ -49,6 +49,7 @@ ROOMS = (
     "web/src/hand",
     "web/src/plots",
     "web/src/scene",
+    "web/src/slice",
     "web/src/controls",
     "web/src/layout.ts",
     "web/src/main.ts",

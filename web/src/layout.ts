@@ -14,7 +14,7 @@ import { tour } from "./controls/tour.ts";
 import { element, type Panel } from "./panel.ts";
 import { forceDepthPlot } from "./plots/force_depth.ts";
 import { timePlots } from "./plots/time.ts";
-import { view } from "./scene/view.ts";
+import { viewWithSlice } from "./slice/view_with_slice.ts";
 import type { App } from "./state/app.ts";
 
 /** Two panels, one below the other. */
@@ -35,7 +35,7 @@ export function layout(root: HTMLElement, app: App): void {
   root.append(
     place("header", "Run", headerBar),
     place("fault", "Fault", faultBanner),
-    place("view", "Needle and membranes", view),
+    place("view", "Needle and membranes", viewWithSlice),
     place("phases", "Membranes", phasesPanel),
     place("force-depth", "Force against depth", forceDepthPlot),
     place("time-plots", "Force and depth against time", timePlots),

@@ -1,23 +1,41 @@
 import type { Camera, Vector3 } from "three";
 import { element } from "../panel.ts";
+import { type Place, placeLabels, type Rect, type Wish } from "./label_places.ts";
 
-const LINE_PX = 18;
+const SVG = "http://www.w3.org/2000/svg";
+/** Parts of the view that labels do not cover. */
+const OBSTACLES = ".view-tools, .view-help, .scale-bar, .hub-inset, .view-obstacle";
+const MEASURE_MS = 400;
 
-/** Text labels in the view, as HTML: sharp, and readable for screen readers. They avoid overlaps. */
+interface Label {
+  readonly node: HTMLElement;
+  readonly line: SVGLineElement;
+  text: string;
+  width: number;
+  height: number;
+}
+
+/** Text labels in the view, as HTML: sharp, and readable for screen readers. Lines lead to what they name. */
 export class Labels {
   private readonly layer = element("div", { class: "view-labels" });
-  private readonly known = new Map<string, { node: HTMLElement; text: string; width: number }>();
-  private readonly placed: { id: string; x: number; y: number; column: boolean }[] = [];
+  private readonly lines = document.createElementNS(SVG, "svg");
+  private readonly known = new Map<string, Label>();
+  private readonly wishes: Wish[] = [];
+  private size: readonly [number, number] = [1, 1];
+  private obstacles: Rect[] = [];
+  private measured = Number.NEGATIVE_INFINITY;
 
-  constructor(host: HTMLElement) {
+  constructor(private readonly host: HTMLElement) {
+    this.lines.setAttribute("aria-hidden", "true");
+    this.layer.append(this.lines);
     host.append(this.layer);
   }
 
   begin(): void {
-    this.placed.length = 0;
+    this.wishes.length = 0;
   }
 
-  /** Places a label at `at`, mm: right or left of it, or in the column next to the slabs, where labels move apart. */
+  /** Asks for a label at `at`, mm: right or left of it, or in the column next to the tissue, with a line to it. */
   put(
     id: string,
     text: string,
@@ -29,47 +47,72 @@ export class Labels {
   ): void {
     const on = at.clone().project(camera);
     if (on.z > 1) return;
-    let label = this.known.get(id);
-    if (!label) {
-      label = { node: element("span", { class: `view-label ${kind}` }), text: "", width: 0 };
-      this.known.set(id, label);
-      this.layer.append(label.node);
-    }
-    if (label.text !== text) {
+    this.size = size;
+    const label = this.labelOf(id, kind);
+    if (label.text !== text || label.width === 0) {
       label.text = text;
       label.node.textContent = text;
+      label.node.hidden = false;
       label.width = label.node.offsetWidth;
+      label.height = label.node.offsetHeight;
     }
-    const beside = how === "left" ? -label.width - 10 : 8;
-    const x = Math.min(((on.x + 1) / 2) * size[0] + beside, size[0] - label.width - 8);
-    this.placed.push({ id, x: Math.max(8, x), y: ((1 - on.y) / 2) * size[1], column: how === "column" });
+    const x = Math.max(0, Math.min(((on.x + 1) / 2) * size[0], size[0]));
+    const y = Math.max(0, Math.min(((1 - on.y) / 2) * size[1], size[1]));
+    this.wishes.push({ id, width: label.width, height: label.height, x, y, how });
   }
 
   end(): void {
-    const column = this.placed.filter((label) => label.column).sort((a, b) => a.y - b.y);
-    for (let pass = 0; pass < 4; pass++) {
-      for (let i = 1; i < column.length; i++) {
-        const above = column[i - 1]!;
-        const below = column[i]!;
-        const apart = (LINE_PX - (below.y - above.y)) / 2;
-        if (apart > 0 && Math.abs(above.x - below.x) < 140) {
-          above.y -= apart;
-          below.y += apart;
-        }
-      }
-    }
-    for (const label of this.known.values()) label.node.hidden = true;
-    for (const { id, x, y } of this.placed) {
-      const { node } = this.known.get(id)!;
-      node.hidden = false;
-      node.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translateY(-50%)`;
+    this.measure();
+    const places = new Map(placeLabels(this.wishes, this.size[0], this.size[1], this.obstacles).map((p) => [p.id, p]));
+    const points = new Map(this.wishes.map((wish) => [wish.id, wish]));
+    for (const [id, label] of this.known) {
+      const place = places.get(id);
+      label.node.hidden = !place;
+      label.line.style.display = place?.line ? "" : "none";
+      if (place) this.show(label, place, points.get(id)!);
     }
   }
 
   /** Removes all labels, for another scene. */
   clear(): void {
-    for (const { node } of this.known.values()) node.remove();
+    for (const { node, line } of this.known.values()) {
+      node.remove();
+      line.remove();
+    }
     this.known.clear();
-    this.placed.length = 0;
+    this.wishes.length = 0;
+  }
+
+  private show({ node, line }: Label, place: Place, { x, y }: Wish): void {
+    node.style.transform = `translate(${place.left.toFixed(1)}px, ${place.top.toFixed(1)}px)`;
+    if (!place.line) return;
+    const ends = { x1: place.line[0], y1: place.line[1], x2: x, y2: y };
+    for (const [name, value] of Object.entries(ends)) line.setAttribute(name, value.toFixed(1));
+  }
+
+  private labelOf(id: string, kind: string): Label {
+    let label = this.known.get(id);
+    if (!label) {
+      const line = document.createElementNS(SVG, "line");
+      line.setAttribute("class", kind);
+      label = { node: element("span", { class: `view-label ${kind}` }), line, text: "", width: 0, height: 0 };
+      this.known.set(id, label);
+      this.lines.append(line);
+      this.layer.append(label.node);
+    }
+    return label;
+  }
+
+  /** Reads the places of buttons and notes in the view, now and then: they change only with the page's layout. */
+  private measure(): void {
+    const now = performance.now();
+    if (now - this.measured < MEASURE_MS) return;
+    this.measured = now;
+    const from = this.host.getBoundingClientRect();
+    this.obstacles = [...this.host.querySelectorAll<HTMLElement>(OBSTACLES)].flatMap((node) => {
+      const { left, top, right, bottom } = node.getBoundingClientRect();
+      if (right <= left || bottom <= top) return [];
+      return [{ left: left - from.left, top: top - from.top, right: right - from.left, bottom: bottom - from.top }];
+    });
   }
 }

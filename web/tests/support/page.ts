@@ -1,6 +1,6 @@
 // The page with a made-up run, for looking at panels without a server: never part of the product.
 // ?seconds=20 of run are there at once, ?compare=1 shows the other solver, ?overlay=1 an earlier run,
-// ?plots=1 leaves out all but plots and tables.
+// ?slice=1 opens the slice, ?plots=1 leaves out all but plots and tables.
 import "../../src/style.css";
 import { healthPanel } from "../../src/controls/health.ts";
 import { phasesPanel } from "../../src/controls/phases.ts";
@@ -13,6 +13,7 @@ import { Source } from "../../src/state/source.ts";
 import { FakeEngine } from "./fake_engine.ts";
 
 const asked = new URLSearchParams(location.search);
+if (asked.has("slice")) localStorage.setItem("punctura.slice", "open");
 const engine = new FakeEngine(Number(asked.get("seconds") ?? 20));
 engine.compare = asked.get("compare") === "1";
 const app = new App(engine);

@@ -1,0 +1,96 @@
+import { element, everyFrame } from "../panel.ts";
+import { Moment } from "../scene/moment.ts";
+import { type Probe, placeAtNeedle, type SkinFrame, skinFrame } from "../scene/probe.ts";
+import type { App } from "../state/app.ts";
+import type { SceneView } from "../wire/messages.ts";
+import { PROBE_KEYS, probeButtons, probeDrag, probeKeys, probeSliders } from "./controls.ts";
+import { Drawing, type Shown } from "./drawing.ts";
+import { Quality } from "./quality.ts";
+import { pictureWords } from "./words.ts";
+
+const MARK = "Drawing, not a simulation of an ultrasound instrument";
+const INTERVAL_MS = 30; // between two pictures
+const WORDS_MS = 500;
+const SHARPEST = 2; // device pixels per CSS pixel, along each side
+
+/** The slice: a picture like that of ultrasound, drawn from the same moment as the 3-D view. */
+export function slice(host: HTMLElement, app: App, probe: Probe, close: () => void): void {
+  const canvas = element("canvas", {
+    tabindex: 0, role: "application", "aria-label": `Slice through the tissue. ${MARK}`,
+    "aria-describedby": "slice-words slice-help",
+  }); // biome-ignore format: short
+  const less = element("p", { class: "slice-less", role: "status", hidden: true }, "Less detail, to keep up");
+  const mark = element("p", { class: "slice-mark" }, MARK);
+  const words = element("p", { class: "slice-words", id: "slice-words" });
+  const help = element("p", { class: "only-read", id: "slice-help" }, PROBE_KEYS);
+
+  const moment = new Moment();
+  const quality = new Quality();
+  let built: { scene: SceneView; skin: SkinFrame; drawing: Drawing } | null = null;
+  let shown: Shown | null = null;
+  let drawn = "";
+  let drawnAt = 0;
+  let saidAt = 0;
+  let size = { width: 0, height: 0 };
+
+  const toNeedle = (across: boolean): void => {
+    if (built) probe.place.value = placeAtNeedle(built.skin, moment.tip, moment.axis, across, probe.place.value);
+  };
+  const picture = element("div", { class: "slice-picture" }, canvas, probeButtons(toNeedle, close), less, mark);
+  host.append(picture, words, probeSliders(probe), help);
+  probeKeys(canvas, probe, () => toNeedle(false));
+  probeDrag(canvas, probe, () => 1 / (shown?.frame.scale ?? 10));
+  new ResizeObserver(() => {
+    size = { width: picture.clientWidth, height: picture.clientHeight };
+    const ratio = Math.min(SHARPEST, window.devicePixelRatio || 1);
+    canvas.width = Math.max(1, Math.round(size.width * ratio));
+    canvas.height = Math.max(1, Math.round(size.height * ratio));
+    drawn = "";
+  }).observe(picture);
+
+  const build = (scene: SceneView): void => {
+    const first = built === null;
+    const skin = skinFrame(scene);
+    built = { scene, skin, drawing: new Drawing(scene, skin) };
+    drawn = "";
+    if (first) toNeedle(false);
+  };
+
+  everyFrame((now) => {
+    const source = app.source.value;
+    const scene = source.scene.value;
+    if (host.hidden || !scene || now - drawnAt < INTERVAL_MS || size.width < 20 || size.height < 20) return;
+    if (source.history.membranes !== scene.membranes.length || !moment.read(source)) return;
+    if (scene !== built?.scene) build(scene);
+    const place = probe.place.value;
+    const key = keyOf(moment, [place.x, place.z, place.turn, quality.level]);
+    if (key !== drawn && built) {
+      drawn = key;
+      drawnAt = now;
+      const before = performance.now();
+      shown = built.drawing.draw(canvas, size.width, size.height, moment, place, quality.pixels);
+      if (shown) probe.picture.value = samePicture(probe.picture.value, shown.frame);
+      if (quality.judge(performance.now() - before)) less.hidden = quality.level === 0;
+    }
+    if (shown && now - saidAt > WORDS_MS) {
+      saidAt = now;
+      const said = pictureWords(shown.span, shown.tissue, shown.dents, shown.rowHeight);
+      if (words.textContent !== said) words.textContent = said;
+    }
+  });
+}
+
+/** The values that the picture depends on, rounded to invisible steps. */
+function keyOf({ tip, axis, membranes }: Moment, other: readonly number[]): string {
+  const round = (values: readonly number[], step: number): string => values.map((v) => Math.round(v / step)).join();
+  const proxies = membranes.map(({ phase, proxy }) => `${phase}:${round(proxy.toArray(), 0.02)}`).join();
+  return `${round(tip.toArray(), 0.02)} ${round(axis.toArray(), 0.004)} ${round(other, 1e-3)} ${proxies}`;
+}
+
+/** The same object while the size stays, so that nobody is told of a change that is none. */
+function samePicture(
+  before: { width: number; depth: number } | null,
+  { width, depth }: { width: number; depth: number },
+): { width: number; depth: number } {
+  return before && before.width === width && before.depth === depth ? before : { width, depth };
+}
