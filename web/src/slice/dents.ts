@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import { BARRED, type Moment, OUTSIDE } from "../scene/moment.ts";
 import type { SlicePlane } from "../scene/probe.ts";
 
-/** Displacement of the tissue at the needle, by depth, and the needle that causes it, all in the picture's directions. */
+/** Displacement of the tissue at the needle by depth, and the needle that causes it, in the picture's directions. */
 export interface Dents {
   /** Along the picture, out of it and into the depth, mm: three numbers for each row of the picture. */
   readonly rows: Float32Array;
