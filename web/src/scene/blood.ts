@@ -1,8 +1,5 @@
 import { FrontSide, MeshBasicMaterial, type Vector3 } from "three";
-import type { LawCurve } from "../wire/messages.ts";
 import type { Membranes, Placed } from "./membranes.ts";
-import type { Moment } from "./moment.ts";
-import { BARRED, MM, OUTSIDE } from "./moment.ts";
 import { type FaceState, Slab } from "./slab.ts";
 import type { Theme } from "./theme.ts";
 
@@ -37,15 +34,6 @@ export class Blood {
     const deep = back.point.clone().sub(top).dot(front.normal);
     const faces: [FaceState, FaceState] = [front.faces[1], back.faces[0]];
     return this.slab.update(top, front.normal, deep, 0.985 * membranes.size, faces, 3, axis);
-  }
-
-  /** Whether the tip is past the front wall and not yet in the back wall. */
-  holdsTip(moment: Moment, laws: readonly LawCurve[]): boolean {
-    const [front, back] = this.walls ?? [-1, -1];
-    const state = moment.membranes[front];
-    const law = laws[front];
-    if (!state || !law || moment.membranes[back]?.phase !== OUTSIDE) return false;
-    return state.phase !== OUTSIDE && state.phase !== BARRED && state.depth > law.far_face * MM;
   }
 
   private placed({ placed }: Membranes): [Placed | undefined, Placed | undefined] {

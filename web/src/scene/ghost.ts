@@ -1,6 +1,9 @@
 import { Group, Mesh, MeshBasicMaterial, type Vector3 } from "three";
+import type { SceneView } from "../wire/messages.ts";
 import { placeNeedle } from "./bevel.ts";
 import { FatLine } from "./fat_line.ts";
+import { MM } from "./moment.ts";
+import { needleLook } from "./needle_look.ts";
 import { shaftShape } from "./needle_shape.ts";
 import type { Theme } from "./theme.ts";
 
@@ -21,10 +24,13 @@ export class Ghost {
     });
   }
 
-  build(diameter: number, tipLength: number, length: number): void {
+  build(scene: SceneView, length: number): void {
     for (const child of this.needle.children) if (child instanceof Mesh) child.geometry.dispose();
     this.needle.clear();
-    const mesh = new Mesh(shaftShape(diameter, tipLength, length), this.material);
+    const mesh = new Mesh(
+      shaftShape(scene.diameter * MM, scene.tip_length * MM, length, needleLook(scene)),
+      this.material,
+    );
     mesh.renderOrder = 2;
     this.needle.add(mesh);
   }

@@ -1,64 +1,90 @@
-import { CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshLambertMaterial, Vector2 } from "three";
+import {
+  BoxGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  LatheGeometry,
+  Mesh,
+  MeshLambertMaterial,
+  Vector2,
+} from "three";
+import { gaugeOf } from "./needle_gauge.ts";
+import type { NeedleLook } from "./needle_look.ts";
 import type { Theme } from "./theme.ts";
 
-const LENGTH = 9;
-const FLOW_MS = 350;
+export const HUB_MM = 9;
 
-/** The hub behind the shaft: clear plastic with a chamber that fills with blood while the tip is in the lumen. mm. */
+/** The hub's outline: pairs of radius and height, from the shaft to the rim, mm. */
+export function hubOutline(diameter: number): [number, number][] {
+  const neck = Math.max(0.9, diameter * 0.8);
+  return [
+    [diameter / 2, 0],
+    [neck, 0.05],
+    [neck * 1.15, 1.2],
+    [2.1, 2.4],
+    [2.2, HUB_MM - 1],
+    [2.9, HUB_MM - 0.9],
+    [2.9, HUB_MM],
+    [1.7, HUB_MM],
+  ];
+}
+
+/** Bottom, height and radius of the chamber in the hub, mm. */
+export const CHAMBER = { bottom: 2.2, height: HUB_MM - 3.4, radius: 1.6 } as const;
+
+/**
+ * The hub behind the shaft: plastic in the colour of the needle's gauge, with a chamber that fills with blood. It
+ * is clear if the needle has no gauge.
+ */
 export class Hub {
   readonly group = new Group();
   private readonly plastic = new MeshLambertMaterial({
     transparent: true,
-    opacity: 0.42,
+    opacity: 0.5,
     depthWrite: false,
     side: DoubleSide,
   });
   private readonly blood = new MeshLambertMaterial();
   private readonly body = new Mesh(new LatheGeometry(), this.plastic);
-  private readonly fill = new Mesh(new CylinderGeometry(1.6, 1.6, 1, 32).translate(0, 0.5, 0), this.blood);
-  private level = 0;
+  private readonly wings = new Mesh(new BoxGeometry(17, 5, 0.9), this.plastic);
+  private readonly fill = new Mesh(
+    new CylinderGeometry(CHAMBER.radius, CHAMBER.radius, 1, 32).translate(0, 0.5, 0),
+    this.blood,
+  );
+  private shade: number | null = null;
 
-  constructor(theme: Theme) {
+  constructor(private readonly theme: Theme) {
     this.body.renderOrder = 3;
-    this.fill.position.y = 2.2;
-    this.fill.visible = false;
-    this.group.add(this.body, this.fill);
+    this.wings.renderOrder = 3;
+    this.wings.position.y = HUB_MM - 3.5;
+    this.fill.position.y = CHAMBER.bottom;
+    this.group.add(this.body, this.wings, this.fill);
     this.group.rotation.x = Math.PI / 2; // built along y, placed along the shaft's z
-    theme.watch(() => {
-      this.plastic.color.copy(theme.color("quiet")).lerp(theme.color("panel"), theme.dark ? 0.1 : 0.35);
-      this.blood.color.copy(theme.color("blood"));
-    });
+    this.show(0);
+    theme.watch(() => this.paint());
   }
 
-  build(diameter: number): void {
-    const neck = Math.max(0.9, diameter * 0.8);
-    // Pairs of radius and height, from the shaft to the rim.
-    const profile: [number, number][] = [
-      [diameter / 2, 0],
-      [neck, 0.05],
-      [neck * 1.15, 1.2],
-      [2.1, 2.4],
-      [2.2, LENGTH - 1],
-      [2.9, LENGTH - 0.9],
-      [2.9, LENGTH],
-      [1.7, LENGTH],
-    ];
+  build(diameter: number, look: NeedleLook): void {
     this.body.geometry.dispose();
     this.body.geometry = new LatheGeometry(
-      profile.map(([r, z]) => new Vector2(r, z)),
+      hubOutline(diameter).map(([r, z]) => new Vector2(r, z)),
       40,
     );
+    this.wings.visible = look === "tuohy";
+    this.shade = gaugeOf(diameter)?.shade ?? null;
+    this.paint();
   }
 
-  /** Fills while `inLumen`, and drains more slowly. Returns whether the level changed. */
-  step(inLumen: boolean, elapsedMs: number): boolean {
-    const goal = inLumen ? 1 : 0;
-    if (this.level === goal) return false;
-    const part = 1 - Math.exp(-elapsedMs / (inLumen ? FLOW_MS : 4 * FLOW_MS));
-    this.level += part * (goal - this.level);
-    if (Math.abs(goal - this.level) < 0.01) this.level = goal;
-    this.fill.visible = this.level > 0.01;
-    this.fill.scale.y = Math.max(0.01, this.level * (LENGTH - 3.4));
-    return true;
+  /** Fills the chamber to a level from 0 to 1. */
+  show(level: number): void {
+    this.fill.visible = level > 0.01;
+    this.fill.scale.y = Math.max(0.01, level * CHAMBER.height);
+  }
+
+  private paint(): void {
+    const { theme } = this;
+    if (this.shade !== null) this.plastic.color.setHex(this.shade);
+    else this.plastic.color.copy(theme.color("quiet")).lerp(theme.color("panel"), theme.dark ? 0.1 : 0.35);
+    this.blood.color.copy(theme.color("blood"));
   }
 }

@@ -1,11 +1,48 @@
-import { Color, Group, Mesh, MeshLambertMaterial, type Vector3 } from "three";
+import {
+  Color,
+  CylinderGeometry,
+  Group,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  Vector3,
+} from "three";
+import type { LawCurve, SceneView } from "../wire/messages.ts";
 import { placeNeedle } from "./bevel.ts";
-import { Hub } from "./hub.ts";
+import { HUB_MM, Hub } from "./hub.ts";
+import { MM, type Moment } from "./moment.ts";
+import { Level } from "./needle_level.ts";
+import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
+import { atTip } from "./needle_space.ts";
+import { Syringe } from "./needle_syringe.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
 
 const EMPTY = new Color(0x23272d);
+const MARK_EVERY_MM = 10;
+const MOST_MARKS = 12;
+/** Shares of the way left, per second, and the plunger's whole way per second. Illustrative. */
+const FILLS = 2.9;
+const DRAINS = 0.7;
+const YIELDS = 1.1;
+
+/** Spaces into which the syringe empties. */
+const YIELDING: ReadonlySet<string> = new Set(["epidural space", "cerebrospinal fluid"]);
+
+/** What the hub and the syringe show. */
+export interface NeedleState {
+  readonly look: NeedleLook;
+  /** Outer diameter, mm. */
+  readonly diameter: number;
+  /** Levels from 0 to 1: of the blood in the hub, and of the plunger's way. */
+  readonly blood: number;
+  readonly pressed: number;
+  /** What the tip is in. */
+  readonly content: string;
+}
 
 /** The scene's needle with its true diameter and tip angle. The view chooses the length. mm, rad. */
 export class Needle {
@@ -14,21 +51,43 @@ export class Needle {
   private readonly shaft = new Mesh(undefined, steel(0.92));
   private readonly face = new Mesh(undefined, steel(1.15));
   private readonly bore = new Mesh(undefined, this.mouth);
+  private readonly marks = new InstancedMesh(
+    new CylinderGeometry(0.5, 0.5, 1, 32, 1, true).rotateX(Math.PI / 2),
+    new MeshBasicMaterial({ color: 0x30343a }),
+    MOST_MARKS,
+  );
   private readonly hub: Hub;
+  private readonly syringe: Syringe;
+  private readonly blood = new Level();
+  private readonly pressed = new Level();
+  private readonly middle = new Vector3();
+  private look: NeedleLook = "hypodermic";
+  private diameter = 1;
+  private content = "outside";
 
   constructor(private readonly theme: Theme) {
     this.hub = new Hub(theme);
+    this.syringe = new Syringe(theme);
+    this.hub.group.add(this.syringe.group);
+    this.syringe.group.position.y = HUB_MM - 1;
     this.group.matrixAutoUpdate = false;
-    this.group.add(this.shaft, this.face, this.bore, this.hub.group);
+    this.group.add(this.shaft, this.face, this.bore, this.marks, this.hub.group);
   }
 
-  build(diameter: number, tipLength: number, length: number): void {
+  build(scene: SceneView, length: number): void {
+    const diameter = scene.diameter * MM;
+    const tipLength = scene.tip_length * MM;
+    this.look = needleLook(scene);
+    this.diameter = diameter;
     for (const { geometry } of [this.shaft, this.face, this.bore]) geometry.dispose();
-    this.shaft.geometry = shaftShape(diameter, tipLength, length);
-    this.face.geometry = faceShape(diameter, tipLength, false);
-    this.bore.geometry = faceShape(diameter, tipLength, true);
-    this.hub.build(diameter);
-    this.hub.group.position.set(diameter / 2, 0, length);
+    this.shaft.geometry = shaftShape(diameter, tipLength, length, this.look);
+    this.face.geometry = faceShape(diameter, tipLength, false, this.look);
+    this.bore.geometry = faceShape(diameter, tipLength, true, this.look);
+    this.hub.build(diameter, this.look);
+    const middle = tipOffset(this.look) * diameter;
+    this.hub.group.position.set(middle, 0, length);
+    this.syringe.group.visible = this.look === "tuohy";
+    this.mark(middle, length);
   }
 
   place(tip: Vector3, axis: Vector3): void {
@@ -36,9 +95,46 @@ export class Needle {
     this.group.matrixWorldNeedsUpdate = true;
   }
 
-  /** Shows blood at the bore's mouth and in the hub. Returns whether the picture changes. */
-  step(inLumen: boolean, elapsedMs: number): boolean {
-    this.mouth.color.copy(inLumen ? this.theme.color("blood") : EMPTY);
-    return this.hub.step(inLumen, elapsedMs);
+  /** The middle of the hub, mm. */
+  hubMiddle(): Vector3 {
+    return this.middle
+      .set(0, HUB_MM / 2, 0)
+      .applyMatrix4(this.hub.group.matrix)
+      .applyMatrix4(this.group.matrix);
+  }
+
+  get state(): NeedleState {
+    const { look, diameter, content } = this;
+    return { look, diameter, content, blood: this.blood.value, pressed: this.pressed.value };
+  }
+
+  /** Shows blood at the bore's mouth and in the hub, and moves the plunger. Returns whether the picture changes. */
+  step(moment: Moment, scene: SceneView, laws: readonly LawCurve[]): boolean {
+    const { content, open } = atTip(moment, scene, laws);
+    const before = this.content;
+    this.content = content;
+    const bleeds = content === "blood";
+    this.mouth.color.copy(bleeds ? this.theme.color("blood") : EMPTY);
+    const filled = this.blood.step(bleeds ? 1 : 0, moment.time, bleeds ? FILLS : DRAINS);
+    // Saline that has left the syringe does not return: it is refilled when the needle is out of the tissue.
+    const yields = this.look === "tuohy" && YIELDING.has(content);
+    const goal = yields ? 1 : content === "outside" ? 0 : this.pressed.value;
+    const moved = this.pressed.step(goal, moment.time, yields ? YIELDS * open : 100, true);
+    if (filled) this.hub.show(this.blood.value);
+    if (moved) this.syringe.show(this.pressed.value);
+    return filled || moved || content !== before;
+  }
+
+  /** A ring at every centimetre from the tip, as on a Tuohy needle. */
+  private mark(middle: number, length: number): void {
+    const count = this.look === "tuohy" ? Math.min(MOST_MARKS, Math.ceil(length / MARK_EVERY_MM) - 1) : 0;
+    const wide = this.diameter * 1.02;
+    for (let i = 0; i < count; i++) {
+      const placed = new Matrix4().makeScale(wide, wide, 1).setPosition(middle, 0, (i + 1) * MARK_EVERY_MM);
+      this.marks.setMatrixAt(i, placed);
+    }
+    this.marks.count = count;
+    this.marks.instanceMatrix.needsUpdate = true;
+    this.marks.frustumCulled = false;
   }
 }

@@ -3,6 +3,7 @@ import { element, everyFrame, type Panel } from "../panel.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { gestures } from "./gestures.ts";
+import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
 import { needleGrip } from "./needle_grip.ts";
@@ -53,6 +54,7 @@ export const view: Panel = (host, app) => {
   const labels = new Labels(host);
   const world = new World(stage, labels, theme);
   const hand = handOf(app);
+  const showHub = hubInset(host);
   const drawScale = scaleBar(host);
   const speak = spoken(host);
   const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
@@ -85,13 +87,14 @@ export const view: Panel = (host, app) => {
     if (scene !== built) build(scene);
     const turned = orbit.step(elapsed);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
-    const changed = world.update(source, hand.target.value, orbit.camera, elapsed, pixel);
+    const changed = world.update(source, hand.target.value, orbit.camera, pixel);
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) {
       stage.rest(orbit.camera, now);
       return;
     }
     stage.draw(orbit.camera, now);
+    showHub(world.hiddenHub(orbit.camera));
     world.name(orbit.camera);
     drawScale(pixel);
     speak(world.moment, scene, now);

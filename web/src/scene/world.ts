@@ -10,10 +10,12 @@ import { Blood } from "./blood.ts";
 import { FatLine } from "./fat_line.ts";
 import { Ghost } from "./ghost.ts";
 import { Holes } from "./holes.ts";
+import { outOfView } from "./hub_inset.ts";
 import type { Labels } from "./labels.ts";
 import { Membranes } from "./membranes.ts";
 import { MM, Moment, OUTSIDE } from "./moment.ts";
-import { Needle } from "./needle.ts";
+import { Needle, type NeedleState } from "./needle.ts";
+import { needleLook } from "./needle_look.ts";
 import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
 import { TRAIL_SECONDS, Trail } from "./trail.ts";
@@ -63,8 +65,8 @@ export class World {
     if (before === shapeOf(scene)) return false;
     this.extent = extentOf(scene);
     const { length, size } = this.extent;
-    this.needle.build(scene.diameter * MM, scene.tip_length * MM, length);
-    this.ghost.build(scene.diameter * MM, scene.tip_length * MM, length);
+    this.needle.build(scene, length);
+    this.ghost.build(scene, length);
     this.membranes.build(scene, size);
     this.blood.build(scene.lumen);
     this.labels.clear();
@@ -73,13 +75,13 @@ export class World {
   }
 
   /** Updates everything to the source's shown tick. Returns whether the picture changes. pixel: its size, mm. */
-  update(source: Source, target: Pose | null, camera: Camera, elapsedMs: number, pixel: number): boolean {
+  update(source: Source, target: Pose | null, camera: Camera, pixel: number): boolean {
     const { moment, scene, extent } = this;
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
     changed = this.blood.update(this.membranes, moment.axis) || changed;
-    changed = this.needle.step(this.blood.holdsTip(moment, source.laws.value), elapsedMs) || changed;
+    changed = this.needle.step(moment, scene, source.laws.value) || changed;
     if (!this.differs(this.key(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
     this.trail.update(source, moment.tick, scene.rate);
@@ -122,6 +124,13 @@ export class World {
     this.entryEnd.copy(state.proxy).addScaledVector(state.direction, ahead);
   }
   private readonly entryEnd = new Vector3();
+
+  /** What the hub and the syringe show, if they show anything and are out of view. */
+  hiddenHub(camera: Camera): NeedleState | null {
+    const { state } = this.needle;
+    const shows = this.scene?.lumen.length || state.look === "tuohy";
+    return shows && outOfView(this.needle.hubMiddle(), camera) ? state : null;
+  }
 
   name(camera: Camera): void {
     const { labels, moment, stage } = this;
@@ -178,6 +187,7 @@ export class World {
 function shapeOf(scene: SceneView): string {
   const { diameter, tip_length, membranes, lumen } = scene;
   return JSON.stringify([
+    needleLook(scene),
     diameter,
     tip_length,
     lumen,
