@@ -51,6 +51,9 @@ def score(
     typer.echo(f"{result.title}: {result.verdict}")
     for reason in result.reasons:
         typer.echo(f"  {reason}")
+    for heading, remarks in (("What went well", result.coaching.good), ("Next time", result.coaching.change)):
+        for remark in remarks:
+            typer.echo(f"  {heading}: {remark.text}")
     width = max(len(state(goal)) for goal in result.goals)
     for goal in result.goals:
         typer.echo(f"  {state(goal):{width}}  {goal.text}")

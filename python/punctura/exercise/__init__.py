@@ -3,6 +3,7 @@
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.load import exercise_names, exercises, load_exercise
+from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.result import GoalState, Metrics, Overshoot, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
 from punctura.exercise.schema import exercise_json_schema
@@ -10,10 +11,12 @@ from punctura.exercise.score import score
 
 __all__ = [
     "Attempt",
+    "Coaching",
     "Exercise",
     "GoalState",
     "Metrics",
     "Overshoot",
+    "Remark",
     "Result",
     "ResultStore",
     "ResultsError",

@@ -13,10 +13,12 @@ from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
 from punctura.exercise.achievements import Achievement, StayJudge, achievement_of
+from punctura.exercise.coach import Coach
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.limit import Limit, Moment, first_of, moment
 from punctura.exercise.limits import limit_of
 from punctura.exercise.measures import Measures
+from punctura.exercise.remark import Coaching
 from punctura.exercise.result import GoalState, Result, Status
 from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
@@ -46,6 +48,7 @@ class Attempt:
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
         self._measures = Measures(scene, self._geometry, self._space, _windows(self._limits))
+        self._coach = Coach(exercise.file, scene, self._space)
         self._finder = EventFinder(scene, scene.servo.rate)
         self._events: list[Event] = []
         self._begun = False
@@ -98,6 +101,7 @@ class Attempt:
             events = [event for event in events if event.tick <= self._decision.tick]
         self._events += events
         self._measures.add(ticks, events)
+        self._coach.add(ticks, events)
         self._measures.settle(later)
         self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.behind])
 
@@ -188,6 +192,11 @@ class Attempt:
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
 
+    def _coaching(self) -> Coaching:
+        if self._invalid or self._measures.entries == 0:
+            return Coaching()
+        return self._coach.words(self._passed, self._decision, self._limits, self._achievements, self._measures)
+
     def finish(self, person: str = "", recording: str = "", date: datetime | None = None) -> Result:
         """The present result; an undecided attempt counts as given up. date: of the attempt; default now."""
         when = (date or datetime.now(timezone.utc)).astimezone(timezone.utc)
@@ -204,6 +213,7 @@ class Attempt:
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,
+            coaching=self._coaching(),
         )
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
 from punctura.events import Event
+from punctura.exercise.remark import Coaching
 
 FORMAT = 1
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -80,6 +81,7 @@ class Result(_Part):
     goals: list[GoalState]
     metrics: Metrics
     events: list[Event]
+    coaching: Coaching = Coaching()  # empty in results of earlier versions
 
     @property
     def unmeasured(self) -> list[str]:

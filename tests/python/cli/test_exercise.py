@@ -79,3 +79,12 @@ def test_what_cannot_be_scored_is_reported(punctura, recording, tmp_path):
     done = punctura("exercise", "score", recording, "--exercise", "none")
     assert done.returncode == 2 and "ready exercises: epidural, venipuncture" in done.stderr
     assert punctura("exercise").returncode == 2
+
+
+def test_the_coach_is_printed_with_the_score(punctura, recording):
+    said = punctura("exercise", "score", recording, "--exercise", "venipuncture").stdout
+    result = json.loads(punctura("exercise", "score", recording, "--exercise", "venipuncture", "--json").stdout)
+    change, good = result["coaching"]["change"], result["coaching"]["good"]
+    assert change[0]["about"] == "through" and 0 < change[0]["numbers"]["speed_m_s"] < 0.05
+    assert all(f"\n  Next time: {remark['text']}\n" in said for remark in change)
+    assert good and all(f"\n  What went well: {remark['text']}\n" in said for remark in good)

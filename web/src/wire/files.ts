@@ -77,6 +77,14 @@ export interface ExerciseResult {
   readonly goals: readonly ExerciseGoal[];
   readonly metrics: ExerciseMetrics;
   readonly events: readonly Omit<MembraneEvent, "kind">[];
+  /** The coach's sentences; missing in results of earlier versions. */
+  readonly coaching?: { readonly good: readonly Remark[]; readonly change: readonly Remark[] };
+}
+
+/** One sentence of the coach. */
+export interface Remark {
+  readonly about: string;
+  readonly text: string;
 }
 
 export interface ExerciseMetrics {

@@ -12,6 +12,7 @@ import {
 import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
+import { coachPart } from "./coach.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
@@ -47,6 +48,7 @@ export function openResult(
       element("p", { class: "quiet" }, [result.person, dateText(result.date)].filter(Boolean).join(" · ")),
     ),
     element("div", { class: "why" }, ...result.reasons.map((reason) => element("p", {}, reason))),
+    ...coachPart(result),
     element(
       "div",
       { class: "two" },

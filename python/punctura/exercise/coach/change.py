@@ -1,0 +1,181 @@
+"""What to change next time. Each function makes the sentences about one thing; ORDER has the most important first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from punctura.exercise.coach import thresholds as t
+from punctura.exercise.coach.seen import Seen, degrees, mm, newtons, speed, times
+from punctura.exercise.limits import EntriesJudge, ForceJudge, NeverPassJudge
+from punctura.exercise.remark import Remark
+from punctura.exercise.stop import StopJudge
+from punctura.exercise.words import tenths
+
+
+def went_through(seen: Seen) -> Iterator[Remark]:
+    last = seen.trace.last
+    for limit in seen.missed(NeverPassJudge):
+        if last.speed <= 0:
+            continue  # the readings before it are missing
+        since = None if seen.arrival is None or seen.decision is None else seen.decision.time - seen.arrival
+        if since is not None and since >= 2 * t.REACTION_S:
+            when, what = f", {tenths(since)} s after you reached {seen.space.name}", "draw back when the force grows"
+        else:
+            when, what = "", "push more slowly, so that you have time to stop"
+        text = (
+            f"You still moved in at {speed(last.speed)}, against {newtons(last.force)}, when the point went through "
+            f"the {limit.membrane}{when}: {what}."
+        )
+        numbers = {"speed_m_s": last.speed, "force_N": last.force}
+        yield Remark(about="through", text=text, numbers=numbers | ({} if since is None else {"after_s": since}))
+
+
+def went_too_far(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.missed(StopJudge):
+        for push, one in seen.stops(limit):
+            if one.distance <= limit.within:
+                continue
+            too_far = f"when the {limit.membrane} gave way, and went {mm(one.distance - limit.within)} too far"
+            # A moving hand goes on until it reacts. A hand that pushes without moving fast is let go by the wall.
+            if push.speed * t.REACTION_S >= one.distance / 2:
+                text = f"You moved at {speed(push.speed)} {too_far}: push more slowly when the resistance grows."
+            else:
+                text = f"You were still pushing with {newtons(push.force)} {too_far}: brace your hand earlier."
+            numbers = {
+                "speed_m_s": push.speed, "force_N": push.force, "distance_m": one.distance, "allowed_m": limit.within,
+            }  # fmt: skip
+            yield Remark(about="stop", text=text, numbers=numbers)
+
+
+def pushed_too_hard(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.missed(ForceJudge):
+        peak = seen.metrics.peak_force
+        text = (
+            f"You pushed with {newtons(peak)}; {newtons(limit.at_most)} are allowed: push more gently, and stop as "
+            "soon as a wall gives way."
+        )
+        yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": limit.at_most})
+
+
+def entered_again(seen: Seen) -> Iterator[Remark]:
+    again = seen.metrics.entries - 1
+    if again > 0 and any(isinstance(limit, EntriesJudge) for limit in seen.limits):
+        text = (
+            f"You came out of the {seen.first} and entered again {times(again)}: change the direction under the "
+            f"{seen.first}, and do not draw the tip out."
+        )
+        yield Remark(about="entries", text=text, numbers={"entries": again + 1})
+
+
+def wrong_angle(seen: Seen) -> Iterator[Remark]:
+    angle = seen.metrics.entry_angle
+    if angle is None or abs(angle - seen.angle) < math.radians(t.ANGLE_OFF_DEG):
+        return
+    way = "flatter" if angle > seen.angle else "steeper"
+    text = (
+        f"You entered at {degrees(angle)}; {degrees(seen.angle)} are asked: hold the needle "
+        f"{degrees(abs(angle - seen.angle))} {way}."
+    )
+    yield Remark(about="angle", text=text, numbers={"angle_rad": angle, "asked_rad": seen.angle})
+
+
+def too_short(seen: Seen) -> Iterator[Remark]:
+    """The needle, or its whole tip, never came into the space."""
+    space, trace = seen.space, seen.trace
+    if seen.passed or not (math.isfinite(trace.nearest) and math.isfinite(trace.tip_nearest)):
+        return
+    arrived = seen.arrival is not None
+    whole = space.stay_whole if arrived else space.arrive_whole
+    if arrived and (not space.stay_whole or seen.metrics.longest_stay > 0):
+        return
+    depth = space.begins if arrived or space.arrive_depth is None else space.arrive_depth
+    point_short = depth - trace.nearest
+    if point_short > 0.05e-3:
+        text = f"The point was never nearer to {space.name} than {mm(point_short)}: push on until {_sign(seen)}."
+        yield Remark(about="short", text=text, numbers={"short_m": point_short})
+        return
+    tip_short = depth - trace.tip_nearest
+    if whole and tip_short > 0.05e-3:
+        text = (
+            f"The point was in {space.name}, but the end of the tip was still {mm(tip_short)} outside: go on until "
+            f"the {seen.before} gives way."
+        )
+        yield Remark(about="short", text=text, numbers={"short_m": tip_short})
+
+
+def _sign(seen: Seen) -> str:
+    return f"you notice {seen.space.sign}" if seen.space.sign else f"the {seen.before} gives way"
+
+
+def pressed(seen: Seen) -> Iterator[Remark]:
+    trace = seen.trace
+    if trace.pressed_s < t.PRESSED_S or trace.pressed_m < 0.05e-3:
+        return
+    what = f"against the {seen.after}" if seen.after else "too deep"
+    text = (
+        f"You were {what} for {tenths(trace.pressed_s)} s, up to {mm(trace.pressed_m)} behind the end of "
+        f"{seen.space.name}: draw back as soon as "
+        + ("the force grows again." if seen.after else f"you are {mm(seen.space.ends)} past the {seen.before}.")
+    )
+    yield Remark(about="pressed", text=text, numbers={"pressed_s": trace.pressed_s, "pressed_m": trace.pressed_m})
+
+
+def left_the_space(seen: Seen) -> Iterator[Remark]:
+    if seen.stay is None or seen.stays < 2:
+        return
+    longest = seen.metrics.longest_stay
+    text = (
+        f"You left {seen.space.name} {times(seen.stays - 1)} before you had held for {seen.stay.seconds:g} s; your "
+        f"longest stay was {tenths(longest)} s: stop, rest your hand, and only then count."
+    )
+    yield Remark(about="left", text=text, numbers={"stays": seen.stays, "longest_s": longest})
+
+
+def trembled(seen: Seen) -> Iterator[Remark]:
+    hold = seen.hold
+    if hold is None:
+        return
+    if hold.tremor >= t.TREMOR_OFF_M:
+        text = f"The tip trembled by {hold.tremor * 1e3:.2f} mm (rms) while you held: rest your hand on the table."
+        yield Remark(about="tremor", text=text, numbers={"tremor_m": hold.tremor, "held_s": hold.seconds})
+    if hold.drift >= t.DRIFT_OFF_M:
+        text = f"The tip drifted by {mm(hold.drift)} while you held for {tenths(hold.seconds)} s: hold the depth."
+        yield Remark(about="drift", text=text, numbers={"drift_m": hold.drift, "held_s": hold.seconds})
+
+
+def paused(seen: Seen) -> Iterator[Remark]:
+    count, seconds = seen.pauses
+    if seconds >= t.PAUSES_S:
+        text = (
+            f"You stood still {times(count)} in the tissue on the way, for {tenths(seconds)} s together: push slowly "
+            "but without a pause."
+        )
+        yield Remark(about="pauses", text=text, numbers={"pauses": count, "paused_s": seconds})
+
+
+def went_aside(seen: Seen) -> Iterator[Remark]:
+    aside, straightness = seen.metrics.lateral_deviation, seen.metrics.straightness
+    if aside is None or straightness is None or (aside < t.ASIDE_OFF_M and straightness < t.CROOKED):
+        return
+    text = f"The tip went up to {mm(aside)} to the side of its line of entry: push along the needle."
+    yield Remark(about="aside", text=text, numbers={"aside_m": aside, "straightness": straightness})
+
+
+def nearly_too_far(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.kept(StopJudge):
+        for push, one in seen.stops(limit):
+            if one.distance >= t.NEAR_STOP * limit.within:
+                text = (
+                    f"You went {mm(one.distance)} past the {limit.membrane} when it gave way; {mm(limit.within)} are "
+                    f"allowed: you were pushing with {newtons(push.force)} at {speed(max(push.speed, 0.0))}, so brace "
+                    "your hand earlier."
+                )
+                numbers = {"distance_m": one.distance, "allowed_m": limit.within, "force_N": push.force}
+                yield Remark(about="stop", text=text, numbers=numbers)
+
+
+ORDER = (
+    went_through, went_too_far, pushed_too_hard, wrong_angle, too_short, pressed, left_the_space, entered_again,
+    nearly_too_far, trembled, paused, went_aside,
+)  # fmt: skip

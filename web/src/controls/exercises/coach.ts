@@ -1,0 +1,21 @@
+import { element } from "../../panel.ts";
+import type { ExerciseResult, Remark } from "../../wire/files.ts";
+
+/** What to change next time, and what went well. Empty if the coach has nothing to say. */
+export function coachPart({ coaching }: Pick<ExerciseResult, "coaching">): HTMLElement[] {
+  const part = (kind: string, title: string, remarks: readonly Remark[]): HTMLElement[] =>
+    remarks.length === 0
+      ? []
+      : [
+          element(
+            "section",
+            { class: `coach ${kind}` },
+            element("h3", {}, title),
+            element("ul", {}, ...remarks.map(({ text }) => element("li", {}, text))),
+          ),
+        ];
+  return [
+    ...part("change", "What to change next time", coaching?.change ?? []),
+    ...part("good", "What went well", coaching?.good ?? []),
+  ];
+}
