@@ -47,6 +47,7 @@ ROOMS = (
     "web/src/state",
     "web/src/panel.ts",
     "web/src/hand",
+    "web/src/pop",
     "web/src/plots",
     "web/src/scene",
     "web/src/slice",

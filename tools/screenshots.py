@@ -28,7 +28,8 @@ LAPTOP, TABLET = (1440, 900), (900, 1200)
 
 
 def tour(page: Page) -> None:
-    expect(page.get_by_role("dialog")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_role("region", name="Tour")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
 
 
 def popped(page: Page) -> None:
@@ -90,7 +91,7 @@ def exercise(page: Page) -> None:
 
 # name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...] = (
-    ("tour", "k06-fig10", tour, LAPTOP, "light"),
+    ("tour", "venipuncture", tour, LAPTOP, "light"),
     ("pop", "k06-fig10", popped, LAPTOP, "light"),
     ("pop-dark", "k06-fig10", popped, LAPTOP, "dark"),
     ("vein", "venipuncture", popped, LAPTOP, "light"),
@@ -113,6 +114,7 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
             context = browser.new_context(
                 viewport={"width": width, "height": height}, color_scheme=colours, reduced_motion="reduce"
             )
+            context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
             page = context.new_page()
             page.goto(studio.url, timeout=PATIENCE)
             act(page)

@@ -37,13 +37,14 @@ class StudioProcess:
         terminal: int | None = None,
         more: Sequence[str] = (),
     ) -> None:
-        """page: folder to serve in place of the studio's page. token: default: a new one.
+        """scene: may be empty. page: folder to serve in place of the studio's page. token: default: a new one.
 
         open_files: limit of the studio's open files, on POSIX; 0 for that of this process. terminal: descriptor for its
         standard error; `said` is then empty. more: options of `punctura run`.
         """
         self.recordings = folder / "recordings"
-        command = [sys.executable, "-m", "punctura.cli", "run", scene, "--no-browser", "--device", "simulated"]
+        command = [sys.executable, "-m", "punctura.cli", "run", *([scene] if scene else [])]
+        command += ["--no-browser", "--device", "simulated"]
         command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
         command += more
         home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}

@@ -27,7 +27,7 @@ from punctura.live import (
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
-USUAL_SCENE = "k06-fig10"
+USUAL_SCENE = "venipuncture"
 
 
 class Wishes(NamedTuple):

@@ -21,12 +21,26 @@ SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the sim
 REST_SHARE = 0.15  # share of a stroke's period for which the hand rests at each end
 LEAD_S = 1.0  # time in which the hand moves to the start of a motion
 FARTHEST = 0.5  # m from the origin
+VESSEL_ANGLE = math.radians(30)  # to the skin; the usual angle for drawing blood is 15 to 30 degrees
+VESSEL_GAP = 3e-3  # m along the needle to the skin
 
 
 def resting_pose(scene: Scene) -> Pose:
-    """The first pose of a hand: in front of all membranes, pointing into the first."""
-    inward = np.array(scene.membranes[0].inward_normal)
-    return stroke_ends(scene)[0], _triple(inward / np.linalg.norm(inward))
+    """The first pose of a hand: in front of all membranes, pointing into the first.
+
+    In a scene with blood, the needle is close to the skin, at 30 degrees to it, and points to the middle of the scene:
+    the slanted tip of an upright needle is longer than a vein is wide.
+    """
+    first = scene.membranes[0]
+    inward = np.array(first.inward_normal) / np.linalg.norm(first.inward_normal)
+    if scene.lumen is None:
+        return stroke_ends(scene)[0], _triple(inward)
+    right = np.array([0.0, 0.0, 1.0] if abs(inward[0]) > 0.9 else [1.0, 0.0, 0.0])
+    along = right - (right @ inward) * inward
+    axis = math.sin(VESSEL_ANGLE) * inward + math.cos(VESSEL_ANGLE) * along / np.linalg.norm(along)
+    behind = max(float((np.array(m.point) - first.point) @ inward) + m.membrane.thickness for m in scene.membranes)
+    ahead = behind / 2 / math.sin(VESSEL_ANGLE) + VESSEL_GAP
+    return _triple(np.array(first.point) + behind / 2 * inward - ahead * axis), _triple(axis)
 
 
 class Hand:
@@ -71,7 +85,8 @@ class Hand:
         """Strokes through all membranes and back, along the first normal. period: of one stroke in and out, s."""
         start, end = stroke_ends(scene)
         self._strokes = (np.array(start), np.array(end), period)
-        self._axis = resting_pose(scene)[1]
+        inward = np.array(scene.membranes[0].inward_normal)
+        self._axis = _triple(inward / np.linalg.norm(inward))
         self.mode, self._began, self._next = "strokes", now, now
 
     def motion(self, time: Array, position: Array, axis: Array, now: float) -> None:

@@ -205,7 +205,7 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed_signals
     )
     strong = "at most 3.3 N, 0.88 N rms in any 10 s"
-    assert process.stderr.readline() == f"punctura: K06 Fig. 10 on PHANTOM Omni, simulated, {strong}; Ctrl-C ends it\n"
+    assert process.stderr.readline() == f"punctura: Venipuncture on PHANTOM Omni, simulated, {strong}; Ctrl-C ends it\n"
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=60)
     assert said == ("punctura: interrupted\n" if name == "SIGINT" else f"punctura: ended by {name}; the force is off\n")

@@ -34,6 +34,17 @@ def test_it_rests_in_front_of_all_membranes_and_points_inward():
     assert place == pytest.approx((0, 5e-3, 0)) and axis == (0.0, -1.0, 0.0)
 
 
+def test_in_a_scene_with_blood_it_rests_close_to_the_skin_at_thirty_degrees():
+    scene = pn.load_scene("venipuncture")
+    place, axis = map(np.array, resting_pose(scene))
+    inward = np.array(scene.membranes[0].inward_normal)
+    assert np.degrees(np.arcsin(axis @ inward)) == pytest.approx(30)
+    height = (np.array(scene.membranes[0].point) - place) @ inward
+    assert height / (axis @ inward) == pytest.approx(3e-3), "3 mm along the needle"
+    middle = place + axis * (height + 4.31e-3) / (axis @ inward)  # half of the depth to the far side of the back wall
+    assert middle == pytest.approx((0, -4.31e-3, 0), abs=1e-9)
+
+
 def test_of_a_real_device_it_does_nothing():
     hand = Hand()
     hand.take(None, resting_pose(SCENE))

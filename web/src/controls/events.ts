@@ -1,5 +1,6 @@
 import { element } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
+import { showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { badge } from "./badge.ts";
@@ -14,6 +15,16 @@ export function eventList(app: App): HTMLElement {
   const empty = element("p", { class: "events-none" }, "No contact yet.");
   const spoken = element("p", { class: "only-read", "aria-live": "polite" });
 
+  const againButton = (event: MembraneEvent): HTMLButtonElement => {
+    const title = "Show the pop again, slowly";
+    const label = `${title}: ${event.name}, ${event.time.toFixed(3)} s`;
+    const act = (): boolean => showAgain(app, event);
+    return element(
+      "button",
+      { type: "button", class: "event-again", title, "aria-label": label, onclick: act },
+      "Again",
+    );
+  };
   const row = (event: MembraneEvent): HTMLLIElement => {
     const { word, force } = eventWords(event);
     const go = (): void => {
@@ -31,6 +42,7 @@ export function eventList(app: App): HTMLElement {
         element("span", { class: "event-what" }, word),
         element("span", { class: "event-force" }, force),
       ),
+      ...(event.what === "pop" ? [againButton(event)] : []),
     );
   };
 

@@ -30,7 +30,7 @@ export const headerBar: Panel = (host, app) => {
     connectionLine(app),
     element(
       "button",
-      { type: "button", class: "quiet-button", title: "A tour of the page in four steps", onclick: startTour },
+      { type: "button", class: "quiet-button", title: "Four things to do with the needle", onclick: startTour },
       "Tour",
     ),
     themeSwitch(),

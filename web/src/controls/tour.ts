@@ -1,106 +1,95 @@
-import { element, type Panel } from "../panel.ts";
-import { storage } from "./exercises/person.ts";
-import { placed } from "./tour/placing.ts";
-import { STEPS } from "./tour/steps.ts";
-
-const KEY = "punctura.tour";
+import { handOf } from "../hand/hand.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import { showAgain } from "../pop/again.ts";
+import type { App } from "../state/app.ts";
+import { remember, remembered } from "../state/remembered.ts";
+import { Progress, TASKS } from "./tour/progress.ts";
+import { instruction, NAMES } from "./tour/words.ts";
 
 let begin: () => void = () => {};
 
 /** Starts the tour from its first step, even if it was seen before. */
 export const startTour = (): void => begin();
 
-/** Four popovers next to the parts that they explain. The page works as usual meanwhile; Escape ends the tour. */
+/**
+ * Four things to do with the needle. Each is done when the ticks show it. The tour is a bar above the page, so it
+ * covers nothing. Escape ends it.
+ */
 export const tour: Panel = (root, app) => {
   let end: () => void = () => {};
   begin = () => {
     end();
-    end = show(root, () => storage()?.setItem(KEY, "seen"));
+    app.source.value = app.live;
+    handOf(app).home();
+    end = show(root, app);
   };
-  if (storage()?.getItem(KEY)) return;
-  // It starts with the first scene, when there is something to see.
+  if (remembered("tour")) return;
+  // It starts with the first scene, when there is something to do.
   const stop = app.live.scene.watch((scene) => {
     if (!scene) return;
     setTimeout(() => {
       stop();
-      begin();
+      end = show(root, app);
     });
   });
 };
 
-function show(root: HTMLElement, seen: () => void): () => void {
-  let at = 0;
-  const before = document.activeElement;
-  const title = element("h2", { id: "tour-title" });
-  const text = element("p", { id: "tour-text" });
-  const count = element("span", { class: "count" });
-  const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
-    element("button", { type: "button", class: kind, onclick: act }, label);
-  const back = button("Back", () => go(at - 1));
-  const next = button("Next", () => (at === STEPS.length - 1 ? close() : go(at + 1)), "primary");
-  const skip = button("Skip", () => close());
-  const box = element(
-    "div",
-    { class: "tour", role: "dialog", "aria-labelledby": "tour-title", "aria-describedby": "tour-text" },
-    title,
-    text,
-    element("div", { class: "row" }, count, skip, back, next),
+function show(root: HTMLElement, app: App): () => void {
+  const hand = handOf(app);
+  const progress = new Progress();
+  const steps = NAMES.map((name) => element("li", {}, name));
+  const words = element("p", { "aria-live": "polite" });
+  const again = element("button", { type: "button", hidden: true }, "Show the pop again, slowly");
+  const close = element("button", { type: "button" }, "Skip the tour");
+  const bar = element(
+    "section",
+    { class: "tour", "aria-label": "Tour" },
+    element("ol", {}, ...steps),
+    words,
+    again,
+    close,
   );
-
-  const place = (): void => {
-    const target = targetOf(root, at);
-    root.querySelectorAll(".toured").forEach((each) => {
-      if (each !== target) each.classList.remove("toured");
+  const tell = (): void => {
+    const { done, ready } = progress;
+    steps.forEach((step, i) => {
+      step.className = i < done ? "done" : "";
+      if (i === done && ready) step.setAttribute("aria-current", "step");
+      else step.removeAttribute("aria-current");
     });
-    target?.classList.add("toured");
-    const to = target?.getBoundingClientRect() ?? new DOMRect(innerWidth / 2, innerHeight / 2, 0, 0);
-    const { left, top, side } = placed(
-      to,
-      { width: box.offsetWidth, height: box.offsetHeight },
-      { width: innerWidth, height: innerHeight },
-    );
-    box.style.left = `${left}px`;
-    box.style.top = `${top}px`;
-    box.dataset.side = side;
+    const simulated = app.hello.value?.device.simulated ?? true;
+    const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";
+    const text = (simulated ? hand.barred.value : null) ?? instruction(progress, skin, simulated);
+    if (words.textContent !== text) words.textContent = text;
+    again.hidden = done < TASKS.length || progress.pop === null;
+    close.textContent = done < TASKS.length ? "Skip the tour" : "Done";
+    if (done === TASKS.length) remember("tour", "seen");
   };
-  const go = (to: number): void => {
-    at = Math.min(Math.max(to, 0), STEPS.length - 1);
-    const step = STEPS[at]!;
-    title.textContent = step.title;
-    text.textContent = step.text;
-    count.textContent = `${at + 1} of ${STEPS.length}`;
-    back.disabled = at === 0;
-    next.textContent = at === STEPS.length - 1 ? "Done" : "Next";
-    skip.hidden = at === STEPS.length - 1;
-    if (step.tab) root.querySelector<HTMLElement>(`#tab-${step.tab}`)?.click();
-    targetOf(root, at)?.scrollIntoView({ block: "nearest" });
-    place();
-  };
-  const close = (): void => {
-    seen();
-    window.removeEventListener("resize", place);
-    window.removeEventListener("scroll", place, true);
+  again.addEventListener("click", () => {
+    if (progress.pop) showAgain(app, progress.pop);
+  });
+  const ends = [
+    hand.barred.watch(tell),
+    app.live.scene.watch(tell),
+    app.exercise.watch((exercise) => {
+      bar.hidden = exercise?.running ?? false; // an exercise has instructions of its own
+    }),
+    everyFrame(() => {
+      if (!bar.hidden && app.live.history.length && progress.follow(app.live)) tell();
+    }),
+  ];
+  const finish = (): void => {
+    remember("tour", "seen");
+    for (const end of ends) end();
     document.removeEventListener("keydown", keys);
-    root.querySelector(".toured")?.classList.remove("toured");
-    const hadFocus = box.contains(document.activeElement);
-    box.remove();
-    if (hadFocus && before instanceof HTMLElement) before.focus();
+    document.documentElement.classList.remove("touring");
+    bar.remove();
   };
   const keys = (event: KeyboardEvent): void => {
-    if (event.key === "Escape" && !document.querySelector("dialog[open]")) close();
+    if (event.key === "Escape" && !document.querySelector("dialog[open]")) finish();
   };
-  window.addEventListener("resize", place);
-  window.addEventListener("scroll", place, true);
+  close.addEventListener("click", finish);
   document.addEventListener("keydown", keys);
-  root.prepend(box); // first in the order of the tab key
-  go(0);
-  return close;
-}
-
-function targetOf(root: HTMLElement, at: number): HTMLElement | null {
-  for (const selector of STEPS[at]?.at ?? []) {
-    const found = root.querySelector<HTMLElement>(selector);
-    if (found && found.offsetParent !== null) return found;
-  }
-  return null;
+  document.documentElement.classList.add("touring");
+  root.before(bar);
+  return finish;
 }

@@ -52,6 +52,11 @@ export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolea
   return true;
 }
 
+/** Vibrates a phone: longer for a larger drop of force, N. Browsers allow it after a touch of the page. */
+export function buzz(drop: number): void {
+  if (navigator.userActivation?.hasBeenActive) navigator.vibrate?.(20 + 40 * Math.min(1, Math.abs(drop) / FULL_DROP));
+}
+
 /** Vibrates in proportion to the drop of force, N, if gamepad and browser can. */
 export function rumble(pad: Gamepad, drop: number): void {
   const strong = Math.min(1, 0.3 + Math.abs(drop) / FULL_DROP);

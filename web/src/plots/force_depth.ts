@@ -156,7 +156,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     const { source } = plots;
     const { history } = source;
     const backState = [
-      ...[changes, surface.sizes, history.generation, laws, source.title, plots.span.value],
+      ...[changes, surface.sizes, history.generation, source.events.value.length, laws, source.title, plots.span.value],
       ...[plots.zoom.value?.from, plots.zoom.value?.to, source.live ? "" : source.cursor.value],
     ].join(" ");
     const state = `${backState} ${surface.changes} ${history.end} ${plots.pointed.value}`;

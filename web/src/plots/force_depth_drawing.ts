@@ -10,6 +10,7 @@ import { drawKey, type KeyEntry, otherName } from "./key.ts";
 import { Painted } from "./painted.ts";
 import type { Pen, Stroke } from "./pen.ts";
 import { Polyline } from "./polyline.ts";
+import { drawPops } from "./pop_marks.ts";
 import { colourOf, type Theme } from "./theme.ts";
 
 const MM = 1e3;
@@ -61,6 +62,7 @@ export class ForceDepthDrawing {
       this.drawOther(pen, source, window.first, end, membranes, theme);
       for (const i of membranes) this.drawHistory(pen, picture, i, theme);
     });
+    drawPops(pen, this.pane, picture, theme);
   }
 
   /** Draws the foreground: the new ticks, from the tick `from` on, the present tick and the pointed tick. */

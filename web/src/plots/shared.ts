@@ -1,8 +1,8 @@
 import type { App } from "../state/app.ts";
+import { frozenCopy } from "../state/frozen.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { Source } from "../state/source.ts";
-import { frozenCopy } from "./freeze.ts";
 import { Window } from "./window.ts";
 
 export const SPANS = [2, 5, 20, 80] as const; // s
@@ -36,10 +36,12 @@ export class Plots {
   update(): Window {
     const { source, window } = this;
     const zoom = this.zoom.value;
-    if (zoom) window.set(source.history, zoom.from, zoom.to);
+    const { excerpt, history } = source;
+    if (zoom) window.set(history, zoom.from, zoom.to);
+    else if (excerpt) window.set(history, history.timeOf(excerpt.first), history.timeOf(excerpt.last));
     else
       window.follow(
-        source.history,
+        history,
         source.shown(),
         this.span.value,
         source.live || this.frozen.value !== null,

@@ -1,6 +1,7 @@
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { MARGIN } from "./axes.ts";
 import { keyTick } from "./keys.ts";
+import { popCallout } from "./pop_callout.ts";
 import { reading } from "./reading.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
 import { Surface } from "./surface.ts";
@@ -89,6 +90,7 @@ export const timePlots: Panel = (host, app) => {
     theme = now;
     changes++;
   });
+  const callOut = popCallout(body, app);
 
   const point = (): void => {
     const { pointer } = surface;
@@ -120,6 +122,7 @@ export const timePlots: Panel = (host, app) => {
       drawing.drawBack(surface.beginBack(), picture(), theme);
     }
     point();
+    callOut(drawing.force);
     const pen = surface.begin();
     drawing.drawFront(pen, picture(), backEnd, theme);
     if (surface.box) {

@@ -6,6 +6,7 @@ import { MARGIN, type Pane } from "./axes.ts";
 import { drawShade, type KeyEntry } from "./key.ts";
 import { labelsThatFit, popLabel } from "./marks.ts";
 import type { Pen } from "./pen.ts";
+import { drawDrop } from "./pop_marks.ts";
 import { eachLimit, eachState, STATE_WORDS, type State } from "./states.ts";
 import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
@@ -77,8 +78,10 @@ export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, wi
       const x = at(event);
       const colour = colourOf(theme, event.membrane);
       const y = force.y.px(0);
-      if (event.what === "pop") pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.45, dash: [2, 3] });
-      else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
+      if (event.what === "pop") {
+        pen.segment(x, force.top, x, bottom, { colour, width: 1, alpha: 0.45, dash: [2, 3] });
+        drawDrop(pen, force, x, event, theme);
+      } else pen.segment(x, y - 4, x, y + 4, { colour, width: 1.5, alpha: 0.9 });
     }
   });
   const pops = inside.filter((event) => event.what === "pop");

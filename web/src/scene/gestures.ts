@@ -1,7 +1,10 @@
 /** Actions of a pointer over the view. Positions are CSS pixels from the view's upper left corner. */
 export interface GestureHandler {
-  /** Returns false if the needle cannot be grabbed; the gesture then orbits the scene. */
-  grab(x: number, y: number): boolean;
+  /**
+   * The following drags move the needle along its own line, or in a plane if `sideways`. Returns false if the needle
+   * cannot be grabbed; the gesture then orbits the scene.
+   */
+  grab(x: number, y: number, sideways: boolean): boolean;
   drag(x: number, y: number): void;
   release(): void;
   orbit(dx: number, dy: number): void;
@@ -14,7 +17,10 @@ export interface GestureHandler {
 type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
 const MM_PER_WHEEL_PIXEL = 0.004;
 
-/** One finger or the left button moves the needle. The right button, Shift or two fingers move the camera. */
+/**
+ * One finger or the left button moves the needle along its line; with Shift, also sideways. The right button or two
+ * fingers orbit the scene.
+ */
 export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel(): void } {
   const pointers = new Map<number, { x: number; y: number }>();
   let mode: Mode = "none";
@@ -36,8 +42,8 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
     if (pointers.size === 2) enter("pinch");
     else if (pointers.size > 2) enter("none");
     else if (event.button === 1) enter("pan");
-    else if (event.button === 2 || event.shiftKey) enter("orbit");
-    else enter(handler.grab(point.x, point.y) ? "needle" : "orbit");
+    else if (event.button === 2) enter("orbit");
+    else enter(handler.grab(point.x, point.y, event.shiftKey) ? "needle" : "orbit");
     if (event.button === 1) event.preventDefault();
   });
 

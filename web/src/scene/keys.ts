@@ -14,10 +14,11 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["Home", "in front of the first membrane, aimed at its centre"],
   ["+ −", "zoom in, out"],
   ["A D W S", "orbit the scene"],
+  ["R", "show the last pop again, slowly"],
 ];
 
 /** Handles keys while the view has the focus. */
-export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): void {
+export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, again: () => void): void {
   let run = hand.run; // the run in which the last key was pressed
   canvas.addEventListener("keydown", (event) => {
     if (!event.repeat) run = hand.run;
@@ -38,6 +39,7 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera): v
       d: () => orbit.orbit(12, 0),
       w: () => orbit.orbit(0, 12),
       s: () => orbit.orbit(0, -12),
+      r: again,
     };
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;

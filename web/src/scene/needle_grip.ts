@@ -1,32 +1,60 @@
-import { Vector3 } from "three";
+import { type Camera, Vector3 } from "three";
 import type { Hand } from "../hand/hand.ts";
+import { alongNeedle } from "./along.ts";
 import type { OrbitCamera } from "./camera.ts";
 import type { GestureHandler } from "./gestures.ts";
 import { MM } from "./moment.ts";
 import type { Stage } from "./stage.ts";
 import type { World } from "./world.ts";
 
-/** Turns gestures into moves of the hand and the camera. The hand keeps its offset to the pointer. */
-export function needleGrip(hand: Hand, orbit: OrbitCamera, world: World, stage: Stage): GestureHandler {
-  const plane = new Vector3();
+type Pixels = readonly [x: number, y: number];
+
+/**
+ * Turns gestures into moves of the hand and the camera. The hand keeps its offset to the pointer. free: whether a drag
+ * also moves sideways without Shift.
+ */
+export function needleGrip(
+  hand: Hand,
+  orbit: OrbitCamera,
+  world: World,
+  stage: Stage,
+  free: () => boolean,
+): GestureHandler {
+  const start = new Vector3(); // of the hand, mm
   const offset = new Vector3();
   const axis = new Vector3();
-  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(plane, axis, x, y, stage.width, stage.height);
+  let sideways = false;
+  let from: Pixels = [0, 0];
+  let inward: Pixels = [0, 0];
+  let pixel = 1;
+  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(start, axis, x, y, stage.width, stage.height);
+  const onScreen = (point: Vector3, camera: Camera): Pixels => {
+    const { x, y } = point.clone().project(camera);
+    return [((x + 1) / 2) * stage.width, ((1 - y) / 2) * stage.height];
+  };
   return {
-    grab(x, y) {
+    grab(x, y, shift) {
       const pose = hand.barred.value ? null : hand.pose();
       if (!pose) return false;
-      plane.set(...pose.position).multiplyScalar(MM);
+      start.set(...pose.position).multiplyScalar(MM);
       axis.set(...pose.axis).normalize();
-      const pointer = at(x, y);
+      sideways = shift || free();
+      const pointer = sideways ? at(x, y) : start;
       if (!pointer) return false;
-      offset.subVectors(plane, pointer);
+      offset.subVectors(start, pointer);
+      from = [x, y];
+      const here = onScreen(start, orbit.camera);
+      const deeper = onScreen(start.clone().add(axis), orbit.camera);
+      inward = [deeper[0] - here[0], deeper[1] - here[1]];
+      pixel = orbit.mmPerPixel(start, stage.height);
       hand.moveTo(pose.position);
       return true;
     },
     drag(x, y) {
-      const to = at(x, y)?.add(offset).divideScalar(MM);
-      if (to) hand.moveTo([to.x, to.y, to.z]);
+      const to = sideways
+        ? at(x, y)?.add(offset)
+        : start.clone().addScaledVector(axis, alongNeedle([x - from[0], y - from[1]], inward, pixel));
+      if (to) hand.moveTo([to.x / MM, to.y / MM, to.z / MM]);
     },
     release() {},
     orbit: (dx, dy) => orbit.orbit(dx, dy),

@@ -1,22 +1,24 @@
 import { handOf } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
+import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
+import { gestureWords } from "./gesture_words.ts";
 import { gestures } from "./gestures.ts";
 import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
 import { needleGrip } from "./needle_grip.ts";
+import { popRing } from "./pop_ring.ts";
 import { presets } from "./presets.ts";
 import { scaleBar } from "./scale_bar.ts";
+import { sentence } from "./sentence.ts";
+import { sidewaysButton } from "./sideways.ts";
 import { spoken } from "./spoken.ts";
 import { Stage } from "./stage.ts";
 import { Theme } from "./theme.ts";
 import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
-
-const GESTURES =
-  "Drag: needle · right-drag, Shift-drag or 2 fingers: orbit · wheel, ↓ ↑: along the needle · Ctrl-wheel: zoom";
 
 /** The 3D view of the needle and the membranes. It draws only after a change, at most once per frame. */
 export const view: Panel = (host, app) => {
@@ -24,7 +26,7 @@ export const view: Panel = (host, app) => {
     tabindex: 0, role: "application", "aria-label": "3D view of the needle and the membranes",
     "aria-describedby": "view-help",
   }); // biome-ignore format: short
-  const help = element("p", { class: "view-help", id: "view-help" }, GESTURES);
+  const help = element("p", { class: "view-help", id: "view-help" }, ...gestureWords());
   host.append(canvas, help);
   const theme = new Theme();
   const orbit = new OrbitCamera();
@@ -58,14 +60,17 @@ export const view: Panel = (host, app) => {
   const drawScale = scaleBar(host);
   const speak = spoken(host);
   const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
-  presets(host, look, (factor) => orbit.zoom(factor));
-  const drag = gestures(canvas, needleGrip(hand, orbit, world, stage));
+  const bar = presets(host, look, (factor) => orbit.zoom(factor));
+  const free = sidewaysButton(bar, hand);
+  const drawRing = popRing(host);
+  sentence(host, app);
+  const drag = gestures(canvas, needleGrip(hand, orbit, world, stage, free));
   // A drag from the last run would pull the new run's needle to the old place.
   app.run.watch(() => drag.cancel());
   hand.barred.watch((why) => {
     if (why !== null) drag.cancel();
   });
-  viewKeys(canvas, hand, orbit);
+  viewKeys(canvas, hand, orbit, () => showLastAgain(app));
 
   let built: SceneView | null = null;
   const build = (scene: SceneView): void => {
@@ -88,6 +93,8 @@ export const view: Panel = (host, app) => {
     const turned = orbit.step(elapsed);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
     const changed = world.update(source, hand.target.value, orbit.camera, pixel);
+    drawRing(source, scene, orbit.camera);
+    canvas.dataset.tick = source.live ? "" : String(world.moment.tick); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) {
       stage.rest(orbit.camera, now);

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { difference } from "../../src/plots/difference.ts";
-import { frozenCopy } from "../../src/plots/freeze.ts";
 import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "../../src/plots/gather.ts";
 import { eachState } from "../../src/plots/states.ts";
+import { frozenCopy } from "../../src/state/frozen.ts";
 import { Source } from "../../src/state/source.ts";
 import { batch, history } from "../support/fill_history.ts";
 

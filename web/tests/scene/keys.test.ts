@@ -7,7 +7,7 @@ it("a key that was held when a new run began moves nothing until it is pressed a
   const canvas = new EventTarget();
   const pushed: number[] = [];
   const hand = { run: 0, push: (depth: number) => pushed.push(depth) };
-  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera);
+  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {});
   const press = (repeat: boolean): void => {
     canvas.dispatchEvent(Object.assign(new Event("keydown", { cancelable: true }), { key: "ArrowDown", repeat }));
   };

@@ -1,13 +1,13 @@
-import { firstGamepad, rumble, Sticks } from "../../hand/gamepad.ts";
+import { buzz, firstGamepad, rumble, Sticks } from "../../hand/gamepad.ts";
 import type { Hand } from "../../hand/hand.ts";
 import { element, everyFrame } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { Felt } from "./felt.ts";
-import { Sound } from "./sound.ts";
+import { soundOf } from "./sound.ts";
 
 /** Gamepad and sound; sound also works for recordings. */
 export function senseRows(app: App, hand: Hand): HTMLElement {
-  const sound = new Sound();
+  const sound = soundOf(app);
   const felt = new Felt();
   const sticks = new Sticks(hand);
   const pad = element("output", { class: "pad-name" });
@@ -17,13 +17,15 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     sound.loudness = Number(loud.value);
   });
   const show = (): void => {
-    toggle.setAttribute("aria-pressed", String(sound.on));
-    toggle.textContent = sound.on ? "Sound is on" : "Sound is off";
+    const on = sound.wanted.value === true;
+    toggle.setAttribute("aria-pressed", String(on));
+    toggle.textContent = on ? "Sound is on" : "Sound is off";
   };
   toggle.addEventListener("click", () => {
-    const done = sound.on ? sound.switchOff() : sound.switchOn();
-    void done.then(show, () => app.say("This browser does not let the page play sound."));
+    const done = sound.wanted.value ? sound.switchOff() : sound.switchOn();
+    void done.catch(() => app.say("This browser does not let the page play sound."));
   });
+  sound.wanted.watch(show);
 
   let before = performance.now();
   let name = "";
@@ -36,6 +38,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     for (const pop of felt.pops(source)) {
       sound.click(pop.drop);
       if (found) rumble(found, pop.drop);
+      buzz(pop.drop);
     }
     if (sound.on) sound.setFriction(source.cursor.value === null || !source.live ? felt.power(source) : 0);
     const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press a button on it";

@@ -1,13 +1,20 @@
+import { onePerApp } from "../../state/one_per_app.ts";
+import { remember, remembered } from "../../state/remembered.ts";
+import { Signal } from "../../state/signal.ts";
+
 const LOUD_WATT = 0.012; // W, full volume: friction of 0.5 N at 25 mm/s
 const FOLLOW_S = 0.03;
 const CLICK_S = 0.09;
 const FULL_DROP = 0.5; // N
+const GESTURES = ["pointerup", "keydown"] as const; // with which a browser lets a page play sound
 
 /**
  * Plays friction as noise and pops as clicks. The volume follows the friction's power and the pop's drop. The audio
  * context is created when sound is first switched on.
  */
 export class Sound {
+  /** The user's answer; null before it. This browser remembers it. */
+  readonly wanted = new Signal<boolean | null>(null);
   private context: AudioContext | null = null;
   private friction: GainNode | null = null;
   private tone: BiquadFilterNode | null = null;
@@ -15,17 +22,43 @@ export class Sound {
   private noise: AudioBuffer | null = null;
   private volume = 0.6;
 
+  constructor() {
+    const answer = remembered("sound");
+    if (answer !== null) this.wanted.value = answer === "on";
+    if (this.wanted.value) this.startAtGesture();
+  }
+
   get on(): boolean {
     return this.context?.state === "running";
   }
 
   /** Call it from a click: browsers block sound that the user did not start. */
   async switchOn(): Promise<void> {
+    this.answer(true);
+    await this.start();
+  }
+  async switchOff(): Promise<void> {
+    this.answer(false);
+    await this.context?.suspend();
+  }
+
+  private answer(on: boolean): void {
+    remember("sound", on ? "on" : "off");
+    this.wanted.value = on;
+  }
+
+  private async start(): Promise<void> {
     if (!this.context) this.make();
     await this.context?.resume();
   }
-  async switchOff(): Promise<void> {
-    await this.context?.suspend();
+
+  /** A sound that an earlier visit asked for begins with the first click or key of this one. */
+  private startAtGesture(): void {
+    const begin = (): void => {
+      for (const type of GESTURES) document.removeEventListener(type, begin, true);
+      if (this.wanted.value) void this.start().catch(() => {});
+    };
+    for (const type of GESTURES) document.addEventListener(type, begin, true);
   }
 
   /** 0 to 1. */
@@ -79,3 +112,6 @@ export class Sound {
     thump.stop(now + CLICK_S);
   }
 }
+
+/** The sound of this page. */
+export const soundOf = onePerApp(() => new Sound());

@@ -1,48 +1,56 @@
 import { element, everyFrame, type Panel } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
-import { Playback, SPEEDS } from "./playback.ts";
+import { Playback } from "./playback.ts";
+import { showingOf } from "./showing.ts";
 import { eventText } from "./words.ts";
 
-/** The replay bar: name, scrubber and Back to live. Hidden while the live run is shown. */
+const REST_MS = 1500; // after the end of an excerpt, before the page goes back by itself
+
+/** The replay bar: name, scrubber and the way back. Hidden while the live run is shown. */
 export const playerBar: Panel = (host, app) => {
   host.hidden = true;
   let close = (): void => {};
+  let before: Source | null = null;
   app.source.watch((source) => {
     close();
+    // Back from an excerpt, a recording goes on where it was.
+    const from = before?.excerpt?.of === source ? source.cursor.value : null;
+    before = source;
     close = (): void => {};
     host.replaceChildren();
     host.hidden = source.live;
     document.documentElement.classList.toggle("replaying", !source.live);
-    if (!source.live) close = fill(host, app, source);
+    if (!source.live) close = fill(host, app, source, from);
   });
 };
 
-function fill(host: HTMLElement, app: App, source: Source): () => void {
-  const { history } = source;
-  const playback = new Playback(
-    history.first,
-    Math.max(history.end - 1, history.first),
-    source.scene.value?.rate ?? 1600,
-  );
-  const start = history.timeOf(history.first);
-  const total = (history.timeOf(history.end - 1) - start).toFixed(3);
+/** from: the tick to begin at; null: the first, and it plays. */
+function fill(host: HTMLElement, app: App, source: Source, from: number | null): () => void {
+  const showing = showingOf(app, source);
+  const playback = new Playback(showing.first, showing.last, source.scene.value?.rate ?? 1600);
+  playback.speed = showing.speed;
+  let used = false; // whether the user has used the bar
+  let rested = 0; // ms since the end
 
   const button = (label: string, words: string, act: () => void): HTMLButtonElement =>
     element("button", { type: "button", class: "small", title: words, "aria-label": words, onclick: act }, label);
   const play = button("▶", "Play (space)", () => {
+    used = true;
     if (playback.playing) playback.pause();
     else playback.play();
     show();
   });
   const go = (tick: number | null): void => {
     if (tick === null) return;
+    used = true;
     playback.pause();
     playback.seek(tick);
     show();
   };
   const stepped = (ticks: number) => (): void => go(playback.tick + ticks);
-  const events = (): number[] => source.events.value.map(({ tick }) => tick);
+  const events = (): number[] =>
+    source.events.value.map(({ tick }) => tick).filter((tick) => tick >= playback.first && tick <= playback.last);
   const track = element("input", {
     type: "range",
     min: playback.first,
@@ -54,17 +62,19 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
   const marks = element("div", { class: "marks", "aria-hidden": "true" });
   const time = element("output", { class: "time" });
   const speed = element("select", { "aria-label": "Speed" });
-  for (const each of SPEEDS) speed.append(element("option", { value: each, selected: each === 1 }, `${each}×`));
+  for (const [each, words] of showing.speeds)
+    speed.append(element("option", { value: each, selected: Math.abs(each - showing.speed) < 1e-9 }, words));
   speed.addEventListener("change", () => {
-    playback.speed = Number(speed.value);
+    showing.speed = Number(speed.value);
+    playback.speed = showing.speed;
+    if (showing.goesBack && playback.atEnd) playback.play();
   });
 
   const show = (): void => {
-    const now = history.timeOf(playback.tick) - start;
     source.cursor.value = playback.tick;
     track.value = String(playback.tick);
-    track.setAttribute("aria-valuetext", `${now.toFixed(3)} of ${total} seconds`);
-    time.textContent = `${now.toFixed(3).padStart(total.length, " ")} / ${total} s`;
+    track.setAttribute("aria-valuetext", showing.spokenTime(playback.tick));
+    time.textContent = showing.time(playback.tick);
     play.textContent = playback.playing ? "❚❚" : "▶";
     const words = playback.playing ? "Pause (space)" : "Play (space)";
     if (play.title !== words) {
@@ -74,6 +84,7 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
   };
   const span = Math.max(playback.last - playback.first, 1);
   for (const event of source.events.value) {
+    if (event.tick < playback.first || event.tick > playback.last) continue;
     const mark = element("i", { class: `mark ${event.what}`, title: eventText(event) });
     mark.style.setProperty("--at", String((event.tick - playback.first) / span));
     marks.append(mark);
@@ -82,7 +93,7 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
     element(
       "div",
       { class: "banner", role: "status" },
-      element("span", { class: "quiet" }, "Replay of"),
+      element("span", { class: "quiet" }, showing.kind),
       " ",
       element("strong", { title: source.title }, source.title),
     ),
@@ -103,11 +114,9 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
       {
         type: "button",
         class: "small primary",
-        onclick: () => {
-          app.source.value = app.live;
-        },
+        onclick: () => showing.back(),
       },
-      "Back to live",
+      showing.backWords,
     ),
   );
   const keys = (event: KeyboardEvent): void => {
@@ -122,7 +131,8 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
   const unwatch = source.cursor.watch((tick) => {
     if (tick !== null && tick !== playback.tick) go(tick);
   });
-  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) playback.play();
+  if (from !== null) playback.seek(from);
+  else if (showing.alwaysPlays || !matchMedia("(prefers-reduced-motion: reduce)").matches) playback.play();
   show();
   let last: number | null = null;
   const stop = everyFrame((now) => {
@@ -130,6 +140,8 @@ function fill(host: HTMLElement, app: App, source: Source): () => void {
     last = now;
     const wasPlaying = playback.playing;
     if (playback.advance(seconds) || wasPlaying !== playback.playing) show();
+    rested = playback.atEnd && !playback.playing ? rested + 1e3 * seconds : 0;
+    if (showing.goesBack && !used && rested > REST_MS) showing.back();
   });
   return () => {
     stop();

@@ -1,25 +1,28 @@
-import type { History } from "../state/history.ts";
-import { Source } from "../state/source.ts";
-import { BYTE_COLUMNS, type ByteColumn, type FloatColumn, type TickBatch } from "../wire/ticks.ts";
+import { BYTE_COLUMNS, type ByteColumn, FLOAT_COLUMNS, type FloatColumn, type TickBatch } from "../wire/ticks.ts";
+import { History } from "./history.ts";
+import { Source } from "./source.ts";
 
 const CHUNK = 1024; // ticks; times are f32 relative to the first of a chunk, which keeps them exact to nanoseconds
 
-// biome-ignore format: a table
-const FLOATS = [
-  "position", "axis", "tip", "model_force", "force", "ceiling",
-  "depth", "axial_force", "lower", "upper", "proxy", "direction",
-] as const;
+const isCopied = (name: FloatColumn): name is Exclude<FloatColumn, "time" | "other_force"> =>
+  name !== "time" && name !== "other_force";
+const FLOATS = FLOAT_COLUMNS.filter(isCopied);
 
 /** A copy of a source's present data. The live source overwrites old ticks; the copy keeps them. */
 export function frozenCopy(source: Source): Source {
-  const { history } = source;
-  const copy = new Source(`${source.title}, frozen`, false, Math.max(1, history.length));
+  const copy = new Source(`${source.title}, frozen`, false, copiedHistory(source.history));
   copy.scene.value = source.scene.value;
   copy.laws.value = source.laws.value;
   copy.events.value = source.events.value;
+  return copy;
+}
+
+/** A copy of all ticks that a history holds now. */
+export function copiedHistory(history: History): History {
+  const copy = new History(Math.max(1, history.length));
   for (let tick = history.first; tick < history.end; ) {
     const n = Math.min(CHUNK, history.end - tick, history.capacity - history.slot(tick));
-    copy.history.push(batchOf(history, tick, n));
+    copy.push(batchOf(history, tick, n));
     tick += n;
   }
   return copy;

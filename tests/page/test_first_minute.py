@@ -1,0 +1,77 @@
+"""The first minute: four things to do, and the pop once more, slowly."""
+
+import re
+
+from person import PATIENCE, drag_in, events, tab, view
+from playwright.sync_api import expect
+
+RATE = 1600  # Hz, of the simulated device
+
+
+def drag_out(page, until):
+    """Drags the needle out, until the words can be read."""
+    box = view(page).bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + 0.8 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for _ in range(400):
+        y -= 4
+        page.mouse.move(x, y)
+        page.wait_for_timeout(10)
+        if until.is_visible():
+            break
+    page.mouse.up()
+    expect(until).to_be_visible(timeout=PATIENCE)
+
+
+def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slowly_everywhere(page):
+    tour = page.get_by_role("region", name="Tour")
+    sentence = page.get_by_text("Push until it gives", exact=True)
+    expect(tour).to_contain_text("Drag in the view", timeout=PATIENCE)
+    expect(sentence).to_be_visible()
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    drag_in(page, pops=1)
+    expect(tour).to_contain_text("It gave: the force fell by", timeout=PATIENCE)
+    expect(sentence).to_be_hidden()
+    drag_out(page, tour.get_by_text("the needle is out"))
+
+    page.get_by_role("combobox", name="Membrane", exact=True).select_option(index=1)
+    tour.get_by_role("button", name="Show the pop again, slowly").click()
+    bar = page.get_by_role("group", name="Replay")
+    expect(bar).to_be_visible(timeout=PATIENCE)
+    bar.get_by_role("button", name="Pause").click()
+    bar.get_by_role("button", name="Next event").click()  # the only event of these 100 ms: the pop
+    expect(page.locator(".player output")).to_have_text(re.compile(r"[+]\s*0[.]0 ms"))
+    for _ in range(3):
+        bar.get_by_role("button", name="Forward one tick").click()
+    shown = int(view(page).get_attribute("data-tick"))
+    expect(page.locator(".force-depth .plot-readout")).to_contain_text(f"at {shown / RATE:.4f} s", timeout=PATIENCE)
+    expect(page.locator(".phases-when")).to_have_text(f"{shown / RATE:.3f} s", timeout=PATIENCE)
+    page.get_by_role("button", name="Back to live").click()
+    expect(bar).to_be_hidden()
+
+    tour.get_by_role("button", name="Done").click()
+    expect(tour).to_be_hidden()
+    page.reload()
+    expect(events(page, "pop")).to_have_count(1, timeout=PATIENCE)
+    expect(tour).to_be_hidden()
+    page.get_by_role("button", name="Tour").click()
+    expect(tour).to_contain_text("Drag in the view", timeout=PATIENCE)
+
+
+def test_the_question_about_sound_comes_once_after_the_first_pop_and_its_answer_stays(browser, studio):
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, device_scale_factor=0.5)
+    page = context.new_page()
+    page.goto(studio.url, timeout=PATIENCE)
+    question = page.get_by_role("group", name="Sound")
+    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(question).to_be_hidden()
+    drag_in(page, pops=1)
+    question.get_by_role("button", name="Sound on").click(timeout=PATIENCE)
+    expect(question).to_be_hidden()
+    page.reload()
+    expect(events(page, "pop")).to_have_count(1, timeout=PATIENCE)
+    expect(question).to_be_hidden()
+    tab(page, "Hand")
+    expect(page.get_by_role("button", name="Sound is on")).to_be_visible()
+    context.close()

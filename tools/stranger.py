@@ -1,0 +1,115 @@
+"""A person who has never seen the studio, and knows only the words on its page: the time to the first pop.
+
+    python tools/stranger.py [--tries 10]
+
+Each try starts a studio without SCENE and a browser with an empty profile. The person reads the sentence in the
+picture, drags in the picture until the page says that it gave, and goes on as the page says: draws the needle back,
+and looks at the pop again, slowly. Nothing here knows the page's structure: texts and roles only.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from chromium import launch
+from playwright.sync_api import Locator, Page, expect, sync_playwright
+from studio_process import StudioProcess
+
+PATIENCE = 120_000  # ms, on a machine without a graphics card
+READING_S = 1.5  # for the four words of the sentence
+PIXELS_PER_S = 300  # of a hand that has never done it
+STEP_S = 1 / 30  # between two positions of the mouse
+SIZE = {"width": 1440, "height": 900}
+
+SENTENCE = "Push until it gives"
+GAVE = re.compile(r"It gave: the force fell by [0-9.]+ N")
+OUT = "the needle is out"
+
+
+class Try(NamedTuple):
+    """Times after the sentence appears, s; reading included."""
+
+    first_pop: float
+    whole_minute: float
+    drop: str
+
+
+class Mouse:
+    """Drags like a hand: slowly, and anew where the page ends."""
+
+    def __init__(self, page: Page, top: float, bottom: float, x: float) -> None:
+        self._page, self._top, self._bottom, self._x = page, top, bottom, x
+
+    def drag(self, down: bool, until: Locator) -> None:
+        """Drags down or up in the picture, until something can be read."""
+        begin, end = (self._top, self._bottom) if down else (self._bottom, self._top)
+        deadline = time.monotonic() + PATIENCE / 1e3
+        while not until.is_visible():
+            assert time.monotonic() < deadline, "the page never said it"
+            self._stroke(begin, end, until)
+
+    def _stroke(self, begin: float, end: float, until: Locator) -> None:
+        mouse, started = self._page.mouse, time.monotonic()
+        mouse.move(self._x, begin)
+        mouse.down()
+        way, sign = abs(end - begin), 1 if end > begin else -1
+        while (gone := PIXELS_PER_S * (time.monotonic() - started)) < way and not until.is_visible():
+            mouse.move(self._x, begin + sign * gone)
+            self._page.wait_for_timeout(1e3 * STEP_S)
+        mouse.up()
+
+
+def try_once(page: Page, url: str) -> Try:
+    page.goto(url, timeout=PATIENCE)
+    sentence = page.get_by_text(SENTENCE, exact=True)
+    expect(sentence).to_be_visible(timeout=PATIENCE)
+    began = time.monotonic()
+    page.wait_for_timeout(1e3 * READING_S)
+    words = sentence.bounding_box()
+    assert words
+    # The picture is above its sentence.
+    hand = Mouse(page, words["y"] - 260, words["y"] - 10, words["x"] + 200)
+    gave = page.get_by_text(GAVE)
+    hand.drag(down=True, until=gave)
+    first_pop = time.monotonic() - began
+    found = GAVE.search(gave.inner_text())
+    assert found
+    page.get_by_role("button", name="No sound").click()
+    hand.drag(down=False, until=page.get_by_text(OUT))
+    page.get_by_role("button", name="Show the pop again, slowly", exact=True).first.click()
+    back = page.get_by_role("button", name="Back to live")
+    expect(back).to_be_visible(timeout=PATIENCE)
+    expect(back).to_be_hidden(timeout=PATIENCE)  # it goes back by itself
+    page.get_by_role("button", name="Done").click()
+    return Try(first_pop, time.monotonic() - began, found[0].rsplit(" ", 2)[1])
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tries", type=int, default=10)
+    arguments = parser.parse_args()
+    tries: list[Try] = []
+    with sync_playwright() as playwright:
+        for i in range(arguments.tries):
+            with tempfile.TemporaryDirectory() as folder, StudioProcess(Path(folder), "") as studio:
+                browser = launch(playwright)
+                page = browser.new_page(viewport=SIZE)
+                tries.append(try_once(page, studio.url))
+                browser.close()
+            now = tries[-1]
+            words = f"first pop after {now.first_pop:.1f} s ({now.drop} N), all after {now.whole_minute:.1f} s"
+            print(f"{i + 1}: {words}", flush=True)
+    pops = [each.first_pop for each in tries]
+    print(f"first pop: median {statistics.median(pops):.1f} s, longest {max(pops):.1f} s, of {len(pops)} tries")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,75 @@
+import { leaveExcerpt } from "../../pop/again.ts";
+import type { App } from "../../state/app.ts";
+import type { Source } from "../../state/source.ts";
+import { SLOWDOWNS, SPEEDS } from "./playback.ts";
+
+/** How the replay bar shows a source: a whole recording, or an excerpt around a pop. */
+export interface Showing {
+  readonly first: number;
+  readonly last: number;
+  /** Words in front of the title. */
+  readonly kind: string;
+  readonly speeds: ReadonlyArray<readonly [speed: number, words: string]>;
+  speed: number;
+  /** The time of a tick. */
+  time(tick: number): string;
+  spokenTime(tick: number): string;
+  readonly backWords: string;
+  back(): void;
+  /** Whether it also plays at once under reduced motion: an excerpt does, because the user asked for this motion. */
+  readonly alwaysPlays: boolean;
+  /** After its end it goes back by itself, unless the user has used the bar. */
+  readonly goesBack: boolean;
+}
+
+let slowdown: number = SLOWDOWNS[1]; // the last one that the user chose
+
+export const showingOf = (app: App, source: Source): Showing =>
+  source.excerpt ? excerptShowing(app, source, source.excerpt) : recordingShowing(app, source);
+
+function recordingShowing(app: App, { history }: Source): Showing {
+  const start = history.timeOf(history.first);
+  const total = (history.timeOf(history.end - 1) - start).toFixed(3);
+  const at = (tick: number): string => (history.timeOf(tick) - start).toFixed(3);
+  return {
+    first: history.first,
+    last: Math.max(history.end - 1, history.first),
+    kind: "Replay of",
+    speeds: SPEEDS.map((speed) => [speed, `${speed}×`]),
+    speed: 1,
+    time: (tick) => `${at(tick).padStart(total.length, " ")} / ${total} s`,
+    spokenTime: (tick) => `${at(tick)} of ${total} seconds`,
+    backWords: "Back to live",
+    back: () => {
+      app.source.value = app.live;
+    },
+    alwaysPlays: false,
+    goesBack: false,
+  };
+}
+
+function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Source["excerpt"]>): Showing {
+  const pop = history.timeOf(excerpt.event.tick);
+  const ms = (tick: number): string => {
+    const text = ((history.timeOf(tick) - pop) * 1e3).toFixed(1);
+    return `${text.startsWith("-") ? "−" : "+"}${text.replace("-", "").padStart(4, "\u2007")}`;
+  };
+  return {
+    first: excerpt.first,
+    last: excerpt.last,
+    kind: "Pop again, slowly:",
+    speeds: SLOWDOWNS.map((times) => [1 / times, `${times}× slower`]),
+    get speed() {
+      return 1 / slowdown;
+    },
+    set speed(speed) {
+      slowdown = Math.round(1 / speed);
+    },
+    time: (tick) => `${ms(tick)} ms`,
+    spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the pop`,
+    backWords: excerpt.of.live ? "Back to live" : "Back to the recording",
+    back: () => leaveExcerpt(app),
+    alwaysPlays: true,
+    goesBack: true,
+  };
+}

@@ -1,0 +1,58 @@
+import type { Source } from "../../state/source.ts";
+import type { MembraneEvent } from "../../wire/messages.ts";
+import { codeOf } from "../../wire/ticks.ts";
+
+/** The things to do, in their order. */
+export const TASKS = ["touch", "hold", "pop", "back"] as const;
+
+const OUTSIDE = codeOf("phase", "outside");
+/** The tissue has been felt when it pushes with this share of the greatest force of its law. */
+const FELT = 0.5;
+
+/** What a person has done of the tour, from the ticks and events of a run. */
+export class Progress {
+  /** Number of tasks done; the task with this index is next. */
+  done = 0;
+  /** The pop that was made; null before it. */
+  pop: MembraneEvent | null = null;
+  /** Whether the tip has been outside the tissue since the tour began: a needle in tissue must come out first. */
+  ready = false;
+  private next = 0; // tick
+  private generation = -1;
+  private began = 0; // tick
+
+  /** Takes all ticks and events since the last call. Returns whether something was done. */
+  follow({ history, events, laws }: Source): boolean {
+    if (history.generation !== this.generation) {
+      // A new run; or the first call, which looks only at what happens from now on.
+      this.next = this.began = this.generation === -1 ? Math.max(history.first, history.end - 1) : history.first;
+      this.generation = history.generation;
+    }
+    const before = this.done + (this.ready ? 1 : 0);
+    const peaks = laws.value.map(({ lower }) => Math.max(1e-9, ...lower.map(Math.abs)));
+    const phases = history.byteColumn("phase");
+    const forces = history.column("axial_force");
+    const m = history.membranes;
+    for (let tick = Math.max(this.next, history.first); tick < history.end; tick++) {
+      let inside = false;
+      let share = 0;
+      for (let i = 0, at = history.slot(tick) * m; i < m; i++, at++) {
+        inside ||= phases[at] !== OUTSIDE;
+        share = Math.max(share, Math.abs(forces[at]!) / (peaks[i] ?? Number.POSITIVE_INFINITY) || 0);
+      }
+      this.take(inside, share);
+    }
+    this.next = history.end;
+    this.pop ??= events.value.find(({ what, tick }) => what === "pop" && tick >= this.began) ?? null;
+    if (this.pop && this.ready && this.done < 3) this.done = 3;
+    return this.done + (this.ready ? 1 : 0) !== before;
+  }
+
+  private take(inside: boolean, share: number): void {
+    this.ready ||= !inside;
+    if (!this.ready) return;
+    if (this.done === 0 && inside) this.done = 1;
+    if (this.done === 1 && share >= FELT) this.done = 2;
+    if (this.done === 3 && !inside) this.done = 4;
+  }
+}

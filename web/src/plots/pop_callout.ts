@@ -1,0 +1,56 @@
+import { element } from "../panel.ts";
+import { lastPop, showAgain } from "../pop/again.ts";
+import type { App } from "../state/app.ts";
+import type { Source } from "../state/source.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
+import type { Pane } from "./axes.ts";
+import { popLabel } from "./marks.ts";
+import { plotsOf } from "./shared.ts";
+import type { Window } from "./window.ts";
+
+const BESIDE = 6; // px
+
+/** A callout at the last pop in the plot: its drop, and a button that shows it again, slowly. */
+export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
+  const plots = plotsOf(app);
+  const words = element("span", {});
+  let pop: MembraneEvent | null = null;
+  const again = element(
+    "button",
+    {
+      type: "button",
+      title: "Show the pop again, slowly (R in the view)",
+      onclick: () => {
+        if (pop) showAgain(app, pop);
+      },
+    },
+    "Show again, slowly",
+  );
+  const box = element("div", { class: "pop-callout", hidden: true }, words, again);
+  host.append(box);
+  let shown = "";
+  return (pane) => {
+    pop = poppedIn(plots.source, plots.window);
+    if (!pop) {
+      box.hidden = true;
+      shown = "";
+      return;
+    }
+    const text = popLabel(pop);
+    if (text !== shown) {
+      shown = text;
+      words.textContent = text;
+    }
+    box.hidden = false;
+    const x = pane.x.px(plots.source.history.timeOf(pop.tick));
+    const right = x + BESIDE + box.offsetWidth <= pane.left + pane.width;
+    const left = right ? x + BESIDE : Math.max(pane.left, x - BESIDE - box.offsetWidth);
+    box.style.transform = `translate(${left.toFixed(0)}px, ${(pane.top + 4).toFixed(0)}px)`;
+  };
+}
+
+/** The last pop that the window shows; none in an excerpt, which is the pop already. */
+function poppedIn(source: Source, window: Window): MembraneEvent | null {
+  const pop = source.excerpt ? null : lastPop(source);
+  return pop && pop.tick >= window.first && pop.tick < window.end ? pop : null;
+}

@@ -1,0 +1,57 @@
+import type { App } from "../state/app.ts";
+import { copiedHistory } from "../state/frozen.ts";
+import { Source } from "../state/source.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
+
+/** Shown again: this long before the pop, and this long after it, s. */
+export const HALF = 0.05;
+
+/** The last pop of a source at or before its shown tick; null if there is none. */
+export function lastPop(source: Source): MembraneEvent | null {
+  const shown = source.shown();
+  if (shown === null) return null;
+  return source.events.value.findLast(({ what, tick }) => what === "pop" && tick <= shown) ?? null;
+}
+
+/** The ticks around an event as a source of its own; null if the source no longer holds the event's tick. */
+export function excerptAround(source: Source, event: MembraneEvent): Source | null {
+  const of = source.excerpt?.of ?? source;
+  const { first, end } = source.history;
+  if (event.tick < first || event.tick >= end) return null;
+  const ticks = Math.round(HALF * (source.scene.value?.rate ?? 1600));
+  // The live history overwrites its old ticks. A whole copy also keeps the holes that the needle made before.
+  const history = source.live ? copiedHistory(source.history) : source.history;
+  const excerpt = {
+    of,
+    event,
+    first: Math.max(first, event.tick - ticks),
+    last: Math.min(end - 1, event.tick + ticks),
+  };
+  const made = new Source(`${event.name}, slowly`, false, history, excerpt);
+  made.scene.value = source.scene.value;
+  made.laws.value = source.laws.value;
+  made.events.value = source.events.value;
+  made.cursor.value = excerpt.first;
+  return made;
+}
+
+/** Shows an event again, slowly, in the view and all plots. Returns whether the page still has its ticks. */
+export function showAgain(app: App, event: MembraneEvent): boolean {
+  const made = excerptAround(app.source.value, event);
+  if (made) app.source.value = made;
+  else app.say("This pop is too old to be shown again: the page keeps the last 80 seconds.");
+  return made !== null;
+}
+
+/** Shows the last pop again, slowly, if there was one. */
+export function showLastAgain(app: App): void {
+  const pop = lastPop(app.source.value);
+  if (pop) showAgain(app, pop);
+  else app.say("There was no pop yet.");
+}
+
+/** Goes back to the source that the excerpt is a part of. */
+export function leaveExcerpt(app: App): void {
+  const { excerpt } = app.source.value;
+  if (excerpt) app.source.value = excerpt.of;
+}

@@ -1,0 +1,16 @@
+const YEAR_S = 365 * 24 * 3600;
+
+type Jar = Pick<Document, "cookie">;
+
+/**
+ * Small answers that this browser remembers, as cookies: the studio gets another port at each start, and a browser
+ * keeps its local storage apart for each port. name and value: letters, digits and underscores.
+ */
+export function remembered(name: string, jar: Jar = document): string | null {
+  const found = jar.cookie.split("; ").find((entry) => entry.startsWith(`punctura_${name}=`));
+  return found ? found.slice(found.indexOf("=") + 1) : null;
+}
+
+export function remember(name: string, value: string, jar: Jar = document): void {
+  jar.cookie = `punctura_${name}=${value}; path=/; max-age=${YEAR_S}; samesite=strict`;
+}
