@@ -58,7 +58,9 @@ function show(root: HTMLElement, app: App): () => void {
     });
     const simulated = app.hello.value?.device.simulated ?? true;
     const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";
-    const text = (simulated ? hand.barred.value : null) ?? instruction(progress, skin, simulated);
+    const slow = app.source.value.excerpt !== null;
+    const barred = simulated && !slow && done < TASKS.length ? hand.barred.value : null;
+    const text = slow ? "This was the pop, slowly." : (barred ?? instruction(progress, skin, simulated));
     if (words.textContent !== text) words.textContent = text;
     again.hidden = done < TASKS.length || progress.pop === null;
     close.textContent = done < TASKS.length ? "Skip the tour" : "Done";
@@ -69,6 +71,7 @@ function show(root: HTMLElement, app: App): () => void {
   });
   const ends = [
     hand.barred.watch(tell),
+    app.source.watch(tell),
     app.live.scene.watch(tell),
     app.exercise.watch((exercise) => {
       bar.hidden = exercise?.running ?? false; // an exercise has instructions of its own

@@ -69,6 +69,7 @@ export class Hand {
     const { connection, hello, control, source } = this.app;
     if (connection.value.state !== "open" || !hello.value) return "The studio is not connected.";
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
+    if (source.value.excerpt) return "A pop is shown again. Go back to the live run to move the needle.";
     if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
     if (!control.value.you) return "Another page has control.";
     return null;

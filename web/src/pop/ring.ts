@@ -3,8 +3,8 @@ import type { MembraneEvent } from "../wire/messages.ts";
 
 /** For this long after a pop its ring is shown, s of the run. */
 export const RING_S = 0.9;
-const GROWN = 4; // radii of the needle by which the ring grows
-const FIRST = 1.6; // radii of the needle at the pop
+const GROWN = 7; // radii of the needle by which the ring grows
+const FIRST = 2.5; // radii of the needle at the pop
 
 /** The ring of a pop at one moment. */
 export interface Ring {
