@@ -45,7 +45,8 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
     const x = pane.x.px(plots.source.history.timeOf(pop.tick));
     const right = x + BESIDE + box.offsetWidth <= pane.left + pane.width;
     const left = right ? x + BESIDE : Math.max(pane.left, x - BESIDE - box.offsetWidth);
-    box.style.transform = `translate(${left.toFixed(0)}px, ${(pane.top + pane.height - box.offsetHeight - 3).toFixed(0)}px)`;
+    const top = pane.top + pane.height - box.offsetHeight - 3; // the curve of a push is above
+    box.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   };
 }
 
