@@ -124,13 +124,13 @@ def messages() -> dict[str, Any]:
     goals = [{"text": "a goal", "state": state} for state in ("open", "met", "missed", "not measured")]
     sent = [
         {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "limits": limits,
-         "scenes": [choice], "exercises": [choice], "notes": ["a note"]},
+         "scenes": [choice], "exercises": [choice], "notes": ["a note"], "figures": True},
         {"kind": "scene", "scene": VIEW, "new_run": True, "run": 3},
         {"kind": "laws", "laws": [LAW]},
         {"kind": "control", "holder": 1, "you": True, "hand": {"position": TRIPLE, "axis": [0.0, -1.0, 0.0]}},
         {"kind": "status", "ticks": 1, "late": 0, "lost": 0, "period": SPREAD, "compute": SPREAD, "viewers": 1,
          "dropped": 0, "armed": True, "hand": "strokes", "compare": False, "statements": ["s"]},
-        {"kind": "fault", "fault": "clock", "reason": "r", "trouble": "", "tick": 7, "kept": 1000},
+        {"kind": "fault", "fault": "clock", "reason": "r", "remedy": "m", "trouble": "", "tick": 7, "kept": 1000},
         {"kind": "event", "what": "pop", "membrane": 0, "name": "skin", "tick": 7, "time": 0.5, "depth": 0.004,
          "force_before": 0.75, "force_after": 0.5, "drop": 0.25},
         {"kind": "recording", "name": "r", "rows": 1, "lost": 0, "seconds": 0.5, "trouble": ""},

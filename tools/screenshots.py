@@ -54,7 +54,7 @@ def wrong_value(page: Page) -> None:
 
 def fault(page: Page) -> None:
     ready(page)
-    tab(page, "Loop")
+    tab(page, "Health")
     page.get_by_role("button", name="Try a fault").click()
     expect(page.locator(".fault")).to_contain_text("no force", timeout=PATIENCE)
 

@@ -30,7 +30,7 @@ def test_a_value_out_of_bounds_is_told_at_its_field_and_changes_nothing(page):
     friction.fill("3.6")  # mu tan(theta) would be over 1, K06 (7)
     friction.press("Enter")
     expect(friction).to_have_attribute("aria-invalid", "true", timeout=PATIENCE)
-    expect(page.locator(".side")).to_contain_text("K06 (7)")
+    expect(page.locator(".side")).to_contain_text("The largest value that is allowed")
     expect(page.locator(".header")).to_contain_text("Force on")
 
 

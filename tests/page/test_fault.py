@@ -1,17 +1,25 @@
-"""A fault ends the force, shows its reason, and is cleared by a reset."""
+"""After a fault: one sentence, one button, and the ticks before it as a file."""
 
-from person import PATIENCE, ready, tab
+from person import PATIENCE, columns, drag_in, ready, saved, tab
 from playwright.sync_api import expect
 
 
-def test_a_fault_shows_its_reason_and_reset_clears_it(page):
+def test_after_a_fault_one_button_leads_out_of_it_and_the_sentence_says_what_is_missing(page, tmp_path):
     ready(page)
-    tab(page, "Loop")
+    drag_in(page, pops=1)
+    tab(page, "Health")
     page.get_by_role("button", name="Try a fault").click()
-    banner = page.get_by_role("alert", name="Fault").or_(page.locator(".fault"))
-    expect(banner.first).to_contain_text("no force", timeout=PATIENCE)
+    banner = page.locator(".fault")
+    expect(banner).to_contain_text("The device reported a position or a direction that is not", timeout=PATIENCE)
+    expect(banner).to_contain_text("draw the needle out of the tissue and press “Turn force on”")
     expect(page.locator(".header")).to_contain_text("Fault")
-    page.get_by_role("button", name="Reset", exact=True).first.click()
-    expect(page.locator(".fault")).to_be_empty(timeout=PATIENCE)
-    page.get_by_role("button", name="Turn force on").click()
+    expect(page.locator(".header").get_by_role("button", name="Turn force")).to_have_count(0)
+
+    kept = columns(saved(page, banner.get_by_role("link", name="Save the 1 000 ticks"), tmp_path))
+    assert len(kept["tick"]) == 1000 and kept["depth_0_m"][0] > 0
+
+    banner.get_by_role("button", name="Draw the needle out").click()
+    banner.get_by_role("button", name="Turn force on").click(timeout=PATIENCE)
+    expect(banner).to_be_empty(timeout=PATIENCE)
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(page.locator(".side").get_by_role("link", name="Save the 1 000 ticks")).to_be_visible()

@@ -24,7 +24,7 @@ def test_the_header_names_the_limit_that_cuts_the_force(browser: Browser, tmp_pa
         state = page.locator(".servo-state")
         expect(state).to_contain_text("Force cut: long-run limit", timeout=PATIENCE)
         expect(state.locator(".figures")).to_contain_text(" N", timeout=PATIENCE)
-        loop = tab(page, "Loop").locator(".health-limits")
+        loop = tab(page, "Health").locator(".health-limits")
         expect(loop).to_contain_text("peak force3.3 N")
         expect(loop).to_contain_text("long-run force0.1 N rms in any 2 s")
         expect(loop).to_contain_text("speed of the hand8 m/s")

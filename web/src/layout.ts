@@ -47,7 +47,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["scene", "Scene", editorPanel],
         ["recordings", "Recordings", recordingsPanel],
         ["exercises", "Exercises", exercisesPanel],
-        ["health", "Loop", both(healthPanel, faultTrial)],
+        ["health", "Health", both(healthPanel, faultTrial)],
       ]),
     ),
     place("player", "Replay", playerBar),

@@ -58,10 +58,7 @@ inline constexpr FieldOf<Needle> needle_fields[] = {
 };
 
 inline constexpr FieldOf<Membrane> membrane_fields[] = {
-    {{"stiffness",
-      "kappa",
-      "N/m",
-      {0, no_bound, true, true, "must be greater than 0: Q = c/(kappa tan(theta)), K06 (15)"}},
+    {{"stiffness", "kappa", "N/m", {0, no_bound, true, true, "must be greater than 0, K06 (15)"}},
      &Membrane::stiffness},
     {{"precompression",
       "c",
@@ -109,15 +106,22 @@ inline bool check(const Membrane& membrane, const std::string& path, std::vector
   return check_fields(membrane_fields, membrane, path, problems);
 }
 
+/// The largest friction of four digits with which a needle enters: mu tan(theta) < 1, K06 (7).
+inline double largest_friction(double tip_angle) {
+  const double bound = 1 / std::tan(tip_angle), digit = std::pow(10, std::floor(std::log10(bound)) - 3);
+  const double rounded = std::floor(bound / digit) * digit;
+  return rounded * std::tan(tip_angle) < 1 ? rounded : rounded - digit;
+}
+
 /// Adds a problem if mu tan(theta) >= 1: insertion is then impossible, K06 (7). Returns true if mu tan(theta) < 1.
 ///
 /// The tip angle and the friction must be inside their ranges.
 inline bool check_insertion(const Needle& needle, const Membrane& membrane, const std::string& membrane_path,
                             std::vector<Problem>& problems) {
-  const double mu_tan = membrane.friction * std::tan(needle.tip_angle);
-  if (mu_tan < 1) return true;
+  if (membrane.friction * std::tan(needle.tip_angle) < 1) return true;
   char text[96];
-  std::snprintf(text, sizeof text, "insertion needs mu tan(theta) < 1, K06 (7); here %.4g", mu_tan);
+  std::snprintf(text, sizeof text, "the largest value that is allowed with this tip angle is %.4g, K06 (7)",
+                largest_friction(needle.tip_angle));
   const std::string dot = membrane_path.empty() ? "" : ".";
   problems.push_back({membrane_path + dot + "friction", membrane.friction, text});
   return false;

@@ -59,6 +59,7 @@ class Api:
             Route(one + "/ticks", _told(self.ticks)),
             Route(one + "/trace", _told(self.trace)),
             Route(one + "/download", _told(self.download)),
+            Route("/api/fault.csv", _told(self.fault_ticks)),
             Route("/api/exercises", _told(self.exercises)),
             Route("/api/results", _told(self.results)),
             Route("/api/results/download", _told(self.download_results)),  # before NAME: no result has this name
@@ -118,6 +119,13 @@ class Api:
             return Download(pieces, self._exporting, media_type=FORMATS[kind], headers=headers)
         except ModuleNotFoundError:
             return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
+
+    def fault_ticks(self, request: Request) -> Response:
+        file = self._session.kept_ticks.csv()
+        if file is None:
+            return _sentence(404, "There was no fault.")
+        name, data = file
+        return Response(data, media_type=FORMATS["csv"], headers={"content-disposition": disposition(name)})
 
     def exercises(self, request: Request) -> Response:
         return JSONResponse([entry.model_dump(mode="json") for entry in self._session.exercises.overviews()])

@@ -59,6 +59,7 @@ class Studio:
             scenes=ready_scenes(),
             exercises=self.session.exercises.choices(),
             notes=self.session.run.notes,
+            figures=self.figures.exist,
         )
 
     async def index(self, request: Request) -> Response:

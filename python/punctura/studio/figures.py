@@ -34,10 +34,19 @@ class Figures:
     def index(self) -> Route:
         return Route("/figures/", self.file)
 
+    @property
+    def exist(self) -> bool:
+        return self._find("index.html") is not None
+
     def file(self, request: Request) -> Response:
-        name = request.path_params.get("name", "index.html")
+        file = self._find(request.path_params.get("name", "index.html"))
+        if file:
+            return FileResponse(file)
+        return PlainTextResponse("There are no figures yet: punctura reproduce makes them.\n", 404)
+
+    def _find(self, name: str) -> Path | None:
         for folder in self._folders if _MADE.fullmatch(name) else ():
             # The page is written last: when it is there, so are the other files.
             if all((folder / each).is_file() and not (folder / each).is_symlink() for each in ("index.html", name)):
-                return FileResponse(folder / name)
-        return PlainTextResponse("There are no figures yet: punctura reproduce makes them.\n", 404)
+                return folder / name
+        return None

@@ -7,7 +7,8 @@ from typing import TypedDict
 
 import numpy as np
 
-from punctura._core import Fault, describe
+from punctura._core import Fault
+from punctura.studio.fault_words import NO_TICKS, fault_words
 from punctura.studio.hand import Mode
 from punctura.studio.run import Run
 from punctura.studio.wire.messages import FaultMessage, LimitsPart, RecordingStatus, Spread, Status
@@ -99,4 +100,5 @@ def no_recording() -> RecordingStatus:
 
 def no_ticks(words: str) -> FaultMessage:
     """The device's ticks have ceased; words: why."""
-    return FaultMessage(fault="device", reason=describe(Fault.device), trouble=words, tick=None, kept=0)
+    remedy = fault_words(Fault.device)[1]
+    return FaultMessage(fault="device", reason=NO_TICKS, remedy=remedy, trouble=words, tick=None, kept=0)

@@ -9,9 +9,11 @@ import numpy as np
 from pydantic import BaseModel
 
 from punctura import Phase, Scene
-from punctura._core import Fault, describe
+from punctura._core import Fault
 from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
+from punctura.studio.fault_words import fault_words
+from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve
@@ -34,8 +36,9 @@ class Publisher(Protocol):
 class Pump:
     """The pump of one run. It keeps its state from batch to batch."""
 
-    def __init__(self, run: Run, out: Publisher) -> None:
-        self._run, self._out = run, out
+    def __init__(self, run: Run, out: Publisher, kept: KeptTicks | None = None) -> None:
+        """kept: gets the ticks before a fault."""
+        self._run, self._out, self._kept = run, out, kept or KeptTicks()
         self._next_tick = 0
         self._gaps = 0  # lost ticks
         self._fault = 0
@@ -108,13 +111,15 @@ class Pump:
             return
         kind = Fault(fault)
         began = int(np.flatnonzero(ticks.fault == fault)[0])
+        happened, remedy = fault_words(kind)
         self._out.say(
             FaultMessage(
                 fault=kind.name,
-                reason=describe(kind),
+                reason=happened,
+                remedy=remedy,
                 trouble=self._run.loop.device.trouble(),
                 tick=int(ticks.tick[began]),
-                kept=len(self._run.loop.fault_history()),
+                kept=self._kept.keep(self._run.loop.fault_history()),
             )
         )
 
@@ -133,7 +138,7 @@ class Pump:
 
 
 def no_fault() -> FaultMessage:
-    return FaultMessage(fault="none", reason="", trouble="", tick=None, kept=0)
+    return FaultMessage(fault="none", reason="", remedy="", trouble="", tick=None, kept=0)
 
 
 def _parts(ticks: Ticks) -> Iterator[Ticks]:

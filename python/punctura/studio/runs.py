@@ -12,6 +12,7 @@ from punctura.studio.defects import Defects
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
 from punctura.studio.jobs import Jobs
+from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Publisher, Pump, no_fault
 from punctura.studio.run import Bench, Run, Settings
@@ -33,7 +34,8 @@ class Runs:
         self.bench = Bench(settings, loaded.scene)
         self.hand = Hand()
         self.run = Run(0, self.bench, loaded)
-        self.pump = Pump(self.run, out)
+        self.kept_ticks = KeptTicks()
+        self.pump = Pump(self.run, out, self.kept_ticks)
         self.arming = Arming()
         self.activities = Activities(out, self.jobs.post)
         self.defects = Defects(out)
@@ -127,7 +129,7 @@ class Runs:
 
     def start_run(self) -> None:
         """Starts the present run, which has not ticked yet."""
-        self.pump = Pump(self.run, self.out)
+        self.pump = Pump(self.run, self.out, self.kept_ticks)
         self.pump.compare(self.compare)
         self.hand.take(self.run.loop.device, self.run.pose)
         self.arm()

@@ -28,13 +28,17 @@ TEST_CASE("check() reports a number that is not finite") {
   CHECK(problems[1].reason == "must be a finite number");
 }
 
-TEST_CASE("insertion needs mu tan(theta) < 1, and the message contains the value") {
+TEST_CASE("insertion needs mu tan(theta) < 1, and the message has the largest friction that is allowed") {
   std::vector<Problem> problems;
   CHECK_FALSE(check_insertion({1.08e-3, 0.28}, {570, 0.41, 3.6, 1e-3}, "membrane[1]", problems));
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].path == "membrane[1].friction");
-  CHECK(problems[0].reason == "insertion needs mu tan(theta) < 1, K06 (7); here 1.035");
-  CHECK(check_insertion({1.08e-3, 0.28}, {570, 0.41, 3.4, 1e-3}, "membrane[1]", problems));
+  CHECK(problems[0].reason == "the largest value that is allowed with this tip angle is 3.477, K06 (7)");
+  for (const double angle : {1e-4, 0.1, 0.28, 0.5, 0.7853981633974483, 1.2, 1.57}) {
+    const double most = largest_friction(angle);
+    CHECK(check_insertion({1.08e-3, angle}, {570, 0.41, most, 1e-3}, "membrane[1]", problems));
+    CHECK_FALSE(check_insertion({1.08e-3, angle}, {570, 0.41, 1.002 * most, 1e-3}, "membrane[1]", problems));
+  }
 }
 
 TEST_CASE("permitted values give no problem") {

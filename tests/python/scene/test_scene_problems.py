@@ -19,7 +19,7 @@ def lines(path):
 ONE_PROBLEM = {
     "a friction that bars insertion": (
         ("friction = 0.2", "friction = 3.6"),
-        "membrane[0].friction = 3.6: insertion needs mu tan(theta) < 1, K06 (7); here 1.035",
+        "membrane[0].friction = 3.6: the largest value that is allowed with this tip angle is 3.477, K06 (7)",
     ),
     "a negative thickness": (
         ("thickness_mm = 1.0", "thickness_mm = -1"),

@@ -14,13 +14,9 @@ export function figuresLink(app: App): HTMLElement {
     element("code", {}, "punctura reproduce"),
     " makes the page.",
   );
-  const look = async (): Promise<void> => {
-    const there = await app.api.exists(PATH);
-    made.hidden = !there;
-    missing.hidden = there;
-  };
-  app.connection.watch((now) => {
-    if (now.state === "open") void look();
+  app.hello.watch((hello) => {
+    made.hidden = !hello?.figures;
+    missing.hidden = hello?.figures ?? false;
   });
   return element("p", { class: "quiet pad figures" }, made, missing);
 }

@@ -36,7 +36,10 @@ export const healthPanel: Panel = (host, app) => {
   const [ticksBox, setTicks] = figure("ticks", "Ticks of this run");
   const [lateBox, setLate] = figure("late ticks", "Ticks that began later than the loop allows");
   const [lostBox, setLost] = figure("lost", "Ticks that the studio was too slow to read");
-  const [droppedBox, setDropped] = figure("dropped here", "Batches that this page was too slow to read");
+  const [droppedBox, setDropped] = figure(
+    "skipped by this page",
+    "Groups of ticks that this page was too slow to show",
+  );
   const [viewersBox, setViewers] = figure("pages", "Connected pages");
   const [forceBox, setForce] = figure("force", "Whether the force is turned on");
   const [handBox, setHand] = figure("hand", "Who moves the needle");

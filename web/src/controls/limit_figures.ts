@@ -25,9 +25,9 @@ export function limitFigures(limits: LimitsPart): LimitFigure[] {
       help: `Only if the device reports its motors’ temperature. ${CUT}`,
     },
     {
-      label: "ramp after arming",
+      label: "ramp of the force",
       value: `${number(limits.ramp_time)} s`,
-      help: "The force grows from zero to full in this time.",
+      help: "After it is turned on, the force grows from zero to full in this time.",
     },
     { label: "speed of the hand", value: `${number(limits.max_speed)} m/s`, help: FAULT },
     { label: "same reading again", value: duration(limits.stale), help: FAULT },

@@ -2,28 +2,30 @@ import { element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
+import { TURN_ON, waitingFor } from "./fault_steps.ts";
 import { CUT, STATES } from "./words.ts";
 
 const DISARMED = codeOf("state", "disarmed");
 const ACTIVE = codeOf("state", "active");
+const WAITING = codeOf("state", "waiting");
 const FAULTED = codeOf("state", "faulted");
-const ARM = "Turn force on";
-const DISARM = "Turn force off";
+const TURN_OFF = "Turn force off";
 const HELD = 800; // ticks: a cut is shown for this long, so that it can be read
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
 
-/** The state of the force, the limit that cuts it, and the button that turns the force on or off. */
+/** The state of the force, the limit that cuts it, and the button that turns it on or off; a fault has its own. */
 export function stateButton(app: App): HTMLElement {
   const mark = element("span", { "aria-hidden": "true" });
   const words = element("span", {});
   // Hidden from screen readers, because the numbers change too fast.
   const figures = element("span", { class: "figures", "aria-hidden": "true" });
   const state = element("span", { class: "servo-state", role: "status" }, mark, words, figures);
-  const button = element("button", { type: "button", class: "button arm" }, ARM);
+  const button = element("button", { type: "button", class: "button arm" }, TURN_ON);
   let shown = -1;
   button.addEventListener("click", () => void app.ask({ do: shown === DISARMED ? "arm" : "pause" }));
   const enable = (): void => {
-    button.disabled = app.connection.value.state !== "open" || !app.control.value.you || shown === FAULTED || shown < 0;
+    button.disabled = app.connection.value.state !== "open" || !app.control.value.you || shown < 0;
+    button.hidden = shown === FAULTED;
     button.title = app.control.value.you ? "" : "Another page has control";
   };
   app.connection.watch(enable);
@@ -42,17 +44,19 @@ export function stateButton(app: App): HTMLElement {
   everyFrame((time) => {
     const { history } = app.live;
     const known = history.length > 0 && app.connection.value.state === "open";
-    const now = known ? (history.byteRow("state", history.end - 1)[0] ?? 0) : -1;
+    // A device that has stopped sends no tick with the state "faulted".
+    const now = !known ? -1 : app.fault.value ? FAULTED : (history.byteRow("state", history.end - 1)[0] ?? 0);
     if (now === shown && time - last < INTERVAL) return;
     last = time;
     const cut = now === ACTIVE ? lastCut(history, history.end - HELD) : null;
     const entry = STATES[now];
     if (cut !== null) write(CUT.name, CUT.mark, `Force cut: ${LIMIT_WORDS[limitOf(history, cut)]}`, CUT.why);
+    else if (now === WAITING) write(entry!.name, entry!.mark, waitingFor(app), entry!.why);
     else write(entry?.name ?? "none", entry?.mark ?? "", entry?.words ?? "No ticks", entry?.why ?? "");
     figures.textContent = cut === null ? "" : cutFigures(history, cut);
     if (now === shown) return;
     shown = now;
-    button.textContent = now === DISARMED || now === FAULTED ? ARM : DISARM;
+    button.textContent = now === DISARMED ? TURN_ON : TURN_OFF;
     enable();
   });
   return element("span", { class: "arming" }, state, button);

@@ -10,7 +10,7 @@ export const STATES: readonly {
   { name: "disarmed", mark: "❚❚", words: "Force off", why: "The model runs; the device gives no force." },
   { name: "waiting", mark: "◌", words: "Waiting", why: "Force starts once the tip is outside all tissue." },
   { name: "active", mark: "●", words: "Force on", why: "The device gives the force of the model." },
-  { name: "faulted", mark: "▲", words: "Fault", why: "The force is zero until the fault is reset." },
+  { name: "faulted", mark: "▲", words: "Fault", why: "The force stays off until you turn it on." },
 ];
 
 /** Shown instead of "Force on" while a limit cuts the force. */

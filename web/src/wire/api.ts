@@ -45,15 +45,6 @@ export class Api {
     await this.get(path, { method: "DELETE" });
   }
 
-  async exists(path: string): Promise<boolean> {
-    try {
-      await this.get(path, { method: "HEAD" });
-      return true;
-    } catch {
-      return false;
-    }
-  }
-
   /** The URL of a link that the browser itself opens or saves. */
   address(path: string): string {
     return `${path}${path.includes("?") ? "&" : "?"}token=${encodeURIComponent(this.token)}`;

@@ -47,6 +47,7 @@ export interface Hello {
   scenes: Choice[];
   exercises: Choice[];
   notes: string[];
+  figures: boolean;
 }
 export interface DevicePart {
   backend: string;
@@ -197,6 +198,7 @@ export interface FaultMessage {
   kind: "fault";
   fault: string;
   reason: string;
+  remedy: string;
   trouble: string;
   tick: number | null;
   kept: number;

@@ -8,7 +8,7 @@ test("every limit is told with its unit", () => {
     "peak force": "3.3 N",
     "long-run force": "0.88 N rms in any 10 s",
     "warm motors": "from 80 %",
-    "ramp after arming": "0.5 s",
+    "ramp of the force": "0.5 s",
     "speed of the hand": "8 m/s",
     "same reading again": "15 ms",
     "late tick": "1 s",

@@ -30,6 +30,7 @@ const hello = (device: DevicePart): void =>
     scenes: [],
     exercises: [],
     notes: [],
+    figures: false,
   });
 
 /** A tick with the needle at a place, pointing down. */

@@ -48,6 +48,7 @@ export class FakeEngine implements Engine {
       scenes: [],
       exercises: [],
       notes: [],
+      figures: false,
     });
     listener.message({ kind: "scene", scene: fakeScene(this.membranes), new_run: true, run: 0 });
     for (let done = 0; done < this.prefill * RATE; done += 1600) this.make(1600);

@@ -55,6 +55,7 @@ class Hello(Part):
     scenes: list[Choice]
     exercises: list[Choice]
     notes: list[str]
+    figures: bool  # the page of `punctura reproduce` exists: GET /figures/
 
 
 class SceneMessage(Part):
@@ -120,10 +121,11 @@ class FaultMessage(Part):
 
     kind: Literal["fault"] = "fault"
     fault: str
-    reason: str
-    trouble: str
+    reason: str  # what happened, as a sentence
+    remedy: str  # what to do, as a sentence
+    trouble: str  # what the device says
     tick: int | None
-    kept: int  # snapshots before it
+    kept: int  # ticks before it: GET /api/fault.csv
 
 
 class MembraneEvent(Part):

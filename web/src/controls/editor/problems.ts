@@ -30,9 +30,10 @@ function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
 export const sentence = ({ path, value, reason }: ProblemPart): string =>
   path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
 
-/** A reason as a sentence. */
+/** A reason as a sentence, without the number of the paper's equation. */
 export function words(reason: string): string {
-  const capital = reason.charAt(0).toUpperCase() + reason.slice(1);
+  const plain = reason.replace(/, K06 \(\d+\)$/, "");
+  const capital = plain.charAt(0).toUpperCase() + plain.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }
 

@@ -63,7 +63,7 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
     if (library.nameOf(app.overlay.value) === entry.name) app.overlay.value = null;
     else void fetched((source) => (app.overlay.value = source));
   });
-  const repeat = button("Repeat", "The simulated hand follows the tip of this recording", () => {
+  const repeat = button("Replay motion", "The simulated hand follows the tip of this recording", () => {
     app.source.value = app.live;
     void app.ask({ do: "play_motion", recording: entry.name });
   });
@@ -87,8 +87,8 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
     save.hidden = open;
     (open ? keep : remove).focus();
   };
-  const keep = button("Keep", "Keep the file", () => ask(false));
-  const really = button("Delete for good", "This cannot be undone", async () => {
+  const keep = button("Cancel", "Keep the file", () => ask(false));
+  const really = button("Delete permanently", "This cannot be undone", async () => {
     try {
       await library.remove(entry);
     } catch (error) {

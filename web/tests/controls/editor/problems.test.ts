@@ -8,14 +8,14 @@ const shown = new Set(["membrane[1].friction", "membrane[0].point_mm", "needle.t
 test("a problem is shown at the field that caused it, all others at the top", () => {
   const { fields, others } = sortProblems(
     [
-      { path: "membrane[1].friction", value: "3.6", reason: "insertion needs mu tan(theta) < 1, K06 (7); here 1.035" },
+      { path: "membrane[1].friction", value: "3.6", reason: "the largest value that is allowed is 3.477, K06 (7)" },
       { path: "membrane[0].point_mm[2]", value: "x", reason: "must be a number" },
       { path: "servo.rate_hz", value: "0", reason: "must be greater than 0" },
       { path: "", value: "", reason: "the loop has ended" },
     ],
     shown,
   );
-  expect(fields.get("membrane[1].friction")).toBe("Insertion needs mu tan(theta) < 1, K06 (7); here 1.035.");
+  expect(fields.get("membrane[1].friction")).toBe("The largest value that is allowed is 3.477.");
   expect(fields.get("membrane[0].point_mm")).toBe("Must be a number.");
   expect(others).toEqual(["servo.rate_hz = 0: Must be greater than 0.", "The loop has ended."]);
 });

@@ -65,7 +65,7 @@ function problemsOf(tables: Record<string, unknown>): ProblemPart[] {
           {
             path: `membrane[${i}].friction`,
             value: String(membrane.friction),
-            reason: "insertion needs mu tan(theta) < 1, K06 (7); here 1.035",
+            reason: "the largest value that is allowed with this tip angle is 3.477, K06 (7)",
           },
         ]
       : [],

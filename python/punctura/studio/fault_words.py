@@ -1,0 +1,43 @@
+"""What happened at a fault, and what to do, in the words of the page."""
+
+from __future__ import annotations
+
+from punctura._core import Fault
+
+_WORDS: dict[Fault, tuple[str, str]] = {
+    Fault.non_finite_input: (
+        "The device reported a position or a direction that is not a number.",
+        "Check the device's cable and its calibration.",
+    ),
+    Fault.bad_axis: (
+        "The device reported a direction of the needle whose length is not 1.",
+        'Check the device\'s orientation sensors, or set direction = "motion" in the scene.',
+    ),
+    Fault.position_jump: (
+        "The position of the device changed faster than a hand can move.",
+        "Check the device's cable and its calibration.",
+    ),
+    Fault.stale_sample: (
+        "The device sent the same reading for too long.",
+        "Check the connection of the device.",
+    ),
+    Fault.missed_deadline: (
+        "The computer was too slow: a tick came too late.",
+        "Close programs that keep the processor busy.",
+    ),
+    Fault.clock: (
+        "The clock of the device went back.",
+        "Its driver must use a clock that never goes back.",
+    ),
+    Fault.non_finite_force: (
+        "The model gave a force that is not a number.",
+        "This is a defect: please report it, with the scene and the saved ticks.",
+    ),
+    Fault.device: ("The device reported a fault.", "Check the device."),
+}
+NO_TICKS = "The device has stopped."
+
+
+def fault_words(fault: Fault) -> tuple[str, str]:
+    """What happened, and what to do, as sentences. Raises KeyError for `none`."""
+    return _WORDS[fault]
