@@ -48,6 +48,7 @@ ROOMS = (
     "web/src/panel.ts",
     "web/src/hand",
     "web/src/pop",
+    "web/src/plots/kit",
     "web/src/plots",
     "web/src/scene",
     "web/src/slice",

@@ -86,7 +86,7 @@ def exercise(page: Page) -> None:
         if page.get_by_role("dialog").count():
             break
     expect(page.get_by_role("dialog")).to_contain_text("Peak model force", timeout=PATIENCE)
-    expect(page.locator("svg.trace")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".trace svg")).to_be_visible(timeout=PATIENCE)
 
 
 # name, scene, action, size, colour scheme

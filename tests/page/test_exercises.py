@@ -45,8 +45,8 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     expect(dialog).to_contain_text("not passed", timeout=PATIENCE)
     expect(dialog).to_contain_text("You went through the back vein wall")
     expect(dialog).to_contain_text("Peak model force")
-    expect(dialog.locator("svg.trace path.force")).to_have_count(1, timeout=PATIENCE)
-    expect(dialog.locator("svg.trace")).to_contain_text("model force, N")
+    expect(dialog.locator(".trace svg")).to_contain_text("model force (N)", timeout=PATIENCE)
+    expect(dialog.locator(".trace svg")).to_contain_text("✕ lost")
     assert len(fetched) == 1 and "/trace?" in fetched[0].url and len(fetched[0].body()) < 100_000
 
 

@@ -5,6 +5,7 @@ import { faultTrial } from "./controls/fault_trial.ts";
 import { handPanel } from "./controls/hand.ts";
 import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";
+import { momentLine } from "./controls/moment_line.ts";
 import { notices } from "./controls/notices.ts";
 import { phasesPanel } from "./controls/phases.ts";
 import { playerBar } from "./controls/recordings/player.ts";
@@ -35,7 +36,7 @@ export function layout(root: HTMLElement, app: App): void {
   root.append(
     place("header", "Run", headerBar),
     place("fault", "Fault", faultBanner),
-    place("view", "Needle and membranes", viewWithSlice),
+    place("view", "Needle and membranes", both(viewWithSlice, momentLine)),
     place("phases", "Membranes", phasesPanel),
     place("force-depth", "Force against depth", forceDepthPlot),
     place("time-plots", "Force and depth against time", timePlots),

@@ -13,7 +13,10 @@ export type Reach = "run" | "scene";
 export function blockOf(app: App, reach: Reach = "run"): Block | null {
   if (app.connection.value.state !== "open") return { reason: "No connection to the studio.", remedy: null };
   if (!app.source.value.live) {
-    return { reason: "A recording is shown, not the live run.", remedy: "live" };
+    const what = app.source.value.paused
+      ? "The page is paused; the run goes on."
+      : "A recording is shown, not the live run.";
+    return { reason: what, remedy: "live" };
   }
   if (!app.control.value.you) return { reason: "Another page has control.", remedy: "control" };
   if (reach === "scene" && app.exercise.value?.running) {
@@ -45,7 +48,7 @@ export function blockLine(app: App, free: string, reach: Reach = "run"): HTMLEle
   const line = element("div", { class: "block-line", role: "status" }, words, button);
   let remedy: Block["remedy"] = null;
   button.addEventListener("click", () => {
-    if (remedy === "live") app.source.value = app.live;
+    if (remedy === "live") app.goLive();
     else void app.ask({ do: "take_control" });
   });
   watchBlock(

@@ -1,11 +1,11 @@
 import { element, type Panel } from "../panel.ts";
+import { Figure } from "../plots/kit/figure.ts";
 import type { Spread, Status } from "../wire/messages.ts";
-import { bars, logPlace } from "./histogram.ts";
+import { drawHistogram } from "./histogram.ts";
 import { limitList } from "./limit_figures.ts";
 import { RateMeter } from "./rate.ts";
 
 const MANY_LATE = 1e-4; // share of the ticks
-const SVG = "http://www.w3.org/2000/svg";
 
 /** A duration with three significant digits. */
 export function duration(seconds: number): string {
@@ -104,52 +104,29 @@ export const healthPanel: Panel = (host, app) => {
   });
 };
 
-/** A distribution: its quantiles, and a histogram on a logarithmic axis with a mark at the nominal period. */
+/** A distribution: its quantiles, and a histogram with a mark at the nominal period. */
 function spread(title: string, help: string): { box: HTMLElement; show(spread: Spread, nominal: number): void } {
   const names = ["median", "99 %", "99.9 %", "largest"];
   const values = names.map(() => element("dd"));
   const figures = element("dl", {}, ...names.map((name, i) => element("div", {}, element("dt", {}, name), values[i]!)));
-  const drawing = document.createElementNS(SVG, "svg");
-  drawing.setAttribute("viewBox", "0 0 300 54");
-  drawing.setAttribute("preserveAspectRatio", "none");
-  drawing.setAttribute("role", "img");
-  drawing.setAttribute("aria-label", `${title}, histogram`);
-  const scale = element("div", { class: "health-scale", "aria-hidden": "true" });
+  let drawn: readonly [Spread, number] | null = null;
+  const figure = new Figure("histogram", 74, (pen, width, height, theme) => {
+    if (drawn) drawHistogram(pen, ...drawn, duration, width, height, theme);
+    return `${title}, histogram`;
+  });
   const box = element(
     "section",
     { class: "health-spread", title: help },
     element("h3", {}, title),
     figures,
-    drawing,
-    scale,
+    figure.root,
   );
   const show = (now: Spread, nominal: number): void => {
     [now.p50, now.p99, now.p99_9, now.largest].forEach((value, i) => {
       values[i]!.textContent = duration(value);
     });
-    const from = Math.min(now.p50, nominal) / 8;
-    const to = Math.max(now.largest, nominal) * 2;
-    const shape = (name: string, attributes: Readonly<Record<string, number | string>>): SVGElement => {
-      const made = document.createElementNS(SVG, name);
-      for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-      return made;
-    };
-    const columns = bars(now, from, to).map((bar) => {
-      const height = 52 * bar.height;
-      return shape("rect", {
-        x: 300 * bar.left,
-        y: 54 - height,
-        width: Math.max(1, 300 * bar.width - 0.4),
-        height,
-        class: "health-bar",
-      });
-    });
-    const mark = 300 * logPlace(nominal, from, to);
-    drawing.replaceChildren(...columns, shape("line", { x1: mark, x2: mark, y1: 0, y2: 54, class: "health-nominal" }));
-    const label = element("span", {}, `${duration(nominal)}: the period`);
-    label.style.left = `${(100 * logPlace(nominal, from, to)).toFixed(1)}%`;
-    if (logPlace(nominal, from, to) > 0.55) label.classList.add("leftwards");
-    scale.replaceChildren(label);
+    drawn = [now, nominal];
+    figure.redraw();
   };
   return { box, show };
 }

@@ -1,41 +1,42 @@
+import { Pane } from "../plots/kit/axes.ts";
+import { textWidth } from "../plots/kit/labels.ts";
+import type { Pen } from "../plots/kit/pen.ts";
+import { colourOf, type Theme } from "../plots/kit/theme.ts";
 import type { Spread } from "../wire/messages.ts";
 
-/** A bar of a histogram with a logarithmic time axis, as shares of the box. */
-export interface Bar {
-  readonly left: number;
-  readonly width: number;
-  readonly height: number;
-  /** s */
-  readonly from: number;
-  readonly to: number;
-  readonly count: number;
-}
-
-/** Position of a time between two others on a logarithmic axis, 0 to 1. */
-export const logPlace = (time: number, from: number, to: number): number =>
-  Math.min(1, Math.max(0, Math.log(time / from) / Math.log(to / from)));
+const LABEL = 18; // px for the label below the axis
+const LEAST = 0.1; // height of a count of one, as a share of the box
+const EDGE = 0.995; // bins beyond the ends of the axis are drawn at the ends
 
 /**
- * The bars of a distribution between `from` and `to` (s). Heights are logarithmic too, so that one late tick in a
- * million is visible: a count of one is a tenth of the box. Bins beyond the ends are drawn at the ends.
+ * Draws a distribution of times on a logarithmic axis, with a mark at the nominal time. Heights are logarithmic too,
+ * so that one late tick in a million is visible.
  */
-export function bars({ edges, counts }: Spread, from: number, to: number): Bar[] {
-  const tallest = Math.log10(counts.reduce((most, count) => Math.max(most, count), 1));
-  const made: Bar[] = [];
+export function drawHistogram(
+  pen: Pen,
+  { edges, counts, p50, largest }: Spread,
+  nominal: number,
+  words: (seconds: number) => string,
+  width: number,
+  height: number,
+  theme: Theme,
+): void {
+  const pane = new Pane();
+  pane.place(0, 0, width, height - LABEL);
+  pane.rangeX(Math.min(p50, nominal) / 8, Math.max(largest, nominal) * 2, true);
+  const tallest = Math.log10(Math.max(...counts, 1));
+  const place = (time: number): number => Math.min(Math.max(pane.x.px(Math.max(time, 1e-12)), 0), width);
   counts.forEach((count, i) => {
     if (count <= 0) return;
-    const [low, high] = [edges[i]!, edges[i + 1] ?? edges[i]!];
-    const left = logPlace(Math.max(low, 1e-12), from, to);
-    const right = logPlace(Math.max(high, 1e-12), from, to);
-    const height = tallest > 0 ? 0.1 + (0.9 * Math.log10(count)) / tallest : 1;
-    made.push({
-      left: Math.min(left, 0.995),
-      width: Math.max(right - left, 0.005),
-      height,
-      from: low,
-      to: high,
-      count,
-    });
+    const left = Math.min(place(edges[i]!), EDGE * width);
+    const tall = (tallest > 0 ? LEAST + ((1 - LEAST) * Math.log10(count)) / tallest : 1) * pane.height;
+    const wide = Math.max(place(edges[i + 1] ?? edges[i]!) - left - 0.4, 1);
+    pen.box(left, pane.bottom - tall, wide, tall, colourOf(theme, 0), 1);
   });
-  return made;
+  pen.segment(0, pane.bottom, width, pane.bottom, { colour: theme.line, width: 1 });
+  const mark = pane.x.px(nominal);
+  pen.segment(mark, 0, mark, pane.bottom, { colour: colourOf(theme, 1), width: 1.5, dash: [4, 3] });
+  const text = `${words(nominal)}: the period`;
+  const x = Math.min(mark, width - textWidth(text));
+  pen.text(x, height - LABEL / 2, text, { colour: theme.quiet });
 }

@@ -86,7 +86,6 @@ export const phasesPanel: Panel = (host, app) => {
     leave();
     leave = source.scene.watch(build);
   });
-  plots.frozen.watch(build);
 
   const fill = (tick: number): void => {
     const { history, laws } = plots.source;
@@ -125,12 +124,11 @@ export const phasesPanel: Panel = (host, app) => {
     last = now;
     const { history } = plots.source;
     if (rows.length !== Math.max(history.membranes, plots.source.scene.value?.membranes.length ?? 0)) build();
-    const pointed = plots.pointed.value;
-    const tick = pointed ?? plots.source.shown();
-    if (tick === null || tick < history.first || tick >= history.end || tick === seen) return;
+    const tick = plots.source.shown();
+    if (tick === null || tick === seen) return;
     seen = tick;
     const time = `${history.timeOf(tick).toFixed(3)} s`;
-    write(when, pointed === null ? time : `under the cursor: ${time}`);
+    write(when, plots.source.pointed.value === null ? time : `under the cursor: ${time}`);
     fill(tick);
   });
 };

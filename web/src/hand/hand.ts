@@ -70,6 +70,7 @@ export class Hand {
     if (connection.value.state !== "open" || !hello.value) return "The studio is not connected.";
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
     if (source.value.excerpt) return "A pop is shown again. Go back to the live run to move the needle.";
+    if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
     if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
     if (!control.value.you) return "Another page has control.";
     return null;

@@ -1,5 +1,5 @@
-import type { Pen } from "./pen.ts";
-import { colourOf, type Theme } from "./theme.ts";
+import type { Pen } from "./kit/pen.ts";
+import { colourOf, type Theme } from "./kit/theme.ts";
 
 /** A membrane's number in its colour. The number serves readers who cannot tell the colours apart. */
 export function drawBadge(pen: Pen, x: number, y: number, membrane: number, theme: Theme): void {

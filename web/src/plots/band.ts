@@ -1,7 +1,7 @@
 import type { LawCurve } from "../wire/messages.ts";
-import type { Pane } from "./axes.ts";
-import type { Pen } from "./pen.ts";
-import { Polyline } from "./polyline.ts";
+import type { Pane } from "./kit/axes.ts";
+import type { Pen } from "./kit/pen.ts";
+import { Polyline } from "./kit/polyline.ts";
 
 const MM = 1e3;
 const path = new Polyline();

@@ -1,14 +1,16 @@
 import { mm, newton } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
+import { hiddenOf } from "./curves.ts";
 import { difference } from "./difference.ts";
-import { ForceDepthDrawing } from "./force_depth_drawing.ts";
+import { ForceDepthDrawing, forceDepthCurves } from "./force_depth_drawing.ts";
 import type { Area, ForceDepthPicture } from "./force_depth_picture.ts";
 import { keyTick } from "./keys.ts";
+import { legend } from "./kit/legend.ts";
+import { type Box, Surface } from "./kit/surface.ts";
+import { type Theme, watchTheme } from "./kit/theme.ts";
 import { reading } from "./reading.ts";
 import { plotsOf } from "./shared.ts";
-import { type Box, Surface } from "./surface.ts";
-import { type Theme, watchTheme } from "./theme.ts";
-import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
+import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
 
 const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
 const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance
@@ -16,6 +18,8 @@ const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this d
 /** Force against depth: all ticks of the window, on top of each membrane's friction band. */
 export const forceDepthPlot: Panel = (host, app) => {
   const plots = plotsOf(app);
+  const hidden = hiddenOf(app);
+  const curves = legend(hidden);
   const drawing = new ForceDepthDrawing();
   let theme: Theme | null = null;
   let chosen: number | null = null;
@@ -38,12 +42,13 @@ export const forceDepthPlot: Panel = (host, app) => {
   const picture = (): ForceDepthPicture => ({
     source: plots.source,
     window: plots.window,
-    shown: plots.zoom.value ? null : plots.source.shown(),
+    shown: plots.zoom.value ? null : plots.source.present(),
     chosen,
     overlay: app.overlay.value,
     zoom,
-    oldest: plots.source.live ? 0.2 : 0.55, // a frozen plot is studied as a whole, so it fades less
+    oldest: plots.source.live ? 0.2 : 0.55, // a run that stands still is studied as a whole, so it fades less
     pointed,
+    hidden,
   });
   const readout = element("span", { class: "plot-readout" });
   const compared = element("span", { class: "plot-compared" });
@@ -57,7 +62,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       which.select,
       element("span", { class: "plot-gap" }),
       reset,
-      freezeButton(plots, app),
+      pauseButton(app),
       saveMenu({
         name: "force-depth",
         plots,
@@ -65,8 +70,10 @@ export const forceDepthPlot: Panel = (host, app) => {
         membranes: () => chosen,
         size: () => [surface.width, surface.height],
         draw: (pen) => drawing.draw(pen, picture(), theme!),
+        curves: () => forceDepthCurves(picture(), theme!).filter(({ id }) => hidden.shows(id)),
       }),
     ),
+    curves.root,
     body,
     element("div", { class: "plot-foot" }, readout, compared),
     spoken,
@@ -85,8 +92,8 @@ export const forceDepthPlot: Panel = (host, app) => {
       doubleClicked: () => setZoom(null),
       key: (event) => {
         if (event.key === "0") setZoom(null);
-        else if (!keyTick(event, plots)) return false;
-        const tick = plots.pointed.value;
+        else if (!keyTick(event, plots, app)) return false;
+        const tick = plots.source.shown();
         if (tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
         return true;
       },
@@ -96,6 +103,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     theme = now;
     changes++;
   });
+  hidden.ids.watch(() => changes++);
   const name = (i: number): string => plots.source.scene.value?.membranes[i]?.name ?? `membrane ${i + 1}`;
   const offer = (): void => {
     const { membranes } = plots.source.history;
@@ -117,17 +125,15 @@ export const forceDepthPlot: Panel = (host, app) => {
       for (const end of ends) end();
     };
   });
-  plots.frozen.watch(offer);
   app.overlay.watch(() => changes++);
 
   const point = (now: ForceDepthPicture): void => {
     if (surface.pointer) {
       pointed = drawing.nearest(now, surface.pointer.x, surface.pointer.y, PICK_RADIUS);
-      plots.pointed.value = pointed?.tick ?? null;
-      plots.pointedBy = "depth";
+      plots.point(pointed?.tick ?? null, "depth");
     } else {
-      if (plots.pointedBy === "depth" && document.activeElement !== surface.canvas) plots.pointed.value = null;
-      const tick = plots.pointed.value;
+      if (plots.pointedBy === "depth" && document.activeElement !== surface.canvas) plots.point(null, "depth");
+      const tick = plots.source.pointed.value;
       pointed = tick === null ? null : { tick, membrane: chosen ?? strongest(now, tick) };
     }
   };
@@ -159,7 +165,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       ...[changes, surface.sizes, history.generation, source.events.value.length, laws, source.title, plots.span.value],
       ...[plots.zoom.value?.from, plots.zoom.value?.to, source.live ? "" : source.cursor.value],
     ].join(" ");
-    const state = `${backState} ${surface.changes} ${history.end} ${plots.pointed.value}`;
+    const state = `${backState} ${surface.changes} ${history.end} ${source.pointed.value}`;
     if (state === seen) return;
     seen = state;
     const now = picture();
@@ -171,6 +177,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       backAt = time;
       drawing.arrange(now, surface.width, surface.height, time / 1e3);
       drawing.drawBack(surface.beginBack(), now, theme);
+      curves.show(forceDepthCurves(now, theme));
       wait = Math.max(REDRAW_INTERVAL, 10 * (performance.now() - began));
     }
     point(now);

@@ -1,21 +1,34 @@
 import type { Source } from "../state/source.ts";
-import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
 import { drawBand } from "./band.ts";
-import { decimate } from "./decimate.ts";
+import { DASH, forceCurves, membraneCurves } from "./curves.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
 import { ForceDepthRanges } from "./force_depth_ranges.ts";
-import { gather, gatherOther, isCompared } from "./gather.ts";
-import { drawKey, type KeyEntry, otherName } from "./key.ts";
-import { Painted } from "./painted.ts";
-import type { Pen, Stroke } from "./pen.ts";
-import { Polyline } from "./polyline.ts";
+import { gather, gatherFelt, gatherOther, gatherPermitted, isCompared } from "./gather.ts";
+import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
+import { decimate } from "./kit/decimate.ts";
+import type { Curve } from "./kit/legend.ts";
+import { Painted } from "./kit/painted.ts";
+import type { Pen, Stroke } from "./kit/pen.ts";
+import { Polyline } from "./kit/polyline.ts";
+import { colourOf, type Theme } from "./kit/theme.ts";
 import { drawPops } from "./pop_marks.ts";
-import { colourOf, type Theme } from "./theme.ts";
 
 const MM = 1e3;
 const AGES = 8; // the history fades in this many steps
 const WIDTH = 1.6; // px
+
+/** The curves that the plot can show, for its legend. */
+export function forceDepthCurves(picture: ForceDepthPicture, theme: Theme): Curve[] {
+  const { source, window, overlay, chosen } = picture;
+  const membranes = membraneCurves(source, theme);
+  return [
+    ...(chosen === null ? membranes : membranes.slice(chosen, chosen + 1)),
+    ...forceCurves(source, window.first, endOf(picture), theme),
+    { id: "band", text: "friction band", colour: theme.quiet, shade: 0.25 },
+    ...(overlay ? [{ id: "earlier", text: overlay.title, colour: theme.text, dash: DASH }] : []),
+  ];
+}
 
 /** Draws force against depth. Reuses its buffers from frame to frame. */
 export class ForceDepthDrawing {
@@ -43,23 +56,20 @@ export class ForceDepthDrawing {
   /** Draws the background: bands, axes and the ticks up to now. */
   drawBack(pen: Pen, picture: ForceDepthPicture, theme: Theme): void {
     const { left, top, width, height } = this.pane;
-    const { source, window, overlay } = picture;
+    const { source, window, overlay, hidden } = picture;
     const end = endOf(picture);
     const membranes = drawnMembranes(picture);
     pen.within(left, top, width, height, () => {
-      for (const i of membranes) {
+      for (const i of hidden.shows("band") ? membranes : []) {
         const law = source.laws.value[i];
         if (law) drawBand(pen, this.pane, law, colourOf(theme, i));
       }
     });
-    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force of the model (N)" });
-    const keys: KeyEntry[] = [];
-    if (overlay) keys.push({ text: overlay.title, colour: theme.text });
-    if (isCompared(source.history, window.first, end)) keys.push({ text: otherName(source), colour: theme.quiet });
-    drawKey(pen, left + width, top - 9, keys, theme);
+    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force (N)" });
     pen.within(left, top, width, height, () => {
-      for (const i of overlaidMembranes(picture)) this.drawOverlay(pen, overlay!, i, theme);
-      this.drawOther(pen, source, window.first, end, membranes, theme);
+      for (const i of hidden.shows("earlier") ? overlaidMembranes(picture) : [])
+        this.drawOverlay(pen, overlay!, i, theme);
+      this.drawMore(pen, picture, window.first, end, theme);
       for (const i of membranes) this.drawHistory(pen, picture, i, theme);
     });
     drawPops(pen, this.pane, picture, theme);
@@ -72,8 +82,8 @@ export class ForceDepthDrawing {
     const first = Math.max(window.first, from - 1);
     const end = endOf(picture);
     pen.within(left, top, width, height, () => {
+      if (end - first > 1) this.drawMore(pen, picture, first, end, theme);
       for (const i of end - first > 1 ? drawnMembranes(picture) : []) {
-        this.drawOther(pen, source, first, end, [i], theme);
         const n = this.pixels(source, first, end, i);
         this.path.clear();
         decimate(this.xs, this.ys, 0, n, this.path);
@@ -114,15 +124,15 @@ export class ForceDepthDrawing {
     }
     const { x, y } = this.pane;
     const { history } = source;
-    gather(history, first, end, "depth", membrane, MM * slope(x), x.px(0), this.xs);
-    gather(history, first, end, "axial_force", membrane, -slope(y), y.px(0), this.ys);
+    gather(history, first, end, "depth", membrane, MM * x.slope, x.px(0), this.xs);
+    gather(history, first, end, "axial_force", membrane, -y.slope, y.px(0), this.ys);
     return n;
   }
 
   private drawOverlay(pen: Pen, overlay: Source, membrane: number, theme: Theme): void {
     const { first, end } = overlay.history;
     const n = this.pixels(overlay, first, end, membrane);
-    this.drawNew(pen, 0, n, { colour: theme.text, width: 1.5, alpha: 0.7 }, true);
+    this.drawNew(pen, 0, n, { colour: theme.text, width: 1.5, dash: DASH }, true);
   }
 
   /** Draws the needle's path. Older parts are fainter. */
@@ -139,21 +149,26 @@ export class ForceDepthDrawing {
     }
   }
 
-  private drawOther(
-    pen: Pen,
-    source: Source,
-    first: number,
-    end: number,
-    membranes: readonly number[],
-    theme: Theme,
-  ): void {
+  /** Draws the felt force, the permitted force and the other solver's force, where they are switched on. */
+  private drawMore(pen: Pen, picture: ForceDepthPicture, first: number, end: number, theme: Theme): void {
+    const { source, hidden } = picture;
     const { history } = source;
-    if (!isCompared(history, first, end)) return;
     const { y } = this.pane;
-    for (const i of membranes) {
+    const other = hidden.shows("other") && isCompared(history, first, end);
+    for (const i of drawnMembranes(picture)) {
       const n = this.pixels(source, first, end, i);
-      gatherOther(history, first, end, i, -slope(y), y.px(0), this.ys);
-      this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1 }, true);
+      if (hidden.shows("permitted")) {
+        gatherPermitted(history, first, end, i, y.slope, y.px(0), this.ys);
+        this.drawNew(pen, 0, n, { colour: theme.danger, width: 1.25, dash: DASH }, true);
+      }
+      if (hidden.shows("felt")) {
+        gatherFelt(history, first, end, i, -y.slope, y.px(0), this.ys);
+        this.drawNew(pen, 0, n, { colour: theme.text, width: 1.25, alpha: 0.7 }, true);
+      }
+      if (other) {
+        gatherOther(history, first, end, i, -y.slope, y.px(0), this.ys);
+        this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1 }, true);
+      }
     }
   }
 
@@ -179,8 +194,8 @@ export class ForceDepthDrawing {
     if (picture.pointed) {
       const [px, py] = place(picture.pointed.tick, picture.pointed.membrane);
       const hair = { colour: theme.text, width: 1, alpha: 0.5, dash: [3, 3] };
-      pen.segment(px, this.pane.top, px, this.pane.top + this.pane.height, hair);
-      pen.segment(this.pane.left, py, this.pane.left + this.pane.width, py, hair);
+      pen.segment(px, this.pane.top, px, this.pane.bottom, hair);
+      pen.segment(this.pane.left, py, this.pane.right, py, hair);
       pen.dot(px, py, 4, theme.panel, theme.text);
     }
     if (last < history.first || last >= history.end) return;
@@ -190,6 +205,3 @@ export class ForceDepthDrawing {
     }
   }
 }
-
-const slope = ({ min, max, from, to }: { min: number; max: number; from: number; to: number }): number =>
-  (to - from) / (max - min);

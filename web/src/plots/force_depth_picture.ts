@@ -1,4 +1,6 @@
 import type { Source } from "../state/source.ts";
+import { shownMembranes } from "./curves.ts";
+import type { Hidden } from "./kit/legend.ts";
 import type { Window } from "./window.ts";
 
 export interface Area {
@@ -19,11 +21,12 @@ export interface ForceDepthPicture {
   /** Opacity of the oldest tick, 0 to 1. */
   readonly oldest: number;
   readonly pointed: { readonly tick: number; readonly membrane: number } | null;
+  readonly hidden: Hidden;
 }
 
 /** The membranes that are drawn. */
-export const drawnMembranes = ({ source, chosen }: ForceDepthPicture): number[] =>
-  Array.from({ length: source.history.membranes }, (_, i) => i).filter((i) => chosen === null || chosen === i);
+export const drawnMembranes = ({ source, chosen, hidden }: ForceDepthPicture): number[] =>
+  chosen === null ? shownMembranes(source.history, hidden) : chosen < source.history.membranes ? [chosen] : [];
 
 /** The matching membranes of the earlier run: those with the same name, else with the same index. */
 export function overlaidMembranes(picture: ForceDepthPicture): number[] {

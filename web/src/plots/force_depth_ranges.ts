@@ -1,7 +1,7 @@
-import { AutoRange } from "./auto_range.ts";
-import type { Pane } from "./axes.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
 import { Extent, gatherOther, isCompared } from "./gather.ts";
+import { AutoRange } from "./kit/auto_range.ts";
+import type { Pane } from "./kit/axes.ts";
 
 const MM = 1e3;
 const OUTSIDE = 0.35; // length of the axis before the surface, as a share of its length behind it
@@ -32,7 +32,7 @@ export class ForceDepthRanges {
 
   private measure(picture: ForceDepthPicture): void {
     const { x, y } = this;
-    const { source, overlay, window } = picture;
+    const { source, overlay, window, hidden } = picture;
     const { history } = source;
     x.forget();
     y.forget();
@@ -40,7 +40,8 @@ export class ForceDepthRanges {
     y.take(0.1);
     x.take(2);
     const end = endOf(picture);
-    const compared = isCompared(history, window.first, end);
+    const compared = hidden.shows("other") && isCompared(history, window.first, end);
+    if (hidden.shows("permitted")) y.takeColumn(history, window.first, end, "ceiling", 0, 1);
     for (const i of drawnMembranes(picture)) {
       const law = source.laws.value[i];
       for (const force of law?.lower ?? []) y.take(-force);

@@ -94,18 +94,19 @@ export function gatherOther(
 }
 
 /**
- * The size of the force sent to the device, after all limits, N; negative if it pulls the needle in. While no limit
- * acts, it equals the size of the model's force, which exercises judge.
+ * The size of a force, N; negative if it pulls the needle in. `force` is what the device gives, after all limits;
+ * `model_force` is what exercises judge. They are equal while no limit acts.
  */
-export function gatherSent(
+export function gatherSize(
   history: History,
   first: number,
   end: number,
+  column: "force" | "model_force",
   gain: number,
   bias: number,
   out: Float32Array,
 ): void {
-  const force = history.column("force");
+  const force = history.column(column);
   const axis = history.column("axis");
   eachPart(history, first, end, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
@@ -117,6 +118,50 @@ export function gatherSent(
       const size = Math.sqrt(x * x + y * y + z * z);
       out[at + i] = bias + gain * (inwards > 0 ? -size : size);
     }
+  });
+}
+
+/** A membrane's share of the felt force, along the needle, N: the device scales all shares alike. NaN outside it. */
+export function gatherFelt(
+  history: History,
+  first: number,
+  end: number,
+  membrane: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  const m = history.membranes;
+  const [axial, force, model] = [history.column("axial_force"), history.column("force"), history.column("model_force")];
+  const phase = history.byteColumn("phase");
+  const size = (values: Float32Array, row: number): number =>
+    Math.sqrt(values[3 * row]! ** 2 + values[3 * row + 1]! ** 2 + values[3 * row + 2]! ** 2);
+  eachPart(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) {
+      const row = slot + i;
+      const cell = row * m + membrane;
+      const whole = size(model, row);
+      const share = phase[cell] === OUTSIDE ? Number.NaN : whole > 0 ? size(force, row) / whole : 0;
+      out[at + i] = bias + gain * axial[cell]! * share;
+    }
+  });
+}
+
+/** The permitted force while the tip is inside a membrane, N; NaN outside it. */
+export function gatherPermitted(
+  history: History,
+  first: number,
+  end: number,
+  membrane: number,
+  gain: number,
+  bias: number,
+  out: Float32Array,
+): void {
+  gather(history, first, end, "ceiling", 0, gain, bias, out);
+  const m = history.membranes;
+  const phase = history.byteColumn("phase");
+  eachPart(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) if (phase[(slot + i) * m + membrane] === OUTSIDE) out[at + i] = Number.NaN;
   });
 }
 

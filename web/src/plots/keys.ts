@@ -1,16 +1,16 @@
+import type { App } from "../state/app.ts";
 import type { Plots } from "./shared.ts";
 
-/** Handles a key press on a plot: moves the pointed tick, freezes or zooms. Returns whether the key has a meaning. */
-export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
+/** Handles a key press on a plot: moves the moment, pauses or zooms. Returns whether the key has a meaning. */
+export function keyTick(event: KeyboardEvent, plots: Plots, app: App): boolean {
   const { window, source } = plots;
-  const { history } = source;
   if (event.key === "Escape") {
-    plots.pointed.value = null;
+    plots.point(null, "keys");
     return true;
   }
   if (event.key === " ") {
-    if (plots.frozen.value) plots.unfreeze();
-    else plots.freeze();
+    if (source.paused) app.goLive();
+    else app.pause();
     return true;
   }
   if (event.key === "+" || event.key === "-") {
@@ -19,7 +19,7 @@ export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
   }
   const span = window.end - window.first;
   const step = event.shiftKey ? 1 : Math.max(1, Math.round(span / 400));
-  const now = plots.pointed.value ?? Math.min(window.end, history.end) - 1;
+  const now = source.shown() ?? 0;
   const to = {
     ArrowLeft: now - step,
     ArrowRight: now + step,
@@ -29,16 +29,20 @@ export function keyTick(event: KeyboardEvent, plots: Plots): boolean {
     End: window.end - 1,
   }[event.key];
   if (to === undefined || span <= 0) return false;
-  plots.pointedBy = "keys";
-  plots.pointed.value = Math.min(Math.max(to, window.first), window.end - 1);
+  const tick = Math.min(Math.max(to, window.first), window.end - 1);
+  // The live run goes on under the keyboard cursor; a run that stands still moves with it.
+  plots.point(source.live ? tick : null, "keys");
+  if (!source.live) source.cursor.value = tick;
   return true;
 }
 
-/** Multiplies the length of the window by `factor`, about the pointed tick. */
+/** Multiplies the length of the window by `factor`, about the moment. */
 function zoomBy(plots: Plots, factor: number): void {
   const { window, source } = plots;
   const middle =
-    plots.pointed.value === null ? (window.from + window.to) / 2 : source.history.timeOf(plots.pointed.value);
+    source.live && source.pointed.value === null
+      ? (window.from + window.to) / 2
+      : source.history.timeOf(source.shown() ?? 0);
   const half = Math.max(0.005, ((window.to - window.from) * factor) / 2);
   if (2 * half >= plots.span.value) plots.resetZoom();
   else plots.zoomTo(middle - half, middle + half);

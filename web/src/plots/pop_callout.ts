@@ -3,7 +3,7 @@ import { lastPop, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
-import type { Pane } from "./axes.ts";
+import type { Pane } from "./kit/axes.ts";
 import { popLabel } from "./marks.ts";
 import { plotsOf } from "./shared.ts";
 import type { Window } from "./window.ts";

@@ -1,9 +1,10 @@
 import type { MembraneEvent } from "../wire/messages.ts";
-import type { Pane } from "./axes.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture } from "./force_depth_picture.ts";
-import { labelsThatFit, popLabel } from "./marks.ts";
-import type { Pen } from "./pen.ts";
-import type { Theme } from "./theme.ts";
+import type { Pane } from "./kit/axes.ts";
+import { labelsThatFit } from "./kit/labels.ts";
+import type { Pen } from "./kit/pen.ts";
+import type { Theme } from "./kit/theme.ts";
+import { popLabel } from "./marks.ts";
 
 const MM = 1e3;
 const CAP = 5; // px

@@ -1,11 +1,11 @@
 import type { History } from "../state/history.ts";
 import { cutFigures, cuts, LIMIT_WORDS, limitOf } from "../state/limits.ts";
 import type { Source } from "../state/source.ts";
-import type { Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
-import type { Pen } from "./pen.ts";
+import type { Pane } from "./kit/axes.ts";
+import type { Pen } from "./kit/pen.ts";
+import type { Theme } from "./kit/theme.ts";
 import { STATE_WORDS, stateOf } from "./states.ts";
-import type { Theme } from "./theme.ts";
 
 const WIDTH = 158;
 const ROW = 16;
@@ -35,7 +35,7 @@ function forceWords(history: History, tick: number): string {
 export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme): void {
   const { history } = source;
   const x = pane.x.px(history.timeOf(tick));
-  const left = x + WIDTH + 14 < pane.left + pane.width ? x + 10 : x - WIDTH - 10;
+  const left = x + WIDTH + 14 < pane.right ? x + 10 : x - WIDTH - 10;
   const { top } = pane;
   pen.box(left, top + 2, WIDTH, ROW * (history.membranes + 1) + 6, theme.panel, 0.92);
   const edge = { colour: theme.line, width: 1 };

@@ -1,9 +1,11 @@
-import { CanvasPen } from "./canvas_pen.ts";
 import { csv } from "./csv.ts";
-import type { Pen } from "./pen.ts";
+import { MARGIN } from "./kit/axes.ts";
+import { CanvasPen } from "./kit/canvas_pen.ts";
+import { type Curve, drawLegend } from "./kit/legend.ts";
+import type { Pen } from "./kit/pen.ts";
+import { SvgPen } from "./kit/svg_pen.ts";
+import type { Theme } from "./kit/theme.ts";
 import type { Plots } from "./shared.ts";
-import { SvgPen } from "./svg_pen.ts";
-import type { Theme } from "./theme.ts";
 
 /** The parts of a plot that can be saved. */
 export interface Saving {
@@ -14,6 +16,8 @@ export interface Saving {
   membranes(): number | null;
   size(): readonly [width: number, height: number];
   draw(pen: Pen): void;
+  /** The curves for the legend below the picture. */
+  curves(): readonly Curve[];
 }
 
 const PNG_RATIO = 2; // pixels of the file per pixel of the plot: sharp enough for print
@@ -32,7 +36,7 @@ export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promi
   const { plots } = saving;
   const { source, window } = plots;
   const scene = source.scene.value;
-  const [width, height] = saving.size();
+  const [width, upper] = saving.size();
   const span = `${window.from.toFixed(3)} s to ${window.to.toFixed(3)} s`;
   const title = `${scene?.name ?? "Punctura"}, ${span}`;
   const file = `${saving.name}-${window.from.toFixed(2)}s.${format}`;
@@ -41,9 +45,12 @@ export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promi
     return;
   }
   const theme = saving.theme();
+  const legend = (pen: Pen): number => drawLegend(pen, MARGIN.left, width, upper, saving.curves(), theme);
+  const height = upper + legend(new SvgPen());
   if (format === "svg") {
     const pen = new SvgPen();
     saving.draw(pen);
+    legend(pen);
     const words = `${scene?.membranes.length ?? 0} membranes, solver ${scene?.solver ?? "unknown"}`;
     download(file, [pen.file(width, height, theme.panel, title, words)], "image/svg+xml");
     return;
@@ -55,6 +62,7 @@ export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promi
   pen.begin(width, height, PNG_RATIO);
   pen.box(0, 0, width, height, theme.panel, 1);
   saving.draw(pen);
+  legend(pen);
   const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, "image/png"));
   if (blob) download(file, [blob], "image/png");
 }

@@ -1,5 +1,4 @@
 import type { App } from "../state/app.ts";
-import { frozenCopy } from "../state/frozen.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { Source } from "../state/source.ts";
@@ -8,28 +7,29 @@ import { Window } from "./window.ts";
 export const SPANS = [2, 5, 20, 80] as const; // s
 export type Span = (typeof SPANS)[number];
 
-/** State shared by all plots of a page: the shown window of ticks and the pointed tick. */
+/** State shared by all plots of a page: the shown window of ticks, and who points at a tick. */
 export class Plots {
-  /** The frozen copy that the plots show while the run goes on. */
-  readonly frozen = new Signal<Source | null>(null);
   readonly span = new Signal<Span>(20);
   /** The zoomed part of the time, s. */
   readonly zoom = new Signal<{ readonly from: number; readonly to: number } | null>(null);
-  /** The tick under the pointer or the keyboard cursor. */
-  readonly pointed = new Signal<number | null>(null);
-  /** The plot or keyboard that set `pointed`. A plot clears it when the pointer leaves. */
+  /** The plot or keyboard that set the source's `pointed`. A plot clears it when the pointer leaves. */
   pointedBy: "depth" | "time" | "keys" | null = null;
   readonly window = new Window();
   /** Width of the time plot, px. */
   width = 400;
-  private frozenByZoom = false;
+  private pausedByZoom = false;
 
   constructor(private readonly app: App) {
-    app.source.watch(() => this.unfreeze());
+    let before = app.source.value;
+    app.source.watch((source) => {
+      before.pointed.value = null;
+      before = source;
+      this.zoom.value = null;
+    });
   }
 
   get source(): Source {
-    return this.frozen.value ?? this.app.source.value;
+    return this.app.source.value;
   }
 
   /** Finds the ticks to draw. Called once per frame. */
@@ -39,52 +39,38 @@ export class Plots {
     const { excerpt, history } = source;
     if (zoom) window.set(history, zoom.from, zoom.to);
     else if (excerpt) window.set(history, history.timeOf(excerpt.first), history.timeOf(excerpt.last));
-    else
-      window.follow(
-        history,
-        source.shown(),
-        this.span.value,
-        source.live || this.frozen.value !== null,
-        this.span.value / this.width,
-      );
+    else window.follow(history, source.present(), this.span.value, source.live, this.span.value / this.width);
     return window;
   }
 
-  freeze(): void {
-    if (this.frozen.value || !this.app.source.value.live) return;
-    this.frozen.value = frozenCopy(this.app.source.value);
-    this.frozenByZoom = false;
+  /** Points at a tick; null: at none. */
+  point(tick: number | null, by: "depth" | "time" | "keys"): void {
+    this.pointedBy = by;
+    this.source.pointed.value = tick;
   }
 
-  unfreeze(): void {
-    this.frozen.value = null;
-    this.zoom.value = null;
-    this.pointed.value = null;
-  }
-
-  /** Shows a part of the time. A live source is frozen first. */
+  /** Shows a part of the time. A live source is paused first. */
   zoomTo(from: number, to: number): void {
-    const byZoom = this.app.source.value.live && !this.frozen.value;
-    this.freeze();
-    this.frozenByZoom ||= byZoom;
+    const pauses = this.source.live;
+    this.app.pause();
+    this.pausedByZoom = pauses || (this.pausedByZoom && this.source.paused);
     this.zoom.value = { from, to };
   }
 
   resetZoom(): void {
     this.zoom.value = null;
-    if (this.frozenByZoom) this.unfreeze();
+    if (this.pausedByZoom && this.source.paused) this.app.goLive();
+    this.pausedByZoom = false;
   }
 
-  /** Zooms to a tick. Returns whether the history still holds it. */
+  /** Zooms to a tick and moves the timeline there. Returns whether the history still holds it. */
   jump(tick: number): boolean {
     const { history } = this.source;
     if (tick < history.first || tick >= history.end) return false;
     const time = history.timeOf(tick);
     const half = Math.min(1, this.span.value / 2);
     this.zoomTo(time - half, time + half);
-    if (!this.app.source.value.live) this.app.source.value.cursor.value = tick;
-    this.pointedBy = "keys";
-    this.pointed.value = tick;
+    this.source.cursor.value = tick;
     return true;
   }
 }

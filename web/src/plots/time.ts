@@ -1,13 +1,15 @@
 import { element, everyFrame, type Panel } from "../panel.ts";
-import { MARGIN } from "./axes.ts";
+import { hiddenOf } from "./curves.ts";
 import { keyTick } from "./keys.ts";
+import { MARGIN } from "./kit/axes.ts";
+import { legend } from "./kit/legend.ts";
+import { Surface } from "./kit/surface.ts";
+import { type Theme, watchTheme } from "./kit/theme.ts";
 import { popCallout } from "./pop_callout.ts";
 import { reading } from "./reading.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
-import { Surface } from "./surface.ts";
-import { type Theme, watchTheme } from "./theme.ts";
-import { TimeDrawing, type TimePicture } from "./time_drawing.ts";
-import { button, choice, freezeButton, saveMenu } from "./toolbar.ts";
+import { TimeDrawing, type TimePicture, timeCurves } from "./time_drawing.ts";
+import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
 const TAIL = 800; // ticks that the foreground draws each frame, at most
@@ -15,6 +17,8 @@ const TAIL = 800; // ticks that the foreground draws each frame, at most
 /** Force and depth against time, one above the other. */
 export const timePlots: Panel = (host, app) => {
   const plots = plotsOf(app);
+  const hidden = hiddenOf(app);
+  const curves = legend(hidden);
   const drawing = new TimeDrawing();
   let theme: Theme | null = null;
   let changes = 0;
@@ -37,8 +41,9 @@ export const timePlots: Panel = (host, app) => {
   const picture = (): TimePicture => ({
     source: plots.source,
     window: plots.window,
-    pointed: plots.pointed.value,
+    pointed: plots.source.pointed.value,
     cursor: plots.source.cursor.value,
+    hidden,
   });
   const body = element("div", { class: "plot-body" });
   const spoken = element("p", { class: "only-read", "aria-live": "polite" });
@@ -50,7 +55,7 @@ export const timePlots: Panel = (host, app) => {
       spans.select,
       element("span", { class: "plot-gap" }),
       reset,
-      freezeButton(plots, app),
+      pauseButton(app),
       saveMenu({
         name: "force-and-depth",
         plots,
@@ -58,15 +63,17 @@ export const timePlots: Panel = (host, app) => {
         membranes: () => null,
         size: () => [surface.width, surface.height],
         draw: (pen) => drawing.draw(pen, picture(), theme!),
+        curves: () => timeCurves(picture(), theme!).filter(({ id }) => hidden.shows(id)),
       }),
     ),
+    curves.root,
     body,
     spoken,
   );
   const surface = new Surface(
     body,
-    "Force and depth against time. Arrow keys move the cursor, with Shift by one tick. " +
-      "Plus and minus zoom, 0 resets, Space freezes.",
+    "Force and depth against time. Arrow keys move the moment, with Shift by one tick. " +
+      "Plus and minus zoom, 0 resets, Space pauses.",
     {
       boxDrawn: ({ x1, x2 }) => {
         const { x } = drawing.force;
@@ -79,8 +86,8 @@ export const timePlots: Panel = (host, app) => {
           plots.resetZoom();
           return true;
         }
-        const taken = keyTick(event, plots);
-        const tick = plots.pointed.value;
+        const taken = keyTick(event, plots, app);
+        const tick = plots.source.shown();
         if (taken && tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
         return taken;
       },
@@ -91,14 +98,14 @@ export const timePlots: Panel = (host, app) => {
     changes++;
   });
   const callOut = popCallout(body, app);
+  hidden.ids.watch(() => changes++);
 
   const point = (): void => {
     const { pointer } = surface;
     const { x, left, width } = drawing.force;
     if (pointer && pointer.x >= left && pointer.x <= left + width) {
-      plots.pointedBy = "time";
-      plots.pointed.value = nearestTick(plots.source.history, x.value(pointer.x));
-    } else if (plots.pointedBy === "time") plots.pointed.value = null;
+      plots.point(nearestTick(plots.source.history, x.value(pointer.x)), "time");
+    } else if (plots.pointedBy === "time") plots.point(null, "time");
   };
 
   let seen = "";
@@ -112,7 +119,7 @@ export const timePlots: Panel = (host, app) => {
     const { history } = source;
     const counts = `${changes} ${surface.sizes} ${history.generation} ${source.events.value.length}`;
     const backState = `${counts} ${from} ${to} ${source.live}`;
-    const state = `${backState} ${surface.changes} ${first} ${end} ${source.cursor.value} ${plots.pointed.value}`;
+    const state = `${backState} ${surface.changes} ${first} ${end} ${source.cursor.value} ${source.pointed.value}`;
     if (state === seen) return;
     seen = state;
     if (backState !== back || end - backEnd > TAIL) {
@@ -120,6 +127,7 @@ export const timePlots: Panel = (host, app) => {
       backEnd = end;
       drawing.arrange(picture(), surface.width, surface.height, time / 1e3);
       drawing.drawBack(surface.beginBack(), picture(), theme);
+      curves.show(timeCurves(picture(), theme));
     }
     point();
     callOut(drawing.force);
@@ -128,7 +136,7 @@ export const timePlots: Panel = (host, app) => {
     if (surface.box) {
       const { x1, x2 } = surface.box;
       const { top } = drawing.force;
-      const height = drawing.depth.top + drawing.depth.height - top;
+      const height = drawing.depth.bottom - top;
       pen.box(Math.min(x1, x2), top, Math.abs(x2 - x1), height, theme.accent, 0.2);
     }
   });

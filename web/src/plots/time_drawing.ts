@@ -1,30 +1,40 @@
-import type { History } from "../state/history.ts";
 import type { Source } from "../state/source.ts";
-import { AutoRange } from "./auto_range.ts";
-import { drawAxes, MARGIN, Pane } from "./axes.ts";
 import { drawBadge } from "./badge.ts";
-import { decimate } from "./decimate.ts";
-import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "./gather.ts";
-import { drawKey, type KeyEntry, otherName } from "./key.ts";
-import type { Pen } from "./pen.ts";
-import { Polyline } from "./polyline.ts";
+import { DASH, forceCurves, membraneCurves, shownMembranes } from "./curves.ts";
+import { Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "./gather.ts";
+import { AutoRange } from "./kit/auto_range.ts";
+import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
+import { decimate } from "./kit/decimate.ts";
+import type { Curve, Hidden } from "./kit/legend.ts";
+import type { Pen, Stroke } from "./kit/pen.ts";
+import { Polyline } from "./kit/polyline.ts";
+import { colourOf, type Theme } from "./kit/theme.ts";
 import { drawReading } from "./reading.ts";
-import type { Scale } from "./scale.ts";
-import { colourOf, type Theme } from "./theme.ts";
-import { drawLimits, drawMarks, drawStates, limitKey } from "./time_marks.ts";
+import { drawLimits, drawMarks, drawStates, limitCurve } from "./time_marks.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
 const FORCE_SHARE = 0.58;
+const WIDE = 5; // px: the model's force stays visible behind an equal felt force
+const SIZES = [["model", "model_force"], ["felt", "force"]] as const; // biome-ignore format: a table
 
 /** The window of ticks to draw. Depths in mm; forces in N, positive if they push the needle out. */
 export interface TimePicture {
   readonly source: Source;
   readonly window: Window;
   readonly pointed: number | null;
-  /** The tick of a recording's scrubber. */
+  /** The tick at which the timeline stands. */
   readonly cursor: number | null;
+  readonly hidden: Hidden;
 }
+
+/** The curves that the plot can show, for its legend. */
+export const timeCurves = ({ source, window }: TimePicture, theme: Theme): Curve[] => [
+  ...membraneCurves(source, theme),
+  { id: "model", text: "model force", colour: theme.quiet, width: WIDE },
+  ...forceCurves(source, window.first, window.end, theme),
+  ...limitCurve(source.history, window, theme),
+];
 
 /** Draws force and depth against one time axis. Reuses its buffers from frame to frame. */
 export class TimeDrawing {
@@ -44,7 +54,7 @@ export class TimeDrawing {
   }
 
   /** Computes the axes at the time `now`, s. */
-  arrange({ source, window }: TimePicture, width: number, height: number, now: number): void {
+  arrange({ source, window, hidden }: TimePicture, width: number, height: number, now: number): void {
     const { force, depth, extent } = this;
     const across = width - MARGIN.left - MARGIN.right;
     const room = height - 2 * MARGIN.top - MARGIN.bottom;
@@ -55,16 +65,20 @@ export class TimeDrawing {
     extent.forget();
     extent.take(-0.1);
     extent.take(0.1);
-    for (let i = 0; i < history.membranes; i++)
-      extent.takeColumn(history, window.first, window.end, "axial_force", i, -1);
+    const shown = shownMembranes(history, hidden);
+    for (const i of shown) extent.takeColumn(history, window.first, window.end, "axial_force", i, -1);
     this.room(window.end - window.first);
-    gatherSent(history, window.first, window.end, 1, 0, this.ys);
-    extent.takeNumbers(this.ys, window.end - window.first);
+    for (const [id, column] of SIZES) {
+      if (!hidden.shows(id)) continue;
+      gatherSize(history, window.first, window.end, column, 1, 0, this.ys);
+      extent.takeNumbers(this.ys, window.end - window.first);
+    }
+    if (hidden.shows("permitted")) extent.takeColumn(history, window.first, window.end, "ceiling", 0, 1);
     this.rangeForce.follow(extent.low, extent.high, now);
     extent.forget();
     extent.take(-1);
     extent.take(1);
-    for (let i = 0; i < history.membranes; i++) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
+    for (const i of shown) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
     // While the hand is far from the tissue, the range must not flatten the curve inside it.
     this.rangeDepth.follow(Math.max(extent.low, -Math.max(10, 1.5 * extent.high)), extent.high, now);
     for (const pane of [force, depth]) pane.rangeX(window.from, window.to);
@@ -80,41 +94,37 @@ export class TimeDrawing {
 
   /** Draws the background, which stays the same while the window stays. */
   drawBack(pen: Pen, picture: TimePicture, theme: Theme): void {
-    const { source, window } = picture;
+    const { source, window, hidden } = picture;
     drawStates(pen, this.force, this.depth, source.history, window, theme);
-    drawLimits(pen, this.force, source.history, window, theme);
+    if (hidden.shows("cut")) drawLimits(pen, this.force, source.history, window, theme);
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     drawMarks(pen, this.force, this.depth, source, window, theme);
-    const key: KeyEntry[] = [{ text: "sent to the hand", colour: theme.text }];
-    if (isCompared(source.history, window.first, window.end))
-      key.push({ text: otherName(source), colour: theme.quiet });
-    key.push(...limitKey(source.history, window, theme));
-    drawKey(pen, this.depth.left + this.depth.width, this.depth.top - 9, key, theme);
-    this.drawLines(pen, source.history, window.first, window.end, theme);
+    this.drawLines(pen, picture, window.first, window.end, theme);
   }
 
   /** Draws the foreground: the new ticks, from the tick `from` on, the present tick and the pointed tick. */
   drawFront(pen: Pen, picture: TimePicture, from: number, theme: Theme): void {
-    const { source, window } = picture;
-    this.drawLines(pen, source.history, Math.max(window.first, from - 1), window.end, theme);
+    const { window } = picture;
+    this.drawLines(pen, picture, Math.max(window.first, from - 1), window.end, theme);
     this.drawNow(pen, picture, theme);
   }
 
-  private drawLines(pen: Pen, history: History, first: number, end: number, theme: Theme): void {
+  private drawLines(pen: Pen, picture: TimePicture, first: number, end: number, theme: Theme): void {
     const n = end - first;
     if (n < 2) return;
     this.room(n);
     const { force, depth } = this;
-    const slope = slopeOf(force.x);
+    const { history } = picture.source;
+    const { slope } = force.x;
     gatherTime(history, first, end, slope, force.x.from - slope * force.x.min, this.xs);
     pen.within(force.left, force.top, force.width, force.height, () =>
-      this.drawForces(pen, history, first, end, theme),
+      this.drawForces(pen, picture, first, end, theme),
     );
     pen.within(depth.left, depth.top, depth.width, depth.height, () => {
-      for (let i = 0; i < history.membranes; i++) {
-        gather(history, first, end, "depth", i, MM * slopeOf(depth.y), depth.y.px(0), this.ys);
-        this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
+      for (const i of shownMembranes(history, picture.hidden)) {
+        gather(history, first, end, "depth", i, MM * depth.y.slope, depth.y.px(0), this.ys);
+        this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
       }
     });
   }
@@ -125,34 +135,48 @@ export class TimeDrawing {
     this.ys = new Float32Array(2 * n);
   }
 
-  private drawForces(pen: Pen, history: History, first: number, end: number, theme: Theme): void {
+  private drawForces(pen: Pen, { source, hidden }: TimePicture, first: number, end: number, theme: Theme): void {
+    const { history } = source;
     const { y } = this.force;
-    const gain = slopeOf(y);
+    const gain = y.slope;
+    const zero = y.px(0);
     const n = end - first;
-    gatherSent(history, first, end, gain, y.px(0), this.ys);
-    this.drawLine(pen, n, theme.text, 1.25, 0.8);
-    const compared = isCompared(history, first, end);
-    for (let i = 0; i < history.membranes; i++) {
+    const looks = {
+      model: { colour: theme.text, width: WIDE, alpha: 0.25 },
+      felt: { colour: theme.text, width: 1.25 },
+    };
+    for (const [id, column] of SIZES) {
+      if (!hidden.shows(id)) continue;
+      gatherSize(history, first, end, column, gain, zero, this.ys);
+      this.drawLine(pen, n, looks[id]);
+    }
+    if (hidden.shows("permitted")) {
+      gather(history, first, end, "ceiling", 0, gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: theme.danger, width: 1.25, dash: DASH });
+    }
+    const compared = hidden.shows("other") && isCompared(history, first, end);
+    for (const i of shownMembranes(history, hidden)) {
       if (compared) {
-        gatherOther(history, first, end, i, -gain, y.px(0), this.ys);
-        this.drawLine(pen, n, theme.quiet, 1, 1);
+        gatherOther(history, first, end, i, -gain, zero, this.ys);
+        this.drawLine(pen, n, { colour: theme.quiet, width: 1 });
       }
-      gather(history, first, end, "axial_force", i, -gain, y.px(0), this.ys);
-      this.drawLine(pen, n, colourOf(theme, i), 1.5, 1);
+      gather(history, first, end, "axial_force", i, -gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
     }
   }
 
-  private drawLine(pen: Pen, n: number, colour: string, width: number, alpha: number): void {
+  private drawLine(pen: Pen, n: number, stroke: Stroke): void {
     this.path.clear();
     decimate(this.xs, this.ys, 0, n, this.path);
-    if (this.path.count) pen.line(this.path, { colour, width, alpha });
+    if (this.path.count) pen.line(this.path, stroke);
   }
 
   private drawNow(pen: Pen, picture: TimePicture, theme: Theme): void {
-    const { source, window, pointed, cursor } = picture;
+    const { source, window, pointed, cursor, hidden } = picture;
     const { history } = source;
     const { force, depth } = this;
-    const bottom = depth.top + depth.height;
+    const { bottom } = depth;
+    const shown = shownMembranes(history, hidden);
     const inside = (tick: number | null): tick is number =>
       tick !== null &&
       tick >= window.first &&
@@ -165,15 +189,15 @@ export class TimeDrawing {
     const last = window.end - 1;
     if (inside(last)) {
       const x = force.x.px(history.timeOf(last));
-      for (let i = history.membranes - 1; i >= 0; i--) {
+      for (const i of shown.toReversed()) {
         const y = depth.y.px(history.row("depth", last)[i]! * MM);
-        if (depth.holds(x, y)) drawBadge(pen, Math.min(x, depth.left + depth.width - 8), y, i, theme);
+        if (depth.holds(x, y)) drawBadge(pen, Math.min(x, depth.right - 8), y, i, theme);
       }
     }
     if (inside(pointed)) {
       const x = force.x.px(history.timeOf(pointed));
       pen.segment(x, force.top, x, bottom, { colour: theme.text, width: 1, alpha: 0.6, dash: [3, 3] });
-      for (let i = 0; i < history.membranes; i++) {
+      for (const i of shown) {
         const places = [
           [force, -history.row("axial_force", pointed)[i]!],
           [depth, history.row("depth", pointed)[i]! * MM],
@@ -187,5 +211,3 @@ export class TimeDrawing {
     }
   }
 }
-
-const slopeOf = ({ min, max, from, to }: Scale): number => (to - from) / (max - min);

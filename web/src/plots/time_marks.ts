@@ -2,22 +2,23 @@ import type { History } from "../state/history.ts";
 import { cuts, LIMIT_WORDS } from "../state/limits.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
-import { MARGIN, type Pane } from "./axes.ts";
-import { drawShade, type KeyEntry } from "./key.ts";
-import { labelsThatFit, popLabel } from "./marks.ts";
-import type { Pen } from "./pen.ts";
+import { CUT_SHADE } from "./curves.ts";
+import { MARGIN, type Pane } from "./kit/axes.ts";
+import { labelsThatFit } from "./kit/labels.ts";
+import { type Curve, drawShade } from "./kit/legend.ts";
+import type { Pen } from "./kit/pen.ts";
+import { colourOf, type Theme } from "./kit/theme.ts";
+import { popLabel } from "./marks.ts";
 import { drawDrop } from "./pop_marks.ts";
 import { eachLimit, eachState, STATE_WORDS, type State } from "./states.ts";
-import { colourOf, type Theme } from "./theme.ts";
 import type { Window } from "./window.ts";
 
-const CUT_SHADE = 0.22;
 const NAME = 62; // px that the name of the upper axis takes
 
 /** Shades the ticks without force, and names the reason if there is space. */
 export function drawStates(pen: Pen, force: Pane, depth: Pane, history: History, window: Window, theme: Theme): void {
   const { x, left, top, width } = force;
-  const bottom = depth.top + depth.height;
+  const bottom = depth.bottom;
   const looks: Readonly<Record<State, readonly [colour: string, alpha: number]>> = {
     disarmed: [theme.quiet, 0.14],
     waiting: [theme.quiet, 0.07],
@@ -59,20 +60,20 @@ export function drawLimits(pen: Pen, force: Pane, history: History, window: Wind
 }
 
 /** The legend entry for drawLimits' shade, if the window has any. */
-export function limitKey(history: History, window: Window, theme: Theme): KeyEntry[] {
+export function limitCurve(history: History, window: Window, theme: Theme): Curve[] {
   let any = false;
   eachLimit(history, window.first, window.end, (limit) => {
     any ||= cuts(limit);
   });
-  return any ? [{ text: "cut by a limit", colour: theme.danger, shade: CUT_SHADE }] : [];
+  return any ? [{ id: "cut", text: "cut by a limit", colour: theme.danger, shade: CUT_SHADE }] : [];
 }
 
 /** Marks pops with the drop of the force, and contact and exit with a notch on the zero line. */
 export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, window: Window, theme: Theme): void {
   const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);
   const at = (event: MembraneEvent): number => force.x.px(source.history.timeOf(event.tick));
-  const right = force.left + force.width;
-  const bottom = depth.top + depth.height;
+  const right = force.right;
+  const bottom = depth.bottom;
   pen.within(force.left, force.top, force.width, bottom - force.top, () => {
     for (const event of inside) {
       const x = at(event);

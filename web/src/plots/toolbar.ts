@@ -1,7 +1,6 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { type Saving, save } from "./save.ts";
-import type { Plots } from "./shared.ts";
 
 export function button(text: string, title: string, act: () => void): HTMLButtonElement {
   return element("button", { type: "button", title, "aria-label": title, onclick: act }, text);
@@ -23,16 +22,16 @@ export function choice(
   return { select, offer };
 }
 
-/** A button that freezes all plots or lets them follow the run again. The run itself goes on. */
-export function freezeButton(plots: Plots, app: App): HTMLButtonElement {
-  const made = button("Freeze", "Freeze the plots; the run goes on (Space)", () =>
-    plots.frozen.value ? plots.unfreeze() : plots.freeze(),
+/** A button that pauses the page at the present moment, or goes back to the live run. The run itself goes on. */
+export function pauseButton(app: App): HTMLButtonElement {
+  const made = button("Pause", "Pause the page at this moment; the run goes on (Space)", () =>
+    app.source.value.paused ? app.goLive() : app.pause(),
   );
-  made.classList.add("plot-freeze");
+  made.classList.add("plot-pause");
   app.source.watch((source) => {
-    made.disabled = !source.live; // a recording does not move by itself
+    made.disabled = !source.live && !source.paused; // a recording does not move by itself
+    made.setAttribute("aria-pressed", String(source.paused));
   });
-  plots.frozen.watch((frozen) => made.setAttribute("aria-pressed", String(frozen !== null)));
   return made;
 }
 

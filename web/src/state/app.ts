@@ -10,6 +10,7 @@ import type {
   Status,
 } from "../wire/messages.ts";
 import type { TickBatch } from "../wire/ticks.ts";
+import { frozenCopy } from "./frozen.ts";
 import { Signal } from "./signal.ts";
 import { Source } from "./source.ts";
 
@@ -62,6 +63,16 @@ export class App {
     }
   }
 
+  /** Shows the live run's last ticks while the run goes on. */
+  pause(): void {
+    if (this.source.value.live) this.source.value = frozenCopy(this.live);
+  }
+
+  /** Shows the live run, at its last tick. */
+  goLive(): void {
+    this.source.value = this.live;
+  }
+
   say(text: string): void {
     this.notices.value = [text, ...this.notices.value].slice(0, 50);
   }
@@ -79,6 +90,7 @@ export class App {
         if (message.new_run) {
           this.live.history.clear(message.scene.membranes.length);
           this.live.events.value = [];
+          this.live.pointed.value = null;
         }
         this.run.value = message.run;
         this.live.scene.value = message.scene;

@@ -8,12 +8,13 @@ const isCopied = (name: FloatColumn): name is Exclude<FloatColumn, "time" | "oth
   name !== "time" && name !== "other_force";
 const FLOATS = FLOAT_COLUMNS.filter(isCopied);
 
-/** A copy of a source's present data. The live source overwrites old ticks; the copy keeps them. */
+/** A copy of the live source's present ticks, at the last of them. The live source overwrites old ticks. */
 export function frozenCopy(source: Source): Source {
-  const copy = new Source(`${source.title}, frozen`, false, copiedHistory(source.history));
+  const copy = new Source("Paused; the run goes on", false, copiedHistory(source.history), null, true);
   copy.scene.value = source.scene.value;
   copy.laws.value = source.laws.value;
   copy.events.value = source.events.value;
+  copy.cursor.value = source.present();
   return copy;
 }
 

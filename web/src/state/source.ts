@@ -12,30 +12,41 @@ export interface Excerpt {
   readonly last: number;
 }
 
-/** One run to show: the live one or a recording. Panels draw any source alike. */
+/** One run to show: the live one, a part of it that stands still, or a recording. Panels draw any source alike. */
 export class Source {
   readonly scene = new Signal<SceneView | null>(null);
   readonly laws = new Signal<readonly LawCurve[]>([]);
   readonly events = new Signal<readonly MembraneEvent[]>([]);
   readonly history: History;
-  /** The tick that is shown; null for the last one. */
+  /** The tick at which the timeline stands; null: it follows the last tick. */
   readonly cursor = new Signal<number | null>(null);
+  /** The tick that somebody points at in a plot, with the pointer or with keys; null if nobody does. */
+  readonly pointed = new Signal<number | null>(null);
 
-  /** kept: the number of ticks that are kept, or a history with ticks. */
+  /** kept: the number of ticks that are kept, or a history with ticks. paused: a copy of the live run, which goes on. */
   constructor(
     readonly title: string,
     readonly live: boolean,
     kept: number | History,
     readonly excerpt: Excerpt | null = null,
+    readonly paused = false,
   ) {
     this.history = typeof kept === "number" ? new History(kept) : kept;
   }
 
-  /** The tick to draw; null before the first. */
+  /** The tick at which the timeline stands; null before the first. */
+  present(): number | null {
+    return this.inside(this.cursor.value);
+  }
+
+  /** The moment: the tick that the view, the plots and the tables show; null before the first. */
   shown(): number | null {
+    return this.inside(this.pointed.value ?? this.cursor.value);
+  }
+
+  private inside(tick: number | null): number | null {
     const { first, end } = this.history;
     if (end === first) return null;
-    const at = this.cursor.value;
-    return at === null ? end - 1 : Math.min(Math.max(at, first), end - 1);
+    return tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
   }
 }

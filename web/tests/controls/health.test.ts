@@ -1,7 +1,10 @@
 import { describe, expect, it } from "vitest";
 import { duration } from "../../src/controls/health.ts";
-import { bars, logPlace } from "../../src/controls/histogram.ts";
+import { drawHistogram } from "../../src/controls/histogram.ts";
 import { RateMeter } from "../../src/controls/rate.ts";
+import { SvgPen } from "../../src/plots/kit/svg_pen.ts";
+import { CSS_THEME } from "../../src/plots/kit/theme.ts";
+import type { Spread } from "../../src/wire/messages.ts";
 
 describe("loop health", () => {
   it("durations have three digits and a unit that fits", () => {
@@ -15,16 +18,28 @@ describe("loop health", () => {
     expect(duration(0.99996e-3)).toBe("1.00 ms");
   });
 
-  it("a bar stands where its time is on the logarithmic axis, and one tick is to be seen", () => {
-    const spread = { p50: 1, p99: 1, p99_9: 1, largest: 1, edges: [1e-4, 1e-3, 1e-2], counts: [1_000_000, 1] };
-    const [many, one] = bars(spread, 1e-4, 1e-2);
-    expect(many).toMatchObject({ left: 0, width: expect.closeTo(0.5), height: 1 });
-    expect(one).toMatchObject({ left: expect.closeTo(0.5), height: expect.closeTo(0.1) });
-    expect(logPlace(1e-6, 1e-4, 1e-2)).toBe(0);
-    expect(bars({ ...spread, counts: [0, 0] }, 1e-4, 1e-2)).toEqual([]);
-    expect(bars({ ...spread, edges: [0, 1e-9, 2e-9], counts: [1, 1] }, 1e-9, 1e-2).every(({ left }) => left >= 0)).toBe(
-      true,
-    );
+  /** Left edge, width and height of each bar, px. */
+  function bars(spread: Partial<Spread>, nominal: number): number[][] {
+    const pen = new SvgPen();
+    const whole = { p50: nominal, p99: 1, p99_9: 1, largest: nominal, edges: [], counts: [], ...spread };
+    drawHistogram(pen, whole, nominal, duration, 400, 118, CSS_THEME);
+    const boxes = pen
+      .file(400, 118, "none", "", "")
+      .matchAll(/<rect x="([^"]*)" y="[^"]*" width="([^"]*)" height="([^"]*)"/g);
+    return [...boxes].map(([, ...numbers]) => numbers.map(Number));
+  }
+
+  it("a bar stands where its time is on the logarithmic axis, and one tick in a million is to be seen", () => {
+    const [many, one] = bars({ edges: [1e-3 / 8, 5e-4, 2e-3], counts: [1_000_000, 1] }, 1e-3); // the axis: 1/8 to 2 ms
+    expect(many).toEqual([0, expect.closeTo(199.6, 1), 100]);
+    expect(one).toEqual([expect.closeTo(200, 1), expect.closeTo(199.6, 1), expect.closeTo(10, 1)]);
+  });
+
+  it("no bar lies outside, and nothing is drawn of nothing", () => {
+    expect(bars({ counts: [0, 0], edges: [1, 2, 3] }, 1e-3)).toEqual([]);
+    const outside = bars({ edges: [0, 1e-9, 2e-9], counts: [1, 1] }, 1e-3);
+    expect(outside).toHaveLength(2);
+    expect(outside.every(([left, width]) => left! >= 0 && left! + width! <= 400)).toBe(true);
   });
 
   it("the rate is ticks over time, and restarts with a run", () => {

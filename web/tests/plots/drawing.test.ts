@@ -1,9 +1,10 @@
 import { describe, expect, it } from "vitest";
-import { ForceDepthDrawing } from "../../src/plots/force_depth_drawing.ts";
+import { ForceDepthDrawing, forceDepthCurves } from "../../src/plots/force_depth_drawing.ts";
 import type { ForceDepthPicture } from "../../src/plots/force_depth_picture.ts";
-import { SvgPen } from "../../src/plots/svg_pen.ts";
-import type { Theme } from "../../src/plots/theme.ts";
-import { TimeDrawing } from "../../src/plots/time_drawing.ts";
+import { Hidden } from "../../src/plots/kit/legend.ts";
+import { SvgPen } from "../../src/plots/kit/svg_pen.ts";
+import type { Theme } from "../../src/plots/kit/theme.ts";
+import { TimeDrawing, timeCurves } from "../../src/plots/time_drawing.ts";
 import { Window } from "../../src/plots/window.ts";
 import { Source } from "../../src/state/source.ts";
 import { batch, type Cell } from "../support/fill_history.ts";
@@ -60,6 +61,7 @@ describe("force against depth", () => {
     zoom: null,
     oldest: 0.2,
     pointed: null,
+    hidden: new Hidden("test"),
   });
   const drawn = (now: ForceDepthPicture): { drawing: ForceDepthDrawing; file: string } => {
     const drawing = new ForceDepthDrawing();
@@ -92,29 +94,43 @@ describe("force against depth", () => {
     expect(drawing.nearest(now, x.px(2), y.px(2.5), 20)).toBeNull();
   });
 
-  it("an earlier run and the other solver are laid over, with a key", () => {
+  it("an earlier run and the other solver are laid over, with names in the legend", () => {
     const other = (tick: number): number[] => [0, tick === 777 ? 1.5 : 0.25, 0];
     const from = source({ other_force: other, model_force: () => [0, 0.25, 0] });
     const { file } = drawn({ ...picture(from), overlay: source() });
-    expect(file).toContain(">paper solver<");
-    expect(file).toContain(">test<");
+    const names = forceDepthCurves({ ...picture(from), overlay: source() }, theme).map(({ text }) => text);
+    expect(names).toEqual(["1 membrane", "felt force", "permitted force", "paper solver", "friction band", "test"]);
     expect(heights(file, "black").length).toBeGreaterThan(100);
   });
 });
 
 describe("force and depth against time", () => {
-  const drawn = (from: Source): { drawing: TimeDrawing; file: string } => {
+  const drawn = (from: Source, off = ["permitted"]): { drawing: TimeDrawing; file: string; names: string[] } => {
     const drawing = new TimeDrawing();
-    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null };
+    const hidden = new Hidden("test", off);
+    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null, hidden };
     drawing.arrange(now, 480, 320, 0);
     const pen = new SvgPen();
     drawing.draw(pen, now, theme);
-    return { drawing, file: pen.file(480, 320, "white", "", "") };
+    const names = timeCurves(now, theme).map(({ text }) => text);
+    return { drawing, file: pen.file(480, 320, "white", "", ""), names };
   };
 
   it("one tick of 20 000 that stands out is drawn at its height", () => {
     const { drawing, file } = drawn(source());
     expect(Math.min(...heights(file, "blue"))).toBeCloseTo(drawing.force.y.px(3), 1);
+  });
+
+  it("a curve that is switched off is not drawn, and the axis forgets it", () => {
+    const from = source({ ceiling: () => [40] });
+    const permitted = /stroke="maroon" stroke-width="1.25"[^>]*stroke-dasharray/;
+    const off = drawn(from);
+    expect(off.file).not.toMatch(permitted);
+    expect(off.drawing.force.y.max).toBeLessThan(5);
+    const on = drawn(from, ["membrane 0"]);
+    expect(on.file).toMatch(permitted);
+    expect(on.drawing.force.y.max).toBeGreaterThanOrEqual(40);
+    expect(heights(on.file, "blue")).toEqual([]);
   });
 
   it("the cursor reads the tick under it", () => {
@@ -138,12 +154,12 @@ describe("force and depth against time", () => {
     expect(file).toContain(">fault<");
   });
 
-  it("a force that a limit cuts has a shade, and the key says what it means", () => {
-    const { file } = drawn(source({ limit: (tick) => [tick > 10_000 ? 3 : 1] }));
+  it("a force that a limit cuts has a shade, and the legend says what it means", () => {
+    const { file, names } = drawn(source({ limit: (tick) => [tick > 10_000 ? 3 : 1] }));
     expect(file).toContain(">long-run limit<");
-    expect(file).toContain(">cut by a limit<");
+    expect(names).toContain("cut by a limit");
+    expect(drawn(source({ limit: () => [1] })).names).not.toContain("cut by a limit"); // growing after arming
     const shades = [...file.matchAll(/<rect [^>]*width="([\d.]+)" [^>]*fill="maroon" fill-opacity="0.22"/g)];
-    expect(shades.map(([, width]) => Number(width) > 16)).toEqual([true, false]); // the stretch, and the key's sample
-    expect(drawn(source({ limit: () => [1] })).file).not.toContain("cut by a limit"); // growing after arming
+    expect(shades.map(([, width]) => Number(width) > 16)).toEqual([true]);
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { difference } from "../../src/plots/difference.ts";
-import { Extent, gather, gatherOther, gatherSent, gatherTime, isCompared } from "../../src/plots/gather.ts";
+import { Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "../../src/plots/gather.ts";
 import { eachState } from "../../src/plots/states.ts";
 import { frozenCopy } from "../../src/state/frozen.ts";
 import { Source } from "../../src/state/source.ts";
@@ -34,7 +34,7 @@ describe("gathering ticks for a drawing", () => {
   it("the force at the hand is its size, as in an exercise's result, negative where it pulls the needle in", () => {
     const aside = history(2, 1, { force: (tick) => [0.3, tick ? -0.4 : 0.4, 0], axis: () => [0, -1, 0] });
     const out = new Float32Array(2);
-    gatherSent(aside, 0, 2, 1, 0, out);
+    gatherSize(aside, 0, 2, "force", 1, 0, out);
     expect([...out]).toEqual([expect.closeTo(0.5, 6), expect.closeTo(-0.5, 6)]);
   });
 });

@@ -1,65 +1,57 @@
+import { drawBand } from "../../plots/band.ts";
+import { AutoRange } from "../../plots/kit/auto_range.ts";
+import { drawAxes, MARGIN, Pane } from "../../plots/kit/axes.ts";
+import type { Pen, Stroke } from "../../plots/kit/pen.ts";
+import { Polyline } from "../../plots/kit/polyline.ts";
+import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { LawCurve } from "../../wire/messages.ts";
-import { niceAbove } from "./range.ts";
 
-/** The ends of the drawing's axes, m and N. */
-export interface Extent {
-  readonly depth: number;
-  readonly least: number;
-  readonly most: number;
-}
+const MM = 1e3;
+const BEHIND = 1.25; // the depth axis is longer than the way through the membrane by this factor
 
-const SHRINK = 0.35; // an axis shrinks if the curve fills less than this share of it
+/** Draws a law with the signs that the hand feels: resistance to insertion is above, resistance to withdrawal below. */
+export class LawShape {
+  readonly pane = new Pane();
+  private readonly depth = new AutoRange();
+  private readonly force = new AutoRange();
+  private readonly path = new Polyline();
 
-/** The axes for a law. They stay while the curve fills enough of them, so that a drag moves the curve, not the axes. */
-export function extentFor(law: LawCurve, now: Extent | null): Extent {
-  const deepest = Math.max(law.through * 1.25, 1e-6);
-  const top = Math.max(...law.upper, 1e-3);
-  const bottom = Math.min(...law.lower, 0);
-  const depth = now && deepest <= now.depth && deepest > SHRINK * now.depth ? now.depth : niceAbove(deepest);
-  const most = now && top <= now.most && top > SHRINK * now.most ? now.most : fine(top * 1.08);
-  const least =
-    now && bottom >= now.least && bottom < SHRINK * now.least ? now.least : -fine(-bottom * 1.08 || most / 8);
-  return { depth, least, most };
-}
+  /** Fits the axes to a law at the time `now`, s. A small change of the law moves the curve, not the axes. */
+  fit(law: LawCurve, now: number): void {
+    this.depth.follow(0, BEHIND * law.through * MM, now);
+    this.force.follow(Math.min(-Math.max(...law.upper), 0), Math.max(-Math.min(...law.lower), 1e-3), now);
+  }
 
-/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`. */
-function fine(value: number): number {
-  const decade = 10 ** Math.floor(Math.log10(value));
-  for (const step of [1, 1.5, 2, 3, 4, 5, 6, 8])
-    if (value <= step * decade) return Number((step * decade).toPrecision(3));
-  return 10 * decade;
-}
+  /** Draws another membrane: its axes have nothing to do with the last one's. */
+  forget(): void {
+    this.depth.forget();
+    this.force.forget();
+  }
 
-export type Place = (depth: number, force: number) => readonly [x: number, y: number];
+  /** before: the law before the last change, drawn as a thin line behind. */
+  draw(pen: Pen, law: LawCurve, before: LawCurve | null, width: number, height: number, theme: Theme): void {
+    const { pane } = this;
+    pane.place(MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom);
+    pane.rangeX(0, this.depth.max);
+    pane.rangeY(this.force.min, this.force.max);
+    const [upper, lower] = [colourOf(theme, 0), colourOf(theme, 1)];
+    drawAxes(pen, pane, theme, { x: "depth (mm)", y: "on the hand (N)" });
+    pen.text(pane.right, pane.top - 9, "coming out", { colour: lower, bold: true, anchor: "end" });
+    pen.text(pane.right - 76, pane.top - 9, "going in", { colour: upper, bold: true, anchor: "end" });
+    pen.within(pane.left, pane.top, pane.width, pane.height, () => {
+      drawBand(pen, pane, law, upper);
+      const thin = { colour: theme.quiet, width: 1, dash: [3, 3] };
+      if (before) for (const edge of [before.lower, before.upper]) this.line(pen, before.depth, edge, thin);
+      this.line(pen, law.depth, law.upper, { colour: lower, width: 2 });
+      this.line(pen, law.depth, law.lower, { colour: upper, width: 2 });
+    });
+  }
 
-/** Maps depth and force to a box with its upper left corner at (left, top). */
-export function placing(extent: Extent, left: number, top: number, width: number, height: number): Place {
-  const span = extent.most - extent.least;
-  return (depth, force) => [left + (depth / extent.depth) * width, top + ((extent.most - force) / span) * height];
-}
-
-/** An SVG path through a curve, extended at its last force to the end of the axis. */
-export function curvePath(depth: readonly number[], force: readonly number[], place: Place, end: number): string {
-  const points = depth.map((d, i) => [d, force[i] ?? 0] as const).filter(([d]) => d >= 0 && d <= end);
-  const last = points.at(-1);
-  if (!last) return "";
-  return `M${[...points, [end, last[1]] as const].map(([d, f]) => write(place(d, f))).join("L")}`;
-}
-
-/** The closed shape between the two edges of the band. */
-export function bandPath(law: LawCurve, place: Place, end: number): string {
-  const upper = curvePath(law.depth, law.upper, place, end);
-  const lower = curvePath(law.depth, law.lower, place, end).slice(1).split("L").reverse().join("L");
-  return upper && `${upper}L${lower}Z`;
-}
-
-const write = ([x, y]: readonly [number, number]): string => `${x.toFixed(1)},${y.toFixed(1)}`;
-
-/** Three to six round numbers along an axis. */
-export function ticksOf(low: number, high: number): number[] {
-  const step = niceAbove((high - low) / 5);
-  const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) =>
-    Number(((first + i) * step).toPrecision(6)),
-  );
+  private line(pen: Pen, depth: readonly number[], force: readonly number[], stroke: Stroke): void {
+    const { x, y, right } = this.pane;
+    this.path.clear();
+    for (let i = 0; i < depth.length; i++) this.path.add(x.px(depth[i]! * MM), y.px(-force[i]!));
+    if (depth.length) this.path.add(right, y.px(-force.at(-1)!)); // a law is constant beyond its last point
+    pen.line(this.path, stroke);
+  }
 }

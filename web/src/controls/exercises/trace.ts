@@ -49,44 +49,6 @@ export function spaceOf(
   };
 }
 
-/**
- * Decimates a curve for a drawing of `columns` pixels: the first, lowest, highest and last value of each column, in
- * their order. NaN breaks the curve.
- */
-export function envelope(
-  x: ArrayLike<number>,
-  y: ArrayLike<number>,
-  from: number,
-  to: number,
-  columns: number,
-): number[][] {
-  const pieces: number[][] = [];
-  let piece: number[] = [];
-  const size = Math.max(Math.ceil((to - from) / columns), 1);
-  const close = (): void => {
-    if (piece.length) pieces.push(piece);
-    piece = [];
-  };
-  for (let start = from; start < to; start += size) {
-    const end = Math.min(start + size, to);
-    let [low, high] = [start, start];
-    let whole = true;
-    for (let i = start; i < end; i++) {
-      if (!Number.isFinite(y[i])) whole = false;
-      else if (!(y[i]! >= y[low]!)) low = i;
-      else if (!(y[i]! <= y[high]!)) high = i;
-    }
-    if (!whole) {
-      close();
-      continue;
-    }
-    const kept = [...new Set([start, low, high, end - 1])].sort((a, b) => a - b);
-    for (const i of kept) piece.push(x[i]!, y[i]!);
-  }
-  close();
-  return pieces;
-}
-
 /** The first index with a time not before `when`. */
 export function indexAt(time: ArrayLike<number>, when: number): number {
   let [low, high] = [0, time.length];

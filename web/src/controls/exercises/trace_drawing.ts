@@ -1,27 +1,22 @@
 import { element } from "../../panel.ts";
+import { drawAxes, MARGIN, Pane } from "../../plots/kit/axes.ts";
+import { decimate } from "../../plots/kit/decimate.ts";
+import { Figure } from "../../plots/kit/figure.ts";
+import { apart, labelsThatFit, textWidth } from "../../plots/kit/labels.ts";
+import type { Pen, Stroke } from "../../plots/kit/pen.ts";
+import { Polyline } from "../../plots/kit/polyline.ts";
+import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
-import { ticksOf } from "../editor/law_shape.ts";
-import { svg } from "../svg.ts";
 import { peakText } from "./metrics.ts";
-import { envelope, indexAt, type Layer, type Trace } from "./trace.ts";
+import { indexAt, type Layer, type Trace } from "./trace.ts";
 
-const WIDTH = 680;
-const LEFT = 46;
-const RIGHT = 108;
-const DEPTH = { top: 26, height: 150 };
-const FORCE = { top: 200, height: 96 };
-const HEIGHT = 330;
-const COLUMNS = WIDTH - LEFT - RIGHT;
+const HEIGHT = 340; // px
+const ROWS = 26; // px above the upper pane: two rows of labels
+const DEPTH_SHARE = 0.6;
 /** The drawing begins this long before the first contact, s. */
 export const BEFORE = 0.5;
-const WORD = 52; // px
 const BELOW = 2e-3; // m: drawn depth of a space without an end
-
-type Scale = (value: number) => number;
-const scale =
-  (from: number, to: number, start: number, length: number): Scale =>
-  (value) =>
-    start + ((value - from) / (to - from)) * length;
+const MM = 1e3;
 
 /** Draws depth and model force of an attempt over time, with layers, the space to reach, pops and the peak force. */
 export function traceDrawing(
@@ -30,51 +25,14 @@ export function traceDrawing(
   space: Layer | null,
   result: ExerciseResult,
 ): HTMLElement {
-  const touch = result.events.find(({ what }) => what === "touch")?.time ?? trace.time[0] ?? 0;
-  const from = indexAt(trace.time, touch - BEFORE);
-  const to = trace.time.length;
-  const [start, end] = [trace.time[from] ?? 0, trace.time[to - 1] ?? 1];
-  const x = scale(start, Math.max(end, start + 1e-3), LEFT, COLUMNS);
-  const deepest = Math.max(...layers.map(({ bottom }) => bottom), 0) * 1e3;
-  const reached = extreme(trace.depth, from, to, Math.max) * 1e3;
-  const shallow = Math.max(-4, Math.min(extreme(trace.depth, from, to, Math.min) * 1e3, -1));
-  const wanted = space ? Math.min(space.bottom, space.top + BELOW) * 1e3 : 0;
-  const low = Math.max(deepest, reached, wanted) * 1.06;
-  const y = scale(shallow, low, DEPTH.top, DEPTH.height);
-  const strongest = Math.max(extreme(trace.force, from, to, Math.max), 0.1);
-  const weakest = Math.min(extreme(trace.force, from, to, Math.min), 0);
-  const f = scale(strongest * 1.15, weakest, FORCE.top, FORCE.height);
-
-  const drawing = svg(
-    "svg",
-    { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", class: "trace" },
-    svg("title", {}, wordsOf(result)),
-  );
-  const add = (...nodes: SVGElement[]): void => drawing.append(...nodes);
-  if (space) add(...band({ ...space, bottom: Math.min(space.bottom, low / 1e3) }, y, "space", "to reach"));
-  for (const layer of layers) add(...band(layer, y, "layer", layer.name));
-  add(
-    ...axis(ticksOf(Math.ceil(shallow), low), y, "depth, mm", DEPTH),
-    ...axis(ticksOf(weakest, strongest * 1.15), f, "model force, N", FORCE),
-  );
-  for (const second of ticksOf(0, end - start)) {
-    const at = x(start + second);
-    add(svg("text", { x: at, y: FORCE.top + FORCE.height + 14, "text-anchor": "middle" }, String(second)));
-  }
-  add(svg("text", { x: LEFT + COLUMNS / 2, y: HEIGHT - 2, "text-anchor": "middle" }, "time, s"));
-  add(...marks(result, touch, x, end));
-  const mm = trace.depth.map((depth) => depth * 1e3);
-  add(curve("depth", mm, trace, from, to, x, y), curve("force", trace.force, trace, from, to, x, f));
-  const peak = indexOfMost(trace.force, from, indexAt(trace.time, touch + result.metrics.total_time));
-  if (peak !== null) {
-    const [px, py] = [x(trace.time[peak]!), f(trace.force[peak]!)];
-    add(svg("circle", { class: "peak", cx: px, cy: py, r: 3.5 }));
-    add(svg("text", { class: "strong", x: px + 7, y: py + 1 }, peakText(result)));
-  }
+  const figure = new Figure("trace", HEIGHT, (pen, width, height, theme) => {
+    drawTrace(pen, width, height, theme, trace, layers, space, result);
+    return wordsOf(result);
+  });
   return element(
     "figure",
     { class: "trace-figure" },
-    drawing,
+    figure.root,
     element(
       "figcaption",
       { class: "quiet" },
@@ -83,72 +41,115 @@ export function traceDrawing(
   );
 }
 
-function band({ top, bottom }: Layer, y: Scale, kind: string, label: string): SVGElement[] {
-  const [y0, y1] = [y(top * 1e3), y(bottom * 1e3)];
-  return [
-    svg("rect", { class: kind, x: LEFT, y: y0, width: COLUMNS, height: Math.max(y1 - y0, 1) }),
-    svg("text", { class: `${kind}-name`, x: LEFT + COLUMNS + 6, y: (y0 + y1) / 2 + 4 }, label),
-  ];
+export function drawTrace(
+  pen: Pen,
+  width: number,
+  height: number,
+  theme: Theme,
+  trace: Trace,
+  layers: readonly Layer[],
+  space: Layer | null,
+  result: ExerciseResult,
+): void {
+  const touch = result.events.find(({ what }) => what === "touch")?.time ?? trace.time[0] ?? 0;
+  const from = indexAt(trace.time, touch - BEFORE);
+  const to = trace.time.length;
+  const start = trace.time[from] ?? 0;
+  const end = Math.max(trace.time[to - 1] ?? 1, start + 1e-3);
+
+  const [depth, force] = [new Pane(), new Pane()];
+  const names = Math.max(...layers.map(({ name }) => textWidth(name)), textWidth("to reach"));
+  const side = Math.min(names + 10, 0.3 * width);
+  const room = height - ROWS - 2 * MARGIN.top - MARGIN.bottom;
+  depth.place(MARGIN.left, ROWS + MARGIN.top, width - MARGIN.left - side, DEPTH_SHARE * room);
+  force.place(MARGIN.left, depth.bottom + MARGIN.top, depth.width, room - depth.height);
+  for (const pane of [depth, force]) pane.rangeX(start - touch, end - touch);
+
+  const deepest = Math.max(...layers.map(({ bottom }) => bottom), 0) * MM;
+  const reached = extreme(trace.depth, from, to, Math.max) * MM;
+  const shallow = Math.max(-4, Math.min(extreme(trace.depth, from, to, Math.min) * MM, -1));
+  const wanted = space ? Math.min(space.bottom, space.top + BELOW) * MM : 0;
+  const low = Math.max(deepest, reached, wanted) * 1.06;
+  depth.rangeY(low, shallow); // deeper is lower
+  const strongest = Math.max(extreme(trace.force, from, to, Math.max), 0.1);
+  force.rangeY(Math.min(extreme(trace.force, from, to, Math.min), 0), 1.15 * strongest);
+
+  drawLayers(pen, depth, layers, space && { ...space, bottom: Math.min(space.bottom, low / MM) }, theme);
+  drawAxes(pen, depth, theme, { y: "depth (mm)" });
+  drawAxes(pen, force, theme, { x: "time since the first contact (s)", y: "model force (N)" });
+  drawMarks(pen, depth, force, result, touch, end, theme);
+  const line = (pane: Pane, values: Float64Array, gain: number, stroke: Stroke): void => {
+    const xs = Float32Array.from(trace.time.subarray(from), (time) => pane.x.px(time - touch));
+    const ys = Float32Array.from(values.subarray(from), (value) => pane.y.px(gain * value));
+    const path = new Polyline();
+    decimate(xs, ys, 0, to - from, path);
+    pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.line(path, stroke));
+  };
+  line(depth, trace.depth, MM, { colour: theme.text, width: 1.6 });
+  line(force, trace.force, 1, { colour: colourOf(theme, 0), width: 1.6 });
+  const peak = indexOfMost(trace.force, from, indexAt(trace.time, touch + result.metrics.total_time));
+  if (peak === null) return;
+  const [px, py] = [force.x.px(trace.time[peak]! - touch), force.y.px(trace.force[peak]!)];
+  pen.dot(px, py, 3.5, colourOf(theme, 0), theme.panel);
+  const text = peakText(result);
+  const left = Math.min(px + 7, width - textWidth(text));
+  pen.text(left, py, text, { colour: colourOf(theme, 0), bold: true, halo: theme.panel });
 }
 
-function axis(values: readonly number[], y: Scale, label: string, { top, height }: typeof DEPTH): SVGElement[] {
-  const middle = top + height / 2;
-  return [
-    ...values.flatMap((value) => [
-      svg("line", { x1: LEFT, x2: LEFT + COLUMNS, y1: y(value), y2: y(value) }),
-      svg("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value).replace("-", "−")),
-    ]),
-    svg("text", { x: 12, y: middle, "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }, label),
+function drawLayers(pen: Pen, pane: Pane, layers: readonly Layer[], space: Layer | null, theme: Theme): void {
+  const box = ({ top, bottom }: Layer, colour: string, alpha: number): number => {
+    const [y0, y1] = [pane.y.px(top * MM), pane.y.px(bottom * MM)];
+    pen.box(pane.left, y0, pane.width, Math.max(y1 - y0, 1), colour, alpha);
+    return (y0 + y1) / 2;
+  };
+  const green = colourOf(theme, 2);
+  const labels = [
+    ...(space ? [{ text: "to reach", at: box(space, green, 0.16), colour: green, bold: true }] : []),
+    ...layers.map((layer) => ({ text: layer.name, at: box(layer, theme.quiet, 0.22), colour: theme.quiet })),
   ];
+  const places = apart(labels.map(({ at }) => at), 12, pane.bottom + 6); // biome-ignore format: one line
+  labels.forEach(({ text, at: _, ...look }, i) => {
+    pen.text(pane.right + 6, places[i]!, text, look);
+  });
 }
 
 /** Lines for the pops, the first arrival in the space and the decision. */
-function marks(result: ExerciseResult, touch: number, x: Scale, end: number): SVGElement[] {
+function drawMarks(
+  pen: Pen,
+  depth: Pane,
+  force: Pane,
+  result: ExerciseResult,
+  touch: number,
+  end: number,
+  theme: Theme,
+): void {
   const { time_to_target: arrival, total_time: total } = result.metrics;
+  const [orange, green] = [colourOf(theme, 1), colourOf(theme, 2)];
   const pops = result.events.filter(({ what, time }) => what === "pop" && time <= end);
-  // If two marks are close together, their labels go to opposite sides.
-  const near = arrival !== null && total > 0 && x(touch + total) - x(touch + arrival) < WORD;
-  const upright = (kind: string, time: number, label: string, row: number, left = false): SVGElement[] => [
-    svg("line", { class: kind, x1: x(time), x2: x(time), y1: DEPTH.top - 4, y2: FORCE.top + FORCE.height }),
-    svg(
-      "text",
-      {
-        class: `${kind}-name`,
-        x: x(time) + (left ? -3 : 3),
-        y: DEPTH.top - 6 - 10 * row,
-        "text-anchor": left ? "end" : "start",
-      },
-      label,
-    ),
+  const rows = [
+    [
+      ...(arrival === null ? [] : [{ time: arrival, text: "arrived", colour: green }]),
+      ...(total <= 0
+        ? []
+        : result.passed
+          ? [{ time: total, text: "✓ done", colour: green }]
+          : [{ time: total, text: "✕ lost", colour: theme.danger }]),
+    ],
+    pops.map(({ time }, i) => ({ time: time - touch, text: `pop ${i + 1}`, colour: orange, dash: [3, 3] })),
   ];
-  return [
-    ...pops.flatMap(({ time }, i) => upright("pop", time, `pop ${i + 1}`, crowded(pops, i) ? 1 : 0)),
-    ...(arrival === null ? [] : upright("arrival", touch + arrival, "arrived", 1, near)),
-    ...(total > 0
-      ? upright(result.passed ? "done" : "lost", touch + total, result.passed ? "✓ done" : "✕ lost", 1)
-      : []),
-  ];
-}
-
-const crowded = (pops: readonly { readonly time: number }[], i: number): boolean =>
-  i % 2 === 1 && pops[i]!.time - pops[i - 1]!.time < 0.6;
-
-function curve(
-  kind: string,
-  values: Float64Array,
-  trace: Trace,
-  from: number,
-  to: number,
-  x: Scale,
-  y: Scale,
-): SVGElement {
-  const pieces = envelope(trace.time, values, from, to, COLUMNS);
-  const path = pieces.map((piece) => {
-    const points: string[] = [];
-    for (let i = 0; i < piece.length; i += 2) points.push(`${x(piece[i]!).toFixed(1)},${y(piece[i + 1]!).toFixed(1)}`);
-    return `M${points.join("L")}`;
+  rows.forEach((marks, row) => {
+    const labels = marks.map(({ time, text }, i) => ({
+      x: Math.min(depth.x.px(time) - 2, depth.right + MARGIN.right - textWidth(text)),
+      text,
+      weight: i,
+    }));
+    const fits = labelsThatFit(labels, depth.left, depth.right + textWidth("✓ done") + MARGIN.right);
+    marks.forEach(({ time, text, colour, ...look }, i) => {
+      const x = depth.x.px(time);
+      pen.segment(x, depth.top - 3, x, force.bottom, { colour, width: 1, ...look });
+      if (fits[i]) pen.text(labels[i]!.x, 8 + 13 * row, text, { colour, bold: true });
+    });
   });
-  return svg("path", { class: `curve ${kind}`, d: path.join("") });
 }
 
 function extreme(values: Float64Array, from: number, to: number, of: (a: number, b: number) => number): number {

@@ -7,16 +7,16 @@ const SLIDING_OUT = codeOf("phase", "sliding_out");
 const WINDOW_TICKS = 40; // 25 ms at 1600 Hz
 const LATE_TICKS = 800; // an event can arrive shortly after its tick
 
-/** Finds what sound and vibration present of a source, as its shown tick advances: dry friction and pops. */
+/** Finds what sound and vibration present of a source, as its timeline advances: dry friction and pops. */
 export class Felt {
   private source: Source | null = null;
   private generation = -1;
   private last = -1;
   private readonly known = new Set<string>();
 
-  /** Power of dry friction at the shown tick, W: force times speed of the proxy in the tissue. */
+  /** Power of dry friction at the timeline's tick, W: force times speed of the proxy in the tissue. */
   power(source: Source): number {
-    const tick = source.shown();
+    const tick = source.present();
     const { history } = source;
     if (tick === null) return 0;
     const from = Math.max(history.first, tick - WINDOW_TICKS);
@@ -37,7 +37,7 @@ export class Felt {
 
   /** The pops since the last call; none after a jump in time or to another run. */
   pops(source: Source): MembraneEvent[] {
-    const tick = source.shown();
+    const tick = source.present();
     if (tick === null) return [];
     const events = source.events.value;
     const { generation } = source.history;

@@ -14,8 +14,8 @@ export const playerBar: Panel = (host, app) => {
   let before: Source | null = null;
   app.source.watch((source) => {
     close();
-    // Back from an excerpt, a recording goes on where it was.
-    const from = before?.excerpt?.of === source ? source.cursor.value : null;
+    // A pause begins at the present moment; back from an excerpt, a recording goes on where it was.
+    const from = source.paused || before?.excerpt?.of === source ? source.cursor.value : null;
     before = source;
     close = (): void => {};
     host.replaceChildren();

@@ -27,22 +27,20 @@ let slowdown: number = SLOWDOWNS[1]; // the last one that the user chose
 export const showingOf = (app: App, source: Source): Showing =>
   source.excerpt ? excerptShowing(app, source, source.excerpt) : recordingShowing(app, source);
 
-function recordingShowing(app: App, { history }: Source): Showing {
+function recordingShowing(app: App, { history, paused }: Source): Showing {
   const start = history.timeOf(history.first);
   const total = (history.timeOf(history.end - 1) - start).toFixed(3);
   const at = (tick: number): string => (history.timeOf(tick) - start).toFixed(3);
   return {
     first: history.first,
     last: Math.max(history.end - 1, history.first),
-    kind: "Replay of",
+    kind: paused ? "" : "Replay of",
     speeds: SPEEDS.map((speed) => [speed, `${speed}×`]),
     speed: 1,
     time: (tick) => `${at(tick).padStart(total.length, " ")} / ${total} s`,
     spokenTime: (tick) => `${at(tick)} of ${total} seconds`,
     backWords: "Back to live",
-    back: () => {
-      app.source.value = app.live;
-    },
+    back: () => app.goLive(),
     alwaysPlays: false,
     goesBack: false,
   };
@@ -67,7 +65,7 @@ function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Sour
     },
     time: (tick) => `${ms(tick)} ms`,
     spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the pop`,
-    backWords: excerpt.of.live ? "Back to live" : "Back to the recording",
+    backWords: excerpt.of.live ? "Back to live" : excerpt.of.paused ? "Back to the pause" : "Back to the recording",
     back: () => leaveExcerpt(app),
     alwaysPlays: true,
     goesBack: true,

@@ -1,29 +1,47 @@
 import { expect, test } from "vitest";
-import { bandPath, curvePath, extentFor, placing, ticksOf } from "../../../src/controls/editor/law_shape.ts";
+import { LawShape } from "../../../src/controls/editor/law_shape.ts";
+import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
+import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
+import type { LawCurve } from "../../../src/wire/messages.ts";
 import scene from "../support/scene.json";
 
-const law = scene.laws[0]!;
+const law: LawCurve = scene.laws[0]!;
+const scaled = (factor: number): LawCurve => ({
+  ...law,
+  upper: law.upper.map((force) => force * factor),
+  lower: law.lower.map((force) => force * factor),
+});
+
+function drawn(shape: LawShape, now: LawCurve, before: LawCurve | null = null): string {
+  const pen = new SvgPen();
+  shape.draw(pen, now, before, 330, 166, CSS_THEME);
+  return pen.file(330, 166, "none", "", "");
+}
 
 test("the axes hold the whole law, and stay while it fills a fair part of them", () => {
-  const extent = extentFor(law, null);
-  expect(extent.most).toBeGreaterThanOrEqual(Math.max(...law.upper));
-  expect(extent.least).toBeLessThanOrEqual(Math.min(...law.lower));
-  expect(extent.depth).toBeGreaterThan(law.through);
-  const less = { ...law, upper: law.upper.map((f) => f * 0.7), lower: law.lower.map((f) => f * 0.7) };
-  expect(extentFor(less, extent)).toEqual(extent);
-  const more = { ...law, upper: law.upper.map((f) => f * 3) };
-  expect(extentFor(more, extent).most).toBeGreaterThan(extent.most);
+  const shape = new LawShape();
+  shape.fit(law, 0);
+  drawn(shape, law);
+  const { min, max } = shape.pane.y;
+  expect(max).toBeGreaterThanOrEqual(-Math.min(...law.lower));
+  expect(min).toBeLessThanOrEqual(-Math.max(...law.upper));
+  expect(shape.pane.x.max).toBeGreaterThan(law.through * 1e3);
+  shape.fit(scaled(0.8), 1);
+  drawn(shape, scaled(0.8));
+  expect([shape.pane.y.min, shape.pane.y.max]).toEqual([min, max]);
+  shape.fit(scaled(3), 2);
+  drawn(shape, scaled(3));
+  expect(shape.pane.y.max).toBeGreaterThan(max);
 });
 
-test("a curve goes on along its last force, and the band is closed", () => {
-  const place = placing({ depth: 0.01, least: -1, most: 1 }, 0, 0, 100, 100);
-  expect(curvePath([0, 0.005], [0, 1], place, 0.01)).toBe("M0.0,50.0L50.0,0.0L100.0,0.0");
-  expect(bandPath({ ...law, depth: [0, 0.005], upper: [0, 1], lower: [0, -1] }, place, 0.01)).toBe(
-    "M0.0,50.0L50.0,0.0L100.0,0.0L100.0,100.0L50.0,100.0L0.0,50.0Z",
-  );
-});
-
-test("ticks are round numbers within the axis", () => {
-  expect(ticksOf(0, 0.01)).toEqual([0, 0.002, 0.004, 0.006, 0.008, 0.01]);
-  expect(ticksOf(-0.5, 0.3)).toEqual([-0.4, -0.2, 0, 0.2]);
+test("insertion friction is above: the hand feels the opposite of the needle's force", () => {
+  const shape = new LawShape();
+  shape.fit(law, 0);
+  const file = drawn(shape, law, scaled(0.5));
+  const highest = shape.pane.y.px(-Math.min(...law.lower));
+  const line = /<path d="([^"]*)" fill="none" stroke="var\(--data-1\)" stroke-width="2"/.exec(file)![1]!;
+  const heights = [...line.matchAll(/[ML][-\d.]+ ([-\d.]+)/g)].map(([, y]) => Number(y));
+  expect(Math.min(...heights)).toBeCloseTo(highest, 1);
+  expect(highest).toBeLessThan(shape.pane.y.px(0));
+  expect(file.match(/stroke-dasharray="3 3"/g)).toHaveLength(2);
 });

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { tracePath } from "../../../src/controls/exercises/result_dialog.ts";
-import { envelope, indexAt, layersOf, spaceOf, traceOf } from "../../../src/controls/exercises/trace.ts";
+import { indexAt, layersOf, spaceOf, traceOf } from "../../../src/controls/exercises/trace.ts";
 import type { SceneView } from "../../../src/wire/messages.ts";
 import json from "../support/scene.json";
 
@@ -43,25 +43,6 @@ test("what is to be reached begins at the depth of the reach goal, not where the
   const exercise = { space: [1, 2], space_from: 0.5e-3, space_to: null, goal_from: 2e-3 };
   expect(spaceOf(layers, exercise)?.top).toBeCloseTo(7.21e-3, 9);
   expect(spaceOf(layers, exercise)?.bottom).toBeCloseTo(8.22e-3, 9);
-});
-
-test("an envelope keeps every column's extremes, in few points", () => {
-  const x = Float64Array.from({ length: 10_000 }, (_, i) => i);
-  const y = Float32Array.from(x, (i) => (i === 4321 ? 100 : Math.sin(i)));
-  const [piece, more] = envelope(x, y, 0, x.length, 100);
-  expect(more).toBeUndefined();
-  expect(piece!.length / 2).toBeLessThanOrEqual(400);
-  expect(Math.max(...piece!.filter((_, i) => i % 2))).toBe(100);
-  const times = piece!.filter((_, i) => i % 2 === 0);
-  expect(times.every((value, i) => i === 0 || value > times[i - 1]!)).toBe(true);
-});
-
-test("a gap breaks the curve", () => {
-  const y = Float32Array.from([1, 2, Number.NaN, Number.NaN, 3, 4]);
-  expect(envelope([0, 1, 2, 3, 4, 5], y, 0, 6, 6)).toEqual([
-    [0, 1, 1, 2],
-    [4, 3, 5, 4],
-  ]);
 });
 
 test("a time is found among ticks", () => {

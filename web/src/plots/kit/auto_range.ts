@@ -1,4 +1,4 @@
-import { niceStep } from "./ticks.ts";
+import { niceStep } from "./scale.ts";
 
 const SHRINK_BELOW = 0.55; // the range shrinks when the values use less than this share of it ...
 const SHRINK_DELAY = 2; // ... for this long, s

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { Polyline } from "../../src/plots/polyline.ts";
-import { SvgPen } from "../../src/plots/svg_pen.ts";
+import { Polyline } from "../../../src/plots/kit/polyline.ts";
+import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 
 describe("a drawing as a file", () => {
   it("has the line as it was, with its gaps and lone points", () => {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { Painted } from "../../src/plots/painted.ts";
-import { Polyline } from "../../src/plots/polyline.ts";
+import { Painted } from "../../../src/plots/kit/painted.ts";
+import { Polyline } from "../../../src/plots/kit/polyline.ts";
 
 const line = (points: ReadonlyArray<readonly [number, number]>): Polyline => {
   const made = new Polyline();

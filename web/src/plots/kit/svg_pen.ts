@@ -4,15 +4,15 @@ import type { Polyline } from "./polyline.ts";
 /** Draws into the text of an SVG file. */
 export class SvgPen implements Pen {
   private readonly parts: string[] = [];
-  private clips = 0;
+  private static clips = 0; // a page may show several drawings: their names must differ
 
   /** The file's text. Screen readers read `title` and `words`. */
   file(width: number, height: number, back: string, title: string, words: string): string {
     const size = `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"`;
     return [
       `<svg xmlns="http://www.w3.org/2000/svg" ${size} role="img">`,
-      `<title>${escaped(title)}</title><desc>${escaped(words)}</desc>`,
-      `<rect width="100%" height="100%" fill="${back}"/>`,
+      `<title>${escaped(title)}</title>${words && `<desc>${escaped(words)}</desc>`}`,
+      ...(back === "none" ? [] : [`<rect width="100%" height="100%" fill="${back}"/>`]),
       ...this.parts,
       "</svg>\n",
     ].join("\n");
@@ -50,7 +50,7 @@ export class SvgPen implements Pen {
   }
 
   within(x: number, y: number, width: number, height: number, draw: () => void): void {
-    const id = `clip${this.clips++}`;
+    const id = `clip${SvgPen.clips++}`;
     const box = `<rect x="${px(x)}" y="${px(y)}" width="${px(width)}" height="${px(height)}"/>`;
     this.parts.push(`<clipPath id="${id}">${box}</clipPath><g clip-path="url(#${id})">`);
     draw();

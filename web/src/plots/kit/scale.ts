@@ -1,3 +1,35 @@
+/** Maps values to pixels, linearly or by their logarithms. */
+export class Scale {
+  min = 0;
+  max = 1;
+  /** The pixels of `min` and `max`. */
+  from = 0;
+  to = 1;
+  log = false;
+
+  set(min: number, max: number, from: number, to: number, log = false): void {
+    this.min = min;
+    this.max = max;
+    this.from = from;
+    this.to = to;
+    this.log = log;
+  }
+  /** Pixels per unit of a linear scale. */
+  get slope(): number {
+    return (this.to - this.from) / (this.max - this.min);
+  }
+  px(value: number): number {
+    const { min, max, from, to, log } = this;
+    const share = log ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min);
+    return from + share * (to - from);
+  }
+  value(px: number): number {
+    const { min, max, from, to, log } = this;
+    const share = (px - from) / (to - from);
+    return log ? min * (max / min) ** share : min + share * (max - min);
+  }
+}
+
 /** A step of 1, 2 or 5 times a power of ten that divides `span` by about `wanted` lines. */
 export function niceStep(span: number, wanted: number): number {
   const raw = span / Math.max(1, wanted);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { decimate } from "../../src/plots/decimate.ts";
-import { Polyline } from "../../src/plots/polyline.ts";
+import { decimate } from "../../../src/plots/kit/decimate.ts";
+import { Polyline } from "../../../src/plots/kit/polyline.ts";
 
 const NaN_ = Number.NaN;
 

@@ -12,25 +12,36 @@ export interface Theme {
 
 const DATA = ["--data-1", "--data-2", "--data-3", "--data-4", "--data-5"];
 
+/** The colours by their names: for SVG inside the page, which follows the page's theme by itself. */
+export const CSS_THEME: Theme = {
+  panel: "var(--panel)",
+  line: "var(--line)",
+  text: "var(--text)",
+  quiet: "var(--quiet)",
+  accent: "var(--accent)",
+  danger: "var(--danger)",
+  data: DATA.map((name) => `var(${name})`),
+};
+
 /** Calls `changed` with the present colours, and again whenever the page turns light or dark. */
 export function watchTheme(changed: (theme: Theme) => void): void {
   const probe = document.createElement("i");
   probe.hidden = true;
   document.body.append(probe);
   // getPropertyValue would return the text light-dark(...); the computed colour of an element is resolved.
-  const read = (name: string): string => {
-    probe.style.color = `var(${name})`;
+  const read = (colour: string): string => {
+    probe.style.color = colour;
     return getComputedStyle(probe).color;
   };
   const tell = (): void =>
     changed({
-      panel: read("--panel"),
-      line: read("--line"),
-      text: read("--text"),
-      quiet: read("--quiet"),
-      accent: read("--accent"),
-      danger: read("--danger"),
-      data: DATA.map(read),
+      panel: read(CSS_THEME.panel),
+      line: read(CSS_THEME.line),
+      text: read(CSS_THEME.text),
+      quiet: read(CSS_THEME.quiet),
+      accent: read(CSS_THEME.accent),
+      danger: read(CSS_THEME.danger),
+      data: CSS_THEME.data.map(read),
     });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", tell);
   new MutationObserver(tell).observe(document.documentElement, { attributes: true });

@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { element } from "../../panel.ts";
 import { CanvasPen } from "./canvas_pen.ts";
 
 export interface Box {

@@ -1,7 +1,10 @@
 import { describe, expect, it } from "vitest";
-import { AutoRange } from "../../src/plots/auto_range.ts";
-import { Scale } from "../../src/plots/scale.ts";
-import { label, niceStep, ticks } from "../../src/plots/ticks.ts";
+import { AutoRange } from "../../../src/plots/kit/auto_range.ts";
+import { drawAxes, Pane } from "../../../src/plots/kit/axes.ts";
+import { textWidth } from "../../../src/plots/kit/labels.ts";
+import { label, niceStep, Scale, ticks } from "../../../src/plots/kit/scale.ts";
+import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
+import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 
 describe("numbers along an axis", () => {
   it("steps are 1, 2 or 5 times a power of ten", () => {
@@ -59,4 +62,53 @@ it("a scale maps there and back, upside down too", () => {
   expect(scale.px(-1)).toBe(200);
   expect(scale.px(3)).toBe(20);
   expect(scale.value(scale.px(0.7))).toBeCloseTo(0.7, 12);
+});
+
+it("a logarithmic scale maps there and back", () => {
+  const scale = new Scale();
+  scale.set(1e-4, 1e-2, 0, 100, true);
+  expect(scale.px(1e-3)).toBeCloseTo(50, 9);
+  expect(scale.value(scale.px(3e-4))).toBeCloseTo(3e-4, 12);
+});
+
+describe("axes at any width", () => {
+  /** The row below a pane: each text's left and right end, px, and the text. */
+  function rowBelow(width: number, min: number, max: number): { from: number; to: number; text: string }[][] {
+    const pane = new Pane();
+    pane.place(44, 20, width - 56, 100);
+    pane.rangeX(min, max);
+    pane.rangeY(0, 1);
+    const pen = new SvgPen();
+    drawAxes(pen, pane, CSS_THEME, { x: "time (s)", y: "force (N)" });
+    const texts = [
+      ...pen.file(width, 160, "none", "", "").matchAll(/<text x="([-\d.]+)" y="([-\d.]+)"[^>]*>([^<]*)</g),
+    ];
+    const below = texts.filter(([, , y]) => Number(y) > 125);
+    const rows = [...new Set(below.map(([, , y]) => y))];
+    return rows.map((row) =>
+      below
+        .filter(([, , y]) => y === row)
+        .map(([, x, , text]) => ({
+          from: Number(x) - textWidth(text!) / 2,
+          to: Number(x) + textWidth(text!) / 2,
+          text: text!,
+        })),
+    );
+  }
+
+  it.each([
+    [390, 0, 20],
+    [390, 123.4, 123.4005],
+    [195, -0.05, 0.05],
+    [180, 1000, 1080],
+    [960, -12, 43],
+  ])("%d px wide, from %d to %d: no number touches another, none is replaced by the name", (width, min, max) => {
+    const [numbers, name] = rowBelow(width, min, max);
+    expect(numbers!.length).toBeGreaterThan(1);
+    numbers!.slice(1).forEach(({ from }, i) => {
+      expect(from).toBeGreaterThan(numbers![i]!.to);
+    });
+    expect(numbers!.at(-1)!.to).toBeLessThanOrEqual(width);
+    expect(name!.map(({ text }) => text)).toEqual(["time (s)"]);
+  });
 });
