@@ -23,7 +23,7 @@ export class Source {
   /** The tick that somebody points at in a plot, with the pointer or with keys; null if nobody does. */
   readonly pointed = new Signal<number | null>(null);
 
-  /** kept: the number of ticks that are kept, or a history with ticks. paused: a copy of the live run, which goes on. */
+  /** kept: the number of ticks that are kept, or a history with ticks. paused: a copy of the live run, that goes on. */
   constructor(
     readonly title: string,
     readonly live: boolean,
