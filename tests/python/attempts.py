@@ -20,12 +20,21 @@ def as_a_device_runs_it(scene: pn.Scene) -> pn.Scene:
     return scene.replace(servo=scene.servo.replace(conditioning="line_fit", encoder_step=0.055e-3))
 
 
-def motion_of(exercise: Exercise, legs: list[tuple[float, float]], axis: np.ndarray) -> pn.RecordedMotion:
-    """A mouse motion along the needle: legs of (seconds, mm from the start), in steps of page frames."""
+def motion_of(
+    exercise: Exercise,
+    legs: list[tuple[float, float]],
+    axis: np.ndarray,
+    aside: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> pn.RecordedMotion:
+    """A mouse motion along the needle: legs of (seconds, mm from the start), in steps of page frames.
+
+    aside: mm, by which the needle moves sideways in the first 0.8 s.
+    """
     times = np.cumsum([0.0, *[seconds for seconds, _ in legs]])
     frames = np.arange(0, times[-1], 1 / HERTZ)
     way = np.interp(frames, times, [0.0, *[mm * 1e-3 for _, mm in legs]])
-    return pn.RecordedMotion(frames, np.asarray(exercise.start_position) + np.outer(way, axis))
+    sideways = np.outer(np.clip(frames / 0.8, 0, 1), np.asarray(aside) * 1e-3)
+    return pn.RecordedMotion(frames, np.asarray(exercise.start_position) + np.outer(way, axis) + sideways)
 
 
 @cache

@@ -18,6 +18,7 @@ from punctura.errors import MISSING, Problem
 from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
 from punctura.exercise.depths import Table, unreachable
 from punctura.exercise.exercise import start_axis
+from punctura.exercise.limits import across
 from punctura.exercise.problems import GOALS, located, problem
 from punctura.exercise.schema import ExerciseFile, Space, Start
 from punctura.files.tables import Location
@@ -45,6 +46,7 @@ def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | No
     problems += _kinds(tables.get("goal"), sound.goals)
     problems += _start(sound.start, scene)
     problems += _names(sound, scene)
+    problems += _lines(sound, scene)
     problems += unreachable(sound.space, sound.goals, scene)
     return (None if problems else file), problems
 
@@ -115,6 +117,19 @@ def _in_front(position_mm: list[float], scene: Scene) -> Iterator[Problem]:
             f"it is {abs(depths[worst]):.4g} mm {side} the {scene.membranes[worst].name}"
         )
         yield Problem("start.position_mm", position_mm, reason)
+
+
+def _lines(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
+    """The direction of an on_line goal must have a length, and must not be upright."""
+    for i, goal in sound.goals.items():
+        along = goal.get("along")
+        if along is None:
+            continue
+        if not LEAST_HEADING <= math.hypot(*along) <= MOST_HEADING:
+            reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
+            yield Problem(f"goal[{i}].along", along, reason)
+        elif scene is not None and np.isnan(across(scene, along)).any():
+            yield Problem(f"goal[{i}].along", along, "must not be parallel to the first membrane's normal")
 
 
 def _names(sound: Sound, scene: Scene | None) -> Iterator[Problem]:

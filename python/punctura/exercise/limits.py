@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from punctura import Scene
 from punctura.events import Event
-from punctura.exercise.limit import Limit, Moment
-from punctura.exercise.schema import AnyGoal, Entries, NeverPass, PeakForce, Reach, Stay, StopAfterPop, TimeLimit
+from punctura.exercise.limit import Limit, Moment, by, first_of
+from punctura.exercise.schema import (
+    AnyGoal,
+    Entries,
+    NeverPass,
+    OnLine,
+    PeakForce,
+    Reach,
+    Stay,
+    StopAfterPop,
+    TimeLimit,
+)
 from punctura.exercise.space import place_of
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import Ticks
@@ -54,6 +65,39 @@ class ForceJudge(Limit):
         self._miss(ticks, ticks.force > self.at_most)
 
 
+def across(scene: Scene, along: list[float]) -> NDArray[np.float64]:
+    """The direction across a line on the first membrane's surface, of length 1; NaN if the line is upright."""
+    side: NDArray[np.float64] = np.cross(np.asarray(scene.membranes[0].inward_normal, np.float64), along)
+    length = float(np.linalg.norm(side))
+    return side / length if length > 1e-9 else np.full(3, np.nan)
+
+
+class LineJudge(Limit):
+    """Uses the position of the tip in the ticks in which the point is in the space."""
+
+    def __init__(self, goal: OnLine, scene: Scene) -> None:
+        super().__init__(goal.text or f"Keep the point within {goal.within_mm:g} mm of the middle line")
+        self.within = goal.within_mm * 1e-3
+        self.farthest: float | None = None  # m, to the side; up to the first miss
+        self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
+        self._first: Moment | None = None
+
+    def add(self, ticks: Ticks, events: list[Event]) -> None:
+        aside = np.abs((ticks.tip - self._point) @ self._across)
+        self._watch(ticks, np.isfinite(aside))
+        here = ticks.in_space[:, 0] & np.isfinite(aside)
+        if self.missed is not None or not here.any():
+            return
+        self._first = self._first or first_of(ticks, here)
+        off = here & (aside > self.within)
+        self._miss(ticks, off)
+        until = here & (np.arange(len(ticks)) <= (int(off.argmax()) if off.any() else len(ticks)))
+        self.farthest = max(self.farthest or 0.0, float(aside[until].max()))
+
+    def measured(self, until: Moment | None) -> bool:
+        return by(self._first, until) and super().measured(until)
+
+
 class EntriesJudge(Limit):
     def __init__(self, goal: Entries, scene: Scene) -> None:
         times = "once" if goal.at_most == 1 else f"{goal.at_most} times"
@@ -78,6 +122,8 @@ def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
         return NeverPassJudge(goal, scene)
     if isinstance(goal, StopAfterPop):
         return StopJudge(goal, scene)
+    if isinstance(goal, OnLine):
+        return LineJudge(goal, scene)
     if isinstance(goal, TimeLimit):
         return TimeJudge(goal)
     if isinstance(goal, PeakForce):

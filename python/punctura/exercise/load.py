@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from pathlib import Path
 
 from punctura import Scene
@@ -17,8 +18,14 @@ _FOLDER = Path(__file__).parents[1] / "exercises"
 
 
 def exercise_names() -> list[str]:
-    """Names of the ready exercises, for load_exercise."""
-    return sorted(file.stem for file in _FOLDER.glob("*.toml"))
+    """Names of the ready exercises, for load_exercise; the easiest first."""
+    return list(_ready())
+
+
+@cache
+def _ready() -> tuple[str, ...]:
+    levels = {file.stem: read_tables(file, "exercise").get("level", 100) for file in _FOLDER.glob("*.toml")}
+    return tuple(sorted(levels, key=lambda name: (levels[name], name)))
 
 
 def exercises() -> list[Exercise]:

@@ -94,6 +94,18 @@ class PeakForce(_Goal):
     at_most_N: Newtons
 
 
+class OnLine(_Goal):
+    """While the point is in the space, it is not farther to the side of a line than this.
+
+    The distance is measured along the first membrane's surface, at a right angle to the line.
+    """
+
+    kind: Literal["on_line"]
+    point_mm: Vector  # any point of the line
+    along: Vector  # its direction
+    within_mm: Distance
+
+
 class Entries(_Goal):
     """The first membrane is entered at most this often."""
 
@@ -102,7 +114,7 @@ class Entries(_Goal):
 
 
 AnyGoal = Annotated[
-    Reach | Stay | NeverPass | StopAfterPop | TimeLimit | PeakForce | Entries, Field(discriminator="kind")
+    Reach | Stay | NeverPass | StopAfterPop | OnLine | TimeLimit | PeakForce | Entries, Field(discriminator="kind")
 ]
 
 
@@ -113,6 +125,8 @@ class ExerciseFile(Table):
     description: Text
     instruction: Text
     scene: Word  # a ready scene's name, or the path of a scene file relative to this file
+    level: Annotated[int, Field(ge=1, le=100)] = 100  # place in the list of the ready exercises: the easiest first
+    blind: bool = False  # the page shows no needle and no depth while the exercise runs
     start: Start
     space: Space
     goal: Annotated[list[AnyGoal], Field(min_length=1)]

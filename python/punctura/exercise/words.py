@@ -8,7 +8,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from punctura._core import Fault, describe
 from punctura.exercise.achievements import Achievement, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
-from punctura.exercise.limits import EntriesJudge, ForceJudge, NeverPassJudge, TimeJudge
+from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.measures import Measures
 from punctura.exercise.result import GoalState
 from punctura.exercise.schema import Space
@@ -37,6 +37,8 @@ def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -
             f"You ran more than {limit.within * 1e3:g} mm past the {limit.membrane} when it gave way: "
             "hold against the loss of resistance."
         )
+    if isinstance(limit, LineJudge):
+        return f"The point came into {space.name} {tenths((limit.farthest or 0.0) * 1e3)} mm beside the middle line."
     if isinstance(limit, TimeJudge):
         return f"The time ran out {limit.seconds:g} s after the first contact."
     if isinstance(limit, ForceJudge):
@@ -56,6 +58,8 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
         else:
             when = f"the {limit.membrane} never gave way"
         return f"Not measured: how far you moved past the {limit.membrane}, because {when}."
+    if isinstance(limit, LineJudge):
+        return f"Not measured: “{limit.text}”, because the point was never in the space."
     return f"Not measured: “{limit.text}”, because there was no contact with the {first}."
 
 

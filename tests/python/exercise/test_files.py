@@ -93,7 +93,7 @@ def test_what_needs_no_scene_is_checked_beside_a_scene_that_is_not_there(write):
         ("[0, 5, 0]", "[0, nan, 0]", "start.position_mm[1]", "must be a finite number"),
         ("[0, 5, 0]", "5", "start.position_mm", "must be three numbers, [x, y, z]"),
         ("[0, 5, 0]", "[0, 5, 0]\nangle_deg = 5", "start.angle_deg", "must be more than 10 deg"),
-        ("[start]", "[begin]", "begin", "unknown key; known here: title, description, instruction, scene, start, "),
+        ("[start]", "[origin]", "origin", "unknown key; known here: title, description, instruction, scene, level, "),
         ("[start]", "[begin]", "start", "is missing; write a table [start]"),
         ("[[goal]]", "[[aim]]", "goal", "is missing; write a table [[goal]]"),
         ("seconds = 3", "time_s = 3", "goal[0].time_s", "unknown key; known here: text, kind, seconds, whole_tip"),
@@ -128,14 +128,14 @@ def test_a_scene_that_is_not_there_or_is_wrong_is_reported(write, tmp_path):
 
 
 def test_a_scene_may_lie_beside_the_exercise(write, tmp_path):
-    save_scene(exercises()[1].scene, tmp_path / "mine.toml")
+    save_scene(load_exercise("venipuncture").scene, tmp_path / "mine.toml")
     exercise = load_exercise(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))
-    assert exercise.scene == exercises()[1].scene
+    assert exercise.scene == load_exercise("venipuncture").scene
     assert exercise.scene_name == os.fspath(tmp_path / "mine.toml")
 
 
 def test_files_that_are_none_are_reported(tmp_path):
-    with pytest.raises(ConfigurationError, match="ready exercises: epidural, venipuncture"):
+    with pytest.raises(ConfigurationError, match="ready exercises: steady-push, stop-after-pop"):
         load_exercise("lumbar")
     with pytest.raises(ConfigurationError, match="no such file"):
         load_exercise(tmp_path / "none.toml")

@@ -196,3 +196,22 @@ def test_an_overshoot_is_measured_in_the_time_that_its_goal_says(write):
 def test_a_tenth_is_rounded_as_the_page_rounds(value, text):
     """JavaScript's toFixed: the nearest, and of two that are as near the larger."""
     assert tenths(value) == text
+
+
+LINE = {"point_mm": [0, -6.7, 0], "along": [1, 0, 0], "within_mm": 1.0}
+
+
+@pytest.mark.parametrize(("z", "state"), [(0.0, "met"), (0.9, "met"), (-1.5, "missed")])
+def test_a_line_is_met_by_a_point_that_is_near_it_while_it_is_in_the_space(write, z, state):
+    columns = ideal(SCENE, (0, 5, -4), (0, 2, z), (3, -6, z), stops=1)  # in front of the skin it may be anywhere
+    result = measured(write, columns, goal("on_line", **LINE), goal("stay", seconds=0.5))
+    assert result.goals[0].state == state
+    assert result.goals[0].text == "Keep the point within 1 mm of the middle line"
+    about = [
+        remark.numbers["beside_m"]
+        for remark in [*result.coaching.good, *result.coaching.change]
+        if remark.about == "line"
+    ]
+    assert about == [pytest.approx(abs(z) * 1e-3, abs=1e-9)]
+    if state == "missed":
+        assert result.reasons == ["The point came into the vein 1.5 mm beside the middle line."]

@@ -39,4 +39,4 @@ def test_a_space_that_is_too_narrow_for_the_whole_tip_gives_a_warning(write):
 
 
 def test_the_ready_exercises_give_no_warning():
-    assert [exercise.warnings for exercise in exercises()] == [(), ()]
+    assert not any(exercise.warnings for exercise in exercises())

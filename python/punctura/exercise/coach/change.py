@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen, degrees, mm, newtons, speed, times
-from punctura.exercise.limits import EntriesJudge, ForceJudge, NeverPassJudge
+from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.words import tenths
@@ -58,6 +58,16 @@ def pushed_too_hard(seen: Seen) -> Iterator[Remark]:
         yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": limit.at_most})
 
 
+def beside_the_line(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.missed(LineJudge):
+        beside = limit.farthest or 0.0
+        text = (
+            f"The point was {mm(beside)} beside the middle line when it came into {seen.space.name}; "
+            f"{mm(limit.within)} are allowed: move the needle sideways before you enter, until it points at the line."
+        )
+        yield Remark(about="line", text=text, numbers={"beside_m": beside, "allowed_m": limit.within})
+
+
 def entered_again(seen: Seen) -> Iterator[Remark]:
     again = seen.metrics.entries - 1
     if again > 0 and any(isinstance(limit, EntriesJudge) for limit in seen.limits):
@@ -83,7 +93,8 @@ def wrong_angle(seen: Seen) -> Iterator[Remark]:
 def too_short(seen: Seen) -> Iterator[Remark]:
     """The needle, or its whole tip, never came into the space."""
     space, trace = seen.space, seen.trace
-    if seen.passed or not (math.isfinite(trace.nearest) and math.isfinite(trace.tip_nearest)):
+    ended_early = seen.decision is not None and not any(seen.missed(TimeJudge))
+    if seen.passed or ended_early or not (math.isfinite(trace.nearest) and math.isfinite(trace.tip_nearest)):
         return
     arrived = seen.arrival is not None
     whole = space.stay_whole if arrived else space.arrive_whole
@@ -176,6 +187,6 @@ def nearly_too_far(seen: Seen) -> Iterator[Remark]:
 
 
 ORDER = (
-    went_through, went_too_far, pushed_too_hard, wrong_angle, too_short, pressed, left_the_space, entered_again,
-    nearly_too_far, trembled, paused, went_aside,
+    went_through, beside_the_line, went_too_far, pushed_too_hard, wrong_angle, too_short, pressed, left_the_space,
+    entered_again, nearly_too_far, trembled, paused, went_aside,
 )  # fmt: skip

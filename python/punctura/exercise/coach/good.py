@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen, degrees, mm, newtons
-from punctura.exercise.limits import ForceJudge
+from punctura.exercise.limits import ForceJudge, LineJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.words import tenths
@@ -36,6 +36,13 @@ def held_still(seen: Seen) -> Iterator[Remark]:
         yield Remark(about="tremor", text=text, numbers=numbers)
 
 
+def hit_the_line(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.kept(LineJudge):
+        if limit.farthest is not None:
+            text = f"You hit the middle of {seen.space.name}: at most {mm(limit.farthest)} beside its middle line."
+            yield Remark(about="line", text=text, numbers={"beside_m": limit.farthest, "allowed_m": limit.within})
+
+
 def pushed_gently(seen: Seen) -> Iterator[Remark]:
     for limit in seen.kept(ForceJudge):
         peak = seen.metrics.peak_force
@@ -44,7 +51,7 @@ def pushed_gently(seen: Seen) -> Iterator[Remark]:
 
 
 def pushed_steadily(seen: Seen) -> Iterator[Remark]:
-    if seen.arrival is not None and seen.pauses.count == 0 and seen.metrics.entries == 1:
+    if seen.arrival is not None and seen.pauses.number == 0 and seen.metrics.entries == 1:
         seconds = seen.metrics.time_to_target
         text = f"You pushed without a pause from the {seen.first} to {seen.space.name}, at the first entry."
         yield Remark(about="pauses", text=text, numbers={"to_target_s": seconds or 0.0})
@@ -66,4 +73,4 @@ def right_angle(seen: Seen) -> Iterator[Remark]:
         yield Remark(about="angle", text=text, numbers={"angle_rad": angle, "asked_rad": seen.angle})
 
 
-ORDER = (stopped, held_still, pushed_gently, pushed_steadily, kept_the_line, right_angle)
+ORDER = (stopped, hit_the_line, held_still, pushed_gently, pushed_steadily, kept_the_line, right_angle)

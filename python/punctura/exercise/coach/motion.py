@@ -18,7 +18,7 @@ class Hold(NamedTuple):
 
 
 class Pauses(NamedTuple):
-    count: int
+    number: int
     seconds: float  # together
 
 
