@@ -50,6 +50,7 @@ ROOMS = (
     "web/src/pop",
     "web/src/plots/kit",
     "web/src/plots",
+    "web/src/tissue",
     "web/src/scene",
     "web/src/slice",
     "web/src/controls",

@@ -28,15 +28,32 @@ Conditioning conditioning_from(const std::string& name) {
 
 const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
 
-Behind behind_from(const std::string& name) {
-  if (name == "tissue") return Behind::tissue;
-  if (name == "blood") return Behind::blood;
-  raise_word("membrane.behind", name, "must be \"tissue\" or \"blood\"");
+/// The type hint of a word out of a list.
+template <std::size_t n>
+std::string literal(const std::array<std::string_view, n>& words) {
+  std::string text;
+  for (const auto word : words) text += (text.empty() ? "typing.Literal['" : ", '") + std::string(word) + "'";
+  return text + "]";
+}
+const std::string look_type = literal(look_words), behind_type = literal(behind_words);
+
+/// The enumerator of a word. Throws ConfigurationError that lists the words.
+template <typename Enum, std::size_t n>
+Enum from_word(const std::string& path, const std::string& given, const std::array<std::string_view, n>& words) {
+  if (const auto found = enum_of<Enum>(given, words)) return *found;
+  std::string reason = "must be one of";
+  for (const auto word : words) reason += (word == words.front() ? " \"" : ", \"") + std::string(word) + "\"";
+  raise_word(path, given, reason.c_str());
 }
 
-PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal,
-                           std::string behind) {
-  return {std::move(name), membrane, point, inward_normal, behind_from(behind)};
+PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
+                           std::string look) {
+  return {std::move(name),
+          membrane,
+          point,
+          inward_normal,
+          from_word<Behind>("membrane.behind", behind, behind_words),
+          from_word<Look>("membrane.look", look, look_words)};
 }
 
 ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
@@ -168,20 +185,25 @@ void bind_scene(nb::module_& m) {
               "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
               nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0")
           .def_prop_ro(
-              "behind", [](const PlacedMembrane& p) { return p.behind == Behind::blood ? "blood" : "tissue"; },
-              nb::sig("def behind(self) -> typing.Literal['tissue', 'blood']"),
-              "Content between this membrane and the next: \"tissue\" or \"blood\". It does not affect the force");
+              "behind", [](const PlacedMembrane& p) { return text(word_of(p.behind)); },
+              nb::sig(("def behind(self) -> " + behind_type).c_str()),
+              "Content of the space between this membrane and the next. It does not affect the force")
+          .def_prop_ro(
+              "look", [](const PlacedMembrane& p) { return text(word_of(p.look)); },
+              nb::sig(("def look(self) -> " + look_type).c_str()),
+              "The kind of tissue that the studio draws. It does not affect the force");
   def_init(
       placed,
       {{"name", "str"},
        {"membrane", "Membrane"},
        {"point", three_numbers},
        {"inward_normal", three_numbers},
-       {"behind", "typing.Literal['tissue', 'blood']", nb::str("tissue")}},
+       {"behind", behind_type.c_str(), nb::str("tissue")},
+       {"look", look_type.c_str(), nb::str("plain")}},
       &make_placed,
       "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
-      "this membrane and the next.");
-  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind"});
+      "this membrane and the next. look: kind of tissue in the studio's picture.");
+  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind", "look"});
 
   const ServoSettings defaults;
   auto servo = nb::class_<ServoSettings>(m, "ServoSettings",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,10 @@
 #include "punctura/model/omni.hpp"
 #include "punctura/proxy/coupling.hpp"
 #include "punctura/proxy/solver.hpp"
+#include "punctura/scene/look.hpp"
 #include "punctura/signal/conditioning.hpp"
 
 namespace punctura {
-
-/// The space behind a membrane, up to the next membrane. The force does not depend on it.
-enum class Behind : std::uint8_t { tissue, blood };
 
 /// A membrane with its place in the scene.
 struct PlacedMembrane {
@@ -25,7 +22,8 @@ struct PlacedMembrane {
   Membrane membrane{};                    ///< no default: check() reports missing values
   std::array<double, 3> point{};          ///< any point of the surface, m
   std::array<double, 3> inward_normal{};  ///< a direction of any length except 0
-  Behind behind = Behind::tissue;
+  Behind behind = Behind::tissue;         ///< for the picture and for lumen(); no force depends on it
+  Look look = Look::plain;                ///< for the picture
 };
 
 /// The settings of the servo step.

@@ -16,8 +16,8 @@ from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, Sce
 _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
-    "behind": "tissue", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0, "point": [0.0, 0.0, 0.0],
-    "inward_normal": [0.0, -1.0, 0.0],
+    "behind": "tissue", "look": "plain", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0,
+    "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
 }  # fmt: skip
 
 
@@ -78,7 +78,7 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
     for i, raw in enumerate(tables if isinstance(tables, list) else []):
         m = reader.table(raw, f"membrane[{i}]", MembraneTable)
         membrane = Membrane.unchecked(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
-        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"], m["behind"]))
+        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"], m["behind"], m["look"]))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")

@@ -18,6 +18,12 @@ from punctura.files.units import UNITS, from_si
 
 _SERVO = ServoSettings()  # for the defaults
 
+# The words of core/punctura/scene/look.hpp. A test compares them.
+Look = Literal[
+    "plain", "skin", "fat", "muscle", "fascia", "ligament", "ligamentum flavum", "dura", "vein wall", "artery wall"
+]
+Behind = Literal["tissue", "blood", "fat", "muscle", "epidural space", "cerebrospinal fluid"]
+
 
 def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
     extra: Any = {"x-symbol": symbol} if symbol else None
@@ -92,7 +98,10 @@ class MembraneTable(Table):
     thickness_mm: Number = _field("Thickness", "0 is an infinitely thin membrane.", "H")
     point_mm: Vector = _field("Point", "Any point of the surface that the needle enters.", "a")
     inward_normal: Vector = _field("Inward normal", "Direction into the membrane, of any length but 0.", "n")
-    behind: Literal["tissue", "blood"] = _field(
+    look: Look = _field(
+        "Look", "Kind of tissue in the picture; plain is a sheet of glass. It has no effect on the force.", "", "plain"
+    )
+    behind: Behind = _field(
         "Behind",
         "Content of the space between this membrane and the next. It does not grip the needle. Blood shows in the "
         "needle's hub while the tip is in it.",

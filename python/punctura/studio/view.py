@@ -46,6 +46,8 @@ def membrane_views(scene: Scene) -> list[MembraneView]:
             point=[float(x) for x in placed.point],
             inward_normal=(np.array(placed.inward_normal) / np.linalg.norm(placed.inward_normal)).tolist(),
             thickness=placed.membrane.thickness,
+            look=placed.look,
+            behind=placed.behind,
         )
         for placed in scene.membranes
     ]

@@ -65,6 +65,15 @@ TEST_CASE("the lumen is between the membrane with blood behind it and the next o
   CHECK(check(scene)[0].path == "membrane[0].behind");
 }
 
+TEST_CASE("each word of a look and of a space is found again, and no other word is") {
+  for (const auto word : look_words) CHECK((word_of(*enum_of<Look>(word, look_words)) == word));
+  for (const auto word : behind_words) CHECK((word_of(*enum_of<Behind>(word, behind_words)) == word));
+  CHECK(word_of(Look::artery_wall) == "artery wall");
+  CHECK(word_of(Behind::cerebrospinal_fluid) == "cerebrospinal fluid");
+  CHECK(!enum_of<Look>("glass", look_words));
+  CHECK(!enum_of<Behind>("", behind_words));
+}
+
 TEST_CASE("a scene needs 1 to 64 membranes") {
   auto scene = paper_scene();
   const auto one = scene.membranes[0];

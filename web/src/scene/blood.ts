@@ -22,16 +22,17 @@ export class Blood {
     });
   }
 
-  build(lumen: readonly number[]): void {
+  /** asSlab: whether this draws the blood, as a slab. */
+  build(lumen: readonly number[], asSlab = true): void {
     this.walls = lumen.length === 2 ? [lumen[0]!, lumen[1]!] : null;
-    this.slab.mesh.visible = this.walls !== null;
+    this.slab.mesh.visible = asSlab && this.walls !== null;
   }
 
   update(membranes: Membranes, axis: Vector3): boolean {
     const [front, back] = this.placed(membranes);
     if (!front || !back) return false;
-    const top = front.point.clone().addScaledVector(front.normal, front.thickness);
-    const deep = back.point.clone().sub(top).dot(front.normal);
+    const top = membranes.middle(front).addScaledVector(front.normal, front.thickness);
+    const deep = Math.max(0, back.point.clone().sub(top).dot(front.normal));
     const faces: [FaceState, FaceState] = [front.faces[1], back.faces[0]];
     return this.slab.update(top, front.normal, deep, 0.985 * membranes.size, faces, 3, axis);
   }

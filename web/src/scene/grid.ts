@@ -11,6 +11,7 @@ export class Grid {
   private flat = new Float32Array(0); // x, y in the plane of the face
   private attribute = new BufferAttribute(new Float32Array(0), 3);
   private size = 0;
+  private at: readonly [number, number] = [0, 0];
 
   constructor() {
     this.lines = new LineSegments(new BufferGeometry(), this.material);
@@ -18,20 +19,24 @@ export class Grid {
     this.lines.renderOrder = 1;
   }
 
-  /** size: half the side length, mm. */
-  private rule(size: number): void {
+  /** size: half the side length; x0, y0: middle of the drawn part, mm. The lines stay in place if that moves. */
+  private rule(size: number, x0: number, y0: number): void {
     this.size = size;
+    this.at = [x0, y0];
     const cell = size > 11 ? 5 : size > 5 ? 2 : 1;
     const step = cell / STEPS_PER_CELL;
-    const most = Math.floor(size / cell) * cell;
+    const most = Math.floor(size / cell) * cell + cell;
     const within = (x: number, y: number): boolean =>
-      Math.abs(x / size) ** CORNERS + Math.abs(y / size) ** CORNERS <= 1;
+      Math.abs((x - x0) / size) ** CORNERS + Math.abs((y - y0) / size) ** CORNERS <= 1;
     const points: number[] = [];
+    const put = (x: number, y: number, xs: number, ys: number): void => {
+      if (within(x, y) && within(x + xs, y + ys)) points.push(x, y, x + xs, y + ys);
+    };
+    const [left, low] = [x0, y0].map((x) => Math.round(x / cell) * cell) as [number, number];
     for (let line = -most; line <= most + 1e-9; line += cell) {
-      for (let at = -most - cell; at < most + cell - 1e-9; at += step) {
-        if (within(line, at) && within(line, at + step)) {
-          points.push(line, at, line, at + step, at, line, at + step, line);
-        }
+      for (let at = -most; at < most - 1e-9; at += step) {
+        put(left + line, low + at, 0, step);
+        put(left + at, low + line, step, 0);
       }
     }
     this.flat = new Float32Array(points);
@@ -45,9 +50,19 @@ export class Grid {
     this.material.dispose();
   }
 
-  /** Updates the lines. origin: a point of the face; t1 and t2 span its plane. */
-  update(origin: Vector3, t1: Vector3, t2: Vector3, face: FaceState, size: number, width: number): void {
-    if (size !== this.size) this.rule(size);
+  /** Updates the lines. origin: a point of the face; middle: of its drawn part; t1 and t2 span its plane. */
+  update(
+    origin: Vector3,
+    middle: Vector3,
+    t1: Vector3,
+    t2: Vector3,
+    face: FaceState,
+    size: number,
+    width: number,
+  ): void {
+    const away = middle.clone().sub(origin);
+    const [x0, y0] = [away.dot(t1), away.dot(t2)];
+    if (size !== this.size || Math.hypot(x0 - this.at[0], y0 - this.at[1]) > 0.02) this.rule(size, x0, y0);
     const out = this.attribute.array;
     const from = new Vector3().subVectors(face.centre, origin);
     const cx = from.dot(t1);
@@ -56,7 +71,7 @@ export class Grid {
     for (let i = 0, o = 0; i < this.flat.length; i += 2) {
       const x = this.flat[i]!;
       const y = this.flat[i + 1]!;
-      const border = Math.max(Math.abs(x), Math.abs(y)) / size;
+      const border = Math.min(1, Math.max(Math.abs(x - x0), Math.abs(y - y0)) / size);
       const part = displacement(Math.hypot(x - cx, y - cy) - face.hole, width) * (1 - border ** 4);
       out[o++] = origin.x + x * t1.x + y * t2.x + part * shift.x;
       out[o++] = origin.y + x * t1.y + y * t2.y + part * shift.y;

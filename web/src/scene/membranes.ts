@@ -1,4 +1,6 @@
 import { FrontSide, Group, MeshBasicMaterial, Vector3 } from "three";
+import { bounded } from "../tissue/field.ts";
+import { follow } from "../tissue/grid.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { bevelSide } from "./bevel.ts";
 import { Grid } from "./grid.ts";
@@ -7,6 +9,9 @@ import { BARRED, type MembraneMoment, MM, type Moment, OUTSIDE } from "./moment.
 import { Scars } from "./scars.ts";
 import { type FaceState, Slab, untouched } from "./slab.ts";
 import type { Theme } from "./theme.ts";
+
+/** A face is drawn with at most this shift, mm, however far a hand drags the needle. */
+const MOST_SHIFT = 9;
 
 /** A membrane with its place and its drawn parts, mm. */
 export interface Placed {
@@ -24,6 +29,8 @@ export interface Placed {
 /** The membranes: translucent slabs. The needle deforms them by the distance from its proxy to the tip, K06 (21). */
 export class Membranes {
   readonly group = new Group();
+  /** How far the drawn parts of the membranes have followed the needle, mm. */
+  readonly offset = new Vector3();
   placed: Placed[] = [];
   size = 10;
   private diameter = 1;
@@ -80,25 +87,49 @@ export class Membranes {
   /** Updates all slabs for the moment. Returns whether one changed. */
   update(moment: Moment, holes: Holes): boolean {
     let changed = false;
+    this.follow(moment);
     this.placed.forEach((membrane, i) => {
       const state = moment.membranes[i];
       if (!state) return;
       const old = holes.of(i, moment.tick);
-      this.shape(membrane, state, moment, old.at(-1));
-      // The model's membrane is infinite: the slab grows until it contains the needle.
-      const from = new Vector3().subVectors(membrane.faces[0].centre, membrane.point);
-      const away = from.addScaledVector(membrane.normal, -from.dot(membrane.normal)).length();
-      if (away > 0.75 * this.size) this.size = away / 0.6;
-      const width = dimple(this.diameter, membrane.thickness);
       const { point, normal, thickness, faces, slab, scars, grid } = membrane;
+      const middle = this.middle(membrane);
+      this.shape(membrane, state, moment, old.at(-1));
+      faces.forEach((face, side) => {
+        clampInto(face.centre, middle.clone().addScaledVector(normal, side * thickness), 0.92 * this.size);
+        face.shift.clampLength(0, bounded(face.shift.length(), MOST_SHIFT));
+      });
+      const width = dimple(this.diameter, thickness);
       const needle = state.phase === OUTSIDE ? (old.at(-1)?.direction ?? normal) : moment.axis;
-      if (slab.update(point, normal, thickness, this.size, faces, width, needle)) {
-        grid.update(point, slab.t1, slab.t2, faces[0], this.size, width);
+      if (slab.update(middle, normal, thickness, this.size, faces, width, needle)) {
+        grid.update(point, middle, slab.t1, slab.t2, faces[0], this.size, width);
         changed = true;
       }
       if (scars.update(membrane, old, faces[0].centre, this.diameter)) changed = true;
     });
     return changed;
+  }
+
+  /** The model's membrane is infinite, and the drawn part of it follows the needle. */
+  private follow(moment: Moment): void {
+    const first = this.placed[0];
+    if (!first) return;
+    const { normal, point } = first;
+    const tip = moment.tip.clone().sub(point);
+    const depth = Math.max(0, tip.dot(normal));
+    const entry = moment.axis
+      .clone()
+      .multiplyScalar(-depth / Math.max(0.2, moment.axis.dot(normal)))
+      .add(tip);
+    this.offset.addVectors(tip, entry).multiplyScalar(0.5);
+    this.offset.addScaledVector(normal, -this.offset.dot(normal));
+    this.offset.setLength(follow(this.offset.length(), 0.45 * this.size) || 1e-9);
+  }
+
+  /** The middle of the drawn part of a membrane's front face. */
+  middle({ point, normal }: Placed): Vector3 {
+    const along = this.offset.clone().addScaledVector(normal, -this.offset.dot(normal));
+    return along.add(point);
   }
 
   private shape(membrane: Placed, state: MembraneMoment, moment: Moment, last: Hole | undefined): void {
@@ -139,6 +170,11 @@ export class Membranes {
     if (depth > path) back.shift.copy(lead).addScaledVector(turn, path - depth);
     else back.shift.copy(lead).multiplyScalar(Math.exp((depth - path) / dimple(this.diameter, membrane.thickness)));
   }
+}
+
+/** Moves a point of a face towards the middle until it is not beyond `most`, mm. */
+function clampInto(place: Vector3, middle: Vector3, most: number): void {
+  place.sub(middle).clampLength(0, most).add(middle);
 }
 
 /** Width of a dimple, mm: some needle diameters, and wider in thick tissue. */

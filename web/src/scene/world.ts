@@ -6,6 +6,7 @@ import type { SceneView } from "../wire/messages.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { type Extent, extentOf } from "./anatomy.ts";
 import { ForceArrow } from "./arrow.ts";
+import { Block } from "./block.ts";
 import { Blood } from "./blood.ts";
 import { FatLine } from "./fat_line.ts";
 import { Ghost } from "./ghost.ts";
@@ -30,6 +31,7 @@ export class World {
   private scene: SceneView | null = null;
   private readonly needle: Needle;
   private readonly membranes: Membranes;
+  private readonly block: Block;
   private readonly blood: Blood;
   private readonly arrow: ForceArrow;
   private readonly trail: Trail;
@@ -47,14 +49,15 @@ export class World {
   ) {
     this.needle = new Needle(theme);
     this.membranes = new Membranes(theme);
+    this.block = new Block(theme);
     this.blood = new Blood(theme);
     this.arrow = new ForceArrow(theme);
     this.trail = new Trail(theme);
     this.ghost = new Ghost(theme);
     theme.watch(() => this.entry.paint(theme.color("data-4")));
     stage.scene.add(
-      this.needle.group, this.membranes.group, this.blood.slab.mesh, this.arrow.group, this.trail.line,
-      this.ghost.group, this.entry.line,
+      this.needle.group, this.membranes.group, this.block.group, this.blood.slab.mesh, this.arrow.group,
+      this.trail.line, this.ghost.group, this.entry.line,
     ); // biome-ignore format: a list
   }
 
@@ -67,8 +70,9 @@ export class World {
     const { length, size } = this.extent;
     this.needle.build(scene, length);
     this.ghost.build(scene, length);
-    this.membranes.build(scene, size);
-    this.blood.build(scene.lumen);
+    const asBlock = this.block.build(scene, size);
+    this.membranes.build(asBlock ? { ...scene, membranes: [] } : scene, size);
+    this.blood.build(scene.lumen, !asBlock);
     this.labels.clear();
     this.drawn = "";
     return true;
@@ -80,6 +84,7 @@ export class World {
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
+    changed = this.block.update(moment, this.holes, camera) || changed;
     changed = this.blood.update(this.membranes, moment.axis) || changed;
     changed = this.needle.step(moment, scene, source.laws.value) || changed;
     if (!this.differs(this.key(target, pixel), changed)) return false;
@@ -111,7 +116,7 @@ export class World {
     );
     const state = this.moment.membranes[last];
     const extent = this.extent;
-    if (!state || !extent) {
+    if (!state || !extent || this.block.shown) {
       this.entry.setEnds(null);
       return;
     }
@@ -136,8 +141,8 @@ export class World {
     const { labels, moment, stage } = this;
     const size = [stage.width, stage.height] as const;
     labels.begin();
-    this.membranes.placed.forEach((membrane, i) => {
-      const at = this.rightmost(i, camera);
+    this.scene?.membranes.forEach((membrane, i) => {
+      const at = this.block.shown ? this.block.labelPlace(i, camera) : this.rightmost(i, camera);
       labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, "column");
     });
     if (this.arrow.group.visible) {
@@ -150,8 +155,9 @@ export class World {
 
   /** The edge of a slab that is farthest to the right on the screen. */
   private rightmost(index: number, camera: Camera): Vector3 {
-    const { point, normal, thickness } = this.membranes.placed[index]!;
-    const middle = point.clone().addScaledVector(normal, thickness / 2);
+    const placed = this.membranes.placed[index]!;
+    const { normal } = placed;
+    const middle = this.membranes.middle(placed).addScaledVector(normal, placed.thickness / 2);
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const along = right.addScaledVector(normal, -right.dot(normal));
     if (along.lengthSq() < 1e-4) return middle;
@@ -191,6 +197,6 @@ function shapeOf(scene: SceneView): string {
     diameter,
     tip_length,
     lumen,
-    membranes.map((m) => [m.name, m.point, m.inward_normal, m.thickness]),
+    membranes.map((m) => [m.name, m.point, m.inward_normal, m.thickness, m.look, m.behind]),
   ]);
 }

@@ -122,6 +122,18 @@ export interface MembraneView {
    */
   inward_normal: [number, number, number];
   thickness: number;
+  look:
+    | "plain"
+    | "skin"
+    | "fat"
+    | "muscle"
+    | "fascia"
+    | "ligament"
+    | "ligamentum flavum"
+    | "dura"
+    | "vein wall"
+    | "artery wall";
+  behind: "tissue" | "blood" | "fat" | "muscle" | "epidural space" | "cerebrospinal fluid";
 }
 /**
  * Phi_I and Phi_O of one membrane over the depth: K06 (18), (19). All arrays have the same length.

@@ -95,6 +95,8 @@ export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {
       point: [0, -m.place, 0],
       inward_normal: [0, -1, 0],
       thickness: m.thickness,
+      look: "plain",
+      behind: "tissue",
     })),
     laws: membranes.map((m) => m.law()),
     tables: {},

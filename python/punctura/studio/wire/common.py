@@ -6,6 +6,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from punctura.scene.schema import Behind, Look
+
 # JSON has no NaN and no infinity: missing numbers are left out or null.
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Vector = Annotated[list[Finite], Field(min_length=3, max_length=3)]
@@ -46,6 +48,8 @@ class MembraneView(Part):
     point: Vector  # m
     inward_normal: Vector  # of length 1
     thickness: Finite  # m
+    look: Look
+    behind: Behind
 
 
 class SceneView(Part):

@@ -1,0 +1,163 @@
+import { type Camera, Group, MathUtils, Vector3 } from "three";
+import { Field, type Grip } from "../tissue/field.ts";
+import type { Window } from "../tissue/grid.ts";
+import { type Layer, layersOf, type Vessel, vesselOf } from "../tissue/layers.ts";
+import { cutSheet, endSheet, surfaceSheet } from "../tissue/sheet.ts";
+import type { SceneView } from "../wire/messages.ts";
+import { Cut } from "./cut.ts";
+import { CutFace } from "./cut_face.ts";
+import { Ends } from "./ends.ts";
+import type { Holes } from "./holes.ts";
+import { BARRED, MM, type Moment, OUTSIDE } from "./moment.ts";
+import { Paper } from "./paper.ts";
+import { Surface } from "./surface.ts";
+import type { Theme } from "./theme.ts";
+import { Tracks } from "./tracks.ts";
+
+const PIXELS_ACROSS = 1024; // of the painted cut
+const PAINT_MS = 7; // per frame, until all sheets are painted
+const DEEP = 0.8; // of the block behind the cut, as a share of half its width
+
+interface Parts {
+  readonly layers: readonly Layer[];
+  readonly vessel: Vessel | null;
+  readonly field: Field;
+  readonly face: CutFace;
+  readonly surface: Surface;
+  readonly ends: Ends;
+  readonly tracks: Tracks;
+  readonly papers: readonly Paper[];
+  readonly front: Paper;
+}
+
+/** Tissue as a block that is cut open at the needle, for scenes whose membranes have a look. */
+export class Block {
+  readonly group = new Group();
+  readonly cut = new Cut();
+  private parts: Parts | null = null;
+  private size = 10;
+  private diameter = 1;
+  private last = "";
+
+  constructor(private readonly theme: Theme) {
+    this.group.matrixAutoUpdate = false;
+    theme.watch(() => this.paint());
+  }
+
+  get shown(): boolean {
+    return this.parts !== null;
+  }
+
+  /** Returns whether the scene is drawn as a block. */
+  build(scene: SceneView, size: number): boolean {
+    this.clear();
+    const layers = layersOf(scene);
+    if (!layers) return false;
+    this.size = size;
+    this.diameter = scene.diameter * MM;
+    const vessel = vesselOf(scene, layers);
+    const top = scene.membranes[layers[0]!.membrane!]!;
+    const deep = DEEP * size;
+    const perMm = PIXELS_ACROSS / (2 * size);
+    this.cut.build(new Vector3(...top.point).multiplyScalar(MM), new Vector3(...top.inward_normal));
+    const cut = new Paper(cutSheet(layers, vessel, 2 * size, perMm));
+    const surface = new Paper(surfaceSheet(layers, 2 * size, perMm / 2));
+    const front = surface.twin();
+    const end = new Paper(endSheet(layers, vessel, deep, perMm), true);
+    this.parts = {
+      layers,
+      vessel,
+      field: new Field(layers, this.diameter),
+      face: new CutFace(layers, vessel, cut, this.diameter),
+      surface: new Surface(surface, front, deep),
+      ends: new Ends(layers, size, deep, end),
+      tracks: new Tracks(),
+      papers: [cut, surface, end],
+      front,
+    };
+    const { face, ends, tracks } = this.parts;
+    const { grid, front: half } = this.parts.surface;
+    this.group.add(face.grid.mesh, face.borders, grid.mesh, half, ends.group, tracks.mesh);
+    this.paint();
+    return true;
+  }
+
+  private clear(): void {
+    if (!this.parts) return;
+    const { face, surface, ends, tracks, papers, front } = this.parts;
+    for (const part of [face, surface, ends, tracks, ...papers, front]) part.dispose();
+    this.group.clear();
+    this.parts = null;
+    this.last = "";
+  }
+
+  private paint(): void {
+    const { theme, parts } = this;
+    if (!parts) return;
+    const light = theme.dark ? 0.88 : 1;
+    for (const paper of [...parts.papers, parts.front]) paper.tint.setRGB(light, light, light);
+    parts.ends.paint(theme);
+    const { material } = parts.face.borders;
+    if (!Array.isArray(material) && "color" in material)
+      material.color = theme.color("page").clone().multiplyScalar(0.2);
+    this.last = "";
+  }
+
+  /** Bends the tissue for the moment. Returns whether the picture changes. */
+  update(moment: Moment, holes: Holes, camera: Camera): boolean {
+    const { parts, cut, size } = this;
+    if (!parts) return false;
+    const painted = parts.papers.some((paper) => !paper.complete && paper.paint(PAINT_MS));
+    cut.place(moment.tip, moment.axis, camera.position, size);
+    const fading = this.openFront(camera, parts);
+    const old = moment.membranes.map((_, i) => holes.of(i, moment.tick));
+    const grips = this.grips(moment);
+    const tip = cut.spot(moment.tip);
+    const key = [tip.u, tip.d, cut.w, cut.centre, ...cut.towards.toArray(), ...moment.axis.toArray(), fading]
+      .concat(grips.flatMap(({ membrane, proxy, slope }) => [membrane, proxy.u, proxy.d, slope]))
+      .concat(old.map(({ length }) => length))
+      .map((value) => value.toFixed(3))
+      .join(" ");
+    if (key === this.last) return painted;
+    this.last = key;
+    const lean = moment.axis.dot(cut.down);
+    const window: Window = { centre: cut.centre, size };
+    parts.field.set(tip, grips, lean);
+    const slope = moment.axis.dot(cut.along) / Math.max(0.2, Math.abs(lean));
+    const side = this.diameter / 2; // the tip is at the border of the shaft
+    parts.face.needle = (d) => tip.u + slope * (d - tip.d) + side;
+    parts.face.update(parts.field, window, cut.w, tip.d, lean);
+    parts.surface.update(parts.field, window, cut.w);
+    parts.tracks.update(parts.field, cut, old, parts.layers, this.diameter, window);
+    parts.ends.group.position.set(cut.centre, 0, cut.w);
+    this.group.matrix.copy(cut.matrix);
+    this.group.matrixWorldNeedsUpdate = true;
+    return true;
+  }
+
+  /** Closes the surface in front of the cut for a camera that looks from above. Returns its opacity. */
+  private openFront(camera: Camera, { surface, front }: Parts): number {
+    const away = camera.position.clone().sub(this.cut.origin).normalize();
+    const opacity = MathUtils.smoothstep(-away.dot(this.cut.down), 0.72, 0.9);
+    surface.front.visible = opacity > 0.01;
+    front.fade(opacity);
+    return opacity;
+  }
+
+  private grips(moment: Moment): Grip[] {
+    return moment.membranes.flatMap(({ phase, proxy, direction }, membrane) => {
+      if (phase === OUTSIDE || phase === BARRED || direction.lengthSq() < 0.5) return [];
+      const down = Math.max(0.15, direction.dot(this.cut.down));
+      return [{ membrane, proxy: this.cut.spot(proxy), slope: direction.dot(this.cut.along) / down }];
+    });
+  }
+
+  /** The end of a layer that is farther to the right on the screen, for its label. */
+  labelPlace(membrane: number, camera: Camera): Vector3 {
+    const layer = this.parts?.layers.find((each) => each.membrane === membrane);
+    const depth = layer ? (layer.top + layer.bottom) / 2 : 0;
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const side = right.dot(this.cut.along) >= 0 ? 1 : -1;
+    return this.cut.point(this.cut.centre + side * this.size, depth, this.cut.w);
+  }
+}
