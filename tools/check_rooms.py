@@ -26,6 +26,8 @@ ROOMS = (
     "runtime/punctura_runtime",
     "python/bindings",
     "python/punctura/restore.py",
+    "python/punctura/results.py",
+    "python/punctura/progress.py",
     "python/punctura/errors.py",
     "python/punctura/paths.py",
     "python/punctura/files",

@@ -41,8 +41,9 @@ void bind_replay(nb::module_&);
 
 /// A read-only view of an array. No copy is made if the array is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-/// Converts anything that NumPy accepts as an array (a list, another type, a slice). Throws NumPy's exceptions.
-Input input(const nb::object& array_like);
+/// Converts anything that NumPy accepts as an array (a list, another type, a slice). Throws NumPy's exceptions, and
+/// ValueError, which names the argument, for an array with masked elements.
+Input input(const nb::object& array_like, const char* name);
 /// The same for shape (n,), or (n, 3) for points. Throws ValueError that names the argument.
 Input input_1d(const nb::object& array_like, const char* name);
 Input points(const nb::object& array_like, const char* name);

@@ -5,8 +5,10 @@
 
 namespace punctura::bindings {
 
-Input input(const nb::object& array_like) {
+Input input(const nb::object& array_like, const char* name) {
   const nb::object numpy = nb::module_::import_("numpy");
+  if (nb::hasattr(array_like, "mask") && nb::cast<bool>(numpy.attr("any")(array_like.attr("mask"))))
+    throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
   return nb::cast<Input>(numpy.attr("ascontiguousarray")(array_like, numpy.attr("float64")));
 }
 
@@ -23,13 +25,13 @@ bool is_numpy_array(nb::handle object) noexcept {
 }
 
 Input input_1d(const nb::object& array_like, const char* name) {
-  Input array = input(array_like);
+  Input array = input(array_like, name);
   if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must have shape (n,)").c_str());
   return array;
 }
 
 Input points(const nb::object& array_like, const char* name) {
-  Input array = input(array_like);
+  Input array = input(array_like, name);
   if (array.ndim() != 2 || array.shape(1) != 3)
     throw nb::value_error((std::string(name) + " must have shape (n, 3)").c_str());
   return array;

@@ -37,7 +37,7 @@ std::shared_ptr<Device> opened(const std::string& backend, double rate, const st
 }  // namespace
 
 void bind_devices(nb::module_& m) {
-  m.def("enumerate_devices", &enumerated, nb::sig("def enumerate_devices() -> list[dict[str, typing.Any]]"),
+  m.def("enumerate_devices", &enumerated, nb::sig("def enumerate_devices() -> list[BackendState]"),
         "Lists the devices of all back-ends. Sends no force.\n\n"
         "Each back-end is a dict: backend, state (available, library_not_found, symbol_missing, no_device, in_use,\n"
         "needs_calibration, fault), detail (text: where it searched, what to do), devices.");

@@ -1,6 +1,7 @@
 // core/punctura/events: events at the membranes, and the characteristic depths and curves of their laws.
 #include "punctura/events/event_finder.hpp"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,7 +22,7 @@ class Column {
   /// width: doubles per row. Throws ValueError for another shape.
   Column(const nb::object& columns, const char* name, std::size_t rows, std::size_t width) : width_(width) {
     if (!nb::cast<bool>(columns.attr("__contains__")(name))) return;
-    array_ = input(columns[name]);
+    array_ = input(columns[name], name);
     if (array_->ndim() == 0 || array_->shape(0) != rows || array_->size() != rows * width)
       throw nb::value_error(("columns[\"" + std::string(name) + "\"] must have " + std::to_string(rows) + " rows of " +
                              std::to_string(width) + " numbers, as columns[\"depth\"] has")
@@ -76,9 +77,10 @@ std::uint32_t bits_of(double number) noexcept {
   return number >= 0 && number < 0x1p32 ? static_cast<std::uint32_t>(number) : 0;
 }
 
-/// Finds the events of a batch without holding the GIL.
+/// Finds the events of a batch without holding the GIL. Throws ValueError for an event without time or depth; the
+/// finder has then not taken the batch.
 nb::list add(BatchFinder& finder, const nb::object& columns) {
-  const Input depth = input(columns["depth"]);
+  const Input depth = input(columns["depth"], "depth");
   if (depth.ndim() != 2) throw nb::value_error("columns[\"depth\"] must be (n, m)");
   const std::size_t n = depth.shape(0), m = depth.shape(1);
   const Column force(columns, "axial_force", n, m), phase(columns, "phase", n, m), lower(columns, "lower", n, m),
@@ -88,6 +90,7 @@ nb::list add(BatchFinder& finder, const nb::object& columns) {
 
   std::vector<MembraneRecord> records(m);
   std::vector<Found> found;
+  const BatchFinder before = finder;
   {
     const OneThread::Running running(finder);
     const WithoutLock without;
@@ -110,7 +113,16 @@ nb::list add(BatchFinder& finder, const nb::object& columns) {
     }
   }
   nb::list events;
-  for (const Found& event : found) events.append(as_dict(event));
+  for (const Found& event : found) {
+    if (!std::isfinite(event.time) || !std::isfinite(event.depth)) {
+      finder = before;
+      throw nb::value_error(("tick " + std::to_string(event.tick) + ": " +
+                             (std::isfinite(event.time) ? "depth" : "time") +
+                             " must be finite where an event is found. No tick of the batch was taken")
+                                .c_str());
+    }
+    events.append(as_dict(event));
+  }
   return events;
 }
 
@@ -144,7 +156,7 @@ nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
 }
 
 nb::object obliquities(const Scene& scene, const nb::object& axis, const nb::object& entered) {
-  const Rows axes(input(axis), 1, "axis");
+  const Rows axes(input(axis, "axis"), 1, "axis");
   const std::size_t n = scene.membranes.size();
   std::vector<double> angles(n);
   std::optional<Input> rows;
@@ -175,12 +187,11 @@ void bind_events(nb::module_& m) {
           },
           nb::arg("scene"))
       .def("add", &add, nb::arg("columns"),
-           nb::sig("def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[dict[str, "
-                   "typing.Any]]"),
+           nb::sig("def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[FoundEvent]"),
            "Finds the events of the next ticks. Each is a dict of the arguments of punctura.events.Event.");
 
   m.def("law_curve", &law_curve_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("obliquity"),
-        nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> dict[str, typing.Any]"),
+        nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> LawCurve"),
         "Phi_I and Phi_O (N) of one membrane over the depth (m), with points on both sides of each break, and the\n"
         "depth at which the needle comes out. obliquity: beta, rad.");
   m.def("obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),

@@ -13,12 +13,24 @@ namespace {
 
 using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
-/// One Python class for all kinds of motion.
+/// One Python class for all kinds of motion. It keeps its constructor arguments.
 class AnyExperiment : public OneThread {
+  template <typename Self, typename Function>
+  static auto visit(Self& self, Function&& function) {
+    return std::visit(
+        [&](auto& experiment) -> decltype(function(std::get<1>(self.experiment_))) {
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(experiment)>, std::monostate>)
+            throw std::logic_error("no motion");
+          else
+            return function(experiment);
+        },
+        self.experiment_);
+  }
+
  public:
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
                 const Hand& hand, std::uint64_t seed)
-      : scene_(scene) {
+      : scene_(scene), motion_(motion), axis_(to_array(axis)), plant_(plant), hand_(hand), seed_(seed) {
     if (const auto* strokes = std::get_if<Strokes>(&motion)) {
       StrokesMotion laid_out(*strokes, seed);
       duration_ = laid_out.duration();
@@ -41,33 +53,47 @@ class AnyExperiment : public OneThread {
     with_target->motion().move_to(to_vector(position));
   }
 
-  std::uint64_t ticks() const noexcept { return ticks_; }
-
-  nb::object run(double duration) {
-    if (!(duration >= 0 && std::isfinite(duration))) throw nb::value_error("duration must be 0 s or more");
-    const auto n = static_cast<std::size_t>(std::llround(duration * scene_.servo.rate));
-    return std::visit([&](auto& experiment) { return run(experiment, n); }, experiment_);
+  std::uint64_t ticks() const {
+    return visit(*this, [](const auto& experiment) { return experiment.ticks(); });
   }
 
- private:
-  nb::object run(std::monostate&, std::size_t) { throw std::logic_error("no motion"); }
+  nb::object run(double duration, const nb::object& progress) {
+    if (!(duration >= 0 && std::isfinite(duration))) throw nb::value_error("duration must be 0 s or more");
+    const auto n = static_cast<std::size_t>(std::llround(duration * scene_.servo.rate));
+    return visit(*this, [&](auto& experiment) { return made(experiment, n, progress); });
+  }
 
+  std::vector<std::byte> save() const {
+    return visit(*this, [](const auto& experiment) { return save_state(experiment); });
+  }
+  bool load(std::span<const std::byte> state) {
+    return visit(*this, [&](auto& experiment) { return load_state(experiment, state); });
+  }
+  nb::tuple arguments() const { return nb::make_tuple(scene_, motion_, plant_, hand_, seed_, axis_); }
+
+ private:
   template <typename E>
-  nb::object run(E& experiment, std::size_t n) {
+  nb::object made(E& experiment, std::size_t n, const nb::object& progress) {
     TickColumns<decltype(experiment_table), ExperimentExtra> columns(experiment_table);
     columns.reserve(n, experiment.servo().snapshot().membrane_count);
     const Running running(*this);
-    make_ticks(n, [&](std::size_t) {
-      const Snapshot& snapshot = experiment.step();
-      ++ticks_;
-      columns.add(snapshot, experiment.extra());
-    });
+    make_ticks(
+        n,
+        [&](std::size_t) {
+          const Snapshot& snapshot = experiment.step();
+          columns.add(snapshot, experiment.extra());
+        },
+        progress);
     return columns.to_ticks();
   }
 
   Scene scene_;
+  AnyMotion motion_;
+  Triple axis_;
+  DeviceDynamics plant_;
+  Hand hand_;
+  std::uint64_t seed_;
   double duration_ = 0;
-  std::uint64_t ticks_ = 0;
   std::variant<std::monostate, Experiment<StrokesMotion>, Experiment<RecordedMotion>, Experiment<Target>> experiment_;
 };
 
@@ -75,9 +101,10 @@ class AnyExperiment : public OneThread {
 
 void bind_experiment(nb::module_& m) {
   auto experiment = nb::class_<AnyExperiment>(
-      m, "Experiment",
+      m, "Experiment", nb::is_final(),
       "A simulated operator at a simulated device, run through the servo step that drives a real device. "
       "K06 section 4");
+  def_state(experiment);
   def_repr(experiment, "<Experiment in {0.scene.name!r}: {0.ticks} ticks>");
   experiment
       .def(
@@ -93,10 +120,11 @@ void bind_experiment(nb::module_& m) {
           nb::sig("def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., "
                   "hand: Hand = ..., seed: int = 0, axis: _Vector | None = None) -> None"),
           "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
-      .def(
-          "run", [](AnyExperiment& e, double duration) { return e.run(duration); }, nb::arg("duration"),
-          nb::sig("def run(self, duration: float) -> Ticks"),
-          "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.")
+      .def("run", &AnyExperiment::run, nb::arg("duration"), nb::kw_only(), nb::arg("progress") = nb::none(),
+           nb::sig("def run(self, duration: float, *, progress: Progress = None) -> Ticks"),
+           "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.\n\n"
+           "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
+           "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro("scene", &AnyExperiment::scene)
       .def_prop_ro("ticks", &AnyExperiment::ticks, "Number of ticks so far")
       .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")

@@ -42,7 +42,7 @@ void make_replay(ReplayDevice* self, const nb::object& positions, const nb::obje
   check_rate(rate);
   const Input position = points(positions, "position");
   const std::size_t n = position.shape(0);
-  const Rows axis(input(axes), n, "axis");
+  const Rows axis(input(axes, "axis"), n, "axis");
   const auto time = column<double>(times, "float64", n, "time");
   const auto sequence = column<std::uint64_t>(sequences, "uint64", n, "sequence");
   const auto buttons = column<std::uint32_t>(held, "uint32", n, "buttons");

@@ -26,10 +26,11 @@ std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& 
   return to_array(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
 }
 
-nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis) {
+nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis,
+               const nb::object& progress) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
-  const Rows axes(input(axis), n, "axis");
+  const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (insertion.uses_axis()) axes.check("axis");
   const auto count = static_cast<std::uint32_t>(insertion.proxies().size());
@@ -39,7 +40,7 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
   Snapshot record{};
   record.membrane_count = count;
   const OneThread::Running running(insertion);
-  make_ticks(n, [&](std::size_t i) {
+  const auto tick = [&](std::size_t i) {
     const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
     record.sample.position = to_array(position);
     record.sample.axis = to_array(direction);
@@ -47,7 +48,8 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
     record.tip = to_array(insertion.tip());
     for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.proxies()[j].tick());
     columns.add(record);
-  });
+  };
+  make_ticks(n, tick, progress);
   return columns.to_ticks();
 }
 
@@ -94,10 +96,13 @@ void bind_insertion(nb::module_& m) {
             return step(copy, p, axis);
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
-      .def("run", &run, nb::arg("p"), nb::arg("axis"),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
+      .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
+           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, *, "
+                   "progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on.\n\n"
-           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.")
+           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
+           "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
+           "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro(
           "tip", [](const SceneInsertion& i) { return to_array(i.tip()); }, "The conditioned position, m")
       .def_prop_ro(

@@ -9,7 +9,7 @@ namespace {
 /// Lower and upper edge of the band for an array of depths of any shape.
 template <typename L>
 nb::tuple bounds(const L& law, const nb::object& depths) {
-  const Input depth = input(depths);
+  const Input depth = input(depths, "depth");
   const std::size_t n = depth.size();
   std::vector<double> lower(n), upper(n);
   {

@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "punctura/plant/motion.hpp"
+#include "state.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
@@ -137,6 +138,17 @@ void bind_plant(nb::module_& m) {
           nb::arg("time"), nb::arg("position"),
           nb::sig("def __init__(self, time: numpy.typing.ArrayLike, position: numpy.typing.ArrayLike) -> None"),
           "time (n,): s, ascending. position (n, 3): m. Raises ValueError, which names the sample.")
+      .def(
+          "__reduce__",
+          [](nb::handle self) {
+            const auto& motion = nb::cast<const RecordedMotion&>(self);
+            const std::size_t n = motion.times().size();
+            std::vector<double> rows;
+            for (const Vector3d& p : motion.positions()) rows.insert(rows.end(), p.begin(), p.end());
+            return nb::make_tuple(self.type(), nb::make_tuple(to_numpy(std::vector<double>(motion.times()), {n}),
+                                                              to_numpy(std::move(rows), {n, 3})));
+          },
+          nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
       .def_prop_ro("duration", &RecordedMotion::duration, "s");
 
   auto target =
@@ -146,6 +158,22 @@ void bind_plant(nb::module_& m) {
       .def(
           "__init__", [](Target* self, const Triple& position) { new (self) Target(to_vector(position)); },
           nb::arg("position"), "position: m")
+      .def(
+          "__reduce__",
+          [](nb::handle self) {
+            const auto& target = nb::cast<const Target&>(self);
+            return nb::make_tuple(
+                nb::module_::import_("punctura.restore").attr("restored"),
+                nb::make_tuple(self.type(), nb::make_tuple(to_array(target.position())), as_bytes(save_state(target))));
+          },
+          nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
+      .def_prop_rw(
+          "state", [](const Target& self) { return as_bytes(save_state(self)); },
+          [](Target& self, const nb::bytes& state) {
+            if (!load_state(self, as_span(state))) throw nb::value_error("these bytes are no state of a Target");
+          },
+          nb::for_getter(nb::sig("def state(self) -> bytes")),
+          nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")), "The complete state as bytes.")
       .def_prop_ro(
           "position", [](const Target& t) { return to_array(t.position()); }, "Where it was moved last, m")
       .def(

@@ -51,7 +51,7 @@ class LineProxy : public OneThread {
     check_places(&depth, 1, "p");
     return visit([&](auto proxy) { return proxy.step(depth); });
   }
-  nb::object run(const nb::object& depths) {
+  nb::object run(const nb::object& depths, const nb::object& progress) {
     const Input p = input_1d(depths, "p");
     check_places(p.data(), p.size(), "p", 1);
     SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
@@ -60,12 +60,13 @@ class LineProxy : public OneThread {
     record.membrane_count = 1;
     const Running running(*this);
     visit([&](auto& proxy) {
-      make_ticks(p.size(), [&](std::size_t i) {
+      const auto tick = [&](std::size_t i) {
         record.sample.position = {p.data()[i], 0, 0};
         record.force = {proxy.step(p.data()[i]), 0, 0};
         record.membranes[0] = record_of(proxy.tick());
         columns.add(record);
-      });
+      };
+      make_ticks(p.size(), tick, progress);
     });
     return columns.to_ticks(1, true);
   }
@@ -144,10 +145,10 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
           period};
 }
 
-nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::object& axis) {
+nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::object& axis, const nb::object& progress) {
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
-  const Rows axes(input(axis), n, "axis");
+  const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   axes.check("axis");
   SnapshotColumns columns(
@@ -156,14 +157,15 @@ nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::obje
   Snapshot record{};
   record.membrane_count = 1;
   const OneThread::Running running(proxy);
-  make_ticks(n, [&](std::size_t i) {
+  const auto tick = [&](std::size_t i) {
     const Vector3d position(p.data() + 3 * i), axis_now = axes[i].stableNormalized();
     record.sample.position = to_array(position);
     record.sample.axis = to_array(axis_now);
     record.force = to_array(proxy.step(position, axis_now));
     record.membranes[0] = record_of(proxy.tick());
     columns.add(record);
-  });
+  };
+  make_ticks(n, tick, progress);
   return columns.to_ticks(3, true);
 }
 
@@ -209,9 +211,11 @@ void bind_proxy(nb::module_& m) {
       .def("step", &LineProxy::step, nb::arg("p"),
            "Makes one tick. p: depth of the device, m. Returns the force on the device, N. Raises ValueError.")
       .def("peek", &LineProxy::peek, nb::arg("p"), "The force of step(p), without changing the state.")
-      .def("run", &LineProxy::run, nb::arg("p"), nb::sig("def run(self, p: numpy.typing.ArrayLike) -> Ticks"),
+      .def("run", &LineProxy::run, nb::arg("p"), nb::kw_only(), nb::arg("progress") = nb::none(),
+           nb::sig("def run(self, p: numpy.typing.ArrayLike, *, progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on. p (n,): depths, m.\n\n"
-           "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.")
+           "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.\n"
+           "progress and Ctrl-C: see Insertion.run.")
       .def_prop_ro(
           "force", [](LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
       .def_prop_ro(
@@ -264,11 +268,13 @@ void bind_proxy(nb::module_& m) {
             return to_array(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
-      .def("run", &run_3d, nb::arg("p"), nb::arg("axis"),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike) -> Ticks"),
+      .def("run", &run_3d, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
+           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, *, "
+                   "progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
-           "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.")
+           "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
+           "progress and Ctrl-C: see Insertion.run.")
       .def_prop_ro(
           "force", [](const SpaceProxy& p) { return to_array(p.force()); }, "f(k), N")
       .def_prop_ro(

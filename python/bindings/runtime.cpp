@@ -216,7 +216,7 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,
                    "The force limits in effect, device ratings included.")
-      .def("report", &report, nb::sig("def report(self) -> dict[str, typing.Any]"),
+      .def("report", &report, nb::sig("def report(self) -> LoopReport"),
            "Timing statistics: ticks, late, and for period and compute the quantiles p50, p99, p99_9, the largest\n"
            "(s) and the counts by bin.")
       .def(

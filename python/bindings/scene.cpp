@@ -288,7 +288,7 @@ void bind_scene(nb::module_& m) {
         describe_fields(out, "servo", servo_fields);
         return out;
       },
-      nb::sig("def fields() -> list[dict[str, typing.Any]]"),
+      nb::sig("def fields() -> list[FieldBounds]"),
       "Symbol, unit (SI) and bounds of every number in a scene, from the core's table.");
 }
 

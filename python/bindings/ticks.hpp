@@ -1,7 +1,8 @@
-// Many ticks in one call, without the GIL and interruptible by Ctrl-C; and checks of the inputs.
+// Many ticks in one call, without the GIL, with progress, and interruptible by Ctrl-C; and checks of the inputs.
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -9,17 +10,46 @@
 
 namespace punctura::bindings {
 
-/// Calls tick(i) for i = 0 ... n-1. Ctrl-C acts between two chunks: the object has then made some of the ticks, and
-/// their columns are lost.
+/// The argument `progress` of a run: None, a function of the finished share (0 to 1), or True for a bar.
+class Progress {
+ public:
+  explicit Progress(const nb::object& given) {
+    if (given.is_none()) return;
+    context_ = nb::module_::import_("punctura.progress").attr("reporting")(given);
+    tell_ = context_.attr("__enter__")();
+  }
+  Progress(const Progress&) = delete;
+  ~Progress() {
+    try {
+      if (tell_) context_.attr("__exit__")(nb::none(), nb::none(), nb::none());
+    } catch (nb::python_error& error) {
+      error.discard_as_unraisable("progress");
+    }
+  }
+  void tell(std::size_t done, std::size_t all) const {
+    if (tell_) tell_(static_cast<double>(done) / static_cast<double>(all));
+  }
+
+ private:
+  nb::object context_, tell_;
+};
+
+/// Calls tick(i) for i = 0 ... n-1. Every 50 ms it tells the progress, and Ctrl-C can act: the object has then made
+/// some of the ticks, and their columns are lost.
 template <typename Tick>
-void make_ticks(std::size_t n, Tick&& tick) {
-  constexpr std::size_t chunk = 1 << 14;  // 64 membranes: about 0.1 s
-  for (std::size_t from = 0; from < n; from += chunk) {
+void make_ticks(std::size_t n, Tick&& tick, const nb::object& given = nb::none()) {
+  constexpr std::size_t chunk = 64;
+  const Progress progress(given);
+  for (std::size_t i = 0; i < n;) {
     {
       nb::gil_scoped_release release;
-      for (std::size_t i = from; i < std::min(n, from + chunk); ++i) tick(i);
+      const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+      do {
+        for (const std::size_t end = std::min(n, i + chunk); i < end; ++i) tick(i);
+      } while (i < n && std::chrono::steady_clock::now() < until);
     }
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    progress.tell(i, n);
   }
 }
 

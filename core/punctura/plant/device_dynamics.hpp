@@ -21,6 +21,8 @@ struct BasicDeviceDynamics {
     const Scalar norm = force.norm();
     return norm > max_force ? force * (max_force / norm) : force;
   }
+
+  void describe(auto& parameters) const { parameters.numbers(mass, friction, encoder_step, max_force); }
 };
 
 using DeviceDynamics = BasicDeviceDynamics<double>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "punctura/plant/experiment_table.hpp"
 #include "punctura/plant/motion.hpp"
@@ -45,6 +46,22 @@ class Experiment {
   const Vector3d& tip() const noexcept { return tip_; }         ///< true position of the tip in the last step, m
   Motion& motion() noexcept { return motion_; }
   ServoStep& servo() noexcept { return servo_; }
+  std::uint64_t ticks() const noexcept { return tick_; }  ///< number of ticks so far
+
+  /// For save_state() and load_state() (state/archive.hpp). Motion also needs `archive` and `describe`. The results of
+  /// the last step are not loaded.
+  static void archive(auto& self, auto& state) {
+    ServoStep::archive(self.servo_, state);
+    Plant::archive(self.plant_, state);
+    Motion::archive(self.motion_, state);
+    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
+  }
+  void describe(auto& parameters) const {
+    servo_.describe(parameters);
+    plant_.describe(parameters);
+    motion_.describe(parameters);
+    parameters.numbers(axis_[0], axis_[1], axis_[2], period_);
+  }
 
  private:
   ServoStep servo_;

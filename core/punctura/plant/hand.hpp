@@ -34,6 +34,8 @@ struct BasicHand {
   Scalar stiffness = Scalar(500);    ///< N/m
   Scalar tremor_rms = Scalar(3e-5);  ///< m, along each axis; 0 is no tremor. Illustrative
   Scalar tremor_hz = Scalar(9);      ///< Hz; physiological tremor is between 8 and 12 Hz
+
+  void describe(auto& parameters) const { parameters.numbers(mass, damping, stiffness, tremor_rms, tremor_hz); }
 };
 
 using Hand = BasicHand<double>;
@@ -65,6 +67,8 @@ class BasicTremor {
     y1_ = y;
     return y;
   }
+
+  static void archive(auto& self, auto& state) { state.numbers(self.y1_, self.y2_); }
 
  private:
   Scalar a1_ = 0, a2_ = 0, b_ = 0;

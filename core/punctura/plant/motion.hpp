@@ -54,6 +54,12 @@ class StrokesMotion {
     return {s.from + path * (s.to - s.from), rate * (s.to - s.from)};
   }
 
+  static void archive(auto& self, auto& state) { state.index(self.next_, self.segments_.size() + 1); }
+  void describe(auto& parameters) const {
+    parameters.numbers(duration_, home_);
+    for (const Segment& s : segments_) parameters.numbers(s.begin, s.duration, s.from, s.to);
+  }
+
  private:
   struct Segment {
     double begin, duration;
@@ -84,6 +90,14 @@ class RecordedMotion {
     return {position_[next_ - 1] + (t - time_[next_ - 1]) / span * step, step / span};
   }
 
+  const std::vector<double>& times() const noexcept { return time_; }            ///< s
+  const std::vector<Vector3d>& positions() const noexcept { return position_; }  ///< m
+
+  static void archive(auto& self, auto& state) { state.index(self.next_, self.time_.size() + 1); }
+  void describe(auto& parameters) const {
+    for (std::size_t i = 0; i < time_.size(); ++i) parameters.numbers(time_[i], position_[i]);
+  }
+
  private:
   std::vector<double> time_;
   std::vector<Vector3d> position_;
@@ -108,6 +122,9 @@ class Target {
     second_ += gain * (first_ - second_);
     return {second_, (first_ - second_) / lag_};
   }
+
+  static void archive(auto& self, auto& state) { state.numbers(self.time_, self.target_, self.first_, self.second_); }
+  void describe(auto& parameters) const { parameters.numbers(lag_); }
 
  private:
   double lag_, time_ = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <type_traits>
 
 #include "punctura/model/vector3.hpp"
 
@@ -14,10 +15,13 @@ namespace punctura {
 /// distributions. Therefore the distributions are implemented here.
 class Noise {
  public:
-  explicit Noise(std::uint64_t seed) noexcept : engine_(seed) {}
+  explicit Noise(std::uint64_t seed) noexcept : seed_(seed), engine_(seed) {}
 
   /// Uniform in [0, 1), with 53 bits.
-  double uniform() noexcept { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform() noexcept {
+    ++drawn_;
+    return static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
 
   /// Normal with mean 0 and variance 1, by the Box-Muller method.
   double normal() noexcept {
@@ -35,7 +39,21 @@ class Noise {
     return {x, y, z};
   }
 
+  /// For save_state() and load_state() (state/archive.hpp). The state is the number of drawn numbers. Loading draws
+  /// them again, so it takes longer after a long run.
+  static void archive(auto& self, auto& state) {
+    std::uint64_t drawn = self.drawn_;
+    state.index(drawn, std::uint64_t{1} << 40);
+    if constexpr (std::remove_reference_t<decltype(state)>::reading) {
+      self = Noise(self.seed_);
+      self.engine_.discard(drawn);
+      self.drawn_ = drawn;
+    }
+  }
+  void describe(auto& parameters) const { parameters.index(seed_, 0); }
+
  private:
+  std::uint64_t seed_, drawn_ = 0;
   std::mt19937_64 engine_;
 };
 

@@ -60,6 +60,19 @@ class BasicPlant {
     return (counts - phase_) * device_.encoder_step;
   }
 
+  /// For save_state() and load_state() (state/archive.hpp).
+  static void archive(auto& self, auto& state) {
+    Noise::archive(self.noise_, state);
+    BasicTremor<Scalar>::archive(self.tremor_, state);
+    state.numbers(self.x_, self.v_);
+  }
+  void describe(auto& parameters) const {
+    device_.describe(parameters);
+    hand_.describe(parameters);
+    noise_.describe(parameters);
+    parameters.numbers(h_);
+  }
+
  private:
   BasicDeviceDynamics<Scalar> device_;
   BasicHand<Scalar> hand_;

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import NamedTuple
 
@@ -66,8 +67,8 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     summary = run_live(
         opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
     )
-    told = summary.to_dict() | ({"recording": tape.status.to_dict()} if tape.status else {})
-    tell_result(json.dumps(told, indent=2) if as_json else in_words(summary))
+    told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
+    tell_result(json.dumps(told, indent=2, default=str) if as_json else in_words(summary))
     if not summary.force_was_on:
         button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
         say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from punctura.cli._progress import progress_bar
 from punctura.cli._status import FAILED
+from punctura.progress import progress_bar
 
 
 def command(
@@ -30,4 +31,4 @@ def command(
     for note in result.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     lost = f", {result.lost} lost" if result.lost else ""
-    typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else f"{result.out}: {result.ticks} ticks{lost}")
+    typer.echo(json.dumps(asdict(result), indent=2) if as_json else f"{result.out}: {result.ticks} ticks{lost}")

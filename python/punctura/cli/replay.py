@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from punctura.cli._progress import progress_bar
 from punctura.cli._status import FAILED
+from punctura.progress import progress_bar
 
 
 def command(
@@ -30,7 +31,7 @@ def command(
     for note in result.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     if as_json:
-        typer.echo(json.dumps(result.to_dict(), indent=2))
+        typer.echo(json.dumps(asdict(result), indent=2))
     elif result.ticks == 0:
         typer.echo(f"{result.file}: nothing was compared")
     elif result.first_difference is None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from punctura.cli._progress import progress_bar
+from punctura.progress import progress_bar
 
 if TYPE_CHECKING:
     from punctura.reproduce import Reproduction

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from punctura.cli._progress import progress_bar
+from punctura.progress import progress_bar
 from punctura.simulation import SimulationSummary, simulate
 
 
@@ -25,7 +26,7 @@ def command(
         summary = simulate(scene, motion, out, tell)
     for note in summary.notes:
         typer.echo(f"punctura: note: {note}", err=True)
-    typer.echo(json.dumps(summary.to_dict(), indent=2) if as_json else _in_words(summary))
+    typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))
 
 
 def _in_words(summary: SimulationSummary) -> str:

@@ -20,13 +20,14 @@ from punctura.live.dropping_stream import DroppingStream
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
-from punctura.live.plug_ins import BackendState, enumerate_devices
+from punctura.live.plug_ins import enumerate_devices
 from punctura.live.pose import present_pose
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
 from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.record.room import room_note
+from punctura.results import BackendState, LoopReport, Quantiles
 
 __all__ = [
     "ANY_PROCESSOR",
@@ -40,8 +41,10 @@ __all__ = [
     "ForceLimits",
     "GateLimits",
     "Limits",
+    "LoopReport",
     "Pacer",
     "Placement",
+    "Quantiles",
     "ReplayDevice",
     "RunSummary",
     "ServoLoop",

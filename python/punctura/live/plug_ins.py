@@ -8,26 +8,17 @@ of the entry point is the name for `--device`.
 from __future__ import annotations
 
 from importlib.metadata import EntryPoint, entry_points
-from typing import TypedDict, cast
 
 from punctura import _core
 from punctura._core import Device, DeviceError
+from punctura.results import BackendState
 
 GROUP = "punctura.devices"
 
 
-class BackendState(TypedDict):
-    """One kind of device, as `enumerate_devices` lists it."""
-
-    backend: str  # the name for `--device`
-    state: str  # available, library_not_found, symbol_missing, no_device, in_use, needs_calibration, fault
-    detail: str  # in words: where it looked, what to do
-    devices: list[str]  # the names of the connected devices
-
-
 def enumerate_devices() -> list[BackendState]:
     """Every kind of device; those of other packages first. Gives no force."""
-    own = cast(list[BackendState], _core.enumerate_devices())
+    own = _core.enumerate_devices()
     return plug_in_states({entry["backend"] for entry in own}) + own
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ def strongest(force: NDArray[np.float64], ceiling: NDArray[np.float64]) -> float
 
 @dataclass
 class RunSummary:
-    """Everything in SI; `to_dict` is what `--json` prints."""
+    """The run in SI units. `--json` prints all fields."""
 
     scene: str
     device: str
@@ -52,7 +52,6 @@ class RunSummary:
     state: str = "disarmed"
     force_was_on: bool = False
     time_s: float = 0.0
-    _next_tick: int = 0
 
     @classmethod
     def of(cls, scene: Scene, device: str, rate: float) -> RunSummary:
@@ -65,9 +64,8 @@ class RunSummary:
         n = len(tick)
         if n == 0:
             return
-        self.gaps += int(tick[-1]) + 1 - self._next_tick - n
-        self._next_tick = int(tick[-1]) + 1
         self.ticks += n
+        self.gaps = int(tick[-1]) + 1 - self.ticks
         self.strongest_N = max(self.strongest_N, strongest(ticks.force, ticks.ceiling))
         deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
@@ -107,6 +105,3 @@ class RunSummary:
         """The limits that cut the force, and for how long: "the long-run limit for 1.2 s"; empty if none did."""
         acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
         return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)
-
-    def to_dict(self) -> dict[str, object]:
-        return {key: value for key, value in asdict(self).items() if not key.startswith("_")}

@@ -32,6 +32,11 @@ Value = Whole | Number | Literal["nan", "inf", "-inf"]  # words for values that 
 class _Part(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
 
+    def __getitem__(self, name: str) -> Any:
+        if name not in self.model_dump():
+            raise KeyError(name)
+        return getattr(self, name)
+
 
 class DeviceBefore(_Part):
     """The device's DeviceInfo from before the run."""
@@ -56,7 +61,7 @@ class DeviceAfter(_Part):
 
 
 class FaultAt(_Part):
-    """A fault and its tick."""
+    """A fault and its tick: `fault.tick` or `fault["tick"]`."""
 
     tick: Count
     fault: str
@@ -64,7 +69,7 @@ class FaultAt(_Part):
 
 
 class Summary(_Part):
-    """Summary of a finished recording."""
+    """Summary of a recording: `summary.lost` or `summary["lost"]`."""
 
     ticks: Count = 0
     first_tick: Tick = -1

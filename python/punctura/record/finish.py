@@ -29,8 +29,7 @@ def save_finished(
     part: PartFile, path: Path, more: dict[str, Any], progress: Callable[[float], None] | None = None
 ) -> None:
     """Writes the content of a .part file as Parquet, in constant memory."""
-    summary = part.survey.to_dict()
-    summary |= {"notes": [*part.notes, *more.pop("notes", [])], "damaged": part.damaged}
+    summary = part.survey.summary([*part.notes, *more.pop("notes", [])], part.damaged).model_dump()
     summary["lost"] = max(summary["lost"], sum(more.get("lost", {}).values()))
     with parquet_output(path, part.schema, part.info.data | {"summary": summary} | more, replace=False) as output:
         for batch in part.batches(progress):

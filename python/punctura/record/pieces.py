@@ -47,7 +47,7 @@ def _csv_steps(recording: Recording, out: Any, progress: Progress | None) -> Ite
 
 
 def _parquet_steps(recording: Recording, out: Any, progress: Progress | None) -> Iterator[None]:
-    summary = recording.summary | {"notes": list(recording.notes), "damaged": recording.damaged}
+    summary = recording.summary.model_dump() | {"notes": list(recording.notes), "damaged": recording.damaged}
     data = recording.info.data | {"summary": summary}
     return parquet_steps(recording.batches(progress), out, recording.schema, data)
 

@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from punctura.record.description import FaultAt, Summary
 from punctura.record.errors import RecordingError
 from punctura.record.finish import part_path
 from punctura.record.header import RecordingInfo
@@ -32,8 +33,10 @@ class Recording:
         self.finished = isinstance(source, ParquetRecording)
         self.info: RecordingInfo = source.info
         self.schema: pa.Schema = source.schema
-        self.summary: dict[str, Any] = (
-            source.survey.to_dict() if isinstance(source, PartFile) else source.info.said.summary.model_dump()
+        self.summary: Summary = (
+            source.survey.summary(source.notes, source.damaged)
+            if isinstance(source, PartFile)
+            else source.info.said.summary
         )
         self.notes: tuple[str, ...] = tuple(source.notes) + tuple(self._earlier_notes())
 
@@ -48,17 +51,17 @@ class Recording:
     @property
     def lost(self) -> int:
         """Number of ticks known to be missing."""
-        return int(self.summary["lost"])
+        return self.summary.lost
 
     @property
     def damaged(self) -> bool:
         """Whether ticks that had been written are missing from the file."""
-        return self._source.damaged if isinstance(self._source, PartFile) else bool(self.summary["damaged"])
+        return self.summary.damaged
 
     @property
-    def faults(self) -> list[dict[str, Any]]:
+    def faults(self) -> list[FaultAt]:
         """The first 1000 faults, each with its tick, name and meaning."""
-        return list(self.summary["faults"])
+        return self.summary.faults
 
     def batches(self, progress: Callable[[float], None] | None = None) -> Iterator[pa.RecordBatch]:
         """Yields all ticks in order, in constant memory. progress is called with the completed share, 0 to 1."""
@@ -82,7 +85,7 @@ class Recording:
 
     def _earlier_notes(self) -> list[str]:
         """Notes from the conversion of the unfinished file to this one."""
-        return list(self.summary["notes"]) if self.finished else []
+        return self.summary.notes if self.finished else []
 
 
 def open_recording(path: str | os.PathLike[str]) -> Recording:

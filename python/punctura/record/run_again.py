@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 import pyarrow as pa
@@ -25,6 +25,15 @@ from punctura.ticks import COMMAND_SCENE
 from punctura.ticks.flat import flatten
 
 
+class Difference(TypedDict):
+    """A number of a recording, and the different number that its replay computed."""
+
+    tick: int
+    column: str
+    recorded: float
+    computed: float
+
+
 @dataclass
 class ReplayResult:
     """The number of replayed ticks, and the first difference if there is one."""
@@ -33,13 +42,9 @@ class ReplayResult:
     ticks: int = 0
     identical: bool = True  # whether all replayed ticks agree with the recording
     complete: bool = True  # whether all ticks were replayed; False for an empty recording
-    first_difference: dict[str, Any] | None = None  # tick, column, recorded, computed
+    first_difference: Difference | None = None
     same_build: bool = True
     notes: list[str] = field(default_factory=list)
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
 
 
 def replay(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from punctura.files.whole_file import whole_file
 from punctura.record.pieces import export_steps
@@ -27,10 +26,6 @@ class ExportResult:
     lost: int
     notes: list[str] = field(default_factory=list)
 
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
-
 
 def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: Progress | None = None) -> ExportResult:
     """Writes all ticks to `out`. Replaces an existing file, unless it is a recording, once the new one is complete.
@@ -42,7 +37,7 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     recording = open_recording(path)
     result = ExportResult(str(recording.path), str(target), recording.rows, recording.lost, list(recording.notes))
     kind = target.suffix.lower()[1:]
-    if kind == "csv" and recording.summary["new_scenes"]:
+    if kind == "csv" and recording.summary.new_scenes:
         result.notes.append("CSV cannot hold the scenes; bit 8 of commands marks the ticks that took a new one")
     with whole_file(target, replace=True) as place, open(place, "wb") as file:
         for _ in export_steps(recording, kind, file, progress):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,3 @@ class RecorderStatus:
     def words(self) -> str:
         """The message for the user: the trouble or the number of lost ticks; empty if neither."""
         return self.trouble or (f"{self.lost} ticks are lost" if self.lost else "")
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self) | {"file": str(self.file) if self.file else None}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 
 from punctura._core import Fault, describe
+from punctura.record.description import FaultAt, Summary
 from punctura.record.schema import numbers
 
 _MOST_FAULTS = 1000  # in the list; all faults are counted
@@ -22,7 +24,7 @@ class Survey:
         self.missing = 0  # missing ticks, including those before the first row
         self.scenes = 0  # ticks that took a new scene
         self.fault_count = 0
-        self.faults: list[dict[str, Any]] = []
+        self.faults: list[FaultAt] = []
         self._fault = 0
 
     def add(self, batch: pa.RecordBatch) -> None:
@@ -47,23 +49,25 @@ class Survey:
         for k in np.flatnonzero((fault != 0) & (fault != before)):
             self.fault_count += 1
             if len(self.faults) < _MOST_FAULTS:
-                self.faults.append({"tick": int(tick[k])} | _named(int(fault[k])))
+                self.faults.append(_fault_at(int(tick[k]), int(fault[k])))
 
-    def to_dict(self) -> dict[str, Any]:
+    def summary(self, notes: Sequence[str] = (), damaged: bool = False) -> Summary:
         """The summary for the run description."""
-        return {
-            "ticks": self.rows,
-            "first_tick": self.first_tick,
-            "last_tick": self.last_tick,
-            "lost": self.missing,
-            "new_scenes": self.scenes,
-            "fault_count": self.fault_count,
-            "faults": self.faults,
-        }
+        return Summary(
+            ticks=self.rows,
+            first_tick=self.first_tick,
+            last_tick=self.last_tick,
+            lost=self.missing,
+            new_scenes=self.scenes,
+            fault_count=self.fault_count,
+            faults=self.faults,
+            notes=list(notes),
+            damaged=damaged,
+        )
 
 
-def _named(fault: int) -> dict[str, str]:
+def _fault_at(tick: int, fault: int) -> FaultAt:
     if fault >= len(Fault):
-        return {"fault": str(fault), "meaning": "unknown to this version"}
+        return FaultAt(tick=tick, fault=str(fault), meaning="unknown to this version")
     kind = Fault(fault)
-    return {"fault": kind.name, "meaning": describe(kind)}
+    return FaultAt(tick=tick, fault=kind.name, meaning=describe(kind))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import Any
 
 from pydantic.json_schema import JsonSchemaValue
 
 from punctura import _core
 from punctura.files.units import split_key, to_si
+from punctura.results import FieldBounds
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import ALTERNATIVES, SceneFile
 
@@ -34,7 +34,7 @@ def scene_json_schema() -> JsonSchemaValue:
     return schema
 
 
-def _complete(entry: JsonSchemaValue, key: str, field: dict[str, Any] | None) -> None:
+def _complete(entry: JsonSchemaValue, key: str, field: FieldBounds | None) -> None:
     optional = entry.pop("anyOf", None)
     if optional:  # the key is optional, but never null
         entry |= next(kind for kind in optional if kind.get("type") != "null")

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Insertion, Scene
+from punctura.progress import Progress
 from punctura.simulation.even import Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.rate import resampler_for
@@ -19,7 +20,11 @@ Array = npt.NDArray[np.float64]
 
 
 def simulate_arrays(
-    scene: Scene, position: npt.ArrayLike, time: npt.ArrayLike | None, axis: npt.ArrayLike | None
+    scene: Scene,
+    position: npt.ArrayLike,
+    time: npt.ArrayLike | None,
+    axis: npt.ArrayLike | None,
+    progress: Progress = None,
 ) -> Ticks:
     """See simulate."""
     normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
@@ -40,7 +45,7 @@ def simulate_arrays(
     if time is not None:
         stamps, p, b = _resampled(scene, np.asarray(time, dtype=np.float64), p, b)
     names = [placed.name for placed in scene.membranes]
-    ticks = Insertion(scene).run(p, b)
+    ticks = Insertion(scene).run(p, b, progress=progress)
     return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple, overload
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from punctura._core import Insertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.progress import Progress, Tell, reporting
 from punctura.scene import load_scene, scene_text
 from punctura.simulation.arrays import simulate_arrays
 from punctura.simulation.even import Evenness
@@ -27,7 +28,6 @@ from punctura.ticks import Ticks
 from punctura.ticks.files import SUFFIXES, open_output
 
 Array = NDArray[np.float64]
-Progress = Callable[[float], None]
 
 FARTHEST = 1e6  # m: positions farther away are rejected
 _SURVEY_SHARE = 0.2  # share of the progress for the first pass
@@ -38,13 +38,14 @@ def simulate(
     scene: Scene | str | os.PathLike[str],
     motion: str | os.PathLike[str],
     out_path: str | os.PathLike[str],
-    progress: Progress | None = None,
+    progress: Progress = None,
 ) -> SimulationSummary: ...
 @overload
 def simulate(
     scene: Scene | str | os.PathLike[str],
     motion: npt.NDArray[Any] | Sequence[Any],
     *,
+    progress: Progress = None,
     time: npt.ArrayLike | None = None,
     axis: npt.ArrayLike | None = None,
 ) -> Ticks: ...
@@ -52,7 +53,7 @@ def simulate(
     scene: Scene | str | os.PathLike[str],
     motion: Any,
     out_path: str | os.PathLike[str] | None = None,
-    progress: Progress | None = None,
+    progress: Progress = None,
     *,
     time: npt.ArrayLike | None = None,
     axis: npt.ArrayLike | None = None,
@@ -62,30 +63,30 @@ def simulate(
     scene: a Scene, a scene file, or the name of a ready scene.
 
     From file to file: motion is a CSV file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path a .csv or .parquet
-    file. progress is called with the completed share, 0 to 1. Files of any length take the same memory. Raises
-    ConfigurationError, MotionError or OSError; then no output file is left.
+    file. Files of any length take the same memory. Raises ConfigurationError, MotionError or OSError; then, and after
+    Ctrl-C, no output file is left.
 
     In memory: motion is an array of positions (n, 3), m, or of depths (n,), m, below the first membrane's surface along
     its inward normal. time (n,), s, evenly sampled: the motion is resampled linearly if its rate is not the servo rate.
     Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
     inward normal. Raises ConfigurationError or ValueError.
+
+    progress: a function of the finished share, 0 to 1, or True for a bar on a terminal.
     """
     if not isinstance(motion, (str, os.PathLike)):
-        if out_path is not None or progress is not None:
-            raise TypeError("out_path and progress are for motion files; save a result in memory with its save()")
-        return simulate_arrays(scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis)
+        if out_path is not None:
+            raise TypeError("out_path is for motion files; save a result in memory with its save()")
+        return simulate_arrays(scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis, progress)
     if time is not None or axis is not None:
         raise TypeError("time and axis are for a motion in memory only; a motion file has columns for them")
     if out_path is None:
         raise TypeError("a motion file needs out_path, a .csv or .parquet file for the result")
-    return _simulate_file(scene, Path(motion), Path(out_path), progress)
+    with reporting(progress, "simulate") as tell:
+        return _simulate_file(scene, Path(motion), Path(out_path), tell)
 
 
-def _simulate_file(
-    scene: Scene | str | os.PathLike[str], source: Path, target: Path, progress: Progress | None
-) -> SimulationSummary:
+def _simulate_file(scene: Scene | str | os.PathLike[str], source: Path, target: Path, tell: Tell) -> SimulationSummary:
     began = perf_counter()
-    tell = progress or (lambda share: None)
     name = scene.name if isinstance(scene, Scene) else str(os.fspath(scene))
     scene = scene if isinstance(scene, Scene) else load_scene(scene)
     _check_target(source, target)
@@ -135,7 +136,7 @@ def _check_target(source: Path, target: Path) -> None:
         raise ConfigurationError(problems)
 
 
-def _survey(motion: MotionFile, tell: Progress) -> Evenness:
+def _survey(motion: MotionFile, tell: Tell) -> Evenness:
     """Reads the whole motion once, so that errors are found before the computation."""
     even = Evenness(motion.path)
     for block in motion.blocks():
@@ -171,7 +172,7 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
     return resampler
 
 
-def _parts(motion: MotionFile, resampler: Resampler | None, tell: Progress) -> Iterator[_Part]:
+def _parts(motion: MotionFile, resampler: Resampler | None, tell: Tell) -> Iterator[_Part]:
     for block in motion.blocks():
         for i in range(0, len(block.time), ROWS_AT_ONCE):
             rows = slice(i, i + ROWS_AT_ONCE)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TypedDict
 
 import numpy as np
 
 from punctura._core import Fault
+from punctura.results import Quantiles
 from punctura.studio.fault_words import NO_TICKS, fault_words
 from punctura.studio.hand import Mode
 from punctura.studio.run import Run
@@ -50,17 +50,7 @@ def limits_of(run: Run) -> LimitsPart:
     )
 
 
-class Times(TypedDict):
-    """Quantiles and a histogram of `ServoLoop.report`, s."""
-
-    p50: float
-    p99: float
-    p99_9: float
-    largest: float
-    counts: list[int]
-
-
-def spread(times: Times) -> Spread:
+def spread(times: Quantiles) -> Spread:
     """Quantiles, and the bins from the first to the last that is not empty."""
     counts = np.asarray(times["counts"])
     filled = np.flatnonzero(counts)

@@ -61,7 +61,7 @@ def overview(recording: Recording) -> dict[str, Any]:
         "scene": view.model_dump(mode="json"),
         "events": events,
         "ticks": recording.rows,
-        "first_tick": max(0, int(recording.summary["first_tick"])),
+        "first_tick": max(0, recording.summary.first_tick),
     }
 
 

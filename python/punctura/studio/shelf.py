@@ -162,7 +162,7 @@ def entry_of(name: str, recording: Recording) -> Entry:
     """Raises RecordingError."""
     info = recording.info
     about = info.about
-    ticks = recording.summary["last_tick"] - recording.summary["first_tick"] + 1 if recording.rows else 0
+    ticks = recording.summary.last_tick - recording.summary.first_tick + 1 if recording.rows else 0
     return Entry(
         name=name,
         title=str(about.get("title") or name),

@@ -34,7 +34,7 @@ def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL)
     """
     info = recording.info
     rate = info.scene.servo.rate
-    skipped = max(0.0, start * rate - float(recording.summary.get("first_tick", 0)))
+    skipped = max(0.0, start * rate - float(recording.summary.first_tick))
     size = max(1, math.ceil(max(recording.rows - skipped, 1.0) * EACH / points))
     thin = _Thinner(size)
     kept = [thin.add(*part) for part in _rows(recording, start)]

@@ -13,8 +13,7 @@ from importlib.metadata import version
 
 import pytest
 from heed import heed_signals
-from punctura import scene_names
-from punctura.cli import _progress
+from punctura import progress, scene_names
 from punctura.cli._status import CALLED_WRONGLY, DONE, FAILED
 from waiting import wait_until
 
@@ -238,16 +237,16 @@ class Terminal(io.StringIO):
 def test_a_bar_shows_itself_on_a_terminal_only_and_after_a_second_only(monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
     clock = iter([0.0, 0.5, 1.5, 2.0])
-    monkeypatch.setattr(_progress.time, "monotonic", lambda: next(clock))
+    monkeypatch.setattr(progress, "monotonic", lambda: next(clock))
     terminal = Terminal()
-    with _progress.progress_bar("simulate", terminal) as tell:
+    with progress.progress_bar("simulate", terminal) as tell:
         tell(0.2)
         assert terminal.getvalue() == ""
         tell(0.6)
     assert "simulate" in terminal.getvalue()
 
-    monkeypatch.setattr(_progress.time, "monotonic", iter([0.0, 5.0, 9.0]).__next__)
+    monkeypatch.setattr(progress, "monotonic", iter([0.0, 5.0, 9.0]).__next__)
     pipe = io.StringIO()
-    with _progress.progress_bar("simulate", pipe) as tell:
+    with progress.progress_bar("simulate", pipe) as tell:
         tell(0.2)
     assert pipe.getvalue() == ""

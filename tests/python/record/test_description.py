@@ -143,4 +143,7 @@ def test_a_fault_that_this_version_does_not_know_is_counted_by_its_number(start,
     )  # fmt: skip
     survey = Survey()
     survey.add(batch)
-    assert survey.faults == [{"tick": 1, "fault": "200", "meaning": "unknown to this version"}]
+    (fault,) = survey.summary().faults
+    assert (fault.tick, fault["fault"], fault.meaning) == (1, "200", "unknown to this version")
+    with pytest.raises(KeyError):
+        fault["model_dump"]

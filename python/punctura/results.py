@@ -1,0 +1,75 @@
+"""The types of results that are dicts."""
+
+from __future__ import annotations
+
+from typing import Literal, TypedDict
+
+import numpy as np
+import numpy.typing as npt
+
+
+class Quantiles(TypedDict):
+    """Quantiles of a time, s, and the counts by bin of the histogram."""
+
+    p50: float
+    p99: float
+    p99_9: float
+    largest: float
+    counts: npt.NDArray[np.uint64]
+
+
+class LoopReport(TypedDict):
+    """Timing statistics of a ServoLoop."""
+
+    ticks: int
+    late: int
+    period: Quantiles
+    compute: Quantiles
+
+
+class LawCurve(TypedDict):
+    """The band of one membrane over the depth: m and N. obliquity: rad."""
+
+    name: str
+    obliquity: float
+    far_face: float
+    through: float
+    depth: list[float]
+    lower: list[float]
+    upper: list[float]
+
+
+class FoundEvent(TypedDict):
+    """The arguments of punctura.events.Event."""
+
+    what: Literal["touch", "pop", "out"]
+    membrane: int
+    name: str
+    tick: int
+    time: float
+    depth: float
+    force_before: float
+    force_after: float
+    drop: float
+
+
+class BackendState(TypedDict):
+    """One kind of device, as `punctura.live.enumerate_devices` lists it."""
+
+    backend: str  # the name for `--device`
+    state: str  # available, library_not_found, symbol_missing, no_device, in_use, needs_calibration, fault
+    detail: str  # where it searched, what to do
+    devices: list[str]  # the names of the connected devices
+
+
+class FieldBounds(TypedDict):
+    """Symbol, unit (SI) and bounds of a number of a scene."""
+
+    path: str
+    symbol: str
+    unit: str
+    min: float
+    max: float
+    min_open: bool
+    max_open: bool
+    reason: str

@@ -1,0 +1,73 @@
+"""State of experiments and motions: copies, pickle, bytes."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from punctura import Experiment, Hand, Plant, RecordedMotion, Strokes, Target, load_scene
+
+SCENE = load_scene("k06-fig12")
+START, END = [0, 5e-3, 0], [0, -10e-3, 0]
+TIMES = np.linspace(0, 3, 61)
+MAKERS = {
+    "strokes": lambda: Experiment(SCENE, Strokes(START, END), hand=Hand(tremor_rms=1e-4), seed=3),
+    "recorded": lambda: Experiment(SCENE, RecordedMotion(TIMES, np.outer(np.cos(TIMES), START)), Plant(mass=0.03)),
+    "target": lambda: Experiment(SCENE, Target(START), axis=[0.1, -1, 0], seed=9),
+}
+
+
+@pytest.fixture(params=MAKERS)
+def experiment(request):
+    made = MAKERS[request.param]()
+    made.run(0.9)
+    if request.param == "target":
+        made.move_to(END)
+    return made
+
+
+def rest(experiment):
+    ticks = experiment.run(1.5)
+    assert np.abs(ticks.model_force).max() > 0.05, "the motion meets a membrane"
+    return ticks
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_copy_of_a_running_experiment_continues_with_the_same_bits(experiment, again):
+    other = again(experiment)
+    assert (other.ticks, other.duration, other.state) == (experiment.ticks, experiment.duration, experiment.state)
+    ours, theirs = rest(experiment), rest(other)
+    assert list(ours) == list(theirs)
+    for name in ours:
+        assert np.array_equal(ours[name], theirs[name], equal_nan=ours[name].dtype.kind == "f"), name
+
+
+def test_a_saved_state_restores_its_tick(experiment):
+    kept, ticks = experiment.state, experiment.ticks
+    wanted = rest(experiment)
+    experiment.state = kept
+    assert experiment.ticks == ticks
+    assert np.array_equal(rest(experiment).true_position, wanted.true_position)
+
+
+def test_the_state_of_another_experiment_is_refused(experiment):
+    kept = experiment.state
+    others = [
+        Experiment(SCENE, Strokes(START, END), hand=Hand(tremor_rms=1e-4), seed=4),
+        Experiment(SCENE, Strokes(START, END, count=2), hand=Hand(tremor_rms=1e-4), seed=3),
+        Experiment(SCENE, RecordedMotion(TIMES[1:], np.outer(np.cos(TIMES[1:]), START)), Plant(mass=0.03)),
+        Experiment(SCENE, Target(START), axis=[0, -1, 0], seed=9),
+    ]
+    for other in others:
+        with pytest.raises(ValueError, match="no state of this Experiment"):
+            experiment.state = other.state
+    assert experiment.state == kept
+
+
+def test_a_pickled_motion_is_the_same_motion():
+    target = Target(START)
+    target.move_to(END)
+    for motion in (target, RecordedMotion(TIMES, np.outer(np.cos(TIMES), START)), Strokes(START, END)):
+        again = pickle.loads(pickle.dumps(motion))
+        runs = [Experiment(SCENE, one, seed=1).run(1.0).true_position for one in (motion, copy.copy(motion), again)]
+        assert all(np.array_equal(runs[0], run) for run in runs[1:])
