@@ -138,7 +138,7 @@ def messages() -> dict[str, Any]:
          "force_before": 0.75, "force_after": 0.5, "drop": 0.25},
         {"kind": "recording", "name": "r", "rows": 1, "lost": 0, "seconds": 0.5, "trouble": ""},
         {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": goals,
-         "result": ""},
+         "result": "", "blind": False, "held": 1.5, "hold": 3.0, "time": 12.5, "time_limit": 60.0},
         {"kind": "reply", "id": 1, "ok": False, "text": "1 problem", "problems": [problem], "data": {}},
         {"kind": "notice", "text": "Größe"},
     ]  # fmt: skip

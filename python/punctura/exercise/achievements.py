@@ -54,10 +54,12 @@ class StayJudge(Achievement):
         super().__init__(goal.text or f"Stay in {space.name} for {goal.seconds:g} s")
         self.seconds, self.whole_tip = goal.seconds, goal.whole_tip
         self.staying = False  # in the last tick
+        self.held = 0.0  # s, the present stay
 
     def add(self, ticks: Ticks, busy: Flags) -> None:
         here = ticks.in_space[:, int(self.whole_tip)]
         self.staying = bool(here[-1])
+        self.held = min(self.seconds, float(ticks.stay[-1, int(self.whole_tip)]))
         self._follow(ticks, here & (ticks.stay[:, int(self.whole_tip)] >= self.seconds), here, busy)
 
 

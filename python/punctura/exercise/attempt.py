@@ -16,7 +16,7 @@ from punctura.exercise.achievements import Achievement, StayJudge, achievement_o
 from punctura.exercise.coach import Coach
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.limit import Limit, Moment, first_of, moment
-from punctura.exercise.limits import limit_of
+from punctura.exercise.limits import TimeJudge, limit_of
 from punctura.exercise.measures import Measures
 from punctura.exercise.remark import Coaching
 from punctura.exercise.result import GoalState, Result, Status
@@ -160,8 +160,16 @@ class Attempt:
 
     @property
     def status(self) -> Status:
-        """The present instruction and the goals."""
-        return Status(instruction=self._instruction(), goals=self.goals)
+        """The present instruction, the goals and the clock."""
+        stay = max((one for one in self._achievements if isinstance(one, StayJudge)), key=_seconds, default=None)
+        return Status(
+            instruction=self._instruction(),
+            goals=self.goals,
+            held=stay.held if stay else 0.0,
+            hold=stay.seconds if stay else 0.0,
+            time=self._measures.elapsed,
+            time_limit=min((limit.seconds for limit in self._limits if isinstance(limit, TimeJudge)), default=None),
+        )
 
     def _instruction(self) -> str:
         if self.over:
@@ -215,6 +223,10 @@ class Attempt:
             events=self._events,
             coaching=self._coaching(),
         )
+
+
+def _seconds(stay: StayJudge) -> float:
+    return stay.seconds
 
 
 def _windows(limits: list[Limit]) -> dict[int, float]:

@@ -118,6 +118,11 @@ class Measures:
         """Time in which each limit cut the device's force, s."""
         return {LIMIT_WORDS[name]: ticks / self._rate for name, ticks in self._cut.items() if ticks}
 
+    @property
+    def elapsed(self) -> float:
+        """Time from the first contact to the last tick before the decision, s."""
+        return self._last_time - self.first_touch if self.first_touch is not None else 0.0
+
     def metrics(self) -> Metrics:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
@@ -133,7 +138,7 @@ class Measures:
             lateral_deviation=way.deviation if way else None,
             entry_angle=self._entry_angle,
             time_to_target=self.arrival - touched if self.arrival is not None and touched is not None else None,
-            total_time=self._last_time - touched if touched is not None else 0.0,
+            total_time=self.elapsed,
             lost_ticks=self._lost,
             force_cut=self.force_cut,
         )

@@ -33,6 +33,10 @@ class Status(_Part):
 
     instruction: str  # what to do now
     goals: list[GoalState]
+    held: float = 0.0  # s, the present stay in the space, as the longest stay goal counts it
+    hold: float = 0.0  # s, of that goal; 0 without one
+    time: float = 0.0  # s since the first contact, up to the decision
+    time_limit: float | None = None  # s, the shortest one
 
 
 class Overshoot(_Part):

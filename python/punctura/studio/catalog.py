@@ -11,6 +11,7 @@ from pydantic import Field
 
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise import Attempt, Exercise, exercise_names, exercises, load_exercise
+from punctura.exercise.schema import OnLine
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
 from punctura.studio.names import BadName, safe_name
@@ -28,6 +29,14 @@ def ready_scenes() -> list[Choice]:
     return list(_ready_scenes())
 
 
+class Line(Part):
+    """The line of an on_line goal."""
+
+    point: Vector  # m
+    along: Vector  # of any length
+    within: float  # m
+
+
 class ExerciseOverview(Part):
     """An exercise as the page lists it. SI."""
 
@@ -36,10 +45,13 @@ class ExerciseOverview(Part):
     description: str = ""
     instruction: str = ""
     scene: str = ""
+    space_name: str = ""
     space: list[int] = Field(default=[])  # the membrane before the space, by index, and the one behind it, if any
     space_from: float = 0.0  # where the space begins behind the far face of the first, m
     space_to: float | None = None  # where it ends, if at a depth, m
     goal_from: float = 0.0  # how deep the needle must come, m
+    line: Line | None = None  # that the point must meet
+    blind: bool = False  # no needle and no depth are shown while it runs
     start_position: Vector = Field(default=[0.0, 0.0, 0.0])  # m
     start_axis: Vector = Field(default=[0.0, -1.0, 0.0])
     goals: list[str] = Field(default=[])
@@ -117,15 +129,25 @@ def _overview(exercise: Exercise) -> ExerciseOverview:
         description=" ".join(exercise.description.split()),
         instruction=exercise.instruction,
         scene=exercise.scene.name,
+        space_name=exercise.file.space.name,
         space=list(exercise.space),
         space_from=exercise.space_depth[0],
         space_to=exercise.space_depth[1],
         goal_from=exercise.goal_depth,
+        line=_line(exercise),
+        blind=exercise.file.blind,
         start_position=list(exercise.start_position),
         start_axis=list(exercise.start_axis),
         goals=[goal.text for goal in Attempt(exercise, exercise.scene).goals],
         warnings=problem_parts(exercise.warnings),
     )
+
+
+def _line(exercise: Exercise) -> Line | None:
+    goal = next((goal for goal in exercise.goals if isinstance(goal, OnLine)), None)
+    if goal is None:
+        return None
+    return Line(point=[v * 1e-3 for v in goal.point_mm], along=goal.along, within=goal.within_mm * 1e-3)
 
 
 @cache

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from punctura import Scene
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.studio.activity import Outcome
@@ -9,6 +11,11 @@ from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
 from punctura.ticks import Ticks
 
 LINGER_S = 1.0  # the recording goes on for this long after the decision and the last overshoot
+
+
+def _tenths(seconds: float) -> float:
+    """Rounded down, so that a page gets at most ten messages a second."""
+    return math.floor(seconds * 10 + 1e-9) / 10
 
 
 class ExerciseActivity:
@@ -62,4 +69,9 @@ class ExerciseActivity:
             instruction=status.instruction,
             goals=[ExerciseGoal(text=goal.text, state=goal.state) for goal in status.goals],
             result=result,
+            blind=self._exercise.file.blind,
+            held=_tenths(status.held),
+            hold=status.hold,
+            time=_tenths(status.time),
+            time_limit=status.time_limit,
         )

@@ -187,3 +187,20 @@ def test_a_result_says_what_it_is_of():
     assert (result.person, result.recording, result.name, result.format) == ("Ada", "run-1", "", 1)
     assert result.version and result.date.endswith("+00:00")
     assert Result.model_validate_json(result.model_dump_json()) == result
+
+
+def test_the_status_has_the_clock_and_the_time_held(write):
+    scene = pn.load_scene("venipuncture")
+    exercise = load_exercise(
+        write(goal("stay", seconds=3), goal("time_limit", seconds=20), goal("time_limit", seconds=9))
+    )
+    columns = ideal(scene, (0, 5, 0), (0, -6, 0), stops=1)
+    status = judged(exercise, columns, scene=scene).status
+    assert (status.hold, status.time_limit) == (3, 9)
+    assert status.time == pytest.approx(1.6, abs=2e-3)  # 6 mm at 10 mm/s, and 1 s of rest
+    assert status.held == pytest.approx(1.079, abs=2e-3)  # the vein begins at 5.21 mm
+    out = ideal(scene, (0, 5, 0), (0, -6, 0), (0, -4, 0), stops=1)
+    assert judged(exercise, out, scene=scene).status.held == 0
+    plain = judged(load_exercise(write(goal("reach"))), columns, scene=scene).status
+    assert (plain.hold, plain.held, plain.time_limit) == (0, 0, None)
+    assert plain.time == pytest.approx(0.521, abs=2e-3)  # up to the decision

@@ -1,5 +1,4 @@
 import { element, type Panel } from "../panel.ts";
-import type { App } from "../state/app.ts";
 import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
 import type { ProblemPart } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
@@ -8,6 +7,7 @@ import { goalList } from "./exercises/goals.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personField } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
+import { showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
 
 /** The list of exercises, the running one, and past results. */
@@ -29,11 +29,12 @@ export const exercisesPanel: Panel = (host, app) => {
     openResult(app, result, titleOf(result.exercise, result.title), of(result.exercise), again);
   };
   const past = pastResults(app, open, (result) => titleOf(result.exercise, result.title));
-  const now = runningPart(app, titleOf);
+  const task = element("div", { class: "task" });
+  taskBar(task, app, titleOf);
+  document.getElementById("app")?.append(task);
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
     element("div", { class: "editor-top" }, blockLine(app, "Force and depth decide the result."), personField(person)),
-    now.root,
     list,
     past.root,
   );
@@ -47,6 +48,7 @@ export const exercisesPanel: Panel = (host, app) => {
     try {
       known = await app.api.json<ExerciseOverview[]>("/api/exercises");
       showList();
+      showGoal(app, of);
     } catch (error) {
       list.replaceChildren(
         element(
@@ -68,7 +70,9 @@ export const exercisesPanel: Panel = (host, app) => {
   watchBlock(app, (block) => {
     list.disabled = block !== null;
   });
+  app.live.scene.watch(() => showGoal(app, of));
   app.exercise.watch(async (status) => {
+    showGoal(app, of);
     list.hidden = status?.running ?? false;
     const ended = running && status !== null && !status.running;
     running = status?.running ?? false;
@@ -113,34 +117,4 @@ function problemList(kind: "problems" | "warnings", problems: readonly ProblemPa
     { class: `file-${kind}`, role: kind === "problems" ? "alert" : "note" },
     ...problems.map((problem) => element("li", {}, begin + sentence(problem))),
   );
-}
-
-/** The present instruction and the states of the goals. Hidden while no exercise runs. */
-function runningPart(app: App, titleOf: (name: string) => string): { root: HTMLElement } {
-  const title = element("h3", {});
-  const instruction = element("p", { class: "instruction", role: "status" });
-  const goals = element("div", {});
-  const end = element(
-    "button",
-    { type: "button", class: "small", onclick: () => void app.ask({ do: "end_exercise" }) },
-    "End",
-  );
-  const root = element(
-    "section",
-    { class: "running", hidden: true },
-    element("header", {}, title, end),
-    instruction,
-    goals,
-  );
-  watchBlock(app, (block) => {
-    end.disabled = block !== null;
-  });
-  app.exercise.watch((status) => {
-    root.hidden = !status?.running;
-    if (!status?.running) return;
-    title.textContent = titleOf(status.exercise);
-    instruction.textContent = status.instruction;
-    goals.replaceChildren(goalList(status.goals));
-  });
-  return { root };
 }

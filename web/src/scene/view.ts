@@ -65,6 +65,7 @@ export const view: Panel = (host, app) => {
   const drawRing = popRing(host);
   sentence(host, app);
   const drag = gestures(canvas, needleGrip(hand, orbit, world, stage, free));
+  app.goal.watch((goal) => world.aim(goal));
   // A drag from the last run would pull the new run's needle to the old place.
   app.run.watch(() => drag.cancel());
   hand.barred.watch((why) => {

@@ -1,6 +1,7 @@
 import { type Camera, Vector3 } from "three";
 import { newton } from "../format.ts";
 import type { Pose } from "../hand/hand.ts";
+import type { Goal } from "../state/app.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { codeOf } from "../wire/ticks.ts";
@@ -10,6 +11,7 @@ import { Block } from "./block.ts";
 import { Blood } from "./blood.ts";
 import { FatLine } from "./fat_line.ts";
 import { Ghost } from "./ghost.ts";
+import { GoalMark } from "./goal_mark.ts";
 import { Holes } from "./holes.ts";
 import { outOfView } from "./hub_inset.ts";
 import type { Labels } from "./labels.ts";
@@ -38,6 +40,8 @@ export class World {
   private readonly ghost: Ghost;
   private readonly entry = new FatLine(1.5, 0.85, 0.8);
   private readonly holes = new Holes();
+  private readonly mark: GoalMark;
+  private goal: Goal | null = null;
   private drawn = "";
   private moved = 0;
   private faded = -1;
@@ -54,10 +58,11 @@ export class World {
     this.arrow = new ForceArrow(theme);
     this.trail = new Trail(theme);
     this.ghost = new Ghost(theme);
+    this.mark = new GoalMark(theme);
     theme.watch(() => this.entry.paint(theme.color("data-4")));
     stage.scene.add(
       this.needle.group, this.membranes.group, this.block.group, this.blood.slab.mesh, this.arrow.group,
-      this.trail.line, this.ghost.group, this.entry.line,
+      this.trail.line, this.ghost.group, this.entry.line, this.mark.group,
     ); // biome-ignore format: a list
   }
 
@@ -75,7 +80,15 @@ export class World {
     this.blood.build(scene.lumen, !asBlock);
     this.labels.clear();
     this.drawn = "";
+    this.aim(this.goal);
     return true;
+  }
+
+  /** Shows what an exercise asks to reach. */
+  aim(goal: Goal | null): void {
+    this.goal = goal;
+    this.mark.show(goal, this.scene, this.extent?.size ?? 1);
+    this.stage.stale = true;
   }
 
   /** Updates everything to the source's shown tick. Returns whether the picture changes. pixel: its size, mm. */
@@ -149,6 +162,8 @@ export class World {
       const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not output)"}`;
       labels.put("force", words, "force", this.arrow.head, camera, size, "left");
     }
+    if (this.mark.group.visible)
+      labels.put("goal", `Goal: ${this.goal?.name}`, "goal", this.mark.middle, camera, size, "left");
     if (this.entry.line.visible) labels.put("entry", "b", "entry", this.entryEnd, camera, size);
     labels.end();
   }

@@ -1,5 +1,6 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
 import { Api } from "../wire/api.ts";
+import type { GoalLine } from "../wire/files.ts";
 import type {
   Control,
   ExerciseStatus,
@@ -14,6 +15,15 @@ import { frozenCopy } from "./frozen.ts";
 import { Signal } from "./signal.ts";
 import { Source } from "./source.ts";
 
+/** The place that an exercise asks to reach, below the first surface, m. The bottom may be infinite. */
+export interface Goal {
+  readonly name: string;
+  readonly top: number;
+  readonly bottom: number;
+  /** The line that the point must meet. */
+  readonly line: GoalLine | null;
+}
+
 const LIVE_TICKS = 1 << 17; // 82 s at 1600 Hz
 
 /** The state of the page. Panels read it, watch it, and send requests through it. */
@@ -25,6 +35,8 @@ export class App {
   readonly fault = new Signal<FaultMessage | null>(null);
   readonly recording = new Signal<RecordingStatus | null>(null);
   readonly exercise = new Signal<ExerciseStatus | null>(null);
+  /** What the running exercise asks to reach; null without one, and in a blind one. */
+  readonly goal = new Signal<Goal | null>(null);
   /** The number of the live run. */
   readonly run = new Signal(0);
   /** Sentences for the user, the last first. */

@@ -38,6 +38,14 @@ export interface RecordingTrace {
 
 export const recordingPath = (name: string): string => `/api/recordings/${encodeURIComponent(name)}`;
 
+/** A line that the point must meet. SI. */
+export interface GoalLine {
+  readonly point: readonly number[];
+  /** Its direction, of any length. */
+  readonly along: readonly number[];
+  readonly within: number;
+}
+
 /** One entry of `GET /api/exercises`. SI. */
 export interface ExerciseOverview {
   readonly name: string;
@@ -45,6 +53,8 @@ export interface ExerciseOverview {
   readonly description: string;
   readonly instruction: string;
   readonly scene: string;
+  /** The space's name in sentences. */
+  readonly space_name: string;
   /** Index of the membrane in front of the target space, and of the membrane behind it if there is one. */
   readonly space: readonly number[];
   /** Distance from the far face of the first membrane to the start of the space, m. */
@@ -54,6 +64,10 @@ export interface ExerciseOverview {
   /** Distance from that face that the tip must reach, m: more than the start of the space if a `reach` goal asks. */
   readonly goal_from: number;
   readonly goals: readonly string[];
+  /** The line that the point must meet, m; null without one. */
+  readonly line: GoalLine | null;
+  /** The page shows no needle and no depth while it runs. */
+  readonly blind: boolean;
   /** Errors in the file of a user's own exercise. */
   readonly problems: readonly ProblemPart[];
   /** Warnings: allowed values that are usually a mistake. */

@@ -248,6 +248,11 @@ export interface ExerciseStatus {
   instruction: string;
   goals: ExerciseGoal[];
   result: string;
+  blind?: boolean;
+  held?: number;
+  hold?: number;
+  time?: number;
+  time_limit?: number | null;
 }
 export interface ExerciseGoal {
   text: string;

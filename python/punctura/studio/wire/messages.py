@@ -166,6 +166,11 @@ class ExerciseStatus(Part):
     instruction: str
     goals: list[ExerciseGoal]
     result: str  # the name of the saved result, after the end
+    blind: bool = False  # the page shows no needle and no depth while it runs
+    held: Finite = 0.0  # s, the present stay in the space, in tenths
+    hold: Finite = 0.0  # s, the stay that is asked for; 0 without one
+    time: Finite = 0.0  # s since the first contact, in tenths
+    time_limit: Finite | None = None  # s
 
 
 class Reply(Part):

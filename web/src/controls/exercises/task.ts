@@ -1,0 +1,113 @@
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import type { ExerciseOverview } from "../../wire/files.ts";
+import type { ExerciseStatus } from "../../wire/messages.ts";
+import { watchBlock } from "../blocked.ts";
+import { svg } from "../svg.ts";
+import { goalList } from "./goals.ts";
+import { layersOf, spaceOf } from "./trace.ts";
+
+const RADIUS = 17;
+const AROUND = 2 * Math.PI * RADIUS;
+
+/** The running exercise, always in sight: what to do now, the goals, the time held and the clock. */
+export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => string): void {
+  const title = element("h3", {});
+  const instruction = element("p", { class: "instruction", role: "status" });
+  const goals = element("div", { class: "task-goals" });
+  const clock = element("p", { class: "clock", role: "timer", "aria-live": "off" });
+  const ring = holdRing();
+  const end = element(
+    "button",
+    { type: "button", class: "small", onclick: () => void app.ask({ do: "end_exercise" }) },
+    "End",
+  );
+  const root = element(
+    "section",
+    { class: "running", hidden: true, "aria-label": "Exercise" },
+    ring.root,
+    element("div", { class: "task-words" }, title, instruction),
+    goals,
+    element("div", { class: "task-end" }, clock, end),
+  );
+  host.append(root);
+  new ResizeObserver(() => {
+    document.documentElement.style.setProperty("--task-height", `${host.offsetHeight}px`);
+  }).observe(host);
+  watchBlock(app, (block) => {
+    end.disabled = block !== null;
+  });
+  let shown = "";
+  app.exercise.watch((status) => {
+    const running = status?.running ?? false;
+    root.hidden = !running;
+    document.documentElement.classList.toggle("exercising", running);
+    document.documentElement.classList.toggle("blind", running && status?.blind === true);
+    if (!status || !running) return;
+    title.textContent = titleOf(status.exercise);
+    if (instruction.textContent !== status.instruction) instruction.textContent = status.instruction;
+    clock.textContent = clockText(status);
+    ring.show(status);
+    const states = JSON.stringify(status.goals);
+    if (states !== shown) goals.replaceChildren(goalList(status.goals));
+    shown = states;
+  });
+}
+
+/** Tells the view what the running exercise asks to reach. */
+export function showGoal(app: App, of: (name: string) => ExerciseOverview | null): void {
+  const status = app.exercise.value;
+  const exercise = status?.running && !status.blind ? of(status.exercise) : null;
+  const space = exercise && spaceOf(layersOf(app.live.scene.value?.membranes ?? []), exercise);
+  const now = app.goal.value;
+  if (!space || !exercise) {
+    app.goal.value = null;
+    return;
+  }
+  const next = { name: exercise.space_name, top: space.top, bottom: space.bottom, line: exercise.line };
+  if (JSON.stringify(now) !== JSON.stringify(next)) app.goal.value = next;
+}
+
+/** "12 s of 60 s", or "12 s". It stands still before the first contact. */
+export function clockText({ time = 0, time_limit }: Pick<ExerciseStatus, "time" | "time_limit">): string {
+  const passed = `${Math.floor(time)} s`;
+  return typeof time_limit === "number" ? `${passed} of ${time_limit} s` : passed;
+}
+
+/** How much of the stay is done, from 0 to 1. */
+export function heldShare({ held = 0, hold = 0 }: Pick<ExerciseStatus, "held" | "hold">): number {
+  return hold > 0 ? Math.min(1, held / hold) : 0;
+}
+
+/** A ring that fills while the needle stays in the space. */
+function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
+  const arc = svg("circle", { class: "arc", cx: 22, cy: 22, r: RADIUS, "stroke-dasharray": `0 ${AROUND}` });
+  const words = svg("text", { x: 22, y: 26, "text-anchor": "middle" }, "0.0");
+  const drawing = svg(
+    "svg",
+    { viewBox: "0 0 44 44", "aria-hidden": "true" },
+    svg("circle", { cx: 22, cy: 22, r: RADIUS }),
+    arc,
+    words,
+  );
+  const root = element("div", {
+    class: "hold-ring",
+    role: "progressbar",
+    "aria-valuemin": 0,
+    "aria-label": "Held still",
+  });
+  root.append(drawing);
+  return {
+    root,
+    show: (status) => {
+      const { held = 0, hold = 0 } = status;
+      root.hidden = hold === 0;
+      root.classList.toggle("holding", held > 0);
+      root.setAttribute("aria-valuemax", String(hold));
+      root.setAttribute("aria-valuenow", String(held));
+      root.setAttribute("aria-valuetext", `${held.toFixed(1)} of ${hold} s`);
+      arc.setAttribute("stroke-dasharray", `${heldShare(status) * AROUND} ${AROUND}`);
+      words.textContent = held.toFixed(1);
+    },
+  };
+}

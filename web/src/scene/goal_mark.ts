@@ -1,0 +1,80 @@
+import { BoxGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
+import type { Goal } from "../state/app.ts";
+import type { SceneView } from "../wire/messages.ts";
+import { FatLine } from "./fat_line.ts";
+import { MM } from "./moment.ts";
+import type { Theme } from "./theme.ts";
+
+const OPEN = 3; // mm, the drawn depth of a goal without an end
+const SHARE = 0.62; // of the tissue's half side, so that the mark stands inside it
+
+/** What an exercise asks to reach: a band between two depths, and the line that the point must meet. */
+export class GoalMark {
+  readonly group = new Group();
+  /** Where its label belongs, mm. */
+  readonly middle = new Vector3();
+  private readonly material = new MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.3,
+    depthTest: false,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+  private readonly band = new Mesh(new BoxGeometry(1, 1, 1), this.material);
+  private readonly line = new FatLine(3, 1);
+
+  constructor(theme: Theme) {
+    this.band.renderOrder = 3;
+    this.group.add(this.band, this.line.line);
+    this.group.visible = false;
+    theme.watch(() => {
+      this.material.color.copy(theme.color("data-3"));
+      this.line.paint(theme.color("data-3"));
+    });
+  }
+
+  /** size: half the side of the drawn tissue, mm. */
+  show(goal: Goal | null, scene: SceneView | null, size: number): void {
+    const first = scene?.membranes[0];
+    this.group.visible = goal !== null && first !== undefined;
+    if (!goal || !first) return;
+    const normal = new Vector3(...first.inward_normal);
+    const [top, bottom] = bandOf(goal);
+    const side = 2 * SHARE * size;
+    this.band.position
+      .set(...first.point)
+      .multiplyScalar(MM)
+      .addScaledVector(normal, (top + bottom) / 2);
+    this.band.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, -1, 0), normal));
+    this.band.scale.set(side, bottom - top, side);
+    this.middle.copy(this.band.position);
+    if (!goal.line) {
+      this.line.setEnds(null);
+      return;
+    }
+    const along = new Vector3(...goal.line.along).normalize().multiplyScalar(size);
+    const point = new Vector3(...goal.line.point).multiplyScalar(MM);
+    this.line.setEnds([point.clone().sub(along), point.clone().add(along)]);
+    this.band.scale.set(side, bottom - top, 2 * goal.line.within * MM);
+    const direction = along.normalize();
+    // The line runs along the surface: only its part at a right angle to the normal.
+    direction.addScaledVector(normal, -direction.dot(normal)).normalize();
+    const across = new Vector3().crossVectors(direction, normal.clone().negate());
+    const axes = new Matrix4().makeBasis(direction, normal.clone().negate(), across);
+    this.band.quaternion.setFromRotationMatrix(axes);
+    this.band.position.copy(point).addScaledVector(normal, (top + bottom) / 2 - depthOf(point, first));
+  }
+}
+
+/** The drawn depths of a goal, mm. One without an end gets a short band. */
+export function bandOf({ top, bottom }: Pick<Goal, "top" | "bottom">): [number, number] {
+  const end = Number.isFinite(bottom) ? bottom * MM : top * MM + OPEN;
+  return [top * MM, Math.max(end, top * MM + 0.1)];
+}
+
+function depthOf(point: Vector3, { point: surface, inward_normal: normal }: SceneView["membranes"][number]): number {
+  return point
+    .clone()
+    .sub(new Vector3(...surface).multiplyScalar(MM))
+    .dot(new Vector3(...normal));
+}

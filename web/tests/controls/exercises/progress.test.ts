@@ -1,0 +1,47 @@
+import { expect, test } from "vitest";
+import { courses, MEASURES, summaries } from "../../../src/controls/exercises/progress.ts";
+import type { ExerciseResult } from "../../../src/wire/files.ts";
+
+const attempt = (
+  person: string,
+  day: number,
+  passed: boolean,
+  overshoot: number | null,
+  exercise = "vein",
+): ExerciseResult =>
+  ({
+    person,
+    exercise,
+    passed,
+    date: `2026-01-${String(day).padStart(2, "0")}T10:00:00Z`,
+    metrics: { overshoot: overshoot === null ? [] : [{ distance: 0.5e-3 }, { distance: overshoot }] },
+  }) as unknown as ExerciseResult;
+
+const RESULTS = [
+  attempt("Bob", 4, true, 1e-3),
+  attempt("Ada", 5, true, 2e-3),
+  attempt("Ada", 1, false, 4e-3),
+  attempt("Ada", 3, false, null),
+  attempt("Ada", 2, true, 9e-3, "other"),
+];
+const OVERSHOOT = MEASURES[0]!;
+
+test("each person's attempts at an exercise are numbered from the oldest on", () => {
+  const [ada, bob] = courses(RESULTS, "vein", OVERSHOOT);
+  expect(ada?.person).toBe("Ada");
+  expect(ada?.points.map(({ number, value }) => [number, value])).toEqual([
+    [1, 4],
+    [3, 2], // the second has no overshoot, but is counted
+  ]);
+  expect(bob?.points).toHaveLength(1);
+});
+
+test("the table has attempts, passes, the first pass, the best and the last value of each person", () => {
+  expect(summaries(RESULTS, "vein", OVERSHOOT)).toEqual([
+    { person: "Ada", attempts: 3, passed: 1, firstPass: 3, best: 2, last: 2 },
+    { person: "Bob", attempts: 1, passed: 1, firstPass: 1, best: 1, last: 1 },
+  ]);
+  expect(summaries([attempt("", 1, false, null)], "vein", OVERSHOOT)).toEqual([
+    { person: "", attempts: 1, passed: 0, firstPass: null, best: null, last: null },
+  ]);
+});

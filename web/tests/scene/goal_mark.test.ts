@@ -1,0 +1,45 @@
+import { Color, type Mesh, Vector3 } from "three";
+import { expect, test } from "vitest";
+import { bandOf, GoalMark } from "../../src/scene/goal_mark.ts";
+import type { Theme } from "../../src/scene/theme.ts";
+import type { SceneView } from "../../src/wire/messages.ts";
+
+const theme = { watch: (act: () => void) => act(), color: () => new Color("green") } as unknown as Theme;
+const scene = {
+  membranes: [{ point: [0, 0.001, 0], inward_normal: [0, -1, 0], thickness: 0.001 }],
+} as unknown as SceneView;
+
+test("a goal without an end is drawn 3 mm deep", () => {
+  expect(bandOf({ top: 0.004, bottom: 0.007 })).toEqual([4, 7]);
+  expect(bandOf({ top: 0.004, bottom: Number.POSITIVE_INFINITY })).toEqual([4, 7]);
+});
+
+test("the band lies between the goal's depths, below the first surface", () => {
+  const mark = new GoalMark(theme);
+  mark.show({ name: "a", top: 0.005, bottom: 0.008, line: null }, scene, 10);
+  const band = mark.group.children[0] as Mesh;
+  expect(mark.group.visible).toBe(true);
+  expect(band.position.toArray()).toEqual([0, 1 - 6.5, 0]);
+  expect(new Vector3(0, 1, 0).multiply(band.scale).applyQuaternion(band.quaternion).length()).toBeCloseTo(3);
+  mark.show(null, scene, 10);
+  expect(mark.group.visible).toBe(false);
+});
+
+test("the band of a line lies around the line, as wide as the point may be beside it", () => {
+  const mark = new GoalMark(theme);
+  const line = { point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 };
+  mark.show({ name: "a", top: 0.005, bottom: 0.008, line }, scene, 10);
+  const band = mark.group.children[0] as Mesh;
+  expect(band.position.x).toBeCloseTo(0);
+  expect(band.position.y).toBeCloseTo(1 - 6.5);
+  expect(band.position.z).toBeCloseTo(4);
+  const sides = (
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ] as const
+  ).map((axis) => new Vector3(...axis).multiply(band.scale).applyQuaternion(band.quaternion));
+  expect(sides.map((side) => Math.abs(side.y)).filter((y) => y > 1e-6)).toEqual([expect.closeTo(3)]);
+  expect(sides.map((side) => Math.abs(side.z)).filter((z) => z > 1e-6)).toEqual([expect.closeTo(2)]);
+});
