@@ -152,7 +152,7 @@ def messages() -> dict[str, Any]:
         {"id": 6, "do": "load_text", "toml": "name = 'x'"},
         {"id": 7, "do": "compare", "on": True},
         {"id": 8, "do": "start_recording", "name": None},
-        {"id": 9, "do": "start_exercise", "exercise": "venipuncture", "person": "Ada"},
+        {"id": 9, "do": "start_exercise", "exercise": "venipuncture", "person": "Ada", "group": "9b"},
     ]  # fmt: skip
     refused = [
         {"id": 1}, {"do": "arm"}, {"id": 1, "do": "fly"}, {"id": "1", "do": "arm"}, {"id": 1.5, "do": "arm"},

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-command = typer.Typer(no_args_is_help=True, help="Lists exercises; scores a recording.")
+command = typer.Typer(no_args_is_help=True, help="Lists exercises; scores a recording; exports results.")
 
 
 @command.command("list")
@@ -66,3 +66,36 @@ def score(
     if m.straightness is not None and m.lateral_deviation is not None:
         aside = m.lateral_deviation * 1e3
         typer.echo(f"  path {m.straightness:.2f} times the straight one, at most {aside:.1f} mm to the side")
+
+
+@command.command()
+def export(
+    format: Annotated[str, typer.Option("--format", help="csv, or xapi: one statement a line.", metavar="csv|xapi")],
+    person: Annotated[str | None, typer.Option(help="Only the results of this person.")] = None,
+    group: Annotated[str | None, typer.Option("--class", help="Only the results of this class.")] = None,
+    results: Annotated[
+        Path | None, typer.Option(help="Folder of the results. Default: that of the studio.", metavar="FOLDER")
+    ] = None,
+    home_page: Annotated[
+        str | None, typer.Option(help="For xapi: address of the system that knows the persons.", metavar="URL")
+    ] = None,
+    output: Annotated[Path | None, typer.Option(help="Write to this file.", metavar="FILE")] = None,
+) -> None:
+    """Exports the results that the studio has saved, the oldest first."""
+    from punctura.exercise import ResultStore, default_folder
+    from punctura.exercise.results import to_csv
+    from punctura.exercise.xapi import HOME, to_xapi
+
+    if format not in ("csv", "xapi"):
+        raise typer.BadParameter(f"must be csv or xapi, not {format}", param_hint="--format")
+    if home_page is not None and not home_page.startswith(("http://", "https://")):
+        raise typer.BadParameter("must begin with http:// or https://", param_hint="--home-page")
+    folder = results or default_folder()
+    if results is not None and not folder.is_dir():
+        raise typer.BadParameter(f"there is no folder {folder}", param_hint="--results")
+    found = ResultStore(folder).all(person, group)[::-1]
+    text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
+    if output is None:
+        typer.echo(text, nl=False)
+    else:
+        output.write_text(text, encoding="utf-8")

@@ -205,7 +205,7 @@ class Attempt:
             return Coaching()
         return self._coach.words(self._passed, self._decision, self._limits, self._achievements, self._measures)
 
-    def finish(self, person: str = "", recording: str = "", date: datetime | None = None) -> Result:
+    def finish(self, person: str = "", recording: str = "", date: datetime | None = None, group: str = "") -> Result:
         """The present result; an undecided attempt counts as given up. date: of the attempt; default now."""
         when = (date or datetime.now(timezone.utc)).astimezone(timezone.utc)
         return Result(
@@ -213,6 +213,7 @@ class Attempt:
             title=self.exercise.title,
             scene=self.scene.name,
             person=person,
+            group=group,
             recording=recording,
             date=when.isoformat(timespec="seconds"),
             version=__version__,

@@ -77,6 +77,7 @@ class Result(_Part):
     title: str
     scene: str
     person: str = ""
+    group: str = ""  # the person's class
     recording: str = ""
     date: str  # ISO 8601, UTC
     version: str  # of Punctura

@@ -22,7 +22,7 @@ _LARGEST = 20_000_000  # bytes; a result has some kilobytes
 
 # Columns of the CSV table, with the unit in the name, as in `punctura simulate`.
 COLUMNS = (
-    "name", "person", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
+    "name", "person", "class", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
     "reasons", "entries",
     "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
     "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
@@ -67,15 +67,15 @@ class ResultStore:
         """Raises ResultsError."""
         return self._read(self._path(name), name)
 
-    def all(self, person: str | None = None) -> list[Result]:
-        """All results, or those of one person, latest first. Files that are not results are skipped."""
+    def all(self, person: str | None = None, group: str | None = None) -> list[Result]:
+        """All results, or those of one person or class, latest first. Files that are not results are skipped."""
         results = []
         for path in self.folder.glob("*.json") if self.folder.is_dir() else ():
             try:
                 result = self._read(path, path.stem)
             except ResultsError:
                 continue
-            if person is None or result.person == person:
+            if person in (None, result.person) and group in (None, result.group):
                 results.append(result)
         return sorted(results, key=lambda result: (result.date, result.name), reverse=True)
 
@@ -125,7 +125,7 @@ def to_json(results: Iterable[Result]) -> str:
 def _row(result: Result) -> dict[str, object]:
     m = result.metrics
     largest = max((one.distance for one in m.overshoot), default=None)
-    row = {name: getattr(result, name) for name in COLUMNS[:9]}
+    row = {name: getattr(result, "group" if name == "class" else name) for name in COLUMNS[:10]}
     return row | {
         "not_measured": "; ".join(result.unmeasured),
         "reasons": " ".join(result.reasons),

@@ -18,6 +18,7 @@ from starlette.routing import Route
 
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
+from punctura.exercise.xapi import to_xapi
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
 from punctura.studio.download import Download
@@ -29,9 +30,11 @@ from punctura.studio.shelf import SUFFIX, Busy, Missing
 from punctura.studio.trace import FEWEST, MOST, USUAL, thinned_trace
 
 FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}
-RESULT_FORMATS: dict[str, tuple[str, Callable[[list[Result]], str]]] = {
-    "json": ("application/json", to_json),
-    "csv": ("text/csv; charset=utf-8", to_csv),
+# By format: the media type, the ending of the file, and the function that writes it.
+RESULT_FORMATS: dict[str, tuple[str, str, Callable[[list[Result]], str]]] = {
+    "json": ("application/json", "json", to_json),
+    "csv": ("text/csv; charset=utf-8", "csv", to_csv),
+    "xapi": ("application/x-ndjson; charset=utf-8", "xapi.jsonl", to_xapi),
 }
 _STATUS: dict[type[Exception], int] = {
     BadName: 400,
@@ -131,8 +134,7 @@ class Api:
         return JSONResponse([entry.model_dump(mode="json") for entry in self._session.exercises.overviews()])
 
     def results(self, request: Request) -> Response:
-        person = request.query_params.get("person")
-        return JSONResponse([result.model_dump(mode="json") for result in self._results.all(person)])
+        return JSONResponse([result.model_dump(mode="json") for result in self._results.all(*_of_whom(request))])
 
     def result(self, request: Request) -> Response:
         return JSONResponse(self._results.load(_name(request)).model_dump(mode="json"))
@@ -146,14 +148,14 @@ class Api:
         return self._written([result], result.name, request)
 
     def download_results(self, request: Request) -> Response:
-        return self._written(self._results.all(request.query_params.get("person")), "results", request)
+        return self._written(self._results.all(*_of_whom(request)), "results", request)
 
     def _written(self, results: list[Result], name: str, request: Request) -> Response:
         kind = request.query_params.get("format", "json")
         if kind not in RESULT_FORMATS:
             return _sentence(400, f"There is {', '.join(RESULT_FORMATS)}.")
-        media, write = RESULT_FORMATS[kind]
-        headers = {"content-disposition": f'attachment; filename="{name}.{kind}"'}
+        media, ending, write = RESULT_FORMATS[kind]
+        headers = {"content-disposition": f'attachment; filename="{name}.{ending}"'}
         return Response(write(results), media_type=media, headers=headers)
 
 
@@ -165,6 +167,11 @@ def disposition(filename: str) -> str:
 def _name(request: Request) -> str:
     name: str = request.path_params["name"]
     return name
+
+
+def _of_whom(request: Request) -> tuple[str | None, str | None]:
+    """The person and the class that a request asks for; None: any."""
+    return request.query_params.get("person"), request.query_params.get("group")
 
 
 def _sentence(status: int, text: str) -> Response:

@@ -120,7 +120,8 @@ def _prepare_take(
             exercise = session.exercises.load(request.exercise)
             loaded = from_name(exercise.scene_name)
             name = session.shelf.new_name(None, exercise.title)
-            return lambda session: _start_exercise(session, exercise, loaded, request.person, name)
+            activity = ExerciseActivity(exercise, request.person, name, session.results, request.group)
+            return lambda session: _start_exercise(session, exercise, loaded, activity, name)
         case _:
             return _end_exercise
 
@@ -153,10 +154,12 @@ def _stop_recording(session: Session) -> Future[Done]:
     return done
 
 
-def _start_exercise(session: Session, exercise: Exercise, loaded: Loaded, person: str, name: str) -> Done:
+def _start_exercise(
+    session: Session, exercise: Exercise, loaded: Loaded, activity: ExerciseActivity, name: str
+) -> Done:
     pose = exercise.start_position, exercise.start_axis
     about = {"title": exercise.title, "exercise": exercise.name, "scene": loaded.tables()}
-    session.begin_activity(ExerciseActivity(exercise, person, name, session.results), loaded, pose, name, about)
+    session.begin_activity(activity, loaded, pose, name, about)
     return "", {"recording": name}
 
 

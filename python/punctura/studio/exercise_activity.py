@@ -23,9 +23,10 @@ class ExerciseActivity:
 
     what = "exercise"
 
-    def __init__(self, exercise: Exercise, person: str, recording: str, results: ResultStore) -> None:
-        """recording: the name of the run's recording. results: where the result is saved."""
+    def __init__(self, exercise: Exercise, person: str, recording: str, results: ResultStore, group: str = "") -> None:
+        """recording: the name of the run's recording. results: where the result is saved. group: a class."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
+        self._group = group
         self._attempt: Attempt
         self._told: ExerciseStatus | None = None
         self.end_at: float | None = None
@@ -52,7 +53,7 @@ class ExerciseActivity:
 
     def finish(self) -> Outcome:
         """Saves the result, unless the needle has never entered and nothing was decided."""
-        result = self._attempt.finish(self._person, self._recording)
+        result = self._attempt.finish(self._person, self._recording, group=self._group)
         if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
         try:

@@ -1,5 +1,6 @@
 """punctura exercise."""
 
+import csv
 import json
 from typing import NamedTuple
 
@@ -8,7 +9,7 @@ import pytest
 from attempts import HEAD, as_a_device_runs_it, goal, motion_of
 from punctura._core import SimulatedDevice
 from punctura.cli import main
-from punctura.exercise import load_exercise
+from punctura.exercise import ResultStore, load_exercise, score
 from recorded import recorded
 
 
@@ -90,3 +91,27 @@ def test_the_coach_is_printed_with_the_score(punctura, recording):
     assert change[0]["about"] == "through" and 0 < change[0]["numbers"]["speed_m_s"] < 0.05
     assert all(f"\n  Next time: {remark['text']}\n" in said for remark in change)
     assert good and all(f"\n  What went well: {remark['text']}\n" in said for remark in good)
+
+
+def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording, tmp_path):
+    results = ResultStore(tmp_path / "results")
+    judged = score(recording, "venipuncture", "Ada")
+    for person, group in (("Ada", "9b"), ("Bob", "9b"), ("Cem", "")):
+        results.save(judged.model_copy(update={"person": person, "group": group}))
+    folder = "--results", results.folder
+    rows = list(csv.DictReader(punctura("exercise", "export", "--format", "csv", *folder).stdout.splitlines()))
+    assert sorted((row["person"], row["class"]) for row in rows) == [("Ada", "9b"), ("Bob", "9b"), ("Cem", "")]
+    lines = punctura("exercise", "export", "--format", "xapi", "--class", "9b", *folder).stdout.splitlines()
+    assert sorted(json.loads(line)["actor"]["name"] for line in lines) == ["Ada", "Bob"]
+    file = tmp_path / "ada.jsonl"
+    more = "--person", "Ada", "--home-page", "https://school.example", "--output", file
+    assert punctura("exercise", "export", "--format", "xapi", *more, *folder).stdout == ""
+    assert json.loads(file.read_text(encoding="utf-8"))["actor"]["account"]["homePage"] == "https://school.example"
+
+
+def test_an_export_that_is_not_possible_is_refused(punctura, tmp_path):
+    assert "must be csv or xapi" in punctura("exercise", "export", "--format", "xls").stderr
+    wrong = punctura("exercise", "export", "--format", "csv", "--results", tmp_path / "none")
+    assert wrong.returncode == 2 and "there is no folder" in wrong.stderr
+    wrong = punctura("exercise", "export", "--format", "xapi", "--home-page", "school")
+    assert wrong.returncode == 2 and "must begin with http" in wrong.stderr

@@ -30,4 +30,14 @@ def test_the_results_of_a_person_come_as_one_file(page, kept):
     assert status == 200 and text.decode().count("Ada") == 2 and b"Bob" not in text
     assert len(json.loads(page.get("/api/results/download?person=Ada")[1])) == 2
     assert len(json.loads(page.get("/api/results/download?format=json")[1])) == 3
+    statements = page.get("/api/results/download?person=Bob&format=xapi")[1].splitlines()
+    assert [json.loads(line)["actor"]["name"] for line in statements] == ["Bob"]
     assert page.get("/api/results/download?format=xls")[0] == 400
+
+
+def test_the_results_of_a_class_come_together(page, served, kept):
+    served.session.results.save(result("Cem").model_copy(update={"group": "9b"}))
+    served.session.results.save(result("Dan").model_copy(update={"group": "9b"}))
+    assert {one["person"] for one in page.json("/api/results?group=9b")} == {"Cem", "Dan"}
+    assert [one["person"] for one in page.json("/api/results?group=9b&person=Dan")] == ["Dan"]
+    assert len(page.json("/api/results")) == 5

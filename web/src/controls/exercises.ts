@@ -5,7 +5,7 @@ import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
 import { goalList } from "./exercises/goals.ts";
 import { pastResults } from "./exercises/past.ts";
-import { Person, personField } from "./exercises/person.ts";
+import { Person, personFields } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
 import { showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
@@ -19,7 +19,12 @@ export const exercisesPanel: Panel = (host, app) => {
   const of = (name: string): ExerciseOverview | null => known.find((exercise) => exercise.name === name) ?? null;
   const titleOf = (name: string, title = of(name)?.title ?? name): string => titleAmong({ name, title }, known);
   const start = async (name: string): Promise<void> => {
-    const reply = await app.ask({ do: "start_exercise", exercise: name, person: person.name.value });
+    const reply = await app.ask({
+      do: "start_exercise",
+      exercise: name,
+      person: person.name.value,
+      group: person.group.value,
+    });
     if (reply && !reply.ok && reply.problems?.length)
       app.say(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
     await readList(); // an exercise file may have changed
@@ -34,7 +39,12 @@ export const exercisesPanel: Panel = (host, app) => {
   document.getElementById("app")?.append(task);
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
-    element("div", { class: "editor-top" }, blockLine(app, "Force and depth decide the result."), personField(person)),
+    element(
+      "div",
+      { class: "editor-top" },
+      blockLine(app, "Force and depth decide the result."),
+      ...personFields(person),
+    ),
     list,
     past.root,
   );
@@ -62,11 +72,12 @@ export const exercisesPanel: Panel = (host, app) => {
   app.connection.watch(async (state) => {
     if (state.state !== "open") return;
     await readList();
-    await past.show(person.name.value);
+    await past.show(person);
   });
-  person.name.watch((name) => {
-    if (app.connection.value.state === "open") void past.show(name);
-  });
+  for (const word of [person.name, person.group])
+    word.watch(() => {
+      if (app.connection.value.state === "open") void past.show(person);
+    });
   watchBlock(app, (block) => {
     list.disabled = block !== null;
   });
@@ -77,7 +88,7 @@ export const exercisesPanel: Panel = (host, app) => {
     const ended = running && status !== null && !status.running;
     running = status?.running ?? false;
     if (!ended || !status.result) return;
-    await past.show(person.name.value);
+    await past.show(person);
     // A page without control gets a notice instead of a dialog.
     if (!app.control.value.you) {
       app.say(`${titleOf(status.exercise)}: the attempt is over.`);

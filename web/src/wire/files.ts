@@ -81,6 +81,8 @@ export interface ExerciseResult {
   readonly title: string;
   readonly scene: string;
   readonly person: string;
+  /** The person's class; missing in results of earlier versions. */
+  readonly group?: string;
   /** Name of the recording; empty if the attempt was not recorded. */
   readonly recording: string;
   /** ISO 8601, UTC. */

@@ -402,6 +402,7 @@ export interface StartExercise {
   do: "start_exercise";
   exercise: string;
   person?: string;
+  group?: string;
 }
 export interface EndExercise {
   id: number;

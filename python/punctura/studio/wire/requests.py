@@ -106,6 +106,7 @@ class StartExercise(_Request):
     do: Literal["start_exercise"] = "start_exercise"
     exercise: Name
     person: Annotated[str, Field(max_length=80)] = ""
+    group: Annotated[str, Field(max_length=80)] = ""  # the person's class
 
 
 class EndExercise(_Request):

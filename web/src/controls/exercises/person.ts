@@ -2,20 +2,32 @@ import { element } from "../../panel.ts";
 import { Signal } from "../../state/signal.ts";
 
 const KEY = "punctura.person";
+const GROUP_KEY = "punctura.class";
 export const LONGEST_NAME = 80;
 
 /** The name of the person who practises, stored in this browser. */
 export class Person {
   readonly name: Signal<string>;
+  /** The person's class; may be empty. */
+  readonly group: Signal<string>;
 
   constructor(private readonly store: Pick<Storage, "getItem" | "setItem"> | null = storage()) {
     this.name = new Signal(this.store?.getItem(KEY) ?? "");
+    this.group = new Signal(this.store?.getItem(GROUP_KEY) ?? "");
   }
 
   set(name: string): void {
+    this.name.value = this.keep(KEY, name);
+  }
+
+  setGroup(name: string): void {
+    this.group.value = this.keep(GROUP_KEY, name);
+  }
+
+  private keep(key: string, name: string): string {
     const tidy = name.trim().replace(/\s+/g, " ").slice(0, LONGEST_NAME);
-    this.store?.setItem(KEY, tidy);
-    this.name.value = tidy;
+    this.store?.setItem(key, tidy);
+    return tidy;
   }
 }
 
@@ -28,18 +40,32 @@ export function storage(): Storage | null {
   }
 }
 
-export function personField(person: Person): HTMLElement {
+/** The fields for the name and the class. */
+export function personFields(person: Person): HTMLElement[] {
+  return [
+    wordField("person-name", "Your name", "for your results", person.name, (name) => person.set(name)),
+    wordField("person-class", "Class", "may be left empty", person.group, (name) => person.setGroup(name)),
+  ];
+}
+
+function wordField(
+  id: string,
+  label: string,
+  placeholder: string,
+  value: Signal<string>,
+  set: (name: string) => void,
+): HTMLElement {
   const box = element("input", {
     type: "text",
-    id: "person-name",
+    id,
     class: "words",
     maxlength: LONGEST_NAME,
-    autocomplete: "name",
-    placeholder: "for your results",
+    autocomplete: id === "person-name" ? "name" : "off",
+    placeholder,
   });
-  box.addEventListener("change", () => person.set(box.value));
-  person.name.watch((name) => {
+  box.addEventListener("change", () => set(box.value));
+  value.watch((name) => {
     box.value = name;
   });
-  return element("div", { class: "field person" }, element("label", { for: "person-name" }, "Your name"), box);
+  return element("div", { class: "field person" }, element("label", { for: id }, label), box);
 }

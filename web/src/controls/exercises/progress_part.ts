@@ -1,16 +1,14 @@
 import { element } from "../../panel.ts";
+import { drawAxes, MARGIN, Pane } from "../../plots/kit/axes.ts";
+import { Figure } from "../../plots/kit/figure.ts";
+import type { Pen } from "../../plots/kit/pen.ts";
+import { Polyline } from "../../plots/kit/polyline.ts";
+import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
-import { ticksOf } from "../editor/law_shape.ts";
-import { svg } from "../svg.ts";
-import { courses, MEASURES, type Measure, type Point, summaries } from "./progress.ts";
+import { courses, MEASURES, type Measure, summaries } from "./progress.ts";
 
-const WIDTH = 320;
-const HEIGHT = 150;
-const LEFT = 34;
-const RIGHT = 8;
-const TOP = 8;
-const BOTTOM = 28;
+const HEIGHT = 180; // px
 
 /** The course of one measure over the attempts, of one person or of a class, as a chart and a table. */
 export function progressPart(
@@ -23,21 +21,23 @@ export function progressPart(
     { "aria-label": "Measure" },
     ...MEASURES.map(({ key, label }) => element("option", { value: key }, label)),
   );
-  const chart = element("div", { class: "progress-chart" });
+  let known: readonly ExerciseResult[] = [];
+  const chosen = (): Measure => MEASURES.find(({ key }) => key === measure.value) ?? MEASURES[0]!;
+  const chart = new Figure("progress-chart", HEIGHT, (pen, width, height, theme) =>
+    drawProgress(pen, width, height, theme, known, exercise.value, chosen()),
+  );
   const table = element("div", {});
   const root = element(
     "section",
     { class: "progress", hidden: true },
     element("h3", {}, "Progress"),
     element("div", { class: "tools" }, exercise, measure),
-    chart,
+    chart.root,
     table,
   );
-  let known: readonly ExerciseResult[] = [];
   const draw = (): void => {
-    const chosen = MEASURES.find(({ key }) => key === measure.value) ?? MEASURES[0]!;
-    chart.replaceChildren(progressChart(known, exercise.value, chosen));
-    table.replaceChildren(progressTable(known, exercise.value, chosen));
+    chart.redraw();
+    table.replaceChildren(progressTable(known, exercise.value, chosen()));
   };
   exercise.addEventListener("change", draw);
   measure.addEventListener("change", draw);
@@ -65,40 +65,35 @@ export function progressPart(
   };
 }
 
-/** One line a person; a full dot is a pass, an empty one is not. */
-export function progressChart(results: readonly ExerciseResult[], exercise: string, measure: Measure): SVGSVGElement {
+/** One line a person; a full dot is a pass, an empty one is not. Returns what a screen reader says. */
+export function drawProgress(
+  pen: Pen,
+  width: number,
+  height: number,
+  theme: Theme,
+  results: readonly ExerciseResult[],
+  exercise: string,
+  measure: Measure,
+): string {
   const lines = courses(results, exercise, measure);
   const points = lines.flatMap((line) => line.points);
-  const most = Math.max(2, ...points.map(({ number }) => number));
-  const high = Math.max(...points.map(({ value }) => value), 1e-3) * 1.1;
-  const x = (number: number): number => LEFT + ((number - 1) / (most - 1)) * (WIDTH - LEFT - RIGHT);
-  const y = (value: number): number => HEIGHT - BOTTOM - (value / high) * (HEIGHT - TOP - BOTTOM);
-  const words = `${measure.label} over ${points.length} attempts; smaller is better.`;
-  const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img" }, svg("title", {}, words));
-  for (const value of ticksOf(0, high, 4)) {
-    drawing.append(
-      svg("line", { x1: LEFT, x2: WIDTH - RIGHT, y1: y(value), y2: y(value) }),
-      svg("text", { x: LEFT - 4, y: y(value) + 3, "text-anchor": "end" }, String(value)),
-    );
-  }
-  for (const number of ticksOf(1, most, 6).filter(Number.isInteger))
-    drawing.append(svg("text", { x: x(number), y: HEIGHT - BOTTOM + 12, "text-anchor": "middle" }, String(number)));
-  drawing.append(
-    svg("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 3, "text-anchor": "middle" }, "attempt (● passed, ○ not passed)"),
-  );
+  const pane = new Pane();
+  pane.place(MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom);
+  pane.rangeX(0.5, Math.max(2, ...points.map(({ number }) => number)) + 0.5);
+  pane.rangeY(0, 1.1 * Math.max(...points.map(({ value }) => value), 1e-3));
+  drawAxes(pen, pane, theme, { x: "attempt (full: passed, empty: not passed)", y: measure.label });
   lines.forEach((line, i) => {
-    const path = line.points.map((point) => `${x(point.number).toFixed(1)},${y(point.value).toFixed(1)}`).join("L");
-    const group = svg("g", { class: `person-${(i % 5) + 1}` }, svg("path", { d: path ? `M${path}` : "" }));
-    group.append(...line.points.map((point) => dot(point, line.person, x(point.number), y(point.value))));
-    drawing.append(group);
+    const colour = colourOf(theme, i);
+    const path = new Polyline(16);
+    for (const { number, value } of line.points) path.add(pane.x.px(number), pane.y.px(value));
+    pen.line(path, { colour, width: 1.4 });
+    for (const { number, value, result } of line.points) {
+      const [x, y] = [pane.x.px(number), pane.y.px(value)];
+      pen.dot(x, y, 4, colour, theme.panel);
+      if (!result.passed) pen.dot(x, y, 2, theme.panel, theme.panel);
+    }
   });
-  return drawing;
-}
-
-function dot({ number, value, result }: Point, person: string, cx: number, cy: number): SVGElement {
-  const words = `${person || "no name"}, attempt ${number}: ${value.toFixed(2)}, ${result.passed ? "" : "not "}passed`;
-  const kind = result.passed ? "passed" : "failed";
-  return svg("circle", { class: kind, cx: cx.toFixed(1), cy: cy.toFixed(1), r: 3.5 }, svg("title", {}, words));
+  return `${measure.label} over ${points.length} attempts. Smaller is better.`;
 }
 
 function progressTable(results: readonly ExerciseResult[], exercise: string, measure: Measure): HTMLElement {

@@ -1,5 +1,8 @@
 import { expect, test } from "vitest";
 import { courses, MEASURES, summaries } from "../../../src/controls/exercises/progress.ts";
+import { drawProgress } from "../../../src/controls/exercises/progress_part.ts";
+import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
+import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 import type { ExerciseResult } from "../../../src/wire/files.ts";
 
 const attempt = (
@@ -44,4 +47,12 @@ test("the table has attempts, passes, the first pass, the best and the last valu
   expect(summaries([attempt("", 1, false, null)], "vein", OVERSHOOT)).toEqual([
     { person: "", attempts: 1, passed: 0, firstPass: null, best: null, last: null },
   ]);
+});
+
+test("a pass is a full dot, and an attempt that was not passed an empty one", () => {
+  const pen = new SvgPen();
+  const words = drawProgress(pen, 300, 180, CSS_THEME, RESULTS, "vein", OVERSHOOT);
+  const file = pen.file(300, 180, "none", words, "");
+  expect(words).toBe("Largest overshoot, mm over 3 attempts. Smaller is better.");
+  expect(file.match(/<circle/g)).toHaveLength(4); // three dots, and the hole of the one that is not passed
 });
