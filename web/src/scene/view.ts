@@ -95,7 +95,7 @@ export const view: Panel = (host, app) => {
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
     const changed = world.update(source, hand.target.value, orbit.camera, pixel);
     drawRing(source, scene, orbit.camera);
-    canvas.dataset.tick = source.live ? "" : String(world.moment.tick); // for the end-to-end tests
+    canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (!turned && !changed && !stage.stale) {
       stage.rest(orbit.camera, now);
