@@ -1,4 +1,5 @@
 import { Vector3 } from "three";
+import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
@@ -33,6 +34,9 @@ export class Probe {
   readonly picture = new Signal<{ readonly width: number; readonly depth: number } | null>(null);
 }
 
+/** The app's probe. */
+export const probeOf = onePerApp(() => new Probe());
+
 export function skinFrame(scene: SceneView): SkinFrame {
   const first = scene.membranes[0];
   const origin = new Vector3(...(first?.point ?? [0, 0, 0])).multiplyScalar(MM);
@@ -49,13 +53,17 @@ export function planeOf(skin: SkinFrame, { x, z, turn }: ProbePlace): SlicePlane
   return { origin, along, inward: skin.inward.clone(), out: new Vector3().crossVectors(skin.inward, along) };
 }
 
-/** The place from which the picture contains the needle; `across` turns the picture by 90 degrees about its tip. */
+/**
+ * The place from which the picture contains the needle, with its middle `ahead` of the tip (mm); `across` turns the
+ * picture by 90 degrees about the tip.
+ */
 export function placeAtNeedle(
   skin: SkinFrame,
   tip: Vector3,
   axis: Vector3,
   across: boolean,
   before: ProbePlace,
+  ahead = 0,
 ): ProbePlace {
   const from = new Vector3().subVectors(tip, skin.origin);
   const [right, front] = [axis.dot(skin.right), axis.dot(skin.front)];
@@ -63,7 +71,8 @@ export function placeAtNeedle(
   const upright = Math.hypot(right, front) < 0.05;
   const inPlane = upright ? before.turn : Math.atan2(front, right);
   const turn = across ? (upright ? before.turn : inPlane) + Math.PI / 2 : inPlane;
-  return { x: from.dot(skin.right), z: from.dot(skin.front), turn: wrapped(turn) };
+  const on = across || upright ? 0 : ahead / Math.hypot(right, front);
+  return { x: from.dot(skin.right) + on * right, z: from.dot(skin.front) + on * front, turn: wrapped(turn) };
 }
 
 /** The same picture's angle, from -90 to 90 degrees: a turn by 180 degrees only mirrors the picture. */

@@ -11,9 +11,11 @@ import { Labels } from "./labels.ts";
 import { needleGrip } from "./needle_grip.ts";
 import { popRing } from "./pop_ring.ts";
 import { presets } from "./presets.ts";
+import { probeOf } from "./probe.ts";
 import { scaleBar } from "./scale_bar.ts";
 import { sentence } from "./sentence.ts";
 import { sidewaysButton } from "./sideways.ts";
+import { SliceFrame } from "./slice_frame.ts";
 import { spoken } from "./spoken.ts";
 import { Stage } from "./stage.ts";
 import { Theme } from "./theme.ts";
@@ -63,6 +65,8 @@ export const view: Panel = (host, app) => {
   const bar = presets(host, look, (factor) => orbit.zoom(factor));
   const free = sidewaysButton(bar, hand);
   const drawRing = popRing(host);
+  const sliceFrame = new SliceFrame(theme, stage.scene);
+  const probe = probeOf(app);
   sentence(host, app);
   const drag = gestures(canvas, needleGrip(hand, orbit, world, stage, free));
   app.goal.watch((goal) => world.aim(goal));
@@ -97,7 +101,8 @@ export const view: Panel = (host, app) => {
     drawRing(source, scene, orbit.camera);
     canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
-    if (!turned && !changed && !stage.stale) {
+    const framed = sliceFrame.update(scene, probe);
+    if (!turned && !changed && !framed && !stage.stale) {
       stage.rest(orbit.camera, now);
       return;
     }

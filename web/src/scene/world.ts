@@ -164,7 +164,7 @@ export class World {
     }
     if (this.mark.group.visible)
       labels.put("goal", `Goal: ${this.goal?.name}`, "goal", this.mark.middle, camera, size, "left");
-    if (this.entry.line.visible) labels.put("entry", "b", "entry", this.entryEnd, camera, size);
+    if (this.entry.line.visible) labels.put("entry", "direction at entry", "entry", this.entryEnd, camera, size);
     labels.end();
   }
 

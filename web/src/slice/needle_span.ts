@@ -4,6 +4,8 @@ import type { SlicePlane } from "../scene/probe.ts";
 /** Thickness of the slice, mm: illustrative. */
 export const BEAM = 1;
 
+const ALONG = Math.sin(Math.PI / 12); // a needle within 15 degrees of the slice lies along it
+
 /** A place in the picture, mm: along the probe from its middle, and below the skin. */
 export interface InPicture {
   readonly along: number;
@@ -19,6 +21,8 @@ export interface NeedleSpan {
   readonly tip: boolean;
   /** Share of the slice's thickness that the needle is away from its middle: 0 is bright, 1 is invisible. */
   readonly off: number;
+  /** Whether the needle lies along the slice, rather than crosses it. */
+  readonly along: boolean;
 }
 
 /**
@@ -57,5 +61,6 @@ export function needleSpan(
     shallow: place(last),
     tip: first === 0,
     off: Math.min(1, Math.abs(out + nearest * outward) / half),
+    along: Math.abs(outward) < ALONG,
   };
 }

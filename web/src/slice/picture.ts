@@ -8,7 +8,7 @@ import { TEXTURES, type Texture } from "./textures.ts";
 const FACE_MM = 0.16; // thickness of the bright echo at a layer's face
 const FACE = 70;
 const FADE = 46; // loss of brightness from the skin to the bottom
-const SHADOW = 0.45; // brightness behind the needle
+const SHADOW = 0.58; // brightness behind the needle
 const ENHANCED = 24; // brightness behind a vein: blood takes little of the sound
 
 /** The size of a picture, in pixels and mm. */

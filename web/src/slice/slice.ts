@@ -9,6 +9,7 @@ import { Quality } from "./quality.ts";
 import { pictureWords } from "./words.ts";
 
 const MARK = "Drawing, not a simulation of an ultrasound instrument";
+const AHEAD = 0.2; // of the picture's depth: the tissue that the needle goes to is in the picture
 const INTERVAL_MS = 30; // between two pictures
 const WORDS_MS = 500;
 const SHARPEST = 2; // device pixels per CSS pixel, along each side
@@ -34,10 +35,12 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
   let size = { width: 0, height: 0 };
 
   const toNeedle = (across: boolean): void => {
-    if (built) probe.place.value = placeAtNeedle(built.skin, moment.tip, moment.axis, across, probe.place.value);
+    if (!built) return;
+    const ahead = AHEAD * built.drawing.depth;
+    probe.place.value = placeAtNeedle(built.skin, moment.tip, moment.axis, across, probe.place.value, ahead);
   };
-  const picture = element("div", { class: "slice-picture" }, canvas, probeButtons(toNeedle, close), less, mark);
-  host.append(picture, words, probeSliders(probe), help);
+  const picture = element("div", { class: "slice-picture" }, canvas, less, mark);
+  host.append(probeButtons(toNeedle, close), picture, words, probeSliders(probe), help);
   probeKeys(canvas, probe, () => toNeedle(false));
   probeDrag(canvas, probe, () => 1 / (shown?.frame.scale ?? 10));
   new ResizeObserver(() => {

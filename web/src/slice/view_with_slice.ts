@@ -1,5 +1,5 @@
 import { element, type Panel } from "../panel.ts";
-import { Probe } from "../scene/probe.ts";
+import { probeOf } from "../scene/probe.ts";
 import { view } from "../scene/view.ts";
 import { remember, wasOpen } from "./remembered.ts";
 import { slice } from "./slice.ts";
@@ -9,7 +9,7 @@ export const viewWithSlice: Panel = (host, app) => {
   const main = element("div", { class: "view-main" });
   const beside = element("section", { class: "slice", id: "slice", "aria-label": "Slice", hidden: true });
   host.append(main, beside);
-  const probe = new Probe();
+  const probe = probeOf(app);
   view(main, app);
   const button = element(
     "button",

@@ -14,11 +14,11 @@ export function pictureWords(span: NeedleSpan | null, tissue: Tissue, dents: Den
 
 function needleWords(span: NeedleSpan | null): string {
   if (!span) return "The needle is not in this slice.";
-  const { deep, shallow, tip } = span;
-  const long = Math.hypot(deep.along - shallow.along, deep.depth - shallow.depth);
+  const { deep, shallow, tip, along } = span;
   const where = `${mm(deep.depth / 1000, 1)} deep`;
-  if (long < 5) return tip ? `The needle crosses the slice: the tip is ${where}.` : `The shaft crosses it ${where}.`;
-  return tip ? `The needle lies in the slice: the tip is ${where}.` : `The shaft lies in the slice down to ${where}.`;
+  if (tip) return `The needle ${along ? "lies in" : "crosses"} the slice: the tip is ${where}.`;
+  if (along) return `The shaft lies in the slice down to ${mm(deep.depth / 1000, 1)}; the tip does not.`;
+  return `The shaft crosses the slice ${mm((deep.depth + shallow.depth) / 2000, 1)} deep.`;
 }
 
 /** Height of the lumen on the needle's line, mm: its front moves with the dent, its back moves less. */

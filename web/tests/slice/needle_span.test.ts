@@ -57,6 +57,7 @@ describe("out of plane", () => {
     const span = needleSpan(planeOf(skin, behind), tip, axis, 100, RADIUS)!;
     const crossing = 6 - 6 * Math.tan(Math.PI / 6);
     expect(span.tip).toBe(false);
+    expect(span.along).toBe(false);
     expect((span.deep.depth + span.shallow.depth) / 2).toBeCloseTo(crossing, 6);
     expect(Math.abs(span.deep.along - span.shallow.along)).toBeLessThan(1e-6);
     expect(span.deep.depth - span.shallow.depth).toBeLessThan(2 * (BEAM / 2 + RADIUS));
@@ -71,6 +72,13 @@ describe("out of plane", () => {
     const out = new Vector3(0, 3, 0);
     expect(needleSpan(planeOf(skin, AT_ORIGIN), out, axis, 100, RADIUS)).toBeNull();
   });
+});
+
+it("the picture's middle can be ahead of the tip, where the needle goes to", () => {
+  const place = placeAtNeedle(skin, tip, axis, false, AT_ORIGIN, 3);
+  const span = needleSpan(planeOf(skin, place), tip, axis, 100, RADIUS)!;
+  expect(span.deep.along).toBeCloseTo(-3, 9);
+  expect(span.along).toBe(true);
 });
 
 it("an upright needle keeps the probe's turn", () => {
