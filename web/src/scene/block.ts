@@ -1,5 +1,5 @@
 import { type Camera, Group, MathUtils, Vector3 } from "three";
-import { Field, type Grip } from "../tissue/field.ts";
+import { Field } from "../tissue/field.ts";
 import type { Window } from "../tissue/grid.ts";
 import { type Layer, layersOf, type Vessel, vesselOf } from "../tissue/layers.ts";
 import { cutSheet, endSheet, surfaceSheet } from "../tissue/sheet.ts";
@@ -7,8 +7,10 @@ import type { SceneView } from "../wire/messages.ts";
 import { Cut } from "./cut.ts";
 import { CutFace } from "./cut_face.ts";
 import { Ends } from "./ends.ts";
+import { gripsOf } from "./grips.ts";
 import type { Holes } from "./holes.ts";
-import { BARRED, MM, type Moment, OUTSIDE } from "./moment.ts";
+import { MM, type Moment } from "./moment.ts";
+import { needleLook, tipOffset } from "./needle_look.ts";
 import { Paper } from "./paper.ts";
 import { Surface } from "./surface.ts";
 import type { Theme } from "./theme.ts";
@@ -37,6 +39,7 @@ export class Block {
   private parts: Parts | null = null;
   private size = 10;
   private diameter = 1;
+  private aside = 0.5;
   private last = "";
 
   constructor(private readonly theme: Theme) {
@@ -55,6 +58,7 @@ export class Block {
     if (!layers) return false;
     this.size = size;
     this.diameter = scene.diameter * MM;
+    this.aside = tipOffset(needleLook(scene)) * this.diameter;
     const vessel = vesselOf(scene, layers);
     const top = scene.membranes[layers[0]!.membrane!]!;
     const deep = DEEP * size;
@@ -111,7 +115,7 @@ export class Block {
     cut.place(moment.tip, moment.axis, camera.position, size);
     const fading = this.openFront(camera, parts);
     const old = moment.membranes.map((_, i) => holes.of(i, moment.tick));
-    const grips = this.grips(moment);
+    const grips = gripsOf(moment, cut);
     const tip = cut.spot(moment.tip);
     const key = [tip.u, tip.d, cut.w, cut.centre, ...cut.towards.toArray(), ...moment.axis.toArray(), fading]
       .concat(grips.flatMap(({ membrane, proxy, slope }) => [membrane, proxy.u, proxy.d, slope]))
@@ -124,7 +128,7 @@ export class Block {
     const window: Window = { centre: cut.centre, size };
     parts.field.set(tip, grips, lean);
     const slope = moment.axis.dot(cut.along) / Math.max(0.2, Math.abs(lean));
-    const side = this.diameter / 2; // the tip is at the border of the shaft
+    const side = this.aside; // from the tip to the middle of the shaft
     parts.face.needle = (d) => tip.u + slope * (d - tip.d) + side;
     parts.face.update(parts.field, window, cut.w, tip.d, lean);
     parts.surface.update(parts.field, window, cut.w);
@@ -142,14 +146,6 @@ export class Block {
     surface.front.visible = opacity > 0.01;
     front.fade(opacity);
     return opacity;
-  }
-
-  private grips(moment: Moment): Grip[] {
-    return moment.membranes.flatMap(({ phase, proxy, direction }, membrane) => {
-      if (phase === OUTSIDE || phase === BARRED || direction.lengthSq() < 0.5) return [];
-      const down = Math.max(0.15, direction.dot(this.cut.down));
-      return [{ membrane, proxy: this.cut.spot(proxy), slope: direction.dot(this.cut.along) / down }];
-    });
   }
 
   /** The end of a layer that is farther to the right on the screen, for its label. */

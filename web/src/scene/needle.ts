@@ -16,7 +16,7 @@ import { MM, type Moment } from "./moment.ts";
 import { Level } from "./needle_level.ts";
 import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
-import { atTip } from "./needle_space.ts";
+import { atTip, type Content } from "./needle_space.ts";
 import { Syringe } from "./needle_syringe.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
@@ -30,7 +30,7 @@ const DRAINS = 0.7;
 const YIELDS = 1.1;
 
 /** Spaces into which the syringe empties. */
-const YIELDING: ReadonlySet<string> = new Set(["epidural space", "cerebrospinal fluid"]);
+const YIELDING: ReadonlySet<Content> = new Set(["epidural space", "cerebrospinal fluid"]);
 
 /** What the hub and the syringe show. */
 export interface NeedleState {
@@ -41,7 +41,7 @@ export interface NeedleState {
   readonly blood: number;
   readonly pressed: number;
   /** What the tip is in. */
-  readonly content: string;
+  readonly content: Content;
 }
 
 /** The scene's needle with its true diameter and tip angle. The view chooses the length. mm, rad. */
@@ -63,7 +63,7 @@ export class Needle {
   private readonly middle = new Vector3();
   private look: NeedleLook = "hypodermic";
   private diameter = 1;
-  private content = "outside";
+  private content: Content = "outside";
 
   constructor(private readonly theme: Theme) {
     this.hub = new Hub(theme);

@@ -1,10 +1,12 @@
-import type { LawCurve, SceneView } from "../wire/messages.ts";
+import type { LawCurve, MembraneView, SceneView } from "../wire/messages.ts";
 import { BARRED, MM, type Moment, OUTSIDE } from "./moment.ts";
+
+export type Content = "outside" | MembraneView["behind"];
 
 /** What the tip's opening lies in. */
 export interface AtTip {
-  /** "outside", "tissue", or the content that the scene gives for a space: "blood", "epidural space", … */
-  readonly content: string;
+  /** Outside, in a membrane ("tissue"), or in a space with the content that the scene gives. */
+  readonly content: Content;
   /** Share of the opening that is past the membrane in front of the space, from 0 to 1. */
   readonly open: number;
 }
@@ -22,7 +24,7 @@ export function atTip(moment: Moment, scene: SceneView, laws: readonly LawCurve[
   const last = entered.reduce<(typeof entered)[number] | null>((a, b) => (a && a.deep >= b.deep ? a : b), null);
   if (!last) return { content: "outside", open: 0 };
   if (last.past <= 0) return { content: "tissue", open: 0 };
-  return { content: contentBehind(scene, last.i), open: Math.min(1, last.past / (scene.tip_length * MM)) };
+  return { content: scene.membranes[last.i]!.behind, open: Math.min(1, last.past / (scene.tip_length * MM)) };
 }
 
 /** Depth of a membrane's front face below the first one's, m. */
@@ -30,11 +32,4 @@ function frontDepth({ membranes }: SceneView, index: number): number {
   const normal = membranes[0]?.inward_normal ?? [0, -1, 0];
   const from = membranes[0]?.point ?? [0, 0, 0];
   return membranes[index]!.point.reduce((sum, value, axis) => sum + (value - from[axis]!) * normal[axis]!, 0);
-}
-
-function contentBehind(scene: SceneView, index: number): string {
-  if (scene.lumen[0] === index) return "blood";
-  const tables = scene.tables.membrane as readonly { behind?: unknown }[] | undefined;
-  const behind = tables?.[index]?.behind;
-  return typeof behind === "string" ? behind : "tissue";
 }

@@ -1,7 +1,7 @@
 import { Vector3 } from "three";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
-import type { SceneView } from "../wire/messages.ts";
+import type { MembraneView, SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
 import { tangents } from "./slab_shape.ts";
 
@@ -38,13 +38,20 @@ export class Probe {
 export const probeOf = onePerApp(() => new Probe());
 
 export function skinFrame(scene: SceneView): SkinFrame {
-  const first = scene.membranes[0];
+  const first = topMembrane(scene);
   const origin = new Vector3(...(first?.point ?? [0, 0, 0])).multiplyScalar(MM);
   const inward = new Vector3(...(first?.inward_normal ?? [0, -1, 0])).normalize();
   const right = new Vector3();
   const front = new Vector3();
   tangents(inward, right, front);
   return { origin, inward, right, front };
+}
+
+/** The membrane that is met first; the file may list them in another order. */
+function topMembrane({ membranes }: SceneView): MembraneView | undefined {
+  const normal = membranes[0]?.inward_normal ?? [0, -1, 0];
+  const depth = ({ point }: MembraneView): number => point.reduce((sum, x, axis) => sum + x * normal[axis]!, 0);
+  return membranes.reduce<MembraneView | undefined>((a, b) => (a && depth(a) <= depth(b) ? a : b), undefined);
 }
 
 export function planeOf(skin: SkinFrame, { x, z, turn }: ProbePlace): SlicePlane {

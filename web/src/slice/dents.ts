@@ -1,89 +1,70 @@
 import { Vector3 } from "three";
-import { BARRED, type Moment, OUTSIDE } from "../scene/moment.ts";
-import type { SlicePlane } from "../scene/probe.ts";
+import { Cut } from "../scene/cut.ts";
+import { gripsOf } from "../scene/grips.ts";
+import type { Moment } from "../scene/moment.ts";
+import type { SkinFrame } from "../scene/probe.ts";
+import { Field } from "../tissue/field.ts";
+import type { Tissue } from "./layers.ts";
 
-/** Displacement of the tissue at the needle by depth, and the needle that causes it, in the picture's directions. */
+const STEP = 0.05; // mm between two depths of the tables
+const SMALLEST = 0.005; // mm
+const VIEWER = new Vector3(0, 0, 1e6); // the slice is the same from everywhere
+
+/** The displacement of the tissue by the needle: on the needle's track, by the undeformed depth, and its width. mm. */
 export interface Dents {
-  /** Along the picture, out of it and into the depth, mm: three numbers for each row of the picture. */
-  readonly rows: Float32Array;
-  /** Width of the dent, mm. */
-  readonly width: number;
-  /** Place of the tip and direction of the needle: along, out, deep. */
-  readonly tip: readonly [number, number, number];
-  readonly axis: readonly [number, number, number];
-  /** The largest displacement, mm. */
+  readonly step: number;
+  /** Where the track is along the cut, and how far the tissue there is moved along the cut and down. */
+  readonly track: Float32Array;
+  readonly along: Float32Array;
+  readonly down: Float32Array;
+  /** Half the width of the dent. */
+  readonly reach: number;
+  /** The largest displacement. */
   readonly most: number;
+  /** The plane that contains the needle, and the place along `towards` of the needle and of a vessel. */
+  readonly cut: Cut;
+  readonly needle: number;
 }
 
-/** A place in front of or behind a membrane with its displacement. */
-interface Knot {
-  /** Depth of the displaced place, mm. */
-  depth: number;
-  readonly shift: Vector3;
-}
+/** Computes the dents with the field that bends the 3-D view's tissue. */
+export class Denter {
+  private readonly cut = new Cut();
+  private readonly field: Field;
+  private readonly track: Float32Array;
+  private readonly along: Float32Array;
+  private readonly down: Float32Array;
 
-const SMALLEST = 0.01;
-
-/** Membranes as the dents need them, mm. */
-export interface Dented {
-  readonly front: number;
-  readonly thickness: number;
-  readonly normal: Vector3;
-}
-
-/**
- * The dents of a moment. Each membrane that holds the needle is displaced by the way from its proxy to the tip,
- * K06 (21); between membranes the displacement changes evenly, and ahead of the last one it decays.
- */
-export function dentsOf(
-  moment: Moment,
-  membranes: readonly Dented[],
-  plane: SlicePlane,
-  diameter: number,
-  rowCount: number,
-  rowHeight: number,
-): Dents {
-  const width = 1.6 * diameter + 0.8;
-  const knots = knotsOf(moment, membranes, plane.inward, width);
-  const from = moment.tip.clone().sub(plane.origin);
-  const split = (v: Vector3): [number, number, number] => [
-    v.dot(plane.along), v.dot(plane.out), v.dot(plane.inward),
-  ]; // biome-ignore format: one line
-  const rows = new Float32Array(3 * rowCount);
-  const shift = new Vector3();
-  for (let row = 0; row < rowCount && knots.length > 0; row++) {
-    displacementAt(knots, (row + 0.5) * rowHeight, width, shift);
-    rows.set(split(shift), 3 * row);
+  /** depth: of the picture; diameter: of the needle, mm. */
+  constructor(skin: SkinFrame, tissue: Tissue, depth: number, diameter: number) {
+    this.cut.build(skin.origin, skin.inward);
+    this.field = new Field(tissue.parallel, diameter);
+    const count = Math.ceil(depth / STEP) + 1;
+    this.track = new Float32Array(count);
+    this.along = new Float32Array(count);
+    this.down = new Float32Array(count);
   }
-  const most = Math.max(0, ...knots.map((knot) => knot.shift.length()));
-  return { rows, width, tip: split(from), axis: split(moment.axis), most };
+
+  at(moment: Moment): Dents {
+    const { cut, field, track, along, down } = this;
+    cut.place(moment.tip, moment.axis, VIEWER, 1e6);
+    field.set(cut.spot(moment.tip), gripsOf(moment, cut), moment.axis.dot(cut.down));
+    const spot = { track: 0, u: 0, down: 0 };
+    let most = 0;
+    for (let i = 0; i < track.length; i++) {
+      field.at(i * STEP, spot);
+      track[i] = spot.track;
+      along[i] = spot.u;
+      down[i] = spot.down;
+      most = Math.max(most, Math.hypot(spot.u, spot.down));
+    }
+    if (most < SMALLEST) most = 0;
+    const needle = moment.tip.clone().sub(cut.origin).dot(cut.towards);
+    return { step: STEP, track, along, down, reach: field.reach, most, cut, needle };
+  }
 }
 
-export function knotsOf(moment: Moment, membranes: readonly Dented[], inward: Vector3, width: number): Knot[] {
-  const knots: Knot[] = [];
-  membranes.forEach(({ front, thickness, normal }, i) => {
-    const state = moment.membranes[i];
-    if (!state || state.phase === OUTSIDE || state.phase === BARRED || state.direction.lengthSq() < 0.5) return;
-    const lead = moment.tip.clone().sub(state.proxy);
-    if (lead.length() < SMALLEST) lead.set(0, 0, 0);
-    const path = thickness / Math.max(0.1, state.direction.dot(normal));
-    // The far face gives way before the tip reaches it.
-    const part = state.depth > path ? 1 : Math.exp((state.depth - path) / width);
-    const far = lead.clone().multiplyScalar(part);
-    knots.push({ depth: front + lead.dot(inward), shift: lead });
-    knots.push({ depth: front + thickness + far.dot(inward), shift: far });
-  });
-  return knots.sort((a, b) => a.depth - b.depth);
-}
-
-/** The displacement at a depth, mm, at the needle. */
-export function displacementAt(knots: readonly Knot[], depth: number, width: number, shift: Vector3): Vector3 {
-  const next = knots.findIndex((knot) => knot.depth > depth);
-  const last = knots.at(-1);
-  if (!last) return shift.set(0, 0, 0);
-  if (next === 0) return shift.copy(knots[0]!.shift);
-  if (next < 0) return shift.copy(last.shift).multiplyScalar(Math.exp((last.depth - depth) / width));
-  const [above, below] = [knots[next - 1]!, knots[next]!];
-  const part = (depth - above.depth) / Math.max(1e-6, below.depth - above.depth);
-  return shift.lerpVectors(above.shift, below.shift, part);
+/** Where a place on the needle's track is displaced to, by its undeformed depth, mm. */
+export function displaced(depth: number, { down, step }: Dents): number {
+  const i = Math.max(0, Math.min(down.length - 1, Math.round(depth / step)));
+  return depth + down[i]!;
 }

@@ -1,7 +1,7 @@
 import { MM, type Moment } from "../scene/moment.ts";
 import { type ProbePlace, planeOf, type SkinFrame } from "../scene/probe.ts";
 import type { SceneView } from "../wire/messages.ts";
-import { type Dented, type Dents, dentsOf } from "./dents.ts";
+import { Denter, type Dents } from "./dents.ts";
 import { pictureDepth, type Tissue, tissueOf } from "./layers.ts";
 import { drawNeedle } from "./needle_echo.ts";
 import { type NeedleSpan, needleSpan } from "./needle_span.ts";
@@ -15,7 +15,6 @@ export interface Shown {
   readonly span: NeedleSpan | null;
   readonly dents: Dents;
   readonly tissue: Tissue;
-  readonly rowHeight: number;
   readonly frame: Frame;
 }
 
@@ -23,7 +22,7 @@ export interface Shown {
 export class Drawing {
   readonly tissue: Tissue;
   readonly depth: number;
-  private readonly membranes: readonly Dented[];
+  private readonly denter: Denter;
   private readonly small = document.createElement("canvas");
   private image: ImageData | null = null;
   private shadow = new Float32Array(0);
@@ -34,9 +33,7 @@ export class Drawing {
   ) {
     this.tissue = tissueOf(scene, skin);
     this.depth = pictureDepth(this.tissue);
-    // In front of the vein and in the bed of it, the walls that the needle meets are those of the model.
-    const all = tissueOf({ ...scene, lumen: [] }, skin).layers;
-    this.membranes = all.map(({ from, thickness, normal }) => ({ front: -from, thickness, normal }));
+    this.denter = new Denter(skin, this.tissue, this.depth, scene.diameter * MM);
   }
 
   /** width, height: CSS pixels; pixels: of the tissue's raster. */
@@ -55,8 +52,7 @@ export class Drawing {
     const plane = planeOf(this.skin, place);
     const diameter = this.scene.diameter * MM;
     const span = needleSpan(plane, moment.tip, moment.axis, SHAFT_MM, diameter / 2);
-    const rowHeight = raster.depth / raster.rows;
-    const dents = dentsOf(moment, this.membranes, plane, diameter, raster.rows, rowHeight);
+    const dents = this.denter.at(moment);
     const image = this.sized(raster.columns, raster.rows);
     shadowOf(span, diameter / 2, raster, this.shadow);
     const grey = new Uint32Array(image.data.buffer);
@@ -78,7 +74,7 @@ export class Drawing {
       draw.restore();
     }
     ruler(draw, frame, width);
-    return { span, dents, tissue: this.tissue, rowHeight, frame };
+    return { span, dents, tissue: this.tissue, frame };
   }
 
   private sized(columns: number, rows: number): ImageData {

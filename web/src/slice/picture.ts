@@ -35,70 +35,74 @@ export function paintTissue(
   const { columns, rows, width, depth } = raster;
   const grains = speckle();
   const from = plane.origin.clone().sub(skin.origin);
-  const [p0, q0] = [from.dot(skin.right), from.dot(skin.front)];
-  const [pAlong, qAlong] = [plane.along.dot(skin.right), plane.along.dot(skin.front)];
-  const [pOut, qOut] = [plane.out.dot(skin.right), plane.out.dot(skin.front)];
-  const layers = tissue.layers.map(({ texture, normal, from: start, thickness }) => ({
-    texture, thickness, start: start + normal.dot(from),
-    along: normal.dot(plane.along), out: normal.dot(plane.out), deep: normal.dot(plane.inward),
+  const start = { p: from.dot(skin.right), q: from.dot(skin.front) };
+  const perAlong = { p: plane.along.dot(skin.right), q: plane.along.dot(skin.front) };
+  const { cut, track, along, down, step, needle } = dents;
+  // From the skin's directions to those of the cut, which contains the needle.
+  const [uOfP, uOfQ] = [cut.along.dot(skin.right), cut.along.dot(skin.front)];
+  const [wOfP, wOfQ] = [cut.towards.dot(skin.right), cut.towards.dot(skin.front)];
+  const layers = tissue.layers.map(({ fill, normal, from: at, thickness }) => ({
+    texture: TEXTURES[fill], thickness, at,
+    right: normal.dot(skin.right), front: normal.dot(skin.front), deep: normal.dot(skin.inward),
   })); // biome-ignore format: short
-  const { vein } = tissue;
-  const [tipAlong, tipOut, tipDeep] = dents.tip;
-  const [axisAlong, axisOut, axisDeep] = dents.axis;
+  const { vessel } = tissue;
+  const [beside, below] = [TEXTURES[tissue.beside], TEXTURES[tissue.below]];
+  const wall = TEXTURES[vessel?.wallFill ?? "plain"];
   const dented = dents.most > 0;
-  const sharp = 1 / dents.width ** 2;
+  const sharp = 1 / dents.reach ** 2;
+  const last = down.length - 1;
   const stepAcross = width / columns;
   const stepDown = depth / rows;
   const blurred = Math.max(FACE_MM, 0.7 * stepDown);
   for (let row = 0; row < rows; row++) {
     const d0 = (row + 0.5) * stepDown;
     const fade = (FADE * d0) / depth - (d0 < 0.5 ? 60 * (1 - 2 * d0) : 0);
-    const shiftAlong = dents.rows[3 * row]!;
-    const shiftOut = dents.rows[3 * row + 1]!;
-    const shiftDeep = dents.rows[3 * row + 2]!;
-    const moved = dented && Math.abs(shiftAlong) + Math.abs(shiftOut) + Math.abs(shiftDeep) > 0.005;
     for (let column = 0; column < columns; column++) {
-      const a0 = (column + 0.5) * stepAcross - width / 2;
-      let a = a0;
-      let e = 0;
+      const a = (column + 0.5) * stepAcross - width / 2;
+      let p = start.p + a * perAlong.p;
+      let q = start.q + a * perAlong.q;
       let d = d0;
-      if (moved) {
-        const x = a0 - tipAlong;
-        const y = -tipOut;
-        const z = d0 - tipDeep;
-        const on = x * axisAlong + y * axisOut + z * axisDeep;
-        const near = 1 + Math.max(0, x * x + y * y + z * z - on * on) * sharp;
-        const part = 1 / (near * Math.sqrt(near));
-        a -= part * shiftAlong;
-        e -= part * shiftOut;
-        d -= part * shiftDeep;
+      const w = p * wOfP + q * wOfQ;
+      if (dented) {
+        const u = p * uOfP + q * uOfQ;
+        const aside = (w - needle) ** 2;
+        // The undeformed depth is found in three steps: each takes the displacement at the last depth found.
+        let i = 0;
+        let part = 0;
+        for (let turn = 0; turn < 3; turn++) {
+          i = Math.min(last, Math.max(0, Math.round(d / step)));
+          const near = 1 + ((u - track[i]! - along[i]!) ** 2 + aside) * sharp;
+          part = 1 / (near * Math.sqrt(near));
+          d = d0 - part * down[i]!;
+        }
+        p -= part * along[i]! * uOfP;
+        q -= part * along[i]! * uOfQ;
       }
-      const p = p0 + a * pAlong + e * pOut;
-      const q = q0 + a * qAlong + e * qOut;
-      let texture: Texture = d > tissue.deep ? tissue.behind : tissue.between;
+      let texture: Texture = d > tissue.deep ? below : beside;
       let edge = 0;
       for (let i = 0; i < layers.length; i++) {
         const layer = layers[i]!;
-        const s = layer.start + a * layer.along + e * layer.out + d * layer.deep;
+        const s = layer.at + p * layer.right + q * layer.front + d * layer.deep;
         if (s >= 0 && s <= layer.thickness) texture = layer.texture;
         const face = Math.min(Math.abs(s), Math.abs(s - layer.thickness));
         if (face < blurred) edge = Math.max(edge, FACE * (1 - face / blurred) * Math.abs(layer.deep));
       }
-      if (vein) {
-        const below = d - vein.depth;
-        const away = Math.sqrt(q * q + below * below) - vein.radius;
+      if (vessel) {
+        const under = d - vessel.depth;
+        const across = w - cut.w;
+        const away = Math.sqrt(across * across + under * under) - vessel.radius;
         if (away < 0) {
           texture = TEXTURES.blood;
           edge = 0;
-        } else if (away < Math.max(vein.wall, blurred)) texture = TEXTURES.wall;
-        else if (below > 0 && Math.abs(q) < vein.radius) edge = ENHANCED;
+        } else if (away < Math.max(vessel.wall, blurred)) texture = wall;
+        else if (under > 0 && Math.abs(across) < vessel.radius) edge += ENHANCED;
       }
       // Two parts of the block at different scales, so that its period does not show.
-      const u = p * ACROSS_PER_MM;
-      const v = q * ACROSS_PER_MM;
-      const w = d * DEEP_PER_MM;
+      const x = p * ACROSS_PER_MM;
+      const y = q * ACROSS_PER_MM;
+      const z = d * DEEP_PER_MM;
       const grain =
-        0.65 * grains[voxel(u, v, w)]! + 0.35 * grains[voxel(0.62 * u + 19, 0.62 * v + 7, 0.71 * w + 40)]! - 128;
+        0.65 * grains[voxel(x, y, z)]! + 0.35 * grains[voxel(0.62 * x + 19, 0.62 * y + 7, 0.71 * z + 40)]! - 128;
       let grey = texture.level + texture.grain * grain + edge - fade;
       if (texture.line > 0) {
         const phase = d * texture.perMm + texture.wave * Math.sin(0.55 * p + 0.21 * q) + 0.4 * Math.sin(0.37 * q);

@@ -77,7 +77,7 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
     }
     if (shown && now - saidAt > WORDS_MS) {
       saidAt = now;
-      const said = pictureWords(shown.span, shown.tissue, shown.dents, shown.rowHeight);
+      const said = pictureWords(shown.span, shown.tissue, shown.dents);
       if (words.textContent !== said) words.textContent = said;
     }
   });

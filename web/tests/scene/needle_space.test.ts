@@ -2,6 +2,7 @@ import { Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { BARRED, Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import { Level } from "../../src/scene/needle_level.ts";
+import { needleLook } from "../../src/scene/needle_look.ts";
 import { atTip } from "../../src/scene/needle_space.ts";
 import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
 
@@ -47,7 +48,10 @@ it("the opening is free by the share of the tip that is past the membrane", () =
 });
 
 it("a space has the content that the scene's file gives it", () => {
-  const given = { ...scene, lumen: [], tables: { membrane: [{}, { behind: "epidural space" }, {}] } };
+  const membranes = scene.membranes.map((m, i) => (i === 1 ? { ...m, behind: "epidural space" as const } : m));
+  const given = { ...scene, membranes };
+  expect(needleLook(given)).toBe("tuohy");
+  expect(needleLook(scene)).toBe("hypodermic");
   expect(atTip(moment([SLIDING_IN, 9], [SLIDING_IN, 2], [OUTSIDE, 0]), given, scene.laws).content).toBe(
     "epidural space",
   );

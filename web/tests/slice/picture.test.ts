@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import { expect, it } from "vitest";
 import { Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import { planeOf, skinFrame } from "../../src/scene/probe.ts";
-import { type Dents, dentsOf } from "../../src/slice/dents.ts";
+import { Denter, type Dents } from "../../src/slice/dents.ts";
 import { tissueOf } from "../../src/slice/layers.ts";
 import { paintTissue, type Raster, shadowOf } from "../../src/slice/picture.ts";
 import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
@@ -12,6 +12,7 @@ const skin = skinFrame(scene);
 const tissue = tissueOf(scene, skin);
 const raster: Raster = { columns: 120, rows: 150, width: 12, depth: 15 };
 const step = raster.depth / raster.rows;
+const denter = new Denter(skin, tissue, raster.depth, 0.8);
 const open = new Float32Array(raster.columns).fill(Number.POSITIVE_INFINITY);
 
 function outside(): Moment {
@@ -25,7 +26,7 @@ function outside(): Moment {
 
 function painted(place = { x: 0, z: 0, turn: 0 }, change = (dents: Dents): Dents => dents, shadow = open): Uint32Array {
   const plane = planeOf(skin, place);
-  const dents = change(dentsOf(outside(), [], plane, 0.8, raster.rows, step));
+  const dents = change(denter.at(outside()));
   const out = new Uint32Array(raster.columns * raster.rows);
   paintTissue(out, raster, plane, skin, tissue, dents, shadow);
   return out;
@@ -44,14 +45,14 @@ const mean = (picture: Uint32Array, from: number, to: number, depth: number): nu
 
 it("blood is black and its walls are bright", () => {
   const picture = painted({ x: 0, z: 0, turn: Math.PI / 2 }); // across the vein
-  const { depth, radius } = tissue.vein!;
+  const { depth, radius } = tissue.vessel!;
   expect(mean(picture, -0.8, 0.8, depth)).toBeLessThan(40);
   expect(grey(picture, 0, depth - radius - 0.15)).toBeGreaterThan(90);
   expect(mean(picture, 3, 5, depth)).toBeGreaterThan(40); // beside the vein is tissue
 });
 
 it("a slice beside the vein does not show it", () => {
-  const { depth } = tissue.vein!;
+  const { depth } = tissue.vessel!;
   expect(mean(painted({ x: 0, z: 0, turn: 0 }), -3, 3, depth)).toBeLessThan(40);
   expect(mean(painted({ x: 0, z: 4, turn: 0 }), -3, 3, depth)).toBeGreaterThan(40);
 });
@@ -72,8 +73,7 @@ it("a moved probe shows the same tissue at another place", () => {
 it("the speckle moves with the displaced tissue", () => {
   const half = (dents: Dents): Dents => {
     // Everything 0.5 mm deeper: a very wide dent.
-    const rows = new Float32Array(3 * raster.rows).map((_, i) => (i % 3 === 2 ? 0.5 : 0));
-    return { ...dents, rows, most: 0.5, width: 1e6 };
+    return { ...dents, down: dents.down.map(() => 0.5), most: 0.5, reach: 1e6 };
   };
   const pressed = painted(undefined, half);
   const before = painted();

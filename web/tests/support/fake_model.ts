@@ -90,13 +90,13 @@ export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {
     direction: "stylus",
     solver: "exact",
     rate: 1600,
-    membranes: membranes.map((m) => ({
+    membranes: membranes.map((m, i) => ({
       name: m.name,
       point: [0, -m.place, 0],
       inward_normal: [0, -1, 0],
       thickness: m.thickness,
       look: "plain",
-      behind: "tissue",
+      behind: i === 1 ? "blood" : "tissue",
     })),
     laws: membranes.map((m) => m.law()),
     tables: {},
