@@ -2,12 +2,12 @@ import type { SkinFrame, SlicePlane } from "../scene/probe.ts";
 import type { Dents } from "./dents.ts";
 import type { Tissue } from "./layers.ts";
 import type { NeedleSpan } from "./needle_span.ts";
-import { ACROSS_PER_MM, DEEP_PER_MM, speckle, voxel } from "./speckle.ts";
-import { TEXTURES, type Texture } from "./textures.ts";
+import { ACROSS, ACROSS_PER_MM, DEEP, DEEP_PER_MM, speckle } from "./speckle.ts";
+import { directed, strataOf } from "./strata.ts";
+import { TEXTURES } from "./textures.ts";
 
-const FACE_MM = 0.16; // thickness of the bright echo at a layer's face
-const FACE = 70;
 const FADE = 46; // loss of brightness from the skin to the bottom
+const FAR = 30; // square of a distance, in widths of the dent, at which nothing is displaced
 const SHADOW = 0.58; // brightness behind the needle
 const ENHANCED = 24; // brightness behind a vein: blood takes little of the sound
 
@@ -41,19 +41,25 @@ export function paintTissue(
   // From the skin's directions to those of the cut, which contains the needle.
   const [uOfP, uOfQ] = [cut.along.dot(skin.right), cut.along.dot(skin.front)];
   const [wOfP, wOfQ] = [cut.towards.dot(skin.right), cut.towards.dot(skin.front)];
-  const layers = tissue.layers.map(({ fill, normal, from: at, thickness }) => ({
-    texture: TEXTURES[fill], thickness, at,
-    right: normal.dot(skin.right), front: normal.dot(skin.front), deep: normal.dot(skin.inward),
-  })); // biome-ignore format: short
   const { vessel } = tissue;
   const [beside, below] = [TEXTURES[tissue.beside], TEXTURES[tissue.below]];
   const wall = TEXTURES[vessel?.wallFill ?? "plain"];
   const dented = dents.most > 0;
   const sharp = 1 / dents.reach ** 2;
   const last = down.length - 1;
+  const [wide, tall] = [ACROSS - 1, DEEP - 1];
   const stepAcross = width / columns;
   const stepDown = depth / rows;
-  const blurred = Math.max(FACE_MM, 0.7 * stepDown);
+  const strata = strataOf(directed(tissue.layers, skin), depth, 0.7 * stepDown);
+  const thinnest = Math.max(vessel?.wall ?? 0, stepDown);
+  // The waves of the fibres change little from place to place: one value a column.
+  const waves = new Float32Array(2 * columns);
+  for (let column = 0; column < columns; column++) {
+    const a = (column + 0.5) * stepAcross - width / 2;
+    const q = start.q + a * perAlong.q;
+    waves[2 * column] = Math.sin(0.55 * (start.p + a * perAlong.p) + 0.21 * q);
+    waves[2 * column + 1] = 0.4 * Math.sin(0.37 * q);
+  }
   for (let row = 0; row < rows; row++) {
     const d0 = (row + 0.5) * stepDown;
     const fade = (FADE * d0) / depth - (d0 < 0.5 ? 60 * (1 - 2 * d0) : 0);
@@ -65,28 +71,23 @@ export function paintTissue(
       const w = p * wOfP + q * wOfQ;
       if (dented) {
         const u = p * uOfP + q * uOfQ;
-        const aside = (w - needle) ** 2;
-        // The undeformed depth is found in three steps: each takes the displacement at the last depth found.
-        let i = 0;
-        let part = 0;
-        for (let turn = 0; turn < 3; turn++) {
-          i = Math.min(last, Math.max(0, Math.round(d / step)));
-          const near = 1 + ((u - track[i]! - along[i]!) ** 2 + aside) * sharp;
-          part = 1 / (near * Math.sqrt(near));
-          d = d0 - part * down[i]!;
+        const aside = (w - needle) ** 2 * sharp;
+        let i = Math.min(last, Math.round(d / step));
+        if (aside + (u - track[i]!) ** 2 * sharp < FAR) {
+          // The undeformed depth is found in steps: each takes the displacement at the last depth found.
+          let part = 0;
+          for (let turn = 0; turn < 3; turn++) {
+            const near = 1 + aside + (u - track[i]! - along[i]!) ** 2 * sharp;
+            part = 1 / (near * Math.sqrt(near));
+            d = d0 - part * down[i]!;
+            i = d <= 0 ? 0 : Math.min(last, Math.round(d / step));
+          }
+          p -= part * along[i]! * uOfP;
+          q -= part * along[i]! * uOfQ;
         }
-        p -= part * along[i]! * uOfP;
-        q -= part * along[i]! * uOfQ;
       }
-      let texture: Texture = d > tissue.deep ? below : beside;
-      let edge = 0;
-      for (let i = 0; i < layers.length; i++) {
-        const layer = layers[i]!;
-        const s = layer.at + p * layer.right + q * layer.front + d * layer.deep;
-        if (s >= 0 && s <= layer.thickness) texture = layer.texture;
-        const face = Math.min(Math.abs(s), Math.abs(s - layer.thickness));
-        if (face < blurred) edge = Math.max(edge, FACE * (1 - face / blurred) * Math.abs(layer.deep));
-      }
+      let texture = strata.find(p, q, d) ?? (d > tissue.deep ? below : beside);
+      let edge = strata.edge;
       if (vessel) {
         const under = d - vessel.depth;
         const across = w - cut.w;
@@ -94,18 +95,20 @@ export function paintTissue(
         if (away < 0) {
           texture = TEXTURES.blood;
           edge = 0;
-        } else if (away < Math.max(vessel.wall, blurred)) texture = wall;
+        } else if (away < thinnest) texture = wall;
         else if (under > 0 && Math.abs(across) < vessel.radius) edge += ENHANCED;
       }
       // Two parts of the block at different scales, so that its period does not show.
       const x = p * ACROSS_PER_MM;
       const y = q * ACROSS_PER_MM;
       const z = d * DEEP_PER_MM;
-      const grain =
-        0.65 * grains[voxel(x, y, z)]! + 0.35 * grains[voxel(0.62 * x + 19, 0.62 * y + 7, 0.71 * z + 40)]! - 128;
+      const near = (((x & wide) * ACROSS + (y & wide)) * DEEP + (z & tall)) | 0;
+      const other =
+        ((((0.62 * x + 19) & wide) * ACROSS + ((0.62 * y + 7) & wide)) * DEEP + ((0.71 * z + 40) & tall)) | 0;
+      const grain = 0.65 * grains[near]! + 0.35 * grains[other]! - 128;
       let grey = texture.level + texture.grain * grain + edge - fade;
       if (texture.line > 0) {
-        const phase = d * texture.perMm + texture.wave * Math.sin(0.55 * p + 0.21 * q) + 0.4 * Math.sin(0.37 * q);
+        const phase = d * texture.perMm + texture.wave * waves[2 * column]! + waves[2 * column + 1]!;
         const line = 1 - Math.abs(phase - Math.floor(phase) - 0.5) * 2 * texture.thin;
         if (line > 0) grey += texture.line * line * (0.6 + grain / 128);
       }

@@ -1,7 +1,8 @@
 // A block of speckle that repeats in all directions: bytes on a logarithmic scale, with a mean near 128. It is fixed in
 // the tissue, so it moves with the tissue.
-const ACROSS = 64;
-const DEEP = 128;
+/** Voxels of the block, powers of two. The last direction is the depth. */
+export const ACROSS = 64;
+export const DEEP = 128;
 /** Voxels per mm. */
 export const ACROSS_PER_MM = 7;
 export const DEEP_PER_MM = 11;
@@ -64,7 +65,3 @@ export function speckle(): Uint8Array {
   }
   return known;
 }
-
-/** Index of the voxel at p, q (across) and s (deep), in voxels. */
-export const voxel = (p: number, q: number, s: number): number =>
-  (((p & (ACROSS - 1)) * ACROSS + (q & (ACROSS - 1))) * DEEP + (s & (DEEP - 1))) | 0;
