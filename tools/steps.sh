@@ -153,7 +153,7 @@ step_python() {
     local file=tests/python/proxy/test_relay_siconos.py
     but=(--deselect "$file"::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
-  python -m pytest -n 3 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
+  python -m pytest -n 4 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
 }
 
 # The studio's page: types, lint, tests, message types in agreement with the server, and size.
@@ -178,7 +178,7 @@ step_web() {
 }
 
 # The studio in a real browser, used like by a person.
-step_page() { python -m pytest -n 2 --durations=8 tests/page; }
+step_page() { python -m pytest -n 3 --durations=8 tests/page; }
 
 # The documentation: every code block runs, and the site builds without a warning.
 step_docs() { side_by_side docs_snippets docs_site; }

@@ -1,6 +1,9 @@
-"""Makes `from oracles import ...` work in every test, and makes hypothesis draw the same cases every time."""
+"""Makes `from oracles import ...` work in every test, makes hypothesis draw the same cases every time, and keeps the
+tests of an xdist_group in one worker."""
 
+import re
 import sys
+from functools import cache
 from pathlib import Path
 
 from hypothesis import settings
@@ -12,3 +15,25 @@ from oracles import cases
 
 settings.register_profile("punctura", deadline=None, derandomize=True, database=None, max_examples=cases.count(200))
 settings.load_profile("punctura")
+
+_ROOT = Path(__file__).parents[2]
+
+
+@cache
+def _group_of(file):
+    """The xdist_group of a whole test file; empty if it has none."""
+    found = re.search(
+        r'^pytestmark = pytest.mark.xdist_group\("(\w+)"\)', (_ROOT / file).read_text("utf-8"), re.MULTILINE
+    )
+    return found[1] if found else ""
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """With pytest 9.2, the option --dist loadgroup of xdist 3.8 ignores the groups."""
+    from xdist.scheduler import LoadGroupScheduling
+
+    class ByFile(LoadGroupScheduling):
+        def _split_scope(self, nodeid):
+            return _group_of(nodeid.split("::")[0]) or nodeid
+
+    return ByFile(config, log)
