@@ -153,6 +153,7 @@ def messages() -> dict[str, Any]:
         {"id": 7, "do": "compare", "on": True},
         {"id": 8, "do": "start_recording", "name": None},
         {"id": 9, "do": "start_exercise", "exercise": "venipuncture", "person": "Ada", "group": "9b"},
+        {"id": 12, "do": "set_expert", "exercise": "venipuncture", "recording": "r"},
     ]  # fmt: skip
     refused = [
         {"id": 1}, {"do": "arm"}, {"id": 1, "do": "fly"}, {"id": "1", "do": "arm"}, {"id": 1.5, "do": "arm"},

@@ -131,7 +131,13 @@ class Api:
         return Response(data, media_type=FORMATS["csv"], headers={"content-disposition": disposition(name)})
 
     def exercises(self, request: Request) -> Response:
-        return JSONResponse([entry.model_dump(mode="json") for entry in self._session.exercises.overviews()])
+        experts = {name: run for name, run in self._session.experts.all().items() if self._shelf.has(run)}
+        return JSONResponse(
+            [
+                entry.model_dump(mode="json") | {"expert": experts.get(entry.name, "")}
+                for entry in self._session.exercises.overviews()
+            ]
+        )
 
     def results(self, request: Request) -> Response:
         return JSONResponse([result.model_dump(mode="json") for result in self._results.all(*_of_whom(request))])

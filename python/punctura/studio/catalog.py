@@ -51,6 +51,7 @@ class ExerciseOverview(Part):
     space_to: float | None = None  # where it ends, if at a depth, m
     goal_from: float = 0.0  # how deep the needle must come, m
     line: Line | None = None  # that the point must meet
+    expert: str = ""  # name of the recording that is the expert's run
     blind: bool = False  # no needle and no depth are shown while it runs
     start_position: Vector = Field(default=[0.0, 0.0, 0.0])  # m
     start_axis: Vector = Field(default=[0.0, -1.0, 0.0])

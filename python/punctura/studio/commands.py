@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from punctura.errors import ConfigurationError
 from punctura.exercise import Exercise
+from punctura.exercise.space import need_membranes
 from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
@@ -48,6 +49,8 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return _prepare_scene(request)
         case ask.StartRecording() | ask.StopRecording() | ask.StartExercise() | ask.EndExercise():
             return _prepare_take(request, session)
+        case ask.SetExpert():
+            return _prepare_expert(request, session)
     raise NotNow("this studio cannot do that")
 
 
@@ -124,6 +127,16 @@ def _prepare_take(
             return lambda session: _start_exercise(session, exercise, loaded, activity, name)
         case _:
             return _end_exercise
+
+
+def _prepare_expert(request: ask.SetExpert, session: Session) -> Job:
+    if request.exercise not in session.exercises.names():
+        raise NotNow(f"there is no exercise {request.exercise!r}")
+    if request.recording:
+        exercise = session.exercises.load(request.exercise)
+        need_membranes(exercise.file, session.shelf.open(request.recording).info.scene)
+    session.experts.set(request.exercise, request.recording)
+    return lambda session: None
 
 
 def _refuse_second(session: Session) -> None:

@@ -14,6 +14,7 @@ from typing import TypeVar
 from punctura._core import DeviceError, ServoLoop
 from punctura.exercise import ResultStore
 from punctura.studio.catalog import Exercises
+from punctura.studio.experts import Experts
 from punctura.studio.health import no_ticks, recording_status, status_of
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Publisher
@@ -47,6 +48,7 @@ class Session(Runs):
         super().__init__(loaded, settings, out, shelf)
         self.results = results
         self.exercises = exercises or Exercises()
+        self.experts = Experts(results.folder)
         self.failure: BaseException | None = None
         self._rounds = Rounds()
         self._target: Target | None = None

@@ -101,6 +101,13 @@ class Shelf:
                 return candidate
         raise Missing(f"there is no recording {name}")
 
+    def has(self, name: str) -> bool:
+        """Whether there is such a recording."""
+        try:
+            return bool(self.find(name))
+        except (BadName, Missing):
+            return False
+
     def open(self, name: str) -> Recording:
         """Raises BadName, Missing, RecordingError."""
         return open_recording(self.find(name))

@@ -1,8 +1,10 @@
 import { element, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
 import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
 import type { ProblemPart } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
+import { expertChoice } from "./exercises/expert.ts";
 import { goalList } from "./exercises/goals.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personFields } from "./exercises/person.ts";
@@ -31,7 +33,7 @@ export const exercisesPanel: Panel = (host, app) => {
   };
   const open = (result: ExerciseResult): void => {
     const again = app.control.value.you && of(result.exercise) ? () => void start(result.exercise) : null;
-    openResult(app, result, titleOf(result.exercise, result.title), of(result.exercise), again);
+    openResult(app, result, titleOf(result.exercise, result.title), of(result.exercise), again, () => void readList());
   };
   const past = pastResults(app, open, (result) => titleOf(result.exercise, result.title));
   const task = element("div", { class: "task" });
@@ -51,7 +53,9 @@ export const exercisesPanel: Panel = (host, app) => {
 
   const showList = (): void => {
     list.replaceChildren(
-      ...known.map((exercise) => card(exercise, titleOf(exercise.name), () => void start(exercise.name))),
+      ...known.map((exercise) =>
+        card(app, exercise, titleOf(exercise.name), () => void start(exercise.name), readList),
+      ),
     );
   };
   const readList = async (): Promise<void> => {
@@ -102,7 +106,13 @@ export const exercisesPanel: Panel = (host, app) => {
   });
 };
 
-function card(exercise: ExerciseOverview, title: string, start: () => void): HTMLElement {
+function card(
+  app: App,
+  exercise: ExerciseOverview,
+  title: string,
+  start: () => void,
+  changed: () => Promise<void>,
+): HTMLElement {
   const wrong = exercise.problems.length > 0;
   return element(
     "article",
@@ -118,6 +128,7 @@ function card(exercise: ExerciseOverview, title: string, start: () => void): HTM
     ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
+    ...(wrong ? [] : [expertChoice(app, exercise, () => void changed())]),
   );
 }
 

@@ -3,6 +3,7 @@ import { element, everyFrame, type Panel } from "../panel.ts";
 import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
+import { poseBeside } from "./expert.ts";
 import { gestureWords } from "./gesture_words.ts";
 import { gestures } from "./gestures.ts";
 import { hubInset } from "./hub_inset.ts";
@@ -96,8 +97,9 @@ export const view: Panel = (host, app) => {
     if (!scene || stage.lost) return;
     if (scene !== built) build(scene);
     const turned = orbit.step(elapsed);
+    const ghost = source.live ? hand.target.value : poseBeside(source, app.overlay.value, source.shown() ?? 0);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
-    const changed = world.update(source, hand.target.value, orbit.camera, pixel);
+    const changed = world.update(source, ghost, orbit.camera, pixel);
     drawRing(source, scene, orbit.camera);
     canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);

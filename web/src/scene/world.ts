@@ -91,7 +91,10 @@ export class World {
     this.stage.stale = true;
   }
 
-  /** Updates everything to the source's shown tick. Returns whether the picture changes. pixel: its size, mm. */
+  /**
+   * Updates everything to the source's shown tick. Returns whether the picture changes. ghost: a second needle, of the
+   * hand's target or of an expert. pixel: its size, mm.
+   */
   update(source: Source, target: Pose | null, camera: Camera, pixel: number): boolean {
     const { moment, scene, extent } = this;
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
@@ -109,7 +112,7 @@ export class World {
       position: new Vector3(...target.position).multiplyScalar(MM),
       axis: new Vector3(...target.axis).normalize(),
     };
-    this.ghost.place(source.live ? to : null, moment.tip);
+    this.ghost.place(to, moment.tip);
     return true;
   }
 

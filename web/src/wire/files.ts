@@ -66,6 +66,8 @@ export interface ExerciseOverview {
   readonly goals: readonly string[];
   /** The line that the point must meet, m; null without one. */
   readonly line: GoalLine | null;
+  /** Name of the recording that is the expert's run; empty without one. */
+  readonly expert: string;
   /** The page shows no needle and no depth while it runs. */
   readonly blind: boolean;
   /** Errors in the file of a user's own exercise. */

@@ -28,6 +28,7 @@ export type Request =
   | StopRecording
   | StartExercise
   | EndExercise
+  | SetExpert
   | TripFault;
 
 export interface Wire {
@@ -407,6 +408,15 @@ export interface StartExercise {
 export interface EndExercise {
   id: number;
   do: "end_exercise";
+}
+/**
+ * Names a recording as the expert's run of an exercise; an empty name removes it.
+ */
+export interface SetExpert {
+  id: number;
+  do: "set_expert";
+  exercise: string;
+  recording?: string;
 }
 /**
  * Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only.

@@ -109,6 +109,14 @@ class StartExercise(_Request):
     group: Annotated[str, Field(max_length=80)] = ""  # the person's class
 
 
+class SetExpert(_Request):
+    """Names a recording as the expert's run of an exercise; an empty name removes it."""
+
+    do: Literal["set_expert"] = "set_expert"
+    exercise: Name
+    recording: Annotated[str, Field(max_length=80)] = ""
+
+
 class EndExercise(_Request):
     do: Literal["end_exercise"] = "end_exercise"
 
@@ -121,11 +129,11 @@ class TripFault(_Request):
 
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | TripFault
+    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert | TripFault
 )  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | TripFault,
+    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
 

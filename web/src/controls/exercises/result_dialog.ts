@@ -13,18 +13,23 @@ import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
 import { coachPart } from "./coach.ts";
+import { expertButton, expertSource, expertTrace } from "./expert.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
 import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 
-/** The dialog of a result: verdict, reasons, measures and a drawing of the attempt. `again` starts a new attempt. */
+/**
+ * The dialog of a result: verdict, reasons, measures and a drawing of the attempt. `again` starts a new attempt;
+ * `changed` is called after the expert's run was changed.
+ */
 export function openResult(
   app: App,
   result: ExerciseResult,
   title: string,
   exercise: ExerciseOverview | null,
   again: (() => void) | null,
+  changed: () => void,
 ): void {
   const stop = new AbortController();
   const place = element("div", { class: "trace-place", "aria-live": "polite" });
@@ -62,6 +67,7 @@ export function openResult(
       look,
       button("Save JSON", () => save("json")),
       button("Save CSV", () => save("csv")),
+      ...expertButton(app, result, exercise, changed),
       element("span", { class: "gap" }),
       ...(again ? [button("Try again", () => close(again))] : []),
       button("Close", () => dialog.close(), "primary"),
@@ -80,15 +86,18 @@ export function openResult(
   });
   document.body.append(dialog);
   dialog.showModal();
-  void drawTrace(app, result, exercise, place, stop.signal).then((entry) => {
+  void drawTrace(app, result, exercise, place, stop.signal).then((entries) => {
+    const entry = entries.find(({ name }) => name === result.recording);
     if (!entry) return;
     look.disabled = false;
     look.addEventListener("click", () => {
       look.disabled = true;
-      void fetchWhole(app, entry, place, stop.signal).then((source) => {
+      void fetchWhole(app, entry, place, stop.signal).then(async (source) => {
+        const expert = source && (await expertSource(app, exercise, entry.name, entries, stop.signal));
         look.disabled = false;
         if (!source) return;
         close(() => {
+          if (expert) app.overlay.value = expert;
           app.source.value = source;
         });
       });
@@ -103,17 +112,17 @@ function table(result: ExerciseResult): HTMLElement {
   return element("table", { class: "metrics" }, element("tbody", {}, ...rows));
 }
 
-/** Draws the attempt from a decimated trace. Returns its recording; null if it no longer exists. */
+/** Draws the attempt, and the expert's run, from decimated traces. Returns all recordings; none after an error. */
 async function drawTrace(
   app: App,
   result: ExerciseResult,
   exercise: ExerciseOverview | null,
   place: HTMLElement,
   signal: AbortSignal,
-): Promise<RecordingEntry | null> {
+): Promise<readonly RecordingEntry[]> {
   if (!result.recording) {
     place.append(element("p", { class: "quiet" }, "The attempt was not recorded."));
-    return null;
+    return [];
   }
   place.append(element("span", { class: "quiet" }, "Loading the attempt…"));
   try {
@@ -122,12 +131,13 @@ async function drawTrace(
     const entries = await app.api.json<RecordingEntry[]>("/api/recordings");
     const layers = layersOf(trace.membranes);
     const space = exercise && spaceOf(layers, exercise);
-    place.replaceChildren(traceDrawing(traceOf(trace), layers, space, result));
-    return entries.find(({ name }) => name === result.recording) ?? null;
+    const expert = await expertTrace(app, exercise, result.recording, signal);
+    place.replaceChildren(traceDrawing(traceOf(trace), layers, space, result, expert));
+    return entries;
   } catch (error) {
     if (!signal.aborted)
       place.replaceChildren(element("p", { class: "quiet" }, `Cannot draw the attempt: ${wordsOf(error)}`));
-    return null;
+    return [];
   }
 }
 

@@ -7,6 +7,7 @@ import type { Pen, Stroke } from "../../plots/kit/pen.ts";
 import { Polyline } from "../../plots/kit/polyline.ts";
 import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
+import { contactOf } from "./expert.ts";
 import { peakText } from "./metrics.ts";
 import { indexAt, type Layer, type Trace } from "./trace.ts";
 
@@ -24,9 +25,10 @@ export function traceDrawing(
   layers: readonly Layer[],
   space: Layer | null,
   result: ExerciseResult,
+  expert: Trace | null = null,
 ): HTMLElement {
   const figure = new Figure("trace", HEIGHT, (pen, width, height, theme) => {
-    drawTrace(pen, width, height, theme, trace, layers, space, result);
+    drawTrace(pen, width, height, theme, trace, layers, space, result, expert);
     return wordsOf(result);
   });
   return element(
@@ -36,6 +38,7 @@ export function traceDrawing(
     element(
       "figcaption",
       { class: "quiet" },
+      ...(expert ? ["Dashed: the expert’s run, from its first contact on. "] : []),
       "This is the tip’s depth. Goals use the model’s depth: the tip pushes a wall ahead before it pierces it.",
     ),
   );
@@ -50,6 +53,7 @@ export function drawTrace(
   layers: readonly Layer[],
   space: Layer | null,
   result: ExerciseResult,
+  expert: Trace | null = null,
 ): void {
   const touch = result.events.find(({ what }) => what === "touch")?.time ?? trace.time[0] ?? 0;
   const from = indexAt(trace.time, touch - BEFORE);
@@ -85,6 +89,7 @@ export function drawTrace(
     decimate(xs, ys, 0, to - from, path);
     pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.line(path, stroke));
   };
+  if (expert) drawExpert(pen, depth, force, expert, theme);
   line(depth, trace.depth, MM, { colour: theme.text, width: 1.6 });
   line(force, trace.force, 1, { colour: colourOf(theme, 0), width: 1.6 });
   const peak = indexOfMost(trace.force, from, indexAt(trace.time, touch + result.metrics.total_time));
@@ -94,6 +99,22 @@ export function drawTrace(
   const text = peakText(result);
   const left = Math.min(px + 7, width - textWidth(text));
   pen.text(left, py, text, { colour: colourOf(theme, 0), bold: true, halo: theme.panel });
+}
+
+/** The expert's curves, dashed, as far as the attempt lasts. */
+function drawExpert(pen: Pen, depth: Pane, force: Pane, expert: Trace, theme: Theme): void {
+  const contact = contactOf(expert);
+  for (const [pane, values, gain, colour] of [
+    [depth, expert.depth, MM, theme.quiet],
+    [force, expert.force, 1, colourOf(theme, 3)],
+  ] as const) {
+    const xs = Float32Array.from(expert.time, (time) => pane.x.px(time - contact));
+    const ys = Float32Array.from(values, (value) => pane.y.px(gain * value));
+    const path = new Polyline();
+    decimate(xs, ys, 0, xs.length, path);
+    const stroke = { colour, width: 1.4, dash: [5, 4] };
+    pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.line(path, stroke));
+  }
 }
 
 function drawLayers(pen: Pen, pane: Pane, layers: readonly Layer[], space: Layer | null, theme: Theme): void {

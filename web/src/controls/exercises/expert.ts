@@ -1,0 +1,100 @@
+import { element } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import type { Source } from "../../state/source.ts";
+import {
+  type ExerciseOverview,
+  type ExerciseResult,
+  type RecordingEntry,
+  type RecordingTrace,
+  recordingPath,
+} from "../../wire/files.ts";
+import { fetchSource } from "../recordings/fetch_source.ts";
+import { type Trace, traceOf } from "./trace.ts";
+
+/** A button that names the result's recording as the expert's run of its exercise, or takes that back. */
+export function expertButton(
+  app: App,
+  result: ExerciseResult,
+  exercise: ExerciseOverview | null,
+  changed: () => void,
+): HTMLElement[] {
+  if (!exercise || !result.recording || !app.control.value.you) return [];
+  const is = exercise.expert === result.recording;
+  const act = async (): Promise<void> => {
+    button.disabled = true;
+    const recording = is ? "" : result.recording;
+    const reply = await app.ask({ do: "set_expert", exercise: exercise.name, recording });
+    if (!reply?.ok) return;
+    button.textContent = is ? "No longer the expert’s run" : "This is now the expert’s run";
+    changed();
+  };
+  const button = element(
+    "button",
+    { type: "button", class: "small", title: "Later attempts are drawn beside it", onclick: () => void act() },
+    is ? "Do not use as expert’s run" : "Use as expert’s run",
+  );
+  return [button];
+}
+
+/** A choice of the expert's run among all recordings, which are read when it is used for the first time. */
+export function expertChoice(app: App, exercise: ExerciseOverview, changed: () => void): HTMLElement {
+  const option = (name: string, text = name): HTMLElement => element("option", { value: name }, text);
+  const select = element("select", {}, option("", "none"), ...(exercise.expert ? [option(exercise.expert)] : []));
+  select.value = exercise.expert;
+  let read = false;
+  const fill = async (): Promise<void> => {
+    if (read) return;
+    read = true;
+    const entries = await app.api.json<RecordingEntry[]>("/api/recordings").catch(() => []);
+    const others = entries.filter(({ name }) => name !== exercise.expert);
+    select.append(...others.map(({ name }) => option(name)));
+  };
+  select.addEventListener("focus", () => void fill());
+  select.addEventListener("pointerdown", () => void fill());
+  select.addEventListener("change", () => {
+    void app.ask({ do: "set_expert", exercise: exercise.name, recording: select.value }).then((reply) => {
+      if (reply && !reply.ok && reply.problems?.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
+      changed();
+    });
+  });
+  return element("label", { class: "expert" }, "Expert’s run ", select);
+}
+
+/** The curves of the expert's run, in its own time; null without one, or for the expert's run itself. */
+export async function expertTrace(
+  app: App,
+  exercise: ExerciseOverview | null,
+  recording: string,
+  signal: AbortSignal,
+): Promise<Trace | null> {
+  if (!exercise?.expert || exercise.expert === recording) return null;
+  try {
+    const answer = await app.api.get(`${recordingPath(exercise.expert)}/trace`, { signal });
+    return traceOf((await answer.json()) as RecordingTrace);
+  } catch {
+    return null; // it was deleted
+  }
+}
+
+/** Every tick of the expert's run, to lay over a replay; null without one. */
+export async function expertSource(
+  app: App,
+  exercise: ExerciseOverview | null,
+  recording: string,
+  entries: readonly RecordingEntry[],
+  signal: AbortSignal,
+): Promise<Source | null> {
+  const entry = entries.find(({ name }) => name === exercise?.expert);
+  if (!entry || entry.name === recording) return null;
+  try {
+    return (await fetchSource(app.api, { ...entry, title: "expert’s run" }, () => void 0, signal)).source;
+  } catch {
+    return null;
+  }
+}
+
+/** The time of the first contact, s: the first tick below the first surface. */
+export function contactOf({ time, depth }: Trace): number {
+  const row = depth.findIndex((value) => value > 0);
+  return time[row < 0 ? 0 : row] ?? 0;
+}
