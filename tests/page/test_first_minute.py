@@ -72,7 +72,7 @@ def test_the_question_about_sound_comes_once_after_the_first_pop_and_its_answer_
     context = browser.new_context(viewport={"width": 1440, "height": 900}, device_scale_factor=0.5)
     page = context.new_page()
     page.goto(studio.url, timeout=PATIENCE)
-    question = page.get_by_role("group", name="Sound")
+    question = page.get_by_role("region", name="Sound")
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     expect(question).to_be_hidden()
     drag_in(page, pops=1)

@@ -1,5 +1,4 @@
 import { element, type Panel } from "../panel.ts";
-import { askSound } from "./hand/ask_sound.ts";
 
 const STAY_MS = 9000;
 const MOST = 4;
@@ -7,7 +6,6 @@ const MOST = 4;
 /** Messages for the user. They are read out, and disappear after a while or by a click. */
 export const notices: Panel = (host, app) => {
   const region = element("div", { class: "toasts", "aria-live": "polite", role: "log" });
-  askSound(host, app);
   host.append(region);
   let known = app.notices.value;
   app.notices.watch((list) => {

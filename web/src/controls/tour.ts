@@ -3,6 +3,7 @@ import { element, everyFrame, type Panel } from "../panel.ts";
 import { showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
 import { remember, remembered } from "../state/remembered.ts";
+import { askSound } from "./hand/ask_sound.ts";
 import { Progress, TASKS } from "./tour/progress.ts";
 import { instruction, NAMES } from "./tour/words.ts";
 
@@ -23,6 +24,7 @@ export const tour: Panel = (root, app) => {
     handOf(app).home();
     end = show(root, app);
   };
+  askSound(root, app);
   if (remembered("tour")) return;
   // It starts with the first scene, when there is something to do.
   const stop = app.live.scene.watch((scene) => {
@@ -84,7 +86,6 @@ function show(root: HTMLElement, app: App): () => void {
     remember("tour", "seen");
     for (const end of ends) end();
     document.removeEventListener("keydown", keys);
-    document.documentElement.classList.remove("touring");
     bar.remove();
   };
   const keys = (event: KeyboardEvent): void => {
@@ -92,7 +93,6 @@ function show(root: HTMLElement, app: App): () => void {
   };
   close.addEventListener("click", finish);
   document.addEventListener("keydown", keys);
-  document.documentElement.classList.add("touring");
   root.before(bar);
   return finish;
 }

@@ -30,5 +30,5 @@ export function ringOf(source: Source, still: boolean): Ring | null {
   if (!(age <= end)) return null;
   const done = end > 0 ? age / end : 0;
   if (still) return { event: pop, radius: FIRST + GROWN / 2, alpha: 1 };
-  return { event: pop, radius: FIRST + GROWN * (1 - (1 - done) ** 3), alpha: excerpt ? 1 - 0.5 * done : 1 - done ** 2 };
+  return { event: pop, radius: FIRST + GROWN * (1 - (1 - done) ** 3), alpha: excerpt ? 1 : 1 - done ** 2 };
 }

@@ -1,8 +1,11 @@
 import { element, type Panel } from "../../panel.ts";
 import { soundOf } from "./sound.ts";
 
-/** Asks once, after the first pop, whether the page may play sound. The answer is remembered. */
-export const askSound: Panel = (host, app) => {
+/**
+ * Asks once, after the first pop, whether the page may play sound. The answer is remembered. The question is a bar
+ * below the page.
+ */
+export const askSound: Panel = (root, app) => {
   const sound = soundOf(app);
   const yes = (): void => {
     void sound.switchOn().catch(() => app.say("This browser does not let the page play sound."));
@@ -10,13 +13,13 @@ export const askSound: Panel = (host, app) => {
   const button = (words: string, kind: string, act: () => void): HTMLElement =>
     element("button", { type: "button", class: kind, onclick: act }, words);
   const box = element(
-    "div",
-    { class: "ask-sound", role: "group", "aria-label": "Sound", hidden: true },
+    "section",
+    { class: "ask-sound", "aria-label": "Sound", hidden: true },
     element("p", {}, "Do you want to hear the pops and the friction?"),
     button("Sound on", "primary", yes),
     button("No sound", "", () => void sound.switchOff()),
   );
-  host.append(box);
+  root.after(box);
   let popped = false;
   const show = (): void => {
     box.hidden = !popped || sound.wanted.value !== null;
