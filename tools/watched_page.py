@@ -55,6 +55,20 @@ class WatchedPage:
         self._before, self._at = drawn, now
         return rates
 
+    def processor_seconds(self) -> dict[str, float]:
+        """Processor time of the browser's processes so far, by kind: renderer, GPU (which draws), and others."""
+        tools = self._browser.new_browser_cdp_session()
+        used: dict[str, float] = {}
+        for process in tools.send("SystemInfo.getProcessInfo")["processInfo"]:
+            used[process["type"]] = used.get(process["type"], 0.0) + process["cpuTime"]
+        tools.detach()
+        return used
+
+    def text(self, selector: str) -> str:
+        """The text of an element of the page; empty if it is hidden."""
+        found = self._page.locator(selector)
+        return found.inner_text() if found.is_visible() else ""
+
     def heap_mb(self) -> float:
         self._tools.send("HeapProfiler.collectGarbage")
         return float(self._tools.send("Runtime.getHeapUsage")["usedSize"]) / 1e6

@@ -1,6 +1,8 @@
 import { Vector3 } from "three";
+import { layersOf } from "../tissue/layers.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
+import { tangents } from "./slab_shape.ts";
 
 /** Drawn sizes that the scene does not define, mm. */
 export interface Extent {
@@ -29,9 +31,14 @@ export function extentOf(scene: SceneView): Extent {
   const size = Math.min(24, Math.max(6 + 0.9 * deep, 1.9 * tip));
   const length = deep + 2 * tip + 12;
   const above = Math.min(14, 7 + 0.4 * deep);
-  const below = deep + 0.5 * tip;
+  const layers = layersOf(scene);
+  const below = layers ? layers.at(-1)!.bottom + 0.12 * size : deep + 0.5 * tip;
   const radius = Math.hypot((above + below) / 2, 1.12 * size);
   const centre = origin.clone().addScaledVector(normal, (below - above) / 2);
+  // A block is drawn left of the middle: its names need the room on the right, and are longer than those of sheets.
+  const right = new Vector3();
+  tangents(normal, right, new Vector3());
+  if (layers) centre.addScaledVector(right, 0.17 * size);
   const strongest = Math.max(0.2, ...scene.laws.flatMap((law) => law.lower.map(Math.abs)));
   return { deep, size, length, centre, radius, mmPerNewton: (0.5 * radius) / strongest };
 }

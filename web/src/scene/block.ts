@@ -12,6 +12,7 @@ import type { Holes } from "./holes.ts";
 import { MM, type Moment } from "./moment.ts";
 import { needleLook, tipOffset } from "./needle_look.ts";
 import { Paper } from "./paper.ts";
+import { Shown } from "./shown.ts";
 import { Surface } from "./surface.ts";
 import type { Theme } from "./theme.ts";
 import { Tracks } from "./tracks.ts";
@@ -40,7 +41,7 @@ export class Block {
   private size = 10;
   private diameter = 1;
   private aside = 0.5;
-  private last = "";
+  private readonly drawn = new Shown();
 
   constructor(private readonly theme: Theme) {
     this.group.matrixAutoUpdate = false;
@@ -92,7 +93,7 @@ export class Block {
     for (const part of [face, surface, ends, tracks, ...papers, front]) part.dispose();
     this.group.clear();
     this.parts = null;
-    this.last = "";
+    this.drawn.forget();
   }
 
   private paint(): void {
@@ -104,11 +105,11 @@ export class Block {
     const { material } = parts.face.borders;
     if (!Array.isArray(material) && "color" in material)
       material.color = theme.color("page").clone().multiplyScalar(0.2);
-    this.last = "";
+    this.drawn.forget();
   }
 
-  /** Bends the tissue for the moment. Returns whether the picture changes. */
-  update(moment: Moment, holes: Holes, camera: Camera): boolean {
+  /** Bends the tissue for the moment. Returns whether the picture changes. pixel: its size, mm. */
+  update(moment: Moment, holes: Holes, camera: Camera, pixel: number): boolean {
     const { parts, cut, size } = this;
     if (!parts) return false;
     const painted = parts.papers.some((paper) => !paper.complete && paper.paint(PAINT_MS));
@@ -117,13 +118,12 @@ export class Block {
     const old = moment.membranes.map((_, i) => holes.of(i, moment.tick));
     const grips = gripsOf(moment, cut);
     const tip = cut.spot(moment.tip);
-    const key = [tip.u, tip.d, cut.w, cut.centre, ...cut.towards.toArray(), ...moment.axis.toArray(), fading]
-      .concat(grips.flatMap(({ membrane, proxy, slope }) => [membrane, proxy.u, proxy.d, slope]))
-      .concat(old.map(({ length }) => length))
-      .map((value) => value.toFixed(3))
-      .join(" ");
-    if (key === this.last) return painted;
-    this.last = key;
+    const step = Math.max(1e-3, pixel);
+    const places = [tip.u, tip.d, cut.w, cut.centre, ...grips.flatMap(({ proxy }) => [proxy.u, proxy.d])];
+    const others = [...cut.towards.toArray(), ...moment.axis.toArray(), fading, ...grips.map(({ slope }) => slope)];
+    const counts = [...grips.map(({ membrane }) => membrane), ...old.map(({ length }) => length)];
+    const values = [...places.map((mm) => mm / step), ...others.map((value) => value * 250), ...counts];
+    if (!this.drawn.differs(values)) return painted;
     const lean = moment.axis.dot(cut.down);
     const window: Window = { centre: cut.centre, size };
     parts.field.set(tip, grips, lean);
@@ -148,12 +148,13 @@ export class Block {
     return opacity;
   }
 
-  /** The end of a layer that is farther to the right on the screen, for its label. */
+  /** The corner of a layer that is farthest to the right on the screen, for its label. */
   labelPlace(membrane: number, camera: Camera): Vector3 {
     const layer = this.parts?.layers.find((each) => each.membrane === membrane);
     const depth = layer ? (layer.top + layer.bottom) / 2 : 0;
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const side = right.dot(this.cut.along) >= 0 ? 1 : -1;
-    return this.cut.point(this.cut.centre + side * this.size, depth, this.cut.w);
+    const back = right.dot(this.cut.towards) >= 0 ? 0 : DEEP * this.size;
+    return this.cut.point(this.cut.centre + side * this.size, depth, this.cut.w - back);
   }
 }

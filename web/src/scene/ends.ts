@@ -1,27 +1,18 @@
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Group,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
-  MeshBasicMaterial,
-} from "three";
+import { BufferAttribute, BufferGeometry, Group, Mesh, MeshBasicMaterial } from "three";
 import type { Layer } from "../tissue/layers.ts";
 import type { Paper } from "./paper.ts";
 import type { Theme } from "./theme.ts";
 
 const STRIPE = 0.025; // of the block's half width
 
-/** The still parts of the block: its ends and its bottom, the outline of the removed half, and the colour stripes. */
+/** The still parts of the block: its ends, its bottom, and the colour stripes. */
 export class Ends {
   readonly group = new Group();
-  readonly outlines = new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   private readonly below = new MeshBasicMaterial();
   private readonly stripes = new MeshBasicMaterial({ vertexColors: true });
   private readonly colours: BufferAttribute;
   private readonly marked: readonly Layer[];
-  private readonly meshes: (Mesh | LineSegments)[];
+  private readonly meshes: Mesh[];
 
   constructor(layers: readonly Layer[], size: number, deep: number, paper: Paper) {
     const bottom = layers.at(-1)!.bottom;
@@ -31,11 +22,6 @@ export class Ends {
       quad([-size, bottom, 0], [size, bottom, 0], [-size, bottom, -deep], [size, bottom, -deep], 1),
       this.below,
     );
-    const outline = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(
-      [[-size, 0, 0, -size, 0, deep], [size, 0, 0, size, 0, deep], [-size, 0, deep, size, 0, deep],
-       [-size, 0, deep, -size, bottom, deep], [size, 0, deep, size, bottom, deep],
-       [-size, bottom, 0, -size, bottom, deep], [size, bottom, 0, size, bottom, deep],
-       [-size, bottom, deep, size, bottom, deep]].flat()), 3)); // biome-ignore format: a table
     this.marked = layers.filter(({ membrane }) => membrane !== null);
     const wide = STRIPE * size;
     const bars = this.marked.flatMap(({ top, bottom: low }) => {
@@ -48,18 +34,11 @@ export class Ends {
       .setAttribute("position", new BufferAttribute(new Float32Array(bars), 3))
       .setAttribute("color", this.colours);
     this.stripes.side = floor.material.side = 2;
-    this.meshes = [
-      end(size, 0.8),
-      end(-size, 0.66),
-      floor,
-      new Mesh(striped, this.stripes),
-      new LineSegments(outline, this.outlines),
-    ];
+    this.meshes = [end(size, 0.8), end(-size, 0.66), floor, new Mesh(striped, this.stripes)];
     this.group.add(...this.meshes);
   }
 
   paint(theme: Theme): void {
-    this.outlines.color.copy(theme.color("quiet"));
     this.below.color.setRGB(0.18, 0.09, 0.07);
     this.marked.forEach(({ membrane }, i) => {
       const colour = theme.membrane(membrane!);
@@ -70,7 +49,7 @@ export class Ends {
 
   dispose(): void {
     for (const { geometry } of this.meshes) geometry.dispose();
-    for (const material of [this.outlines, this.below, this.stripes]) material.dispose();
+    for (const material of [this.below, this.stripes]) material.dispose();
   }
 }
 

@@ -1,11 +1,10 @@
 import type { Camera } from "three";
 import { DirectionalLight, HemisphereLight, Scene, WebGLRenderer } from "three";
+import { Quality } from "./quality.ts";
 import { drawsInSoftware } from "./software.ts";
 import type { Theme } from "./theme.ts";
 
 const HIGHEST_RATIO = 2; // device pixels per CSS pixel, along each side
-const LOWEST_RATIO = 0.75;
-const SLOW_MS = 45;
 const REST_MS = 250;
 
 /** The canvas, its lights and its size. It recovers after a loss of the WebGL context. */
@@ -15,12 +14,11 @@ export class Stage {
   height = 1;
   private readonly key = new DirectionalLight(0xffffff, 1.6);
   private readonly sky = new HemisphereLight(0xffffff, 0x8a8f98, 0.8);
-  /** Pixel ratio while the picture moves; lowered if drawing is too slow. */
-  private moving = Math.min(HIGHEST_RATIO, window.devicePixelRatio || 1);
+  /** Sharpness while the picture moves. */
+  private readonly quality: Quality;
   /** Pixel ratio of a still picture. */
   private readonly resting: number;
-  private ratio = this.moving;
-  private slow = 0;
+  private ratio: number;
   private drawn = 0;
   /** Whether the whole picture must be drawn again. */
   stale = true;
@@ -33,8 +31,11 @@ export class Stage {
     theme: Theme,
     private readonly resized: () => void,
     lost: (gone: boolean) => void,
+    private readonly coarser: (words: string) => void,
   ) {
     const software = drawsInSoftware();
+    this.quality = new Quality(Math.min(software ? 1 : HIGHEST_RATIO, window.devicePixelRatio || 1));
+    this.ratio = this.quality.ratio;
     // Antialiasing costs a graphics card almost nothing, but is four times the work in software.
     this.renderer = new WebGLRenderer({
       canvas,
@@ -42,7 +43,7 @@ export class Stage {
       alpha: true,
       powerPreference: "high-performance",
     });
-    this.resting = software ? Math.max(1.75, this.moving) : this.moving;
+    this.resting = software ? Math.max(1.75, this.quality.best) : this.quality.best;
     this.renderer.setClearAlpha(0);
     this.key.position.set(0.6, 1, 0.9);
     this.scene.add(this.key, this.sky);
@@ -78,8 +79,8 @@ export class Stage {
   draw(camera: Camera, now: number): void {
     const took = now - this.drawn;
     this.drawn = now;
-    this.watchSpeed(took);
-    this.setRatio(this.moving);
+    if (this.quality.watch(took)) this.coarser(this.quality.words());
+    this.setRatio(this.quality.ratio);
     this.renderer.render(this.scene, camera);
     this.stale = false;
   }
@@ -95,14 +96,5 @@ export class Stage {
     if (ratio === this.ratio) return;
     this.ratio = ratio;
     this.renderer.setPixelRatio(ratio);
-  }
-
-  /** Lowers the pixel ratio if frames take too long: fewer pixels are better than fewer frames. took: ms. */
-  private watchSpeed(took: number): void {
-    if (took > 500) return; // the view was idle
-    this.slow = took > SLOW_MS ? this.slow + 1 : Math.max(0, this.slow - 2);
-    if (this.slow < 20 || this.moving <= LOWEST_RATIO) return;
-    this.slow = 0;
-    this.moving = Math.max(LOWEST_RATIO, this.moving * 0.75);
   }
 }

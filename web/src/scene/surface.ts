@@ -1,6 +1,6 @@
 import { Mesh } from "three";
 import type { Field } from "../tissue/field.ts";
-import { bendRow, COLUMNS, type Window } from "../tissue/grid.ts";
+import { bendRow, border, COLUMNS, type Window } from "../tissue/grid.ts";
 import { BlockMesh } from "./block_mesh.ts";
 import type { Paper } from "./paper.ts";
 
@@ -27,7 +27,7 @@ export class Surface {
     this.front.scale.z = -1;
   }
 
-  /** inWorld: where the block's point (0, 0, 0) is in the texture, so that the skin stays in place. */
+  /** w: place of the cut. The pattern stays in place when the window moves. */
   update(field: Field, window: Window, w: number): void {
     const { grid, rest, edge, deep } = this;
     const position = grid.position.array as Float32Array;
@@ -41,8 +41,7 @@ export class Surface {
       for (let i = 0; i < COLUMNS; i++) {
         const at = row * COLUMNS + i;
         const u = rest[2 * i]!;
-        const border = (Math.abs(u - window.centre) / window.size) ** 4;
-        const share = field.share(Math.hypot(u - spot.track, back)) * (1 - border) * (1 - part ** 4);
+        const share = field.share(Math.hypot(u - spot.track, back)) * border(u, window) * (1 - part ** 4);
         position[3 * at] = u + share * spot.u;
         position[3 * at + 1] = share * spot.down;
         position[3 * at + 2] = w - back;

@@ -34,7 +34,8 @@ export const view: Panel = (host, app) => {
   const theme = new Theme();
   const orbit = new OrbitCamera();
   const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });
-  host.append(trouble);
+  const coarser = element("p", { class: "view-coarser", hidden: true, title: "Pictures came late on this computer." });
+  host.append(trouble, coarser);
   const tell = (words: string): void => {
     trouble.textContent = words;
     trouble.hidden = words === "";
@@ -47,6 +48,10 @@ export const view: Panel = (host, app) => {
       theme,
       () => orbit.resize(host.clientWidth, host.clientHeight),
       (gone) => tell(gone ? "The graphics card is lost. The picture returns with it; the run goes on." : ""),
+      (words) => {
+        coarser.textContent = words;
+        coarser.hidden = words === "";
+      },
     );
   } catch {
     canvas.hidden = true;

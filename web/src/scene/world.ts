@@ -19,6 +19,7 @@ import { Membranes } from "./membranes.ts";
 import { MM, Moment, OUTSIDE } from "./moment.ts";
 import { Needle, type NeedleState } from "./needle.ts";
 import { needleLook } from "./needle_look.ts";
+import { Shown } from "./shown.ts";
 import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
 import { TRAIL_SECONDS, Trail } from "./trail.ts";
@@ -42,7 +43,7 @@ export class World {
   private readonly holes = new Holes();
   private readonly mark: GoalMark;
   private goal: Goal | null = null;
-  private drawn = "";
+  private readonly drawn = new Shown();
   private moved = 0;
   private faded = -1;
 
@@ -79,7 +80,7 @@ export class World {
     this.membranes.build(asBlock ? { ...scene, membranes: [] } : scene, size);
     this.blood.build(scene.lumen, !asBlock);
     this.labels.clear();
-    this.drawn = "";
+    this.drawn.forget();
     this.aim(this.goal);
     return true;
   }
@@ -100,10 +101,10 @@ export class World {
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
-    changed = this.block.update(moment, this.holes, camera) || changed;
+    changed = this.block.update(moment, this.holes, camera, pixel) || changed;
     changed = this.blood.update(this.membranes, moment.axis) || changed;
     changed = this.needle.step(moment, scene, source.laws.value) || changed;
-    if (!this.differs(this.key(target, pixel), changed)) return false;
+    if (!this.differs(this.values(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
     this.trail.update(source, moment.tick, scene.rate);
     this.placeArrow(camera, extent, scene);
@@ -183,27 +184,27 @@ export class World {
   }
 
   /** Whether the picture changed. The trail goes on fading for a while after the needle has stopped. */
-  private differs(key: string, changed: boolean): boolean {
+  private differs(values: readonly number[], changed: boolean): boolean {
     const { time } = this.moment;
-    if (key !== this.drawn || changed) this.moved = time;
+    const differs = this.drawn.differs(values) || changed;
+    if (differs) this.moved = time;
     const fading = Math.abs(time - this.moved) < TRAIL_SECONDS ? Math.floor(time * FADES_PER_SECOND) : -1;
-    const differs = key !== this.drawn || changed || fading !== this.faded;
-    this.drawn = key;
+    const faded = fading !== this.faded;
     this.faded = fading;
-    return differs;
+    return differs || faded;
   }
 
-  /** The picture's values, rounded to invisible steps: smaller motions of the hand need no new picture. */
-  private key(target: Pose | null, pixel: number): string {
+  /** The picture's values in steps that can be seen: smaller motions of the hand need no new picture. */
+  private values(target: Pose | null, pixel: number): number[] {
     const { tip, axis, force, modelForce, state } = this.moment;
-    const step = Math.max(1e-3, pixel / 3);
+    const step = Math.max(1e-3, pixel);
     const places = [tip, ...(target ? [new Vector3(...target.position).multiplyScalar(MM)] : [])];
-    const parts = places.flatMap(({ x, y, z }) => [x, y, z].map((value) => Math.round(value / step)));
-    for (const { x, y, z } of [axis, force, modelForce]) {
-      parts.push(...[x, y, z].map((value) => Math.round(value * 250)));
-    }
-    parts.push(...(target?.axis.map((value) => Math.round(value * 1000)) ?? []));
-    return `${state} ${parts.join(" ")}`;
+    const others = [axis, force, modelForce, ...(target ? [new Vector3(...target.axis)] : [])];
+    return [
+      state,
+      ...places.flatMap(({ x, y, z }) => [x / step, y / step, z / step]),
+      ...others.flatMap(({ x, y, z }) => [250 * x, 250 * y, 250 * z]),
+    ];
   }
 }
 

@@ -62,9 +62,11 @@ export class Field {
     for (const { grip, layer } of placed) {
       const through = grip.proxy.d >= layer.bottom;
       this.hold(tip, grip, layer, through);
-      if (through) continue;
-      this.press(layer, grip);
-      break; // the membranes behind an unpierced one have not been reached by the drawn tip
+      // The membranes behind an unpierced one have not been reached by the drawn tip.
+      if (!through || grip === placed.at(-1)!.grip) {
+        this.press(layer, grip);
+        break;
+      }
     }
     this.keepOrder();
     let largest = 0;
@@ -84,7 +86,7 @@ export class Field {
     add(through ? end - margin : end);
   }
 
-  /** The tissue ahead of the tip gives way, less with the distance; a fluid first. */
+  /** The tissue behind the last membrane that holds the needle moves too, less with the distance; a fluid first. */
   private press(layer: Layer, { proxy, slope }: Grip): void {
     let { d, down, u } = this.knots.at(-1)!;
     const wide = 1.2 * this.diameter + 0.2 * Math.min(6, layer.bottom - layer.top);

@@ -49,7 +49,7 @@ export function bendRow(
   for (let i = -HALF; i <= HALF; i++) {
     const part = (Math.abs(i) / HALF) ** DENSITY;
     const u = middle * (1 - part) + (centre + Math.sign(i) * size) * part;
-    const share = held * field.share(u - spot.track) * (1 - part ** 4);
+    const share = held * field.share(u - spot.track) * border(u, window);
     const out = at + i + HALF;
     rest[2 * out] = u;
     rest[2 * out + 1] = d;
@@ -70,6 +70,10 @@ export function gridTriangles(rows: number, columns: number): number[] {
   }
   return index;
 }
+
+/** The part of a displacement that is left at u: 1 in the middle of the window, 0 at its border. */
+export const border = (u: number, { centre, size }: Window): number =>
+  1 - Math.min(1, Math.abs(u - centre) / size) ** 4;
 
 /** How far a window must move so that `x` is not beyond `free` from its centre. */
 export const follow = (x: number, free: number): number => Math.sign(x) * Math.max(0, Math.abs(x) - free);

@@ -65,7 +65,7 @@ function drawBlock(): (moment: Moment) => Mesh[] {
   const camera = new PerspectiveCamera();
   camera.position.set(20, 20, 90);
   return (moment) => {
-    drawn.update(moment, new Holes(), camera);
+    drawn.update(moment, new Holes(), camera, 0);
     const meshes = drawn.group.children.filter((child): child is Mesh => "isMesh" in child);
     return meshes.filter(({ geometry }) => "shade" in geometry.attributes);
   };

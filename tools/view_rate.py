@@ -1,0 +1,67 @@
+"""Measures how fast the 3-D view is drawn in Chromium without a graphics card.
+
+    python tools/view_rate.py [--scene epidural] [--seconds 30] [--size 1440x900]
+
+The simulated hand makes strokes through all membranes. Prints the pictures per second of the view, of a plot and of the
+browser (medians of 2 s), the sharpness that the view chose, and the processor time per picture of Chromium's processes.
+Nothing else should run on the computer, except for the processor times, which hardly depend on it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+from punctura.studio.client import StudioClient
+from studio_process import StudioProcess
+from watched_page import WatchedPage
+
+WARM_S = 6.0  # sheets are painted, the compiler of the page's script has run
+EACH_S = 2.0
+STROKE_S = 6.0
+
+
+def measure(page: WatchedPage, seconds: float) -> None:
+    page.pause(WARM_S)
+    page.rates()
+    before, samples = page.processor_seconds(), []
+    for _ in range(max(1, round(seconds / EACH_S))):
+        page.pause(EACH_S)
+        samples.append(page.rates())
+    after = page.processor_seconds()
+    for name in samples[0]:
+        rates = sorted(sample[name] for sample in samples)
+        print(f"{name:8} {statistics.median(rates):5.1f} a second, from {rates[0]:.1f} to {rates[-1]:.1f}")
+    pictures = sum(sample["view"] for sample in samples) * EACH_S
+    for kind in sorted(after):
+        used = after[kind] - before.get(kind, 0.0)
+        print(f"{kind:8} {used:5.1f} s of processor time, {1e3 * used / max(1.0, pictures):.1f} ms per picture")
+    print(f"sharpness: {page.text('.view-coarser') or 'full'}")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scene", default="epidural")
+    parser.add_argument("--seconds", type=float, default=30.0)
+    parser.add_argument("--size", default="1440x900")
+    parser.add_argument("--page", type=Path, help="folder of another build of the page")
+    arguments = parser.parse_args()
+    width, height = (int(part) for part in arguments.size.split("x"))
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        StudioProcess(Path(folder), arguments.scene, page=arguments.page) as studio,
+        StudioClient(studio.url) as hand,  # connects before the page, and so has control
+    ):
+        hand.ask(do="strokes", period=STROKE_S)
+        with WatchedPage(studio.url, width, height) as page:
+            measure(page, arguments.seconds)
+            errors = page.errors
+    print("\n".join(errors), file=sys.stderr, end="")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
