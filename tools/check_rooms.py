@@ -40,6 +40,7 @@ ROOMS = (
     "python/punctura/live",
     "python/punctura/exercise",
     "python/punctura/reproduce",
+    "python/punctura/compare",
     "python/punctura/studio/wire",
     "python/punctura/studio",
     "python/punctura/cli",

@@ -5,6 +5,7 @@ import { faultTrial } from "./controls/fault_trial.ts";
 import { handPanel } from "./controls/hand.ts";
 import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";
+import { labPanel } from "./controls/lab.ts";
 import { momentLine } from "./controls/moment_line.ts";
 import { notices } from "./controls/notices.ts";
 import { phasesPanel } from "./controls/phases.ts";
@@ -48,6 +49,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["scene", "Scene", editorPanel],
         ["recordings", "Recordings", recordingsPanel],
         ["exercises", "Exercises", exercisesPanel],
+        ["lab", "Laboratory", labPanel],
         ["health", "Health", both(healthPanel, faultTrial)],
       ]),
     ),

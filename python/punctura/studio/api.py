@@ -22,6 +22,7 @@ from punctura.exercise.xapi import to_xapi
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
 from punctura.studio.download import Download
+from punctura.studio.lab import Lab, LabError
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
@@ -38,6 +39,7 @@ RESULT_FORMATS: dict[str, tuple[str, str, Callable[[list[Result]], str]]] = {
 }
 _STATUS: dict[type[Exception], int] = {
     BadName: 400,
+    LabError: 422,
     Missing: 404,
     Busy: 409,
     ResultsError: 404,
@@ -52,6 +54,7 @@ class Api:
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
         self._exporting = threading.BoundedSemaphore(MOST_EXPORTS)
+        self._lab = Lab(session)
 
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"
@@ -63,6 +66,9 @@ class Api:
             Route(one + "/trace", _told(self.trace)),
             Route(one + "/download", _told(self.download)),
             Route("/api/fault.csv", _told(self.fault_ticks)),
+            Route("/api/lab/fields", _told(self._lab.fields)),
+            Route("/api/lab/compare", _told(self._lab.compare)),
+            Route("/api/lab/bundle", _told(self._lab.bundle)),
             Route("/api/exercises", _told(self.exercises)),
             Route("/api/results", _told(self.results)),
             Route("/api/results/download", _told(self.download_results)),  # before NAME: no result has this name

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura import Scene
+from punctura.compare.run import resistance
 from punctura.events import EventFinder
 from punctura.events.recorded import recorded_ticks
 from punctura.record import Recording
@@ -75,13 +76,6 @@ def _drawn(columns: Columns, scene: Scene) -> tuple[Array, Array]:
     normal = normal / np.linalg.norm(normal)
     depth = (columns["tip"] - np.asarray(first.point)) @ normal
     return depth, resistance(columns["model_force"], columns["axis"])
-
-
-def resistance(force: Array, axis: Array) -> Array:
-    """The size of a force (n, 3), N, negative if it pulls the needle in. axis (n, 3): direction of the needle."""
-    size = np.linalg.norm(force, axis=1)
-    signed: Array = np.where(np.einsum("ij,ij->i", force, axis) > 0, -size, size)
-    return signed
 
 
 class _Thinner:

@@ -1,6 +1,7 @@
 import type { History } from "../state/history.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import type { Source } from "../state/source.ts";
+import type { LabComparison } from "../wire/files.ts";
 import { isCompared } from "./gather.ts";
 import { type Curve, Hidden } from "./kit/legend.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
@@ -33,6 +34,12 @@ export function forceCurves(source: Source, first: number, end: number, theme: T
     curves.push({ id: "other", text: otherName(source), colour: theme.quiet });
   return curves;
 }
+
+/** The mean of the runs that are compared in the laboratory. */
+export const meanCurve = (comparison: LabComparison | null, theme: Theme): Curve[] =>
+  comparison
+    ? [{ id: "mean", text: `mean ± s.d., n = ${comparison.statistics.length}`, colour: theme.quiet, shade: 0.18 }]
+    : [];
 
 /** The membranes whose curves are shown. */
 export const shownMembranes = ({ membranes }: History, hidden: Hidden): number[] =>

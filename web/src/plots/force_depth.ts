@@ -45,6 +45,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     shown: plots.zoom.value ? null : plots.source.present(),
     chosen,
     overlay: app.overlay.value,
+    comparison: app.comparison.value,
     zoom,
     oldest: plots.source.live ? 0.2 : 0.55, // a run that stands still is studied as a whole, so it fades less
     pointed,
@@ -126,6 +127,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     };
   });
   app.overlay.watch(() => changes++);
+  app.comparison.watch(() => changes++);
 
   const point = (now: ForceDepthPicture): void => {
     if (surface.pointer) {

@@ -1,8 +1,9 @@
 import type { Source } from "../state/source.ts";
 import { drawBadge } from "./badge.ts";
 import { drawBand } from "./band.ts";
-import { DASH, forceCurves, membraneCurves } from "./curves.ts";
-import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
+import { drawMean } from "./band_mean.ts";
+import { DASH, forceCurves, meanCurve, membraneCurves } from "./curves.ts";
+import { drawnMembranes, endOf, type ForceDepthPicture, meanBands, overlaidMembranes } from "./force_depth_picture.ts";
 import { ForceDepthRanges } from "./force_depth_ranges.ts";
 import { gather, gatherFelt, gatherOther, gatherPermitted, isCompared } from "./gather.ts";
 import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
@@ -26,6 +27,7 @@ export function forceDepthCurves(picture: ForceDepthPicture, theme: Theme): Curv
     ...(chosen === null ? membranes : membranes.slice(chosen, chosen + 1)),
     ...forceCurves(source, window.first, endOf(picture), theme),
     { id: "band", text: "friction band", colour: theme.quiet, shade: 0.25 },
+    ...meanCurve(picture.comparison, theme),
     ...(overlay ? [{ id: "earlier", text: overlay.title, colour: theme.text, dash: DASH }] : []),
   ];
 }
@@ -69,6 +71,8 @@ export class ForceDepthDrawing {
     pen.within(left, top, width, height, () => {
       for (const i of hidden.shows("earlier") ? overlaidMembranes(picture) : [])
         this.drawOverlay(pen, overlay!, i, theme);
+      for (const { membrane, band } of meanBands(picture))
+        drawMean(pen, this.pane, band, [MM, 1, 0], colourOf(theme, membrane));
       this.drawMore(pen, picture, window.first, end, theme);
       for (const i of membranes) this.drawHistory(pen, picture, i, theme);
     });

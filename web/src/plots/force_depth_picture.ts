@@ -1,4 +1,5 @@
 import type { Source } from "../state/source.ts";
+import type { LabBand, LabComparison } from "../wire/files.ts";
 import { shownMembranes } from "./curves.ts";
 import type { Hidden } from "./kit/legend.ts";
 import type { Window } from "./window.ts";
@@ -17,6 +18,7 @@ export interface ForceDepthPicture {
   /** One membrane, or null for all. */
   readonly chosen: number | null;
   readonly overlay: Source | null;
+  readonly comparison: LabComparison | null;
   readonly zoom: Area | null;
   /** Opacity of the oldest tick, 0 to 1. */
   readonly oldest: number;
@@ -44,4 +46,17 @@ export function overlaidMembranes(picture: ForceDepthPicture): number[] {
 /** The tick after the last drawn one. */
 export function endOf({ window, shown }: ForceDepthPicture): number {
   return shown === null ? window.end : Math.max(window.first, Math.min(window.end, shown + 1));
+}
+
+/** The mean of several runs for each drawn membrane that they have under the same name. */
+export function meanBands(
+  picture: ForceDepthPicture,
+): readonly { readonly membrane: number; readonly band: LabBand }[] {
+  const { source, comparison, hidden } = picture;
+  if (!comparison || !hidden.shows("mean")) return [];
+  return drawnMembranes(picture).flatMap((membrane) => {
+    const name = source.scene.value?.membranes[membrane]?.name;
+    const band = comparison.depth.membranes.find((one) => one.name === name);
+    return band ? [{ membrane, band }] : [];
+  });
 }

@@ -1,4 +1,4 @@
-import { drawnMembranes, endOf, type ForceDepthPicture, overlaidMembranes } from "./force_depth_picture.ts";
+import { drawnMembranes, endOf, type ForceDepthPicture, meanBands, overlaidMembranes } from "./force_depth_picture.ts";
 import { Extent, gatherOther, isCompared } from "./gather.ts";
 import { AutoRange } from "./kit/auto_range.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -50,6 +50,11 @@ export class ForceDepthRanges {
       x.takeColumn(history, window.first, end, "depth", i, MM);
       y.takeColumn(history, window.first, end, "axial_force", i, -1);
       if (compared) this.takeOther(picture, i, end);
+    }
+    for (const { band } of meanBands(picture)) {
+      band.mean.forEach((mean, i) => {
+        if (mean !== null) y.take(mean + (band.deviation[i] ?? 0));
+      });
     }
     for (const i of overlaidMembranes(picture)) {
       const { first, end } = overlay!.history;

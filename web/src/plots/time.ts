@@ -44,6 +44,7 @@ export const timePlots: Panel = (host, app) => {
     pointed: plots.source.pointed.value,
     cursor: plots.source.cursor.value,
     hidden,
+    comparison: app.comparison.value,
   });
   const body = element("div", { class: "plot-body" });
   const spoken = element("p", { class: "only-read", "aria-live": "polite" });
@@ -99,6 +100,7 @@ export const timePlots: Panel = (host, app) => {
   });
   const callOut = popCallout(body, app);
   hidden.ids.watch(() => changes++);
+  app.comparison.watch(() => changes++);
 
   const point = (): void => {
     const { pointer } = surface;

@@ -1,6 +1,8 @@
 import type { Source } from "../state/source.ts";
+import type { LabComparison } from "../wire/files.ts";
 import { drawBadge } from "./badge.ts";
-import { DASH, forceCurves, membraneCurves, shownMembranes } from "./curves.ts";
+import { drawMean } from "./band_mean.ts";
+import { DASH, forceCurves, meanCurve, membraneCurves, shownMembranes } from "./curves.ts";
 import { Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "./gather.ts";
 import { AutoRange } from "./kit/auto_range.ts";
 import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
@@ -26,14 +28,16 @@ export interface TimePicture {
   /** The tick at which the timeline stands. */
   readonly cursor: number | null;
   readonly hidden: Hidden;
+  readonly comparison: LabComparison | null;
 }
 
 /** The curves that the plot can show, for its legend. */
-export const timeCurves = ({ source, window }: TimePicture, theme: Theme): Curve[] => [
+export const timeCurves = ({ source, window, comparison }: TimePicture, theme: Theme): Curve[] => [
   ...membraneCurves(source, theme),
   { id: "model", text: "model force", colour: theme.quiet, width: WIDE },
   ...forceCurves(source, window.first, window.end, theme),
   ...limitCurve(source.history, window, theme),
+  ...meanCurve(comparison, theme),
 ];
 
 /** Draws force and depth against one time axis. Reuses its buffers from frame to frame. */
@@ -100,6 +104,7 @@ export class TimeDrawing {
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     drawMarks(pen, this.force, this.depth, source, window, theme);
+    this.drawMeans(pen, picture, theme);
     this.drawLines(pen, picture, window.first, window.end, theme);
   }
 
@@ -127,6 +132,21 @@ export class TimeDrawing {
         this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
       }
     });
+  }
+
+  /** Draws the mean of the compared runs from the last first contact on that the window shows. */
+  private drawMeans(pen: Pen, { source, window, comparison, hidden }: TimePicture, theme: Theme): void {
+    const touch = source.events.value.findLast(
+      ({ what, membrane, tick }) => what === "touch" && membrane === 0 && tick >= window.first && tick < window.end,
+    );
+    if (!comparison || !touch || !hidden.shows("mean")) return;
+    const { model, depth } = comparison.time.bands;
+    const start = source.history.timeOf(touch.tick);
+    const means = [[this.force, model, 1], [this.depth, depth, MM]] as const; // biome-ignore format: a table
+    for (const [pane, band, gain] of means)
+      pen.within(pane.left, pane.top, pane.width, pane.height, () => {
+        if (band) drawMean(pen, pane, band, [1, gain, start], theme.quiet);
+      });
   }
 
   private room(n: number): void {

@@ -1,6 +1,7 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
 import { Api } from "../wire/api.ts";
 import type { GoalLine } from "../wire/files.ts";
+import type { LabComparison } from "../wire/files.ts";
 import type {
   Control,
   ExerciseStatus,
@@ -46,6 +47,8 @@ export class App {
   readonly source = new Signal<Source>(this.live);
   /** An earlier run laid over the plots. */
   readonly overlay = new Signal<Source | null>(null);
+  /** Several runs whose mean is laid over the plots. */
+  readonly comparison = new Signal<LabComparison | null>(null);
 
   constructor(
     readonly engine: Engine,

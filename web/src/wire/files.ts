@@ -131,3 +131,51 @@ export interface ExerciseMetrics {
 }
 
 export const resultPath = (name: string): string => `/api/results/${encodeURIComponent(name)}`;
+
+/** A field of the present scene that can be varied: `GET /api/lab/fields`. SI. */
+export interface SceneField {
+  readonly path: string;
+  readonly value: number;
+  readonly unit: string;
+}
+
+/** A quantity of all compared runs on one axis. SI; null where there is no value. */
+export interface LabBand {
+  readonly x: readonly number[];
+  /** One row for each run. */
+  readonly runs: readonly (readonly (number | null)[])[];
+  readonly mean: readonly (number | null)[];
+  /** Standard deviation, n - 1. */
+  readonly deviation: readonly (number | null)[];
+  /** The number of runs that have a value. */
+  readonly count: readonly number[];
+}
+
+export interface LabCurves {
+  readonly bands: Readonly<Partial<Record<"model" | "felt" | "permitted" | "depth", LabBand>>>;
+  /** The model's resistance of each membrane; empty if the runs have different membranes. */
+  readonly membranes: readonly (LabBand & { readonly name: string })[];
+}
+
+export type LabNumber = "duration" | "depth" | "peak" | "felt_peak" | "drop" | "overshoot" | "work" | "felt_work";
+
+/** The result of `GET /api/lab/compare`; python/punctura/compare makes it. */
+export interface LabComparison {
+  readonly statistics: readonly (Readonly<Record<LabNumber, number | null>> & {
+    readonly name: string;
+    readonly pops: readonly { readonly name: string; readonly time: number; readonly drop: number }[];
+  })[];
+  /** What each run's numbers have more than the first run's. */
+  readonly differences: readonly Readonly<Record<LabNumber, number | null>>[];
+  readonly summary: Readonly<
+    Record<LabNumber, { readonly n: number; readonly mean: number | null; readonly deviation: number | null }>
+  >;
+  readonly depth: LabCurves;
+  readonly time: LabCurves;
+}
+
+/** One line of the answer of `GET /api/lab/compare`. */
+export type LabLine =
+  | { readonly share: number; readonly run: string }
+  | { readonly comparison: LabComparison }
+  | { readonly error: string };

@@ -58,6 +58,7 @@ describe("force against depth", () => {
     shown: from.shown(),
     chosen: null,
     overlay: null,
+    comparison: null,
     zoom: null,
     oldest: 0.2,
     pointed: null,
@@ -108,7 +109,7 @@ describe("force and depth against time", () => {
   const drawn = (from: Source, off = ["permitted"]): { drawing: TimeDrawing; file: string; names: string[] } => {
     const drawing = new TimeDrawing();
     const hidden = new Hidden("test", off);
-    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null, hidden };
+    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null, hidden, comparison: null };
     drawing.arrange(now, 480, 320, 0);
     const pen = new SvgPen();
     drawing.draw(pen, now, theme);

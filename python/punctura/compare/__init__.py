@@ -1,0 +1,22 @@
+"""Compares runs: statistics, mean curves, and the same motion with a parameter varied (docs/compare.md)."""
+
+from punctura.compare.comparison import Band, Comparison, compare
+from punctura.compare.motion import Motion, recorded_motion, stroke
+from punctura.compare.run import Run, recorded_run
+from punctura.compare.statistics import Pop, Statistics
+from punctura.compare.vary import VaryError, vary
+
+__all__ = [
+    "Band",
+    "Comparison",
+    "Motion",
+    "Pop",
+    "Run",
+    "Statistics",
+    "VaryError",
+    "compare",
+    "recorded_motion",
+    "recorded_run",
+    "stroke",
+    "vary",
+]

@@ -1,0 +1,129 @@
+"""Everything about a comparison in one zip file, ready to cite."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+import pyarrow as pa
+
+import punctura
+from punctura.compare.comparison import NUMBERS, Comparison, On, compare
+from punctura.compare.figure import save_figures
+from punctura.compare.run import Run
+from punctura.compare.statistics import Statistics
+from punctura.record.build_id import build_id
+from punctura.scene import scene_text
+from punctura.ticks.files import save
+
+README = """{title}
+
+Made by Punctura {version}.
+Build: {build}
+
+figure.svg, figure.pdf    the model force of each run, and the mean of {n} runs with one standard deviation (n - 1)
+curves.csv, .parquet      the drawn curves: {axis};
+                          model, felt and permitted force in N; for each: one column for each run, the mean, the
+                          deviation, and the number n of runs at each place
+statistics.csv            the numbers of each run, SI; drop and overshoot are the largest of the run's pops
+runs/NN.csv, .parquet     every tick of a run: time (s), depth of the tip below the first surface (m), forces (N)
+scenes/NN.toml            the scene of a run; `punctura run FILE` runs it
+
+{runs}
+
+Model force: what the model gives. Felt force: what the device gives, after all limits; without a device it is equal
+to the model force. Permitted force: the most that the limits allow. All are positive if they push the needle out.
+Work: of the hand against the force, from the first contact to the deepest place. Overshoot: how far the bevel ran on
+past a membrane in the 0.3 s after the pop. {against}
+
+How to cite: CITATION.cff. Please cite the software with its version, and the paper whose model it computes.
+"""
+AGAINST = {
+    "depth": "Against depth, a curve has the values at the moment when the tip first came to each depth.",
+    "time": "Time begins at the first contact of each run.",
+}
+AXIS = {"depth": "against the depth of the tip, m", "time": "against the time since the first contact, s"}
+_UNITS = {"duration": "s", "depth": "m", "overshoot": "m", "work": "J", "felt_work": "J"}
+
+
+def save_bundle(
+    runs: Iterable[Run], path: str | os.PathLike[str], on: On = "depth", title: str = "A comparison of runs"
+) -> Comparison:
+    """Writes figure, curves, statistics, every tick, the scenes and how to cite them into a zip file.
+
+    Raises ValueError, OSError. An existing file is replaced.
+    """
+    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        place = Path(folder)
+
+        def add(name: str, write: Callable[[Path], None]) -> None:
+            file = place / name.replace("/", "-")
+            write(file)
+            archive.write(file, name)
+            file.unlink()
+
+        def kept() -> Iterator[Run]:
+            for i, run in enumerate(runs, 1):
+                table = ticks_table(run)
+                for ending in ("csv", "parquet"):
+                    add(f"runs/{i:02d}.{ending}", lambda file, table=table: save(table, file))  # type: ignore[misc]
+                archive.writestr(f"scenes/{i:02d}.toml", scene_text(run.scene))
+                yield run
+
+        comparison = compare(kept(), on)
+        for name in save_figures(comparison, folder):
+            archive.write(place / name, name)
+        for ending in ("csv", "parquet"):
+            add(f"curves.{ending}", lambda file: save(curves_table(comparison), file))
+        add("statistics.csv", lambda file: save(statistics_table(comparison.statistics), file))
+        archive.writestr("README.txt", _readme(comparison, title))
+        archive.writestr("CITATION.cff", citation())
+    return comparison
+
+
+def citation() -> str:
+    """The text of CITATION.cff."""
+    return (Path(punctura.__file__).parent / "CITATION.cff").read_text(encoding="utf-8")
+
+
+def ticks_table(run: Run) -> pa.Table:
+    """Every tick of a run as a table, SI."""
+    columns = {"time_s": run.time, "depth_m": run.depth}
+    columns |= {"model_force_N": run.model, "felt_force_N": run.felt, "permitted_force_N": run.permitted}
+    for i in range(run.depths.shape[1]):
+        columns |= {f"depth_{i}_m": run.depths[:, i], f"force_{i}_N": run.forces[:, i]}
+    return pa.table(columns)
+
+
+def curves_table(comparison: Comparison) -> pa.Table:
+    """The curves as a table, SI; the columns of a run have its number, from 1 on."""
+    unit = "s" if comparison.on == "time" else "m"
+    table: dict[str, object] = {}
+    for name, band in comparison.bands.items():
+        table.setdefault(f"{comparison.on}_{unit}", band.x)
+        of = f"{name}_m" if name == "depth" else f"{name}_force_N"
+        table |= {f"{of}_{i:02d}": row for i, row in enumerate(band.runs, 1)}
+        table |= {f"{of}_mean": band.mean, f"{of}_deviation": band.deviation, f"{name}_n": band.count}
+    return pa.table(table)
+
+
+def statistics_table(statistics: list[Statistics]) -> pa.Table:
+    """The numbers of each run as a table, SI."""
+    table: dict[str, object] = {"run": [one.name for one in statistics]}
+    table |= {f"{name}_{_UNITS.get(name, 'N')}": [getattr(one, name) for one in statistics] for name in NUMBERS}
+    return pa.table(table | {"pops": [len(one.pops) for one in statistics]})
+
+
+def _readme(comparison: Comparison, title: str) -> str:
+    return README.format(
+        title=title,
+        version=punctura.__version__,
+        build=build_id(),
+        n=len(comparison.statistics),
+        axis=AXIS[comparison.on],
+        against=AGAINST[comparison.on],
+        runs="\n".join(f"Run {i:02d}: {one.name}" for i, one in enumerate(comparison.statistics, 1)),
+    )

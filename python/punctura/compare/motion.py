@@ -1,0 +1,65 @@
+"""Motions for runs without a hand: a ready stroke, or the motion of a recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from punctura import Scene
+from punctura.compare.run import Array
+from punctura.events.recorded import recorded_ticks
+from punctura.live import stroke_ends
+from punctura.record import Recording
+
+LONGEST_S = 120.0  # of a motion
+SLOWEST, FASTEST = 1e-4, 0.5  # m/s, of a stroke
+
+
+@dataclass
+class Motion:
+    """The motion of the needle's tip, as the device reports it."""
+
+    name: str
+    time: Array = field(repr=False)  # (n,), s, from 0 on
+    position: Array = field(repr=False)  # (n, 3), m
+    axis: Array = field(repr=False)  # (n, 3) or (3,), direction of the needle
+
+    @property
+    def seconds(self) -> float:
+        return float(self.time[-1]) if len(self.time) else 0.0
+
+
+def stroke(scene: Scene, speed: float = 5e-3) -> Motion:
+    """One stroke through all membranes and back, along the first normal, with a constant speed, m/s.
+
+    Raises ValueError for a speed out of bounds, or a stroke that takes more than LONGEST_S.
+    """
+    if not SLOWEST <= speed <= FASTEST:
+        raise ValueError(f"speed must be from {SLOWEST:g} to {FASTEST:g} m/s, not {speed:g}")
+    start, end = (np.asarray(place) for place in stroke_ends(scene))
+    way = float(np.linalg.norm(end - start))
+    rate = scene.servo.rate
+    if 2 * way / speed > LONGEST_S:
+        raise ValueError(f"a stroke of {2 * way * 1e3:.1f} mm at {speed * 1e3:g} mm/s takes more than {LONGEST_S:g} s")
+    time = np.arange(0.0, 2 * way / speed, 1 / rate)
+    share = 1 - np.abs(1 - time * speed / way)
+    position = start + share[:, None] * (end - start)
+    return Motion(f"stroke at {speed * 1e3:g} mm/s", time, position, (end - start) / way)
+
+
+def recorded_motion(recording: Recording) -> Motion:
+    """The motion of a recording, every tick of it. Raises ValueError if there is none, or if it is too long."""
+    parts: list[list[Array]] = [[], [], []]
+    for ticks, _ in recorded_ticks(recording):
+        good = np.isfinite(ticks.position).all(axis=1) & np.isfinite(ticks.axis).all(axis=1)
+        for part, values in zip(parts, (ticks.time, ticks.position, ticks.axis), strict=True):
+            part.append(np.asarray(values[good], np.float64))
+    time, position, axis = (np.concatenate(part) if part else np.empty(0) for part in parts)
+    if len(time) < 2:
+        raise ValueError(f"{recording.path.stem} has no motion")
+    if time[-1] - time[0] > LONGEST_S:
+        raise ValueError(f"{recording.path.stem} is longer than {LONGEST_S:g} s; choose a shorter recording")
+    even = np.arange(time[0], time[-1], 1 / recording.info.scene.servo.rate)
+    at = [np.stack([np.interp(even, time, values[:, k]) for k in range(3)], axis=1) for values in (position, axis)]
+    return Motion(recording.path.stem, even - even[0], at[0], at[1])

@@ -1,0 +1,105 @@
+"""One run to compare: the few columns that a comparison needs, for each tick."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura import Scene, Ticks
+from punctura.events import Event, EventFinder
+from punctura.events.recorded import recorded_ticks
+from punctura.record import Recording, open_recording
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass
+class Run:
+    """A run, n ticks of m membranes. SI. Forces on the hand are positive if they push the needle out."""
+
+    name: str
+    scene: Scene  # at the start of the run
+    events: Sequence[Event]
+    time: Array = field(repr=False)  # (n,), s of the run
+    depth: Array = field(repr=False)  # (n,), of the tip below the first surface, m
+    travel: Array = field(repr=False)  # (n,), of the tip along the needle since the tick before, m; positive inwards
+    axis: Array = field(repr=False)  # (n, 3), direction of the needle
+    model: Array = field(repr=False)  # (n,), size of the model's force, N
+    felt: Array = field(repr=False)  # (n,), size of the device's force, N; without a device, the model's
+    permitted: Array = field(repr=False)  # (n,), the most that the limits allow, N; NaN without a device
+    depths: Array = field(repr=False)  # (n, m), of the tip in each membrane, m
+    forces: Array = field(repr=False)  # (n, m), the model's resistance of each membrane along the needle, N
+
+    @property
+    def touch(self) -> int:
+        """The row of the first contact with a membrane; 0 if there is none."""
+        first = next((event for event in self.events if event.what == "touch"), None)
+        return 0 if first is None else min(int(np.searchsorted(self.time, first.time)), len(self.time) - 1)
+
+    @classmethod
+    def of_ticks(cls, name: str, scene: Scene, ticks: Ticks) -> Run:
+        """A run of ticks in memory, such as those of `punctura.simulate`. Raises ValueError if there is none."""
+        return _joined(name, scene, [(ticks, EventFinder(scene).add(ticks))])
+
+
+def recorded_run(recording: Recording | str | os.PathLike[str], name: str = "") -> Run:
+    """Reads a recording as a run. Raises RecordingError, ValueError if it has no ticks."""
+    opened = recording if isinstance(recording, Recording) else open_recording(recording)
+    return _joined(name or opened.path.stem, opened.info.scene, _parts(opened))
+
+
+def _parts(recording: Recording) -> Iterator[tuple[Ticks, list[Event]]]:
+    scene = recording.info.scene
+    finder = EventFinder(scene, scene.servo.rate)
+    for ticks, new_scene in recorded_ticks(recording):
+        if new_scene is not None:
+            finder.change(new_scene)
+        yield ticks, finder.add(ticks)
+
+
+def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]]) -> Run:
+    first = scene.membranes[0]
+    normal = np.asarray(first.inward_normal, np.float64) / np.linalg.norm(first.inward_normal)
+    members = len(scene.membranes)
+    events: list[Event] = []
+    rows: list[list[Array]] = []
+    tips, axes = [], []
+    for ticks, found in parts:
+        if not len(ticks):
+            continue
+        events += found
+        tip = ticks.tip if "tip" in ticks else ticks.position
+        tips.append(np.asarray(tip, np.float64))
+        axes.append(np.asarray(ticks.axis, np.float64))
+        model = ticks.model_force if "model_force" in ticks else ticks.force
+        felt = resistance(ticks.force, ticks.axis)
+        permitted = ticks.get("ceiling")
+        rows.append(
+            [
+                np.asarray(ticks.time, np.float64),
+                (tips[-1] - np.asarray(first.point)) @ normal,
+                resistance(model, ticks.axis),
+                felt,
+                np.full(len(ticks), np.nan) if permitted is None else np.asarray(permitted, np.float64),
+                np.asarray(ticks.depth, np.float64).reshape(len(ticks), -1)[:, :members],
+                -np.asarray(ticks.axial_force, np.float64).reshape(len(ticks), -1)[:, :members],
+            ]
+        )
+    if not rows:
+        raise ValueError(f"{name} has no ticks")
+    time, depth, model, felt, permitted, depths, forces = (np.concatenate(part) for part in zip(*rows, strict=True))
+    tip, axis = np.concatenate(tips), np.concatenate(axes)
+    steps = np.diff(tip, axis=0, prepend=tip[:1])
+    travel = np.einsum("ij,ij->i", steps, axis)
+    return Run(name, scene, events, time, depth, travel, axis, model, felt, permitted, depths, forces)
+
+
+def resistance(force: Array, axis: Array) -> Array:
+    """The size of a force (n, 3), N, negative if it pulls the needle in. axis (n, 3): direction of the needle."""
+    size = np.linalg.norm(force, axis=1)
+    signed: Array = np.where(np.einsum("ij,ij->i", force, axis) > 0, -size, size)
+    return signed

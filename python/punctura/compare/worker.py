@@ -1,0 +1,136 @@
+"""Compares runs in a process of its own, at low priority: `python -m punctura.compare.worker`, for the studio.
+
+Reads one job as JSON from standard input. Writes JSON lines: {"share", "run"} before each run, then {"comparison"} or
+{"error"}.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, Field
+
+from punctura import PuncturaError
+from punctura.compare.bundle import save_bundle
+from punctura.compare.comparison import Band, Collector, Comparison
+from punctura.compare.motion import recorded_motion, stroke
+from punctura.compare.run import Array, Run, recorded_run
+from punctura.compare.vary import VaryError, vary
+from punctura.record import RecordingError, open_recording
+from punctura.record.scene_text import from_text
+
+MOST_TICKS = 2_000_000  # of a recording: 20 minutes at 1600 Hz need 400 MB
+DIGITS = 6
+Tell = Callable[[float, str], None]
+
+
+class Variation(BaseModel):
+    """A parameter (SI) through a list of values, with a stroke (m/s) or the motion of a recording."""
+
+    scene: str  # a scene file's text
+    path: str
+    values: list[float]
+    speed: float = 5e-3
+    recording: str = ""  # path of the file
+
+
+class Job(BaseModel):
+    """Runs to compare: recordings (name and path of the file), or a variation."""
+
+    on: Literal["depth", "time"] = "depth"
+    recordings: list[tuple[str, str]] = Field(default=[])
+    variation: Variation | None = None
+    zip: str = ""  # path of the zip file to write; without it, the comparison is printed
+
+
+def do(job: Job, tell: Tell) -> dict[str, Any]:
+    """Does a job; returns the comparisons as JSON, against depth and against time.
+
+    Raises ValueError, RecordingError, OSError.
+    """
+    count = len(job.recordings) or len(job.variation.values if job.variation else [])
+    runs = _told(_varied(job.variation) if job.variation else _recorded(job.recordings), count, tell)
+    if job.zip:
+        title = f"A variation of {job.variation.path}" if job.variation else "A comparison of recordings"
+        save_bundle(runs, job.zip, job.on, title)
+        return {}
+    collectors = (Collector("depth"), Collector("time"))
+    for run in runs:
+        for collector in collectors:
+            collector.add(run)
+    depth, time = (collector.comparison() for collector in collectors)
+    return {
+        "statistics": [one.model_dump() | {"drop": one.drop, "overshoot": one.overshoot} for one in depth.statistics],
+        "differences": [depth.difference(row) for row in range(count)],
+        "summary": {name: one._asdict() for name, one in depth.summary().items()},
+        "depth": as_json(depth),
+        "time": as_json(time),
+    }
+
+
+def _told(runs: Iterable[Run], count: int, tell: Tell) -> Iterator[Run]:
+    for done, run in enumerate(runs):
+        tell(done / count, run.name)
+        yield run
+
+
+def _recorded(recordings: list[tuple[str, str]]) -> Iterator[Run]:
+    for name, path in recordings:
+        recording = open_recording(path)
+        if recording.rows > MOST_TICKS:
+            raise ValueError(f"{name} has {recording.rows} ticks; at most {MOST_TICKS} can be compared")
+        yield recorded_run(recording, name)
+
+
+def _varied(asked: Variation) -> Iterator[Run]:
+    scene = from_text(asked.scene, Path("the scene"))
+    motion = recorded_motion(open_recording(asked.recording)) if asked.recording else stroke(scene, asked.speed)
+    return vary(scene, asked.path, asked.values, motion)
+
+
+def as_json(comparison: Comparison) -> dict[str, Any]:
+    """The curves of a comparison as JSON values, with DIGITS digits; null where there is no value."""
+    each = zip(comparison.names, comparison.membranes, strict=False)
+    return {
+        "bands": {name: _band(band) for name, band in comparison.bands.items()},
+        "membranes": [{"name": name, **_band(band)} for name, band in each],
+    }
+
+
+def _band(band: Band) -> dict[str, Any]:
+    return {
+        "x": _numbers(band.x),
+        "runs": [_numbers(row) for row in band.runs],
+        "mean": _numbers(band.mean),
+        "deviation": _numbers(band.deviation),
+        "count": band.count.tolist(),
+    }
+
+
+def _numbers(values: Array) -> list[float | None]:
+    return [float(f"{v:.{DIGITS}g}") if np.isfinite(v) else None for v in values]
+
+
+def main() -> None:
+    """Does the job on standard input."""
+    if hasattr(os, "nice"):
+        os.nice(19)  # the loop and the page come first
+
+    def say(**words: Any) -> None:
+        print(json.dumps(words), flush=True)
+
+    try:
+        job = Job.model_validate_json(sys.stdin.read())
+        say(comparison=do(job, lambda share, run: say(share=share, run=run)))
+    except (ValueError, VaryError, RecordingError, PuncturaError, OSError) as error:
+        say(error=str(error))
+
+
+if __name__ == "__main__":
+    main()

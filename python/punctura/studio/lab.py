@@ -1,0 +1,135 @@
+"""The laboratory: comparisons and variations, computed by a process of their own at low priority."""
+
+from __future__ import annotations
+
+import collections
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from starlette.datastructures import QueryParams
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+
+from punctura.compare.comparison import On
+from punctura.compare.vary import MOST_RUNS
+from punctura.compare.worker import Job, Variation
+from punctura.scene import scene_text
+from punctura.studio.download import Download
+from punctura.studio.session import Session
+
+COMMAND = [sys.executable, "-m", "punctura.compare.worker"]
+CHUNK = 1 << 16
+
+
+class LabError(ValueError):
+    """A job that is not possible; the text says why and what to do."""
+
+
+class Lab:
+    """One job at a time, for all pages together."""
+
+    def __init__(self, session: Session) -> None:
+        self._session, self._shelf = session, session.shelf
+        self._place = threading.BoundedSemaphore(1)
+
+    def fields(self, request: Request) -> Response:
+        """The fields of the present scene that can be varied, SI; null: no bound."""
+        return JSONResponse(
+            [
+                {"path": one.path, "value": one.value, "unit": one.unit}
+                for one in self._session.run.loaded.scene.fields()
+            ]
+        )
+
+    def compare(self, request: Request) -> Response:
+        """The comparison as JSON lines: first the progress, then the result or the error."""
+        job = self._job(request.query_params)
+        self._take_place()
+        return Download(_lines(job), self._place, media_type="application/x-ndjson")
+
+    def bundle(self, request: Request) -> Response:
+        """The zip file of the same comparison."""
+        job = self._job(request.query_params)
+        self._take_place()
+        headers = {"content-disposition": 'attachment; filename="punctura-comparison.zip"'}
+        return Download(_zipped(job), self._place, media_type="application/zip", headers=headers)
+
+    def _take_place(self) -> None:
+        if not self._place.acquire(blocking=False):
+            raise LabError("another comparison is being computed; try again when it is done, or cancel it")
+
+    def _job(self, asked: QueryParams) -> Job:
+        """Raises LabError, BadName, Missing."""
+        on: On = "time" if asked.get("on") == "time" else "depth"
+        names = asked.getlist("run")
+        if asked.get("on", on) != on:
+            raise LabError("on is depth or time")
+        if names and len(names) <= MOST_RUNS:
+            return Job(on=on, recordings=[(name, str(self._shelf.find(name))) for name in names])
+        if names or "path" not in asked:
+            raise LabError(f"choose 1 to {MOST_RUNS} recordings, or a parameter to vary")
+        first, last, count = _number(asked, "from"), _number(asked, "to"), _number(asked, "count")
+        if not (1 <= count <= MOST_RUNS and count == int(count)):
+            raise LabError(f"a variation has 1 to {MOST_RUNS} runs")
+        motion = asked.get("motion", "")
+        return Job(
+            on=on,
+            variation=Variation(
+                scene=scene_text(self._session.run.loaded.scene),
+                path=asked["path"],
+                values=np.linspace(first, last, int(count)).tolist(),
+                speed=_number(asked, "speed") if "speed" in asked else 5e-3,
+                recording=str(self._shelf.find(motion)) if motion else "",
+            ),
+        )
+
+
+def _number(asked: QueryParams, name: str) -> float:
+    try:
+        value = float(asked[name])
+    except (KeyError, ValueError):
+        raise LabError(f"{name} must be a number") from None
+    if not np.isfinite(value):
+        raise LabError(f"{name} must be a finite number")
+    return value
+
+
+def _lines(job: Job) -> Iterator[bytes]:
+    """The worker's lines as they come. Closing the iterator ends the worker."""
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    quiet = subprocess.DEVNULL
+    worker = subprocess.Popen(
+        COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, env=environment, start_new_session=True
+    )
+    assert worker.stdin and worker.stdout
+    try:
+        worker.stdin.write(job.model_dump_json().encode())
+        worker.stdin.close()
+        ended = False
+        for line in worker.stdout:
+            ended = not line.startswith(b'{"share"')
+            yield line
+        if not ended:
+            yield b'{"error": "the computation ended early; is there enough memory?"}\n'
+    finally:
+        worker.kill()
+        worker.stdout.close()
+        worker.wait()
+
+
+def _zipped(job: Job) -> Iterator[bytes]:
+    with tempfile.TemporaryDirectory(prefix="punctura-") as folder:
+        path = Path(folder) / "comparison.zip"
+        (last,) = collections.deque(_lines(job.model_copy(update={"zip": str(path)})), maxlen=1)
+        if error := json.loads(last).get("error"):
+            raise LabError(error)
+        with path.open("rb") as file:
+            while chunk := file.read(CHUNK):
+                yield chunk

@@ -1,0 +1,160 @@
+"""Runs compared: their numbers against independent calculations, their mean, and a parameter varied."""
+
+import csv
+import io
+import json
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import punctura as pn
+import pyarrow.parquet as pq
+import pytest
+from punctura._core import SimulatedDevice
+from punctura.compare import Run, VaryError, compare, recorded_motion, recorded_run, stroke, vary
+from punctura.compare.bundle import save_bundle
+from punctura.events import crossing
+from punctura.live import stroke_ends
+from punctura.record import open_recording
+from punctura.scene import scene_text
+from recorded import recorded
+
+VALUES = [500.0, 1000.0, 1500.0]
+PATH = "membrane[0].stiffness"
+SPEED = 10e-3  # m/s
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return pn.load_scene("venipuncture")
+
+
+@pytest.fixture(scope="module")
+def runs(scene):
+    return list(vary(scene, PATH, VALUES, stroke(scene, SPEED)))
+
+
+def test_a_runs_numbers_are_those_of_its_ticks(scene):
+    motion = stroke(scene, SPEED)
+    ticks = pn.simulate(scene, motion.position, time=motion.time, axis=motion.axis)
+    ticks = ticks.replace(axis=np.broadcast_to(motion.axis, (len(ticks), 3)))
+    found = compare([Run.of_ticks("one", scene, ticks)]).statistics[0]
+    size = np.linalg.norm(ticks.force, axis=1)
+    assert found.peak == pytest.approx(size.max()) and found.felt_peak == found.peak
+    deepest = motion.position @ motion.axis - np.asarray(scene.membranes[0].point) @ motion.axis
+    assert found.depth == pytest.approx(deepest.max(), abs=1e-4)  # the model filters the measured position
+    inside = slice(int(np.argmax(deepest > 0)), int(np.argmax(deepest)))
+    assert found.work == pytest.approx(float((size[inside] * np.diff(deepest)[inside]).sum()), rel=0.02)
+    assert [pop.name for pop in found.pops] == ["skin", "front vein wall", "back vein wall"]
+
+
+def test_the_overshoot_is_the_way_that_the_tip_went_on_after_the_pop(scene, runs):
+    for value, run in zip(VALUES, runs, strict=True):
+        pop = compare([run]).statistics[0].pops[0]
+        law = crossing(scene.with_values({PATH: value}), 0, 1.0)
+        # For 0.3 s the tip goes on at SPEED; at the pop itself it was ahead of the law by the coupling's give.
+        give = pop.drop / scene.coupling.stiffness + law.shaft / scene.coupling.stiffness
+        assert 0.3 * SPEED - give - 0.1e-3 < pop.overshoot < 0.3 * SPEED + give + 0.1e-3
+
+
+def test_mean_and_deviation_are_those_of_the_runs_at_each_place(runs):
+    for on in ("depth", "time"):
+        comparison = compare(runs, on)
+        assert len(comparison.membranes) == 3
+        for band in (*comparison.bands.values(), *comparison.membranes):
+            whole = band.count == len(runs)
+            assert np.allclose(band.mean[whole], band.runs[:, whole].mean(axis=0))
+            assert np.allclose(band.deviation[whole], band.runs[:, whole].std(axis=0, ddof=1))
+            assert np.isnan(band.deviation[band.count < 2]).all()
+    peaks = [one.peak for one in compare(runs).statistics]
+    summary = compare(runs).summary()["peak"]
+    assert summary == (3, pytest.approx(np.mean(peaks)), pytest.approx(np.std(peaks, ddof=1)))
+
+
+def test_against_depth_a_curve_has_the_value_of_the_first_passage(runs):
+    run, band = runs[0], compare(runs[:1]).bands["model"]
+    for k in (50, 200, 350):
+        first = int(np.argmax(run.depth >= band.x[k]))
+        low, high = sorted(run.model[first - 1 : first + 1])
+        assert low - 1e-3 <= band.runs[0, k] <= high + 1e-3
+
+
+def test_runs_with_different_membranes_have_no_curves_for_each_membrane(runs):
+    other = list(vary(pn.load_scene("k06-fig10"), PATH, [300.0]))
+    comparison = compare([runs[0], *other])
+    assert comparison.membranes == [] and len(comparison.statistics) == 2
+    first, second = comparison.statistics
+    assert comparison.difference(1)["peak"] == second.peak - first.peak
+
+
+@pytest.mark.parametrize(
+    "path, values, words",
+    [
+        ("membrane[9].stiffness", [1.0], "no field"),
+        (PATH, [-5.0], "stiffness"),
+        (PATH, [], "1 to 25 runs"),
+        (PATH, [500.0] * 26, "1 to 25 runs"),
+    ],
+)
+def test_a_variation_that_is_not_possible_is_refused_before_the_first_run(scene, path, values, words):
+    with pytest.raises(VaryError, match=words):
+        vary(scene, path, values)
+
+
+def test_a_variation_that_would_take_too_long_is_refused(scene):
+    with pytest.raises(VaryError, match="at most 600 s"):
+        vary(scene, PATH, [500.0] * 25, stroke(scene, 1e-3))
+    with pytest.raises(ValueError, match="takes more than"):
+        stroke(scene, 1e-4)
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory, scene):
+    start, end = stroke_ends(scene)
+    device = SimulatedDevice(pn.Strokes(start, end, count=1, duration=1.5), real_time=False, ticks=5000)
+    return recorded(tmp_path_factory.mktemp("compare") / "run one.parquet", device, scene, 5000)
+
+
+def test_a_recording_is_compared_by_what_its_device_gave(recording):
+    run = recorded_run(recording)
+    ticks = open_recording(recording).ticks()
+    assert run.name == "run one" and len(run.time) == len(ticks)
+    assert np.abs(run.felt).max() == pytest.approx(float(np.linalg.norm(ticks.force, axis=1).max()), rel=1e-6)
+    assert np.nanmax(run.permitted) == pytest.approx(float(np.nanmax(ticks.ceiling)), rel=1e-6)
+
+
+def test_the_motion_of_a_recording_moves_another_scene(recording, scene):
+    motion = recorded_motion(open_recording(recording))
+    soft, hard = (one.model.max() for one in vary(scene, PATH, [300.0, 3000.0], motion))
+    assert 0 < soft < hard
+
+
+def test_the_zip_file_has_figure_data_scenes_and_how_to_cite(tmp_path, runs):
+    comparison = save_bundle(runs, tmp_path / "all.zip", "depth", "three walls")
+    with zipfile.ZipFile(tmp_path / "all.zip") as archive:
+        read = {name: archive.read(name) for name in archive.namelist()}
+    assert read["figure.pdf"].startswith(b"%PDF") and b"<svg" in read["figure.svg"]
+    rows = csv.DictReader(io.StringIO(read["curves.csv"].decode()))
+    means = [float(row["model_force_N_mean"] or "nan") for row in rows]
+    assert np.allclose(means, comparison.bands["model"].mean, equal_nan=True)
+    ticks = pq.read_table(io.BytesIO(read["runs/02.parquet"]))
+    assert np.array_equal(ticks["model_force_N"], runs[1].model)
+    (tmp_path / "again.toml").write_bytes(read["scenes/02.toml"])
+    assert pn.load_scene(str(tmp_path / "again.toml")).membranes[0].membrane.stiffness == VALUES[1]
+    assert pn.__version__ in read["README.txt"].decode() and b"cff-version" in read["CITATION.cff"]
+
+
+def test_the_worker_tells_its_progress_and_its_result_or_the_reason(scene):
+    def told(**variation):
+        job = {"variation": {"scene": scene_text(scene), "path": PATH, "values": VALUES, **variation}}
+        command = [sys.executable, "-m", "punctura.compare.worker"]
+        done = subprocess.run(command, input=json.dumps(job), capture_output=True, text=True, check=True)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    *shares, last = told()
+    assert [one["share"] for one in shares] == pytest.approx([0, 1 / 3, 2 / 3])
+    result = last["comparison"]
+    assert len(result["statistics"]) == 3 and len(result["depth"]["membranes"]) == 3
+    assert result["time"]["bands"]["depth"]["count"][0] == 3
+    assert "no field" in told(path="nothing")[-1]["error"]

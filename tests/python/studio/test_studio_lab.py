@@ -1,0 +1,60 @@
+"""The laboratory's addresses: comparisons, variations, and everything in one zip file."""
+
+import io
+import json
+import urllib.error
+import urllib.parse
+import urllib.request
+import zipfile
+
+import pytest
+
+
+def get(served, address, /, **asked):
+    url = urllib.parse.urlsplit(served.address.url)
+    token = urllib.parse.parse_qs(url.query)["token"][0]
+    query = urllib.parse.urlencode(asked, doseq=True)
+    request = urllib.request.Request(f"{url.scheme}://{url.netloc}{address}?{query}")
+    request.add_header("Authorization", f"Bearer {token}")
+    try:
+        with urllib.request.urlopen(request, timeout=120) as answer:
+            return answer.status, answer.read()
+    except urllib.error.HTTPError as refusal:
+        return refusal.code, refusal.read()
+
+
+VARIATION = {"path": "membrane[0].stiffness", "from": 300, "to": 900, "count": 3, "speed": 0.02}
+
+
+def test_a_parameter_of_the_present_scene_is_varied_while_the_run_goes_on(served):
+    status, fields = get(served, "/api/lab/fields")
+    assert status == 200 and "membrane[0].stiffness" in {one["path"] for one in json.loads(fields)}
+    status, body = get(served, "/api/lab/compare", **VARIATION)
+    *shares, last = [json.loads(line) for line in body.splitlines()]
+    assert status == 200 and len(shares) == 3
+    peaks = [one["peak"] for one in last["comparison"]["statistics"]]
+    assert peaks == sorted(peaks) and peaks[0] < peaks[-1]
+
+
+def test_the_zip_file_of_a_variation_comes_from_the_same_address(served):
+    status, body = get(served, "/api/lab/bundle", on="time", **VARIATION)
+    assert status == 200
+    assert {"figure.svg", "figure.pdf", "README.txt", "CITATION.cff"} <= set(
+        zipfile.ZipFile(io.BytesIO(body)).namelist()
+    )
+
+
+@pytest.mark.parametrize(
+    "asked, words",
+    [
+        ({}, "choose 1 to 25"),
+        ({"run": "../secret"}, "a name"),
+        ({"run": "nothing"}, "nothing"),
+        ({**VARIATION, "count": 1000}, "1 to 25 runs"),
+        ({**VARIATION, "from": "many"}, "must be a number"),
+        ({**VARIATION, "on": "mass"}, "depth or time"),
+    ],
+)
+def test_a_job_that_is_not_possible_is_refused_with_the_reason(served, asked, words):
+    status, body = get(served, "/api/lab/compare", **asked)
+    assert 400 <= status < 500 and words in body.decode().lower()

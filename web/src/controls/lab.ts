@@ -1,0 +1,60 @@
+import { element, type Panel } from "../panel.ts";
+import type { ExerciseResult, RecordingEntry } from "../wire/files.ts";
+import { compute, type Job } from "./lab/job.ts";
+import { pickRuns } from "./lab/pick.ts";
+import { openComparison } from "./lab/result.ts";
+import { varyForm } from "./lab/vary.ts";
+import { wordsOf } from "./recordings/library.ts";
+
+/** Compares recordings, and varies a parameter of the scene through simulated runs. */
+export const labPanel: Panel = (host, app) => {
+  const bar = element("progress", { max: 1, value: 0, "aria-label": "Progress of the computation" });
+  const words = element("span", { class: "quiet" });
+  const cancel = element("button", { type: "button", class: "small" }, "Cancel");
+  const progress = element("div", { class: "tools progress", role: "status", hidden: true }, bar, words, cancel);
+  const trouble = element("p", { class: "error", role: "alert" });
+  let running: AbortController | null = null;
+  cancel.addEventListener("click", () => running?.abort());
+
+  const start = async (job: Job, title: string): Promise<void> => {
+    if (running) return;
+    const stop = new AbortController();
+    running = stop;
+    trouble.textContent = "";
+    progress.hidden = false;
+    bar.value = 0;
+    words.textContent = "computing…";
+    try {
+      const told = (share: number, run: string): void => {
+        bar.value = share;
+        words.textContent = run;
+      };
+      openComparison(app, job, title, await compute(app.api, job, told, stop.signal));
+    } catch (error) {
+      if (!stop.signal.aborted) trouble.textContent = wordsOf(error);
+    } finally {
+      running = null;
+      progress.hidden = true;
+    }
+  };
+  const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
+  const vary = varyForm((job) => void start(job, `${job.path} varied`));
+  host.append(picked.root, vary.root, progress, trouble);
+
+  const refresh = async (): Promise<void> => {
+    try {
+      const [entries, results] = await Promise.all([
+        app.api.json<RecordingEntry[]>("/api/recordings"),
+        app.api.json<ExerciseResult[]>("/api/results"),
+      ]);
+      picked.offer(entries, results);
+      vary.offer(await app.api.json("/api/lab/fields"), entries);
+    } catch (error) {
+      trouble.textContent = wordsOf(error);
+    }
+  };
+  // The panel reads its lists whenever it is opened.
+  new IntersectionObserver((seen) => {
+    if (seen.some(({ isIntersecting }) => isIntersecting)) void refresh();
+  }).observe(host);
+};

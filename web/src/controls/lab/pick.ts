@@ -1,0 +1,57 @@
+import { element } from "../../panel.ts";
+import type { ExerciseResult, RecordingEntry } from "../../wire/files.ts";
+import { dateText, lengthText } from "../recordings/words.ts";
+
+const MOST = 25; // runs, as in the studio
+
+/** A list of recordings and results with check boxes, and a button that compares the chosen ones. */
+export function pickRuns(act: (names: readonly string[]) => void): {
+  readonly root: HTMLElement;
+  offer(entries: readonly RecordingEntry[], results: readonly ExerciseResult[]): void;
+} {
+  const list = element("ul", { class: "lab-list" });
+  const none = element("p", { class: "quiet" }, "No recordings yet. Record a run, or try an exercise.");
+  const chosen = (): string[] =>
+    [...list.querySelectorAll<HTMLInputElement>("input:checked")].map(({ value }) => value);
+  const go = element("button", { type: "button", class: "small primary", onclick: () => act(chosen()) }, "Compare");
+  const mark = (): void => {
+    const count = chosen().length;
+    go.disabled = count < 1 || count > MOST;
+    go.textContent = count ? `Compare ${count} ${count === 1 ? "run" : "runs"}` : "Choose runs to compare";
+    if (count > MOST) go.textContent = `At most ${MOST} runs`;
+  };
+  list.addEventListener("change", mark);
+  return {
+    root: element(
+      "section",
+      { class: "pad" },
+      element("h3", {}, "Compare runs"),
+      element("p", { class: "quiet" }, "The first chosen run is the reference for the differences."),
+      none,
+      list,
+      go,
+    ),
+    offer: (entries, results) => {
+      const kept = new Set(chosen());
+      none.hidden = entries.length > 0;
+      list.hidden = go.hidden = entries.length === 0;
+      list.replaceChildren(
+        ...entries.map((entry) => {
+          const result = results.find(({ recording }) => recording === entry.name);
+          const facts = [
+            result && `${result.title}: ${result.passed ? "passed" : "not passed"}`,
+            result?.person,
+            lengthText(entry.seconds),
+            dateText(entry.started),
+          ].filter(Boolean);
+          const box = element("input", { type: "checkbox", value: entry.name });
+          box.checked = kept.has(entry.name);
+          const words = element("span", {}, entry.title || entry.name, " ");
+          words.append(element("span", { class: "quiet" }, facts.join(" · ")));
+          return element("li", {}, element("label", {}, box, words));
+        }),
+      );
+      mark();
+    },
+  };
+}

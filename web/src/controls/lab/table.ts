@@ -1,0 +1,64 @@
+import { element } from "../../panel.ts";
+import type { LabComparison, LabNumber } from "../../wire/files.ts";
+
+/** The columns: the number, its heading, and the factor from SI to the heading's unit. */
+const COLUMNS: readonly (readonly [name: LabNumber, head: string, gain: number, places: number])[] = [
+  ["peak", "peak, N", 1, 3],
+  ["felt_peak", "felt peak, N", 1, 3],
+  ["drop", "largest drop at a pop, N", 1, 3],
+  ["overshoot", "overshoot, mm", 1e3, 2],
+  ["work", "work, mJ", 1e3, 2],
+  ["duration", "duration, s", 1, 2],
+];
+
+const minus = (text: string): string => text.replace("-", "−");
+const numberText = (value: number | null, gain: number, places: number): string =>
+  value === null ? "–" : minus((value * gain).toFixed(places));
+const signed = (value: number, gain: number, places: number): string =>
+  `${value >= 0 ? "+" : ""}${minus((value * gain).toFixed(places))}`;
+
+/** The numbers of each run with their difference to the first, and their mean and standard deviation. */
+export function labTable({ statistics, differences, summary }: LabComparison): HTMLElement {
+  const rows = statistics.map((run, row) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, run.name),
+      ...COLUMNS.map(([name, , gain, places]) => {
+        const more = differences[row]?.[name] ?? null;
+        const words =
+          row && more !== null ? [" ", element("span", { class: "quiet" }, signed(more, gain, places))] : [];
+        return element("td", {}, numberText(run[name], gain, places), ...words);
+      }),
+    ),
+  );
+  const whole = COLUMNS.map(([name, , gain, places]) => {
+    const { n, mean, deviation } = summary[name];
+    const text = `${numberText(mean, gain, places)} ± ${numberText(deviation, gain, places)} (n = ${n})`;
+    return element("td", {}, n > 1 ? text : "–");
+  });
+  return element(
+    "div",
+    { class: "lab-table", tabindex: 0, role: "region", "aria-label": "Numbers of the runs" },
+    element(
+      "table",
+      {},
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          element("th", { scope: "col" }, "run"),
+          ...COLUMNS.map(([, head]) => element("th", { scope: "col" }, head)),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        ...rows,
+        element("tr", { class: "mean" }, element("th", { scope: "row" }, "mean ± s.d."), ...whole),
+      ),
+    ),
+  );
+}

@@ -1,0 +1,82 @@
+import { element } from "../../panel.ts";
+import type { RecordingEntry, SceneField } from "../../wire/files.ts";
+import type { Job } from "./job.ts";
+
+type Variation = Exclude<Job, { recordings: unknown }>;
+const SPEEDS = [1, 2, 3, 5, 10, 20]; // mm/s
+const MOST = 25; // runs, as in the studio
+const AROUND = 0.5; // the range that is offered first: half of the value on either side
+
+/** A form that chooses a field of the scene, its values and a motion. The runs are simulated in the studio. */
+export function varyForm(act: (job: Variation) => void): {
+  readonly root: HTMLElement;
+  offer(fields: readonly SceneField[], entries: readonly RecordingEntry[]): void;
+} {
+  const input = (label: string, more: Readonly<Record<string, string | number>>): [HTMLElement, HTMLInputElement] => {
+    const made = element("input", { type: "number", step: "any", required: true, ...more });
+    return [element("label", {}, element("span", {}, label), made), made];
+  };
+  const field = element("select", {});
+  const motion = element("select", {});
+  const [fromRow, from] = input("From", {});
+  const [toRow, to] = input("To", {});
+  const [countRow, count] = input("Runs", { min: 1, max: MOST, step: 1, value: 5 });
+  const unit = element("span", { class: "quiet" });
+  let fields: readonly SceneField[] = [];
+  const suggest = (): void => {
+    const { value, unit: name } = fields.find(({ path }) => path === field.value) ?? { value: 0, unit: "" };
+    unit.textContent = `now ${Number(value.toPrecision(6))} ${name}`;
+    from.value = String(Number((value * (1 - AROUND)).toPrecision(4)));
+    to.value = String(Number((value * (1 + AROUND)).toPrecision(4)));
+  };
+  field.addEventListener("change", suggest);
+  const form = element(
+    "form",
+    { class: "lab-vary" },
+    element("label", {}, element("span", {}, "Parameter (SI)"), field),
+    unit,
+    fromRow,
+    toRow,
+    countRow,
+    element("label", {}, element("span", {}, "Motion"), motion),
+    element("button", { type: "submit", class: "small primary" }, "Simulate"),
+  );
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const chosen = motion.value.startsWith("stroke ") ? Number(motion.value.slice(7)) / 1e3 : motion.value.slice(10);
+    act({
+      path: field.value,
+      from: Number(from.value),
+      to: Number(to.value),
+      count: Number(count.value),
+      motion: chosen,
+    });
+  });
+  return {
+    root: element(
+      "section",
+      { class: "pad" },
+      element("h3", {}, "Vary a parameter"),
+      element("p", { class: "quiet" }, "The same motion, simulated once for each value. The run goes on meanwhile."),
+      form,
+    ),
+    offer: (offered, entries) => {
+      const [before, moved] = [field.value, motion.value];
+      fields = offered;
+      field.replaceChildren(...offered.map(({ path }) => element("option", { value: path }, path)));
+      motion.replaceChildren(
+        ...SPEEDS.map((speed) => element("option", { value: `stroke ${speed}` }, `stroke at ${speed} mm/s`)),
+        ...entries.map(({ name, title }) =>
+          element("option", { value: `recording ${name}` }, `as in ${title || name}`),
+        ),
+      );
+      motion.value = moved || "stroke 5";
+      const known = offered.some(({ path }) => path === before);
+      if (known) field.value = before;
+      else {
+        field.value = offered.find(({ path }) => path.endsWith(".stiffness"))?.path ?? offered[0]?.path ?? "";
+        suggest();
+      }
+    },
+  };
+}

@@ -1,0 +1,83 @@
+import { describe, expect, it } from "vitest";
+import { drawLab, labCurves } from "../../../src/controls/lab/drawing.ts";
+import { compute, queryOf } from "../../../src/controls/lab/job.ts";
+import { Hidden } from "../../../src/plots/kit/legend.ts";
+import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
+import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
+import { Api } from "../../../src/wire/api.ts";
+import type { LabBand, LabComparison } from "../../../src/wire/files.ts";
+
+const band = (...runs: number[][]): LabBand => ({
+  x: [0, 1e-3, 2e-3],
+  runs,
+  mean: [0, 1, 2],
+  deviation: [0, 0.5, null],
+  count: [2, 2, 1],
+});
+const numbers = { duration: 1, depth: 1, peak: 1, felt_peak: 1, drop: 1, overshoot: null, work: 1, felt_work: 1 };
+const some = { n: 2, mean: 1, deviation: 0 };
+const curves = { bands: { model: band([0, 1, 2], [0, 2, 4]), depth: band([0, 1, 2], [0, 2, 4]) }, membranes: [] };
+const comparison: LabComparison = {
+  statistics: ["Ann", "Ben"].map((name) => ({ name, pops: [], ...numbers })),
+  differences: [numbers, numbers],
+  summary: {
+    duration: some, depth: some, peak: some, felt_peak: some,
+    drop: some, overshoot: some, work: some, felt_work: some,
+  }, // biome-ignore format: a table
+  depth: curves,
+  time: curves,
+};
+
+/** Answers every request with these pieces of a body. */
+const answering = (...pieces: string[]): Api => {
+  const body = new ReadableStream<Uint8Array>({
+    start: (to) => {
+      for (const piece of pieces) to.enqueue(new TextEncoder().encode(piece));
+      to.close();
+    },
+  });
+  return new Api({ search: "" }, () => Promise.resolve(new Response(body)));
+};
+const never = new AbortController().signal;
+
+describe("a comparison", () => {
+  it("is asked for by the names of recordings, or by a field, its values and a motion", () => {
+    expect(queryOf({ recordings: ["a b", "c&d"] })).toBe("run=a+b&run=c%26d");
+    const job = { path: "membrane[0].stiffness", from: 1, to: 2, count: 3 };
+    expect(queryOf({ ...job, motion: 0.005 })).toBe("path=membrane%5B0%5D.stiffness&from=1&to=2&count=3&speed=0.005");
+    expect(queryOf({ ...job, motion: "Ann" })).toContain("motion=Ann");
+  });
+
+  it("tells its progress while lines come in pieces, then gives the result", async () => {
+    const shares: number[] = [];
+    const api = answering(
+      '{"share": 0, "run": "Ann"}\n{"sha',
+      `re": 0.5, "run": "Ben"}\n{"comparison": ${JSON.stringify(comparison)}}\n`,
+    );
+    const found = await compute(api, { recordings: [] }, (share) => shares.push(share), never);
+    expect(shares).toEqual([0, 0.5]);
+    expect(found).toEqual(comparison);
+  });
+
+  it("that fails says why, and so does one that ends early", async () => {
+    const job = { recordings: [] };
+    await expect(compute(answering('{"error": "too long"}\n'), job, () => {}, never)).rejects.toThrow("too long");
+    await expect(compute(answering(""), job, () => {}, never)).rejects.toThrow("no result");
+  });
+
+  it("is drawn with each run, their mean and its deviation; the legend switches each of them off", () => {
+    const drawn = (off: string[], on: "depth" | "time" = "depth"): string => {
+      const pen = new SvgPen();
+      drawLab(pen, 600, 300, CSS_THEME, comparison, on, "model", new Hidden("test", off));
+      return pen.file(600, 300, "none", "", "");
+    };
+    const lines = (file: string): number => file.match(/stroke-width="1\.4"/g)?.length ?? 0;
+    expect(labCurves(comparison, CSS_THEME).map(({ id }) => id)).toEqual(["run 0", "run 1", "mean"]);
+    expect(lines(drawn([]))).toBe(2);
+    expect(drawn([])).toContain('fill-opacity="0.18"');
+    expect(lines(drawn(["run 1", "mean"]))).toBe(1);
+    expect(drawn(["mean"])).not.toContain('fill-opacity="0.18"');
+    expect(lines(drawn([], "time"))).toBe(4); // the force, and the depth below it
+    expect(drawn([], "time")).toContain(">time since the first contact (s)<");
+  });
+});
