@@ -17,7 +17,6 @@ import numpy as np
 from pydantic import BaseModel, Field
 
 from punctura import PuncturaError
-from punctura.compare.bundle import save_bundle
 from punctura.compare.comparison import Band, Collector, Comparison
 from punctura.compare.motion import recorded_motion, stroke
 from punctura.compare.run import Array, Run, recorded_run
@@ -57,6 +56,8 @@ def do(job: Job, tell: Tell) -> dict[str, Any]:
     count = len(job.recordings) or len(job.variation.values if job.variation else [])
     runs = _told(_varied(job.variation) if job.variation else _recorded(job.recordings), count, tell)
     if job.zip:
+        from punctura.compare.bundle import save_bundle  # matplotlib takes long to import
+
         title = f"A variation of {job.variation.path}" if job.variation else "A comparison of recordings"
         save_bundle(runs, job.zip, job.on, title)
         return {}
