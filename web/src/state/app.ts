@@ -1,7 +1,6 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
 import { Api } from "../wire/api.ts";
-import type { GoalLine } from "../wire/files.ts";
-import type { LabComparison } from "../wire/files.ts";
+import type { GoalLine, LabComparison } from "../wire/files.ts";
 import type {
   Control,
   ExerciseStatus,
