@@ -37,6 +37,15 @@ def popped(page: Page) -> None:
     drag_in(page, pops=1)
 
 
+def again(page: Page) -> None:
+    popped(page)
+    page.get_by_role("button", name="Show again, slowly").click()
+    bar = page.get_by_role("group", name="Replay")
+    bar.get_by_role("button", name="Next event").click()
+    for _ in range(8):
+        bar.get_by_role("button", name="Forward one tick").click()
+
+
 def editor(page: Page) -> None:
     popped(page)
     tab(page, "Scene")
@@ -71,7 +80,7 @@ def replay(page: Page) -> None:
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible(timeout=PATIENCE)
     for _ in range(2):
-        bar.get_by_role("button", name="To the next event").click()
+        bar.get_by_role("button", name="Next event").click()
 
 
 def exercise(page: Page) -> None:
@@ -94,6 +103,7 @@ STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...
     ("tour", "venipuncture", tour, LAPTOP, "light"),
     ("pop", "k06-fig10", popped, LAPTOP, "light"),
     ("pop-dark", "k06-fig10", popped, LAPTOP, "dark"),
+    ("again", "venipuncture", again, LAPTOP, "light"),
     ("vein", "venipuncture", popped, LAPTOP, "light"),
     ("editor", "k06-fig10", editor, LAPTOP, "light"),
     ("error", "k06-fig10", wrong_value, LAPTOP, "light"),

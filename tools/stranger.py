@@ -63,11 +63,14 @@ class Mouse:
         while (gone := PIXELS_PER_S * (time.monotonic() - started)) < way and not until.is_visible():
             mouse.move(self._x, begin + sign * gone)
             self._page.wait_for_timeout(1e3 * STEP_S)
+        if not until.is_visible():
+            mouse.move(self._x, end)  # also where the page was too slow to follow each step of the hand
         mouse.up()
 
 
 def try_once(page: Page, url: str) -> Try:
-    page.goto(url, timeout=PATIENCE)
+    page.set_default_timeout(PATIENCE)
+    page.goto(url)
     sentence = page.get_by_text(SENTENCE, exact=True)
     expect(sentence).to_be_visible(timeout=PATIENCE)
     began = time.monotonic()

@@ -37,7 +37,7 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     # Half the resolution: the processor draws a quarter of the pixels, and nobody looks.
     size = {"width": 1440, "height": 900}
     context = browser.new_context(viewport=size, device_scale_factor=0.5, reduced_motion="reduce")
-    # The question about sound was answered before: it would lie over the page.
+    # The question about sound was answered before.
     context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
     opened = context.new_page()
     opened.on("pageerror", lambda error: errors.append(str(error)))

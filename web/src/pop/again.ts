@@ -43,9 +43,10 @@ export function showAgain(app: App, event: MembraneEvent): boolean {
   return made !== null;
 }
 
-/** Shows the last pop again, slowly, if there was one. */
+/** Shows the last pop again, slowly, if there was one. In an excerpt it begins anew. */
 export function showLastAgain(app: App): void {
-  const pop = lastPop(app.source.value);
+  const { value: source } = app.source;
+  const pop = source.excerpt?.event ?? lastPop(source);
   if (pop) showAgain(app, pop);
   else app.say("There was no pop yet.");
 }

@@ -63,6 +63,10 @@ it("shows the same tick in the view and in the plots, which show just these 100 
   const window = plots.update();
   expect(plots.source.shown()).toBe(1207);
   expect(app.source.value.shown()).toBe(1207);
+  app.source.value.cursor.value = 1160;
+  showLastAgain(app); // anew, also before its pop
+  expect(app.source.value.shown()).toBe(1150);
+  app.source.value.cursor.value = 1207;
   expect([window.from.toFixed(6), window.to.toFixed(6)]).toEqual(["1.150000", "1.250000"]);
 });
 

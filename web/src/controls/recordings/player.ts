@@ -132,7 +132,7 @@ function fill(host: HTMLElement, app: App, source: Source, from: number | null):
     if (tick !== null && tick !== playback.tick) go(tick);
   });
   if (from !== null) playback.seek(from);
-  else if (showing.alwaysPlays || !matchMedia("(prefers-reduced-motion: reduce)").matches) playback.play();
+  else if (!matchMedia("(prefers-reduced-motion: reduce)").matches) playback.play();
   show();
   let last: number | null = null;
   const stop = everyFrame((now) => {

@@ -16,8 +16,6 @@ export interface Showing {
   spokenTime(tick: number): string;
   readonly backWords: string;
   back(): void;
-  /** Whether it also plays at once under reduced motion: an excerpt does, because the user asked for this motion. */
-  readonly alwaysPlays: boolean;
   /** After its end it goes back by itself, unless the user has used the bar. */
   readonly goesBack: boolean;
 }
@@ -41,7 +39,6 @@ function recordingShowing(app: App, { history, paused }: Source): Showing {
     spokenTime: (tick) => `${at(tick)} of ${total} seconds`,
     backWords: "Back to live",
     back: () => app.goLive(),
-    alwaysPlays: false,
     goesBack: false,
   };
 }
@@ -67,7 +64,6 @@ function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Sour
     spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the pop`,
     backWords: excerpt.of.live ? "Back to live" : excerpt.of.paused ? "Back to the pause" : "Back to the recording",
     back: () => leaveExcerpt(app),
-    alwaysPlays: true,
     goesBack: true,
   };
 }
