@@ -1,3 +1,4 @@
+import { arrange } from "./controls/arrange/arrange.ts";
 import { editorPanel } from "./controls/editor.ts";
 import { exercisesPanel } from "./controls/exercises.ts";
 import { faultBanner } from "./controls/fault_banner.ts";
@@ -27,7 +28,8 @@ const both =
     below(host, app);
   };
 
-/** The page: header; the view and the phases to the left; plots in the middle; the tabs to the right. */
+/** The page: header; the view and the phases to the left; plots in the middle; the tabs to the right. `arrange` lets
+ * the panels change size and place. */
 export function layout(root: HTMLElement, app: App): void {
   const place = (name: string, label: string, panel: Panel): HTMLElement => {
     const host = element("section", { class: `panel ${name}`, "aria-label": label });
@@ -56,5 +58,6 @@ export function layout(root: HTMLElement, app: App): void {
     place("player", "Replay", playerBar),
     place("notices", "Messages", notices),
   );
+  arrange(root, app);
   tour(root, app);
 }

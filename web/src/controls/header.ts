@@ -1,4 +1,5 @@
 import { element, type Panel } from "../panel.ts";
+import { layoutMenu } from "./arrange/layout_menu.ts";
 import { connectionLine } from "./connection_line.ts";
 import { controlLine } from "./control_line.ts";
 import { scenePicker } from "./scene_picker.ts";
@@ -28,6 +29,7 @@ export const headerBar: Panel = (host, app) => {
     element("span", { class: "gap" }),
     controlLine(app),
     connectionLine(app),
+    layoutMenu(app),
     element(
       "button",
       { type: "button", class: "quiet-button", title: "Four things to do with the needle", onclick: startTour },

@@ -1,4 +1,5 @@
 import { Color } from "three";
+import { colourToken } from "../state/colours.ts";
 
 /** The present colours of styles/tokens.css. */
 export class Theme {
@@ -36,7 +37,7 @@ export class Theme {
 
   /** The colour of a membrane, as in the plots. */
   membrane(index: number): Color {
-    return this.color(`data-${(index % 5) + 1}`);
+    return this.color(colourToken(index));
   }
 
   watch(listener: () => void): void {

@@ -4,8 +4,8 @@ import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { poseBeside } from "./expert.ts";
-import { gestureWords } from "./gesture_words.ts";
 import { gestures } from "./gestures.ts";
+import { gestureHelp } from "./help.ts";
 import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
@@ -29,7 +29,7 @@ export const view: Panel = (host, app) => {
     tabindex: 0, role: "application", "aria-label": "3D view of the needle and the membranes",
     "aria-describedby": "view-help",
   }); // biome-ignore format: short
-  const help = element("p", { class: "view-help", id: "view-help" }, ...gestureWords());
+  const help = gestureHelp();
   host.append(canvas, help);
   const theme = new Theme();
   const orbit = new OrbitCamera();

@@ -1,4 +1,5 @@
 import { element } from "../../panel.ts";
+import { colourToken } from "../../state/colours.ts";
 import { Signal } from "../../state/signal.ts";
 import type { Draft } from "./draft.ts";
 import type { Table } from "./fields.ts";
@@ -76,7 +77,7 @@ export class MembraneList {
     const bodyId = `membrane-${index}-fields`;
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" }, String(index + 1));
     // The page's content security policy forbids a style attribute.
-    swatch.style.setProperty("--swatch", `var(--data-${(index % 5) + 1})`);
+    swatch.style.setProperty("--swatch", `var(--${colourToken(index)})`);
     const head = element(
       "button",
       { type: "button", class: "card-head", "aria-controls": bodyId, onclick: () => this.open(index) },

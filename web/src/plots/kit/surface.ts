@@ -25,6 +25,7 @@ export class Surface {
   /** Counts the changes of size. */
   sizes = 0;
   private ratio = 1;
+  private scale = 1; // of the drawing: --scale of the style sheet, for a projector
   private readonly back = document.createElement("canvas");
   private readonly backPen: CanvasPen;
 
@@ -63,19 +64,23 @@ export class Surface {
 
   private fit(host: HTMLElement): void {
     const { clientWidth, clientHeight } = host;
-    this.width = clientWidth;
-    this.height = clientHeight;
-    this.ratio = devicePixelRatio;
+    this.scale = Number(getComputedStyle(host).getPropertyValue("--scale")) || 1;
+    this.width = clientWidth / this.scale;
+    this.height = clientHeight / this.scale;
+    this.ratio = devicePixelRatio * this.scale;
     for (const canvas of [this.canvas, this.back]) {
-      canvas.width = Math.max(1, Math.round(clientWidth * this.ratio));
-      canvas.height = Math.max(1, Math.round(clientHeight * this.ratio));
+      canvas.width = Math.max(1, Math.round(clientWidth * devicePixelRatio));
+      canvas.height = Math.max(1, Math.round(clientHeight * devicePixelRatio));
     }
     this.sizes++;
   }
 
   private listen(): void {
     const { canvas } = this;
-    const at = (event: PointerEvent): { x: number; y: number } => ({ x: event.offsetX, y: event.offsetY });
+    const at = (event: PointerEvent): { x: number; y: number } => ({
+      x: event.offsetX / this.scale,
+      y: event.offsetY / this.scale,
+    });
     const leave = (): void => {
       this.pointer = null;
       this.changes++;

@@ -1,3 +1,5 @@
+import { COLOURS, colourToken } from "../../state/colours.ts";
+
 /** The colours of styles/tokens.css, resolved for use on a canvas. */
 export interface Theme {
   readonly panel: string;
@@ -10,7 +12,7 @@ export interface Theme {
   readonly data: readonly string[];
 }
 
-const DATA = ["--data-1", "--data-2", "--data-3", "--data-4", "--data-5"];
+const DATA = Array.from({ length: COLOURS }, (_, membrane) => `--${colourToken(membrane)}`);
 
 /** The colours by their names: for SVG inside the page, which follows the page's theme by itself. */
 export const CSS_THEME: Theme = {

@@ -1,0 +1,86 @@
+import type { Panel } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+import { onePerApp } from "../../state/one_per_app.ts";
+import { Arrangements, PANELS, PLACES } from "./arrangement.ts";
+import { addPanelTools } from "./panel_tools.ts";
+import { separator } from "./separator.ts";
+
+const NARROW = matchMedia("(max-width: 1080px)");
+
+/** The layout of this page; there is one per app. */
+export const arrangementsOf = onePerApp(() => new Arrangements());
+
+/**
+ * Makes the panels of `root` resizable, and lets them swap places, fill the page, or stand as on a projector. The
+ * style sheet (styles/layout.css) draws what the attributes and variables say that this sets.
+ */
+export const arrange: Panel = (root, app) => {
+  const all = arrangementsOf(app);
+  const panels = PANELS.map((name) => root.querySelector<HTMLElement>(`:scope > .${name}`)!);
+  panels.forEach((panel, i) => {
+    addPanelTools(panel, PANELS[i]!, all);
+  });
+  const side = root.querySelector<HTMLElement>(":scope > .side")!;
+  const share = (at: number, length: number): number => at / Math.max(1, length);
+  // The first panel begins where the rows of panels do.
+  const top = (): number => Math.min(...panels.map((panel) => panel.getBoundingClientRect().top));
+  const bottom = (): number => side.getBoundingClientRect().bottom;
+  root.append(
+    separator(all, "left", "Width of the left panels", (box, x) => share(x - box.left, side.offsetLeft), 1),
+    separator(all, "top", "Height of the upper panels", (_, __, y) => share(y - top(), bottom() - top()), 1),
+    separator(all, "side", "Width of the controls", (box, x) => box.right - x, -1),
+  );
+  all.now.watch((now) => {
+    for (const name of ["left", "top"] as const) {
+      root.style.setProperty(`--${name}`, `${now[name]}fr`);
+      root.style.setProperty(`--${name}-rest`, `${1 - now[name]}fr`);
+    }
+    root.style.setProperty("--side", `${now.side}px`);
+    now.order.forEach((name, i) => {
+      const panel = panels[PANELS.indexOf(name)]!;
+      panel.dataset.place = PLACES[i];
+    });
+    inOrder(
+      root,
+      now.order.map((name) => panels[PANELS.indexOf(name)]!),
+    );
+    root.toggleAttribute("data-projector", now.projector);
+  });
+  all.maximised.watch((name) => {
+    root.toggleAttribute("data-maximised", name !== null);
+    panels.forEach((panel, i) => {
+      panel.classList.toggle("maximised", PANELS[i] === name);
+    });
+  });
+  keys(app);
+  app.exercise.watch((status) => {
+    const running = status?.running ?? false;
+    const began = running && !root.hasAttribute("data-exercise");
+    root.toggleAttribute("data-exercise", running);
+    // Where the page scrolls, the view and, below it, the instruction come to the screen.
+    if (began && NARROW.matches) panels[0]!.scrollIntoView({ block: "start" });
+  });
+};
+
+/** The order of reading and of the tab key is the order on the page. The focus stays where it is. */
+function inOrder(root: HTMLElement, panels: readonly HTMLElement[]): void {
+  const now = [...root.children].filter((child) => panels.includes(child as HTMLElement));
+  if (panels.every((panel, i) => panel === now[i])) return;
+  const focus = document.activeElement;
+  const before = root.querySelector(":scope > .side");
+  for (const panel of panels) root.insertBefore(panel, before);
+  if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
+}
+
+/** Alt+P: the layout for a projector. Escape: back to all panels. */
+function keys(app: App): void {
+  const all = arrangementsOf(app);
+  document.addEventListener("keydown", (event) => {
+    if (event.altKey && !event.ctrlKey && event.code === "KeyP") {
+      event.preventDefault();
+      all.set({ projector: !all.now.value.projector });
+    } else if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) {
+      all.maximised.value = null;
+    }
+  });
+}
