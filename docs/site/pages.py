@@ -10,7 +10,7 @@ from text import heading
 
 PACKAGES = [
     "punctura", "punctura.scene", "punctura.simulation", "punctura.live", "punctura.record", "punctura.events",
-    "punctura.exercise", "punctura.reproduce", "punctura.ticks",
+    "punctura.exercise", "punctura.reproduce",
 ]  # fmt: skip
 
 

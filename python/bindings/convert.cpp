@@ -7,7 +7,7 @@ namespace punctura::bindings {
 
 Input input(const nb::object& array_like, const char* name) {
   const nb::object numpy = nb::module_::import_("numpy");
-  if (nb::hasattr(array_like, "mask") && nb::cast<bool>(numpy.attr("any")(array_like.attr("mask"))))
+  if (nb::hasattr(array_like, "_mask") && nb::cast<bool>(numpy.attr("ma").attr("is_masked")(array_like)))
     throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
   return nb::cast<Input>(numpy.attr("ascontiguousarray")(array_like, numpy.attr("float64")));
 }

@@ -100,6 +100,8 @@ def command(
     for wrong, name in ((record, "--record"), (as_json, "--json")):
         if wrong and not headless:
             raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
+    if record and record.suffix.lower() != ".parquet":
+        raise typer.BadParameter("must end in .parquet", param_hint="--record")
     of_the_page = {"--port": port, "--no-browser": no_browser, "--recordings": recordings, "--exercise": exercise}
     for name, given in of_the_page.items():
         if given and headless:

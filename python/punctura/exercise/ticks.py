@@ -9,15 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Scene
-from punctura._core import Phase, grazing_cosine, tip_length
-from punctura.ticks import ABSENT, COMMAND_SCENE, Columns
+from punctura._core import grazing_cosine, tip_length
+from punctura.ticks import ABSENT, COMMAND_SCENE, INSIDE, Columns
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Whether the membrane holds the needle, indexed by phase.
-_INSIDE = np.zeros(256, dtype=np.bool_)
-_INSIDE[[Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value]] = True
 ROUNDING = 1e-12  # m
 
 
@@ -77,7 +74,7 @@ class Geometry:
         depth = _wide(columns["depth"], m, np.nan)
         n = len(depth)
         finite = np.isfinite(depth)
-        inside = _INSIDE[_wide(columns["phase"], m, ABSENT)] & finite
+        inside = INSIDE[_wide(columns["phase"], m, ABSENT)] & finite
         axis = _rows(columns.get("axis"), n)
         cosine = self._cosine(columns, axis, inside)
         below = np.where(inside, depth * cosine, depth)

@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from punctura._core import Replay, Scene
 from punctura.record.build_id import build_id
 from punctura.record.columns import LOST, NEW_SCENES, Columns
+from punctura.record.errors import RecordingError
 from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
 from punctura.record.scene_text import from_text
 from punctura.record.schema import input_ticks, membranes_in, numbers, raw_batch, worded
 from punctura.record.target import check_target
-from punctura.ticks import COMMAND_SCENE
+from punctura.ticks import ABSENT, COMMAND_SCENE
 from punctura.ticks.flat import flatten
 
 
@@ -109,6 +110,8 @@ class _Replayer:
         scenes = batch.column(NEW_SCENES).to_pylist()
         taken = recorded["commands"] & COMMAND_SCENE != 0
         computed = self._step.run(input_ticks(batch), [self._scenes(scenes[k]) for k in np.flatnonzero(taken)])
+        if (computed.phase[:, self._width :] != ABSENT).any():
+            raise RecordingError(f"{self._path}: columns were removed; its scene has more than {self._width} membranes")
         self._compare(recorded, flatten(computed, self._width))
         self._result.ticks += n
         return raw_batch(computed, self._width, recorded[LOST].astype(np.uint32), scenes)

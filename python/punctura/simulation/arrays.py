@@ -29,6 +29,9 @@ def simulate_arrays(
     """See simulate."""
     normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
     normal = normal / np.linalg.norm(normal)
+    for name, given in (("position", position), ("time", time), ("axis", axis)):
+        if np.ma.is_masked(given):
+            raise ValueError(f"{name} has masked elements: fill them in, or leave these rows out")
     p = np.asarray(position, dtype=np.float64)
     if p.ndim == 1:  # depths below the first membrane's surface
         p = np.asarray(scene.membranes[0].point) + p[:, None] * normal

@@ -21,9 +21,8 @@ from punctura.studio.pump import MOST_TICKS
 from punctura.studio.view import scene_view
 from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import encode_ticks
-from punctura.ticks import ABSENT, Ticks
+from punctura.ticks import ABSENT, INSIDE, Ticks
 
-_INSIDE = [int(phase) for phase in (Phase.sticking, Phase.sliding_in, Phase.sliding_out)]
 MOTION_HZ = 250.0  # sampling rate of a recorded motion for the hand; Target smooths between the samples
 Array = npt.NDArray[np.float64]
 
@@ -75,7 +74,7 @@ def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:
             continue
         axis = np.asarray(ticks.axis[0], np.float64) if axis is None else axis
         for i in range(min(len(entered), ticks.phase.shape[1])):
-            inside = np.isin(ticks.phase[:, i], _INSIDE)
+            inside = INSIDE[ticks.phase[:, i]]
             if np.isnan(entered[i]).any() and inside.any():
                 entered[i] = ticks.direction[inside.argmax(), i]
         if np.isfinite(entered).all():

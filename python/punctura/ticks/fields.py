@@ -7,11 +7,16 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import NamedTuple
 
-from punctura._core import TickField, tick_fields
+import numpy as np
+
+from punctura._core import Phase, TickField, tick_fields
 
 AXES = ("x", "y", "z")
 ABSENT = 255  # phase of a membrane that a tick's scene does not have; its numbers are NaN
 COMMAND_SCENE = 8  # bit of the field `commands`: this tick took a new scene
+
+INSIDE = np.zeros(256, dtype=np.bool_)  # whether the membrane holds the needle, by the code of a phase
+INSIDE[[Phase.sticking.value, Phase.sliding_in.value, Phase.sliding_out.value]] = True
 
 FIELDS: Mapping[str, TickField] = {field.name: field for field in tick_fields()}
 

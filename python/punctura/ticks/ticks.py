@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 def _typed(name: str, column: npt.ArrayLike) -> Array:
     """The column with its field's type. Raises ValueError for a number that the type does not hold."""
+    if np.ma.is_masked(column):
+        raise ValueError(f"{name} has masked elements: fill them in, or leave these ticks out")
     given = np.asarray(column)
     if name not in FIELDS:
         return given

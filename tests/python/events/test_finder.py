@@ -191,3 +191,14 @@ def test_a_changed_membrane_pops_where_its_new_law_says():
     moved_away = STILL.replace(membranes=[p.replace(point=(0, -1e-3, 0)) for p in STILL.membranes])
     finder.change(moved_away)
     assert finder.add({name: column[-1:] for name, column in columns.items()})[0].what == "touch"
+
+
+def test_an_event_without_a_time_is_refused_and_the_batch_is_not_taken():
+    path = np.outer(np.linspace(-1e-3, 12e-3, 400), [0, -1, 0])
+    ticks = pn.Insertion(SCENE).run(path, [0, -1, 0])
+    time = np.arange(400) / 1600
+    finder, other = EventFinder(SCENE), EventFinder(SCENE)
+    with pytest.raises(ValueError, match="time must be finite where an event is found"):
+        finder.add(ticks.replace(time=np.full(400, np.nan)))
+    good = ticks.replace(time=time)
+    assert finder.add(good) == other.add(good) != []

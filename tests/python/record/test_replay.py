@@ -13,6 +13,8 @@ from punctura import ConfigurationError, load_scene
 from punctura._core import GateLimits
 from punctura.cli import main
 from punctura.record import RecordingError, export, open_recording, replay
+from punctura.record.header import to_metadata
+from punctura.ticks.fields import file_column
 
 
 def test_a_minute_at_1600_hz_is_identical(start):
@@ -216,3 +218,18 @@ def test_the_computed_ticks_overwrite_no_recording(start, tmp_path):
     with pytest.raises(ConfigurationError, match="is already a recording"):
         export(run.path, other)
     assert other.read_bytes() == before
+
+
+def test_a_recording_without_the_columns_of_a_membrane_is_refused(start, tmp_path):
+    run = start(ticks=1600)
+    run.go()
+    run.wait(lambda: run.recorder.status().rows == 1600)
+    run.record()
+    whole = pq.read_table(run.path)
+    last = len(open_recording(run.path).info.scene.membranes) - 1
+    kept = [name for name in whole.schema.names if not ((field := file_column(name)) and field.membrane == last)]
+    assert len(kept) < len(whole.schema.names)
+    narrow, data = whole.select(kept), open_recording(run.path).info.data
+    pq.write_table(narrow.replace_schema_metadata(to_metadata(data, narrow.schema)), tmp_path / "narrow.parquet")
+    with pytest.raises(RecordingError, match="columns were removed"):
+        replay(tmp_path / "narrow.parquet")

@@ -184,3 +184,18 @@ def test_a_number_that_is_nan_is_not_taken_for_an_absent_membrane():
 def test_a_number_that_the_type_of_its_field_does_not_hold_is_refused(phase):
     with pytest.raises(ValueError, match="phase must hold numbers of type uint8, and holds others"):
         Ticks({"phase": phase})
+
+
+def test_masked_elements_are_refused():
+    masked = np.ma.masked_array([0.0, 1.0, 2.0], mask=[False, True, False])
+    with pytest.raises(ValueError, match="time has masked elements"):
+        Ticks({"time": masked})
+    with pytest.raises(ValueError, match="position has masked elements"):
+        pn.simulate(SCENE, masked)
+    with pytest.raises(ValueError, match="p has masked elements"):
+        pn.Insertion(SCENE).run(np.ma.masked_array(np.zeros((3, 3)), mask=np.eye(3)), [0, -1, 0])
+    assert len(Ticks({"time": np.ma.masked_array([0.0, 1.0], mask=False)})) == 2
+    whole = np.ma.masked_array(np.zeros((3, 3)), mask=False)
+    assert len(pn.Insertion(SCENE).run(whole, [0, -1, 0])) == len(
+        pn.Insertion(SCENE).run(pandas.DataFrame(whole), DOWN)
+    )
