@@ -1,4 +1,3 @@
-import type { Camera, Vector3 } from "three";
 import { element } from "../panel.ts";
 import { CHAMBER, HUB_MM, hubOutline } from "./hub.ts";
 import type { NeedleState } from "./needle.ts";
@@ -6,14 +5,6 @@ import { gaugeOf } from "./needle_gauge.ts";
 import { SYRINGE } from "./needle_syringe.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
-const EDGE = 0.94; // of the view's half size: a hub nearer to the border counts as out of view
-
-/** Whether a point is outside the view. mm. */
-export function outOfView(point: Vector3, camera: Camera): boolean {
-  const { x, y, z } = point.clone().project(camera);
-  return Math.abs(x) > EDGE || Math.abs(y) > EDGE || z > 1;
-}
-
 /** The words under the inset. */
 export function insetWords({ look, blood, pressed, content }: NeedleState): string {
   if (look !== "tuohy") return blood > 0.05 ? "Hub: blood" : "Hub: no blood";

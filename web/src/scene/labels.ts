@@ -24,6 +24,12 @@ export class Labels {
   private size: readonly [number, number] = [1, 1];
   private obstacles: Rect[] = [];
   private measured = Number.NEGATIVE_INFINITY;
+  private readonly watched = new WeakSet<Element>();
+  /** Places the labels again when a button or a note comes, goes or changes its size. */
+  private readonly watch = new ResizeObserver(() => {
+    this.measured = Number.NEGATIVE_INFINITY;
+    if (this.wishes.length > 0) this.end();
+  });
 
   constructor(private readonly host: HTMLElement) {
     this.lines.setAttribute("aria-hidden", "true");
@@ -103,13 +109,15 @@ export class Labels {
     return label;
   }
 
-  /** Reads the places of buttons and notes in the view, now and then: they change only with the page's layout. */
+  /** Reads the places of buttons and notes in the view, now and then. */
   private measure(): void {
     const now = performance.now();
     if (now - this.measured < MEASURE_MS) return;
     this.measured = now;
     const from = this.host.getBoundingClientRect();
     this.obstacles = [...this.host.querySelectorAll<HTMLElement>(OBSTACLES)].flatMap((node) => {
+      if (!this.watched.has(node)) this.watch.observe(node);
+      this.watched.add(node);
       const { left, top, right, bottom } = node.getBoundingClientRect();
       if (right <= left || bottom <= top) return [];
       return [{ left: left - from.left, top: top - from.top, right: right - from.left, bottom: bottom - from.top }];

@@ -1,4 +1,5 @@
 import {
+  type Camera,
   Color,
   CylinderGeometry,
   Group,
@@ -18,6 +19,7 @@ import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
 import { atTip, type Content } from "./needle_space.ts";
 import { Syringe } from "./needle_syringe.ts";
+import { outOfView } from "./out_of_view.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
 
@@ -28,6 +30,8 @@ const MOST_MARKS = 12;
 const FILLS = 2.9;
 const DRAINS = 0.7;
 const YIELDS = 1.1;
+
+const ALONG = Math.cos(Math.PI / 9);
 
 /** Spaces into which the syringe empties. */
 const YIELDING: ReadonlySet<Content> = new Set(["epidural space", "cerebrospinal fluid"]);
@@ -61,6 +65,8 @@ export class Needle {
   private readonly blood = new Level();
   private readonly pressed = new Level();
   private readonly middle = new Vector3();
+  private readonly ahead = new Vector3();
+  private readonly axis = new Vector3(0, -1, 0);
   private look: NeedleLook = "hypodermic";
   private diameter = 1;
   private content: Content = "outside";
@@ -91,12 +97,23 @@ export class Needle {
   }
 
   place(tip: Vector3, axis: Vector3): void {
+    this.axis.copy(axis);
     placeNeedle(tip, axis, this.group.matrix);
     this.group.matrixWorldNeedsUpdate = true;
   }
 
+  /**
+   * Whether a camera sees the hub. A hub with a syringe is not drawn for a camera that looks along the needle: it would
+   * hide all that lies before it.
+   */
+  hubSeen(camera: Camera): boolean {
+    const along = Math.abs(camera.getWorldDirection(this.ahead).dot(this.axis));
+    this.hub.group.visible = this.look !== "tuohy" || along < ALONG;
+    return this.hub.group.visible && !outOfView(this.hubMiddle(), camera);
+  }
+
   /** The middle of the hub, mm. */
-  hubMiddle(): Vector3 {
+  private hubMiddle(): Vector3 {
     return this.middle
       .set(0, HUB_MM / 2, 0)
       .applyMatrix4(this.hub.group.matrix)

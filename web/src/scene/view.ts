@@ -113,8 +113,8 @@ export const view: Panel = (host, app) => {
       stage.rest(orbit.camera, now);
       return;
     }
-    stage.draw(orbit.camera, now);
     showHub(world.hiddenHub(orbit.camera));
+    stage.draw(orbit.camera, now);
     world.name(orbit.camera);
     drawScale(pixel);
     speak(world.moment, scene, now);

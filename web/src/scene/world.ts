@@ -13,7 +13,6 @@ import { FatLine } from "./fat_line.ts";
 import { Ghost } from "./ghost.ts";
 import { GoalMark } from "./goal_mark.ts";
 import { Holes } from "./holes.ts";
-import { outOfView } from "./hub_inset.ts";
 import type { Labels } from "./labels.ts";
 import { Membranes } from "./membranes.ts";
 import { MM, Moment, OUTSIDE } from "./moment.ts";
@@ -151,7 +150,7 @@ export class World {
   hiddenHub(camera: Camera): NeedleState | null {
     const { state } = this.needle;
     const shows = this.scene?.lumen.length || state.look === "tuohy";
-    return shows && outOfView(this.needle.hubMiddle(), camera) ? state : null;
+    return !this.needle.hubSeen(camera) && shows ? state : null;
   }
 
   name(camera: Camera): void {
