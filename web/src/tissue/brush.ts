@@ -10,17 +10,21 @@ export class Brush {
   b = 0;
   private readonly cell: Cell = { first: 0, second: 0, value: 0 };
 
-  constructor(readonly width: number) {}
+  /** finest: cells per mm of the finest pattern. Finer ones would only flicker on the screen. */
+  constructor(
+    readonly width: number,
+    private readonly finest = Number.POSITIVE_INFINITY,
+  ) {}
 
   /** Cells along the width, so that the pattern repeats. perMm: wanted cells per mm. */
   private count(perMm: number): number {
-    return Math.max(1, Math.round(perMm * this.width));
+    return Math.max(1, Math.round(Math.min(perMm, this.finest) * this.width));
   }
 
   /** Noise from 0 to 1; along, across: cells per mm in both directions. Fibres are noise with few cells along. */
   noise(x: number, y: number, along: number, across: number, kind = 0): number {
     const count = this.count(along);
-    return noise((x * count) / this.width, y * across, count, kind);
+    return noise((x * count) / this.width, y * Math.min(across, this.finest), count, kind);
   }
 
   cloud(x: number, y: number, along: number, across: number, kind = 0): number {
@@ -31,7 +35,7 @@ export class Brush {
   /** Voronoi cells; perMm: cells per mm along x, and per mm along y. */
   cells(x: number, y: number, along: number, across: number, kind = 0): Cell {
     const count = this.count(along);
-    return cells((x * count) / this.width, y * across, count, this.cell, kind);
+    return cells((x * count) / this.width, y * Math.min(across, this.finest), count, this.cell, kind);
   }
 
   set(colour: Rgb): void {

@@ -32,6 +32,9 @@ export interface Sheet {
   paint(from: number, to: number, step: number): void;
 }
 
+/** Pixels of a sheet per cell of its finest pattern. */
+const PIXELS_PER_CELL = 5;
+
 type Point = (brush: Brush, x: number, y: number) => boolean;
 
 /** point: sets the brush's colour at (x, y) mm and returns whether the point is opaque. */
@@ -39,7 +42,7 @@ function sheet(across: number, down: number, perMm: number, repeat: number, tile
   const width = Math.max(8, Math.round(across * perMm));
   const height = Math.max(8, Math.round(down * perMm));
   const pixels = new Uint8Array(4 * width * height);
-  const brush = new Brush(repeat);
+  const brush = new Brush(repeat, perMm / PIXELS_PER_CELL);
   return {
     pixels,
     width,

@@ -44,9 +44,9 @@ export const fat: Painter = (brush, x, y, height) => {
   const tone = lobule.value;
   brush.set(LOBULE);
   brush.mix([240, 188, 84], tone * 0.55);
-  const cell = brush.cells(x, y, size * 5, size * 5.4, 25);
-  brush.mix(BRIGHT, 0.75 * smooth(0.55, 0.05, cell.first));
-  brush.mix(SEPTUM, 0.35 * smooth(0.16, 0.03, cell.second - cell.first));
+  const cell = brush.cells(x, y, size * 4, size * 4.4, 25);
+  brush.mix(BRIGHT, 0.7 * smooth(0.6, 0.05, cell.first));
+  brush.mix(SEPTUM, 0.22 * smooth(0.16, 0.03, cell.second - cell.first));
   brush.mix(SEPTUM, 0.6 * smooth(0.22, 0.08, border));
   brush.mix(STRAND, 0.9 * smooth(0.09, 0.03, border));
   const vessel = Math.abs(brush.noise(x, y, 0.16, 0.2, 29) - 0.5);
