@@ -153,6 +153,10 @@ def messages() -> dict[str, Any]:
         {"id": 7, "do": "compare", "on": True},
         {"id": 8, "do": "start_recording", "name": None},
         {"id": 9, "do": "start_exercise", "exercise": "venipuncture", "person": "Ada", "group": "9b"},
+        {"id": 13, "do": "check_exercise", "tables": {"title": "Mine"}},
+        {"id": 14, "do": "try_exercise", "tables": {"title": "Mine"}, "person": "Ada", "group": ""},
+        {"id": 15, "do": "save_exercise", "name": "mine", "tables": {"title": "Mine"}, "replace": False},
+        {"id": 16, "do": "delete_exercise", "name": "mine"},
         {"id": 12, "do": "set_expert", "exercise": "venipuncture", "recording": "r"},
     ]  # fmt: skip
     refused = [

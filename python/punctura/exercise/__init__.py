@@ -2,7 +2,7 @@
 
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
-from punctura.exercise.load import exercise_names, exercises, load_exercise
+from punctura.exercise.load import exercise_names, exercise_of, exercises, load_exercise
 from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.result import GoalState, Metrics, Overshoot, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
@@ -24,6 +24,7 @@ __all__ = [
     "default_folder",
     "exercise_json_schema",
     "exercise_names",
+    "exercise_of",
     "exercises",
     "load_exercise",
     "score",

@@ -11,7 +11,7 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.check import check_tables
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.tip import tip_warnings
-from punctura.files.toml import read_tables
+from punctura.files.toml import Tables, read_tables
 from punctura.scene import load_scene, scene_names
 
 _FOLDER = Path(__file__).parents[1] / "exercises"
@@ -43,6 +43,24 @@ def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
     if problems or file is None or scene is None:
         raise ConfigurationError(problems, str(path))
     return Exercise(path.stem, path, file, scene, scene_name, tuple(tip_warnings(file, scene)))
+
+
+def exercise_of(tables: Tables, name: str) -> Exercise:
+    """An exercise from the tables of a file, with a ready scene. Raises ConfigurationError with all problems.
+
+    It reads no file but that of the ready scene, so the tables may come from a page.
+    """
+    given = tables.get("scene")
+    scene = None
+    problems: list[Problem] = []
+    if isinstance(given, str) and given in scene_names():
+        scene = load_scene(given)
+    elif "scene" in tables:
+        problems = [Problem("scene", given, f"must be one of the ready scenes: {', '.join(scene_names())}")]
+    file, more = check_tables(tables, scene)
+    if problems or more or file is None or scene is None:
+        raise ConfigurationError(problems + more, name)
+    return Exercise(name, Path(f"{name}.toml"), file, scene, str(given), tuple(tip_warnings(file, scene)))
 
 
 def _path_of(name_or_path: str | os.PathLike[str]) -> Path:

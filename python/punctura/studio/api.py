@@ -21,6 +21,7 @@ from punctura.exercise.results import to_csv, to_json
 from punctura.exercise.xapi import to_xapi
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
+from punctura.studio.catalog import scene_outlines
 from punctura.studio.download import Download
 from punctura.studio.lab import Lab, LabError
 from punctura.studio.limits import MOST_EXPORTS
@@ -70,6 +71,7 @@ class Api:
             Route("/api/lab/compare", _told(self._lab.compare)),
             Route("/api/lab/bundle", _told(self._lab.bundle)),
             Route("/api/exercises", _told(self.exercises)),
+            Route("/api/scenes", _told(self.scenes)),
             Route("/api/results", _told(self.results)),
             Route("/api/results/download", _told(self.download_results)),  # before NAME: no result has this name
             Route("/api/results/{name}", _told(self.result), methods=["GET"]),
@@ -144,6 +146,9 @@ class Api:
                 for entry in self._session.exercises.overviews()
             ]
         )
+
+    def scenes(self, request: Request) -> Response:
+        return JSONResponse([scene.model_dump(mode="json") for scene in scene_outlines()])
 
     def results(self, request: Request) -> Response:
         return JSONResponse([result.model_dump(mode="json") for result in self._results.all(*_of_whom(request))])

@@ -9,14 +9,39 @@ from pathlib import Path
 
 from pydantic import Field
 
+from punctura._core import tip_length
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise import Attempt, Exercise, exercise_names, exercises, load_exercise
 from punctura.exercise.schema import OnLine
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
 from punctura.studio.names import BadName, safe_name
-from punctura.studio.wire.common import Part, ProblemPart, Vector
+from punctura.studio.own_exercises import OwnExercises
+from punctura.studio.view import membrane_views
+from punctura.studio.wire.common import MembraneView, Part, ProblemPart, Vector
 from punctura.studio.wire.messages import Choice
+
+DRAFT = "draft"  # the name of an exercise that is tried before it is saved
+
+
+class SceneOutline(Part):
+    """A ready scene for the making of an exercise. SI."""
+
+    name: str
+    title: str
+    tip_length: float  # m
+    membranes: list[MembraneView]
+
+
+@cache
+def scene_outlines() -> tuple[SceneOutline, ...]:
+    """The ready scenes with their membranes."""
+    made = []
+    for name in scene_names():
+        scene = load_scene(name)
+        length = tip_length(scene.needle)
+        made.append(SceneOutline(name=name, title=scene.name, tip_length=length, membranes=membrane_views(scene)))
+    return tuple(made)
 
 
 @cache
@@ -52,6 +77,7 @@ class ExerciseOverview(Part):
     goal_from: float = 0.0  # how deep the needle must come, m
     line: Line | None = None  # that the point must meet
     expert: str = ""  # name of the recording that is the expert's run
+    made: bool = False  # in the page; it can be deleted there
     blind: bool = False  # no needle and no depth are shown while it runs
     start_position: Vector = Field(default=[0.0, 0.0, 0.0])  # m
     start_axis: Vector = Field(default=[0.0, -1.0, 0.0])
@@ -64,8 +90,11 @@ class Exercises:
     """The exercises of the package, and files from the command line.
 
     A file is read again each time, so that it may change while the studio runs. A page chooses by name: it cannot name
-    a file.
+    a file. Further ones are those that were made in the page (`own`), and the one that is tried there (`draft`).
     """
+
+    own: OwnExercises | None = None
+    draft: Exercise | None = None
 
     def __init__(self, files: Sequence[str | os.PathLike[str]] = ()) -> None:
         """Raises ConfigurationError if a file has an error, or the name of another exercise."""
@@ -98,29 +127,43 @@ class Exercises:
         return ""
 
     def names(self) -> list[str]:
-        """The names of the files first."""
-        return [*self._files, *exercise_names()]
+        """The names of the files first, then those that were made in the page."""
+        draft = [DRAFT] if self.draft else []
+        return [*draft, *self._files, *self._made(), *exercise_names()]
+
+    def _made(self) -> dict[str, Path]:
+        """The files that were made in the page, except those with the name of another exercise."""
+        files = self.own.files() if self.own else {}
+        return {name: path for name, path in files.items() if not self.taken(name)}
+
+    def taken(self, name: str) -> bool:
+        """Whether a file of the command line, a ready exercise or the draft has this name."""
+        return name in self._files or name in exercise_names() or name == DRAFT
 
     def load(self, name: str) -> Exercise:
         """Raises ConfigurationError if the file has an error now; KeyError for a name that is not listed."""
         if name not in self.names():
             raise KeyError(name)
-        return load_exercise(self._files.get(name, name))
+        if name == DRAFT and self.draft:
+            return self.draft
+        return load_exercise(self._files.get(name) or self._made().get(name) or name)
 
     def overviews(self) -> list[ExerciseOverview]:
         """All exercises. Of a file with an error: its problems."""
-        return [self._own(name) for name in self._files] + list(_ready_exercises())
+        draft = [_overview(self.draft)] if self.draft else []
+        made = [self._own(name, path).model_copy(update={"made": True}) for name, path in self._made().items()]
+        return draft + [self._own(name, path) for name, path in self._files.items()] + made + list(_ready_exercises())
 
     def choices(self) -> list[Choice]:
         """Names, and the titles of the files when the studio started."""
         own = [Choice(name=name, title=title) for name, title in self._titles.items()]
         return own + [Choice(name=entry.name, title=entry.title) for entry in _ready_exercises()]
 
-    def _own(self, name: str) -> ExerciseOverview:
+    def _own(self, name: str, path: Path) -> ExerciseOverview:
         try:
-            return _overview(self.load(name))
+            return _overview(load_exercise(path))
         except ConfigurationError as error:
-            return ExerciseOverview(name=name, title=self._files[name].name, problems=problem_parts(error.problems))
+            return ExerciseOverview(name=name, title=path.name, problems=problem_parts(error.problems))
 
 
 def _overview(exercise: Exercise) -> ExerciseOverview:

@@ -15,6 +15,7 @@ from punctura.record import RecorderStatus
 from punctura.scene import scene_names
 from punctura.studio.exercise_activity import ExerciseActivity
 from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
+from punctura.studio.making import made_of, make
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
 from punctura.studio.wire import requests as ask
@@ -51,6 +52,11 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return _prepare_take(request, session)
         case ask.SetExpert():
             return _prepare_expert(request, session)
+        case ask.CheckExercise() | ask.SaveExercise() | ask.DeleteExercise():
+            done = make(request, session.exercises)
+            return lambda session: done
+        case ask.TryExercise():
+            return _prepare_trial(request, session)
     raise NotNow("this studio cannot do that")
 
 
@@ -127,6 +133,19 @@ def _prepare_take(
             return lambda session: _start_exercise(session, exercise, loaded, activity, name)
         case _:
             return _end_exercise
+
+
+def _prepare_trial(request: ask.TryExercise, session: Session) -> Job:
+    exercise = made_of(request.tables)
+    loaded = from_name(exercise.scene_name)
+    name = session.shelf.new_name(None, exercise.title)
+    activity = ExerciseActivity(exercise, request.person, name, session.results, request.group)
+
+    def start(session: Session) -> Done:
+        session.exercises.draft = exercise
+        return _start_exercise(session, exercise, loaded, activity, name)
+
+    return start
 
 
 def _prepare_expert(request: ask.SetExpert, session: Session) -> Job:

@@ -26,6 +26,7 @@ from punctura.studio.figures import likely_folders
 from punctura.studio.hub import Hub
 from punctura.studio.limits import ACCEPTED_AT_ONCE, LISTEN_QUEUE, MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
+from punctura.studio.own_exercises import OwnExercises
 from punctura.studio.protocols import BoundedHttp, BoundedSocket
 from punctura.studio.quiet import quiet_server
 from punctura.studio.run import Settings
@@ -72,6 +73,7 @@ class StudioServer:
             shelf = Shelf(folder or default_folder())
             results = ResultStore(shelf.folder / "results" if folder else shelf.folder.parent / "results")
             self.session = Session(loaded, settings, self.hub, shelf, results, exercises)
+            self.session.exercises.own = OwnExercises((folder or shelf.folder.parent) / "exercises")
             self.hub.hand = lambda: self.session.hand.pose
         except BaseException:
             self._socket.close()

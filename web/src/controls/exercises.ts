@@ -6,6 +6,7 @@ import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
 import { expertChoice } from "./exercises/expert.ts";
 import { goalList } from "./exercises/goals.ts";
+import { exerciseMaker } from "./exercises/maker/maker.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personFields } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
@@ -39,6 +40,7 @@ export const exercisesPanel: Panel = (host, app) => {
   const task = element("div", { class: "task" });
   taskBar(task, app, titleOf);
   document.getElementById("app")?.append(task);
+  const maker = exerciseMaker(app, person, () => readList());
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
     element(
@@ -48,6 +50,7 @@ export const exercisesPanel: Panel = (host, app) => {
       ...personFields(person),
     ),
     list,
+    maker,
     past.root,
   );
 
@@ -89,6 +92,7 @@ export const exercisesPanel: Panel = (host, app) => {
   app.exercise.watch(async (status) => {
     showGoal(app, of);
     list.hidden = status?.running ?? false;
+    maker.hidden = list.hidden;
     const ended = running && status !== null && !status.running;
     running = status?.running ?? false;
     if (!ended || !status.result) return;
@@ -129,7 +133,15 @@ function card(
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
     ...(wrong ? [] : [expertChoice(app, exercise, () => void changed())]),
+    ...(exercise.made ? [deleteButton(app, exercise, () => void changed())] : []),
   );
+}
+
+function deleteButton(app: App, { name }: ExerciseOverview, changed: () => void): HTMLElement {
+  const act = (): void => {
+    void app.ask({ do: "delete_exercise", name }).then(changed);
+  };
+  return element("button", { type: "button", class: "small", onclick: act }, "Delete this file");
 }
 
 function problemList(kind: "problems" | "warnings", problems: readonly ProblemPart[]): HTMLElement {

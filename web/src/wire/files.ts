@@ -68,6 +68,8 @@ export interface ExerciseOverview {
   readonly line: GoalLine | null;
   /** Name of the recording that is the expert's run; empty without one. */
   readonly expert: string;
+  /** It was made in the page, and can be deleted there. */
+  readonly made: boolean;
   /** The page shows no needle and no depth while it runs. */
   readonly blind: boolean;
   /** Errors in the file of a user's own exercise. */

@@ -29,6 +29,10 @@ export type Request =
   | StartExercise
   | EndExercise
   | SetExpert
+  | CheckExercise
+  | TryExercise
+  | SaveExercise
+  | DeleteExercise
   | TripFault;
 
 export interface Wire {
@@ -417,6 +421,48 @@ export interface SetExpert {
   do: "set_expert";
   exercise: string;
   recording?: string;
+}
+/**
+ * Checks the tables of an exercise file. The reply has the text of the file, or the problems.
+ */
+export interface CheckExercise {
+  id: number;
+  do: "check_exercise";
+  tables: {
+    [k: string]: unknown;
+  };
+}
+/**
+ * Starts an exercise that was not saved. Its name is `draft`.
+ */
+export interface TryExercise {
+  id: number;
+  do: "try_exercise";
+  tables: {
+    [k: string]: unknown;
+  };
+  person?: string;
+  group?: string;
+}
+/**
+ * Saves an exercise in the user's folder of exercises, under a name without a path.
+ */
+export interface SaveExercise {
+  id: number;
+  do: "save_exercise";
+  name: string;
+  tables: {
+    [k: string]: unknown;
+  };
+  replace?: boolean;
+}
+/**
+ * Deletes an exercise that was saved by the page.
+ */
+export interface DeleteExercise {
+  id: number;
+  do: "delete_exercise";
+  name: string;
 }
 /**
  * Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only.

@@ -45,6 +45,10 @@ it("has one of each kind of message and request that the page has a type for", (
     take_control: true, arm: true, pause: true, reset: true, target: true, strokes: true, play_motion: true, edit: true,
     load: true, load_text: true, compare: true, start_recording: true, stop_recording: true, start_exercise: true,
     set_expert: true,
+    check_exercise: true,
+    try_exercise: true,
+    save_exercise: true,
+    delete_exercise: true,
     end_exercise: true, trip_fault: true,
   }; // biome-ignore format: a table
   expect(contract.messages.map((message) => message.kind).sort()).toEqual(Object.keys(kinds).sort());

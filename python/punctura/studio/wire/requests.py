@@ -117,6 +117,38 @@ class SetExpert(_Request):
     recording: Annotated[str, Field(max_length=80)] = ""
 
 
+class CheckExercise(_Request):
+    """Checks the tables of an exercise file. The reply has the text of the file, or the problems."""
+
+    do: Literal["check_exercise"] = "check_exercise"
+    tables: Tables
+
+
+class TryExercise(_Request):
+    """Starts an exercise that was not saved. Its name is `draft`."""
+
+    do: Literal["try_exercise"] = "try_exercise"
+    tables: Tables
+    person: Annotated[str, Field(max_length=80)] = ""
+    group: Annotated[str, Field(max_length=80)] = ""
+
+
+class SaveExercise(_Request):
+    """Saves an exercise in the user's folder of exercises, under a name without a path."""
+
+    do: Literal["save_exercise"] = "save_exercise"
+    name: Name
+    tables: Tables
+    replace: bool = False
+
+
+class DeleteExercise(_Request):
+    """Deletes an exercise that was saved by the page."""
+
+    do: Literal["delete_exercise"] = "delete_exercise"
+    name: Name
+
+
 class EndExercise(_Request):
     do: Literal["end_exercise"] = "end_exercise"
 
@@ -129,11 +161,13 @@ class TripFault(_Request):
 
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert | TripFault
+    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert | TripFault,
+    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
 

@@ -1,0 +1,175 @@
+import { element } from "../../../panel.ts";
+import type { App } from "../../../state/app.ts";
+import { sentence } from "../../editor/problems.ts";
+import type { Person } from "../person.ts";
+import { type Draft, draftOf, fieldOf, nameOf, type SceneOutline, tablesOf } from "./draft.ts";
+import { DepthStrip } from "./strip.ts";
+
+const WAIT_MS = 300; // after the last change, before the server checks
+
+/** A form for an exercise: goals on a picture of the depths and in fields. `changed` is called after saving. */
+export function exerciseMaker(app: App, person: Person, changed: () => Promise<void>): HTMLElement {
+  let scenes: readonly SceneOutline[] = [];
+  let draft: Draft | null = null;
+  let toml = "";
+  const form = element("div", { class: "maker-form" });
+  const note = element("p", { class: "maker-note", role: "status" });
+  const strip = new DepthStrip((edge, mm) => change({ [edge]: mm }));
+  const root = element("details", { class: "maker" }, element("summary", {}, "Make an exercise"), form, note);
+  const places = new Map<keyof Draft, HTMLElement>();
+  const updates: (() => void)[] = [];
+  const scene = (): SceneOutline => scenes.find(({ name }) => name === draft?.scene) ?? scenes[0]!;
+
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const change = (part: Partial<Draft>): void => {
+    if (!draft) return;
+    draft = part.scene === undefined ? { ...draft, ...part } : draftOf(scenes.find((s) => s.name === part.scene)!);
+    if (part.scene !== undefined) build();
+    show();
+    clearTimeout(timer);
+    timer = setTimeout(() => void check(), WAIT_MS);
+  };
+  const show = (): void => {
+    strip.show(draft!, scene());
+    for (const update of updates) update();
+  };
+  const complain = (problems: readonly { path: string; value: string; reason: string }[]): void => {
+    for (const place of places.values()) place.textContent = "";
+    const left = problems.filter((problem) => {
+      const place = places.get(fieldOf(problem.path, tablesOf(draft!, scene())) || "title");
+      if (place) place.textContent = `${place.textContent} ${problem.reason}`.trim();
+      return !place;
+    });
+    note.textContent = left.map(sentence).join(" ");
+  };
+  const tell = (reply: Awaited<ReturnType<App["ask"]>>, good: string): boolean => {
+    if (!reply) return false;
+    complain(reply.problems ?? []);
+    if (reply.ok) note.textContent = [good, reply.text].filter(Boolean).join(" ");
+    else if (!reply.problems?.length) note.textContent = reply.text ?? "";
+    return reply.ok;
+  };
+  const check = async (): Promise<boolean> => {
+    const reply = await app.ask({ do: "check_exercise", tables: tablesOf(draft!, scene()) });
+    toml = String(reply?.data?.toml ?? "");
+    return tell(reply, "");
+  };
+  const attempt = async (): Promise<void> => {
+    const who = { person: person.name.value, group: person.group.value };
+    const reply = await app.ask({ do: "try_exercise", tables: tablesOf(draft!, scene()), ...who });
+    if (tell(reply, "It runs now.")) await changed();
+  };
+  const save = async (): Promise<void> => {
+    const name = nameOf(draft!.title);
+    const ask = { do: "save_exercise", name, tables: tablesOf(draft!, scene()) } as const;
+    const reply = await app.ask({ ...ask, replace: replace.checked });
+    if (tell(reply, "")) await changed();
+  };
+  const download = async (): Promise<void> => {
+    if (!(await check())) return;
+    const link = element("a", { download: `${nameOf(draft!.title) || "exercise"}.toml` });
+    link.href = URL.createObjectURL(new Blob([toml], { type: "application/toml" }));
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+  const replace = element("input", { type: "checkbox", id: "maker-replace" });
+
+  const row = (key: keyof Draft, label: string, box: HTMLInputElement | HTMLSelectElement): HTMLElement => {
+    box.id = `maker-${key}`;
+    const problem = element("p", { class: "error", role: "alert", id: `maker-${key}-problem` });
+    box.setAttribute("aria-describedby", problem.id);
+    places.set(key, problem);
+    return element("div", { class: "field maker-field" }, element("label", { for: box.id }, label), box, problem);
+  };
+  const words = (key: "title" | "instruction" | "space", label: string): HTMLElement => {
+    const box = element("input", { type: "text", class: "words", maxlength: 200 });
+    box.addEventListener("change", () => change({ [key]: box.value }));
+    updates.push(() => {
+      box.value = draft![key];
+    });
+    return row(key, label, box);
+  };
+  const number = (key: "from" | "angle" | "to" | Optional, label: string, optional: boolean): HTMLElement => {
+    const box = element("input", { type: "number", step: "any", placeholder: optional ? "not asked" : "" });
+    box.addEventListener("change", () => {
+      const value = box.value === "" ? null : Number(box.value);
+      if (value !== null || optional) change({ [key]: value });
+      else show();
+    });
+    updates.push(() => {
+      box.value = draft![key] === null ? "" : String(draft![key]);
+    });
+    return row(key, label, box);
+  };
+  const choice = (key: "scene" | "behind" | "neverPass", label: string, options: [string, string][]): HTMLElement => {
+    const box = element("select", {}, ...options.map(([value, text]) => element("option", { value }, text)));
+    box.addEventListener("change", () => change({ [key]: box.value }));
+    updates.push(() => {
+      box.value = draft![key];
+    });
+    return row(key, label, box);
+  };
+  const tick = (key: "wholeTip" | "blind", label: string): HTMLElement => {
+    const box = element("input", { type: "checkbox" });
+    box.addEventListener("change", () => change({ [key]: box.checked }));
+    updates.push(() => {
+      box.checked = draft![key];
+    });
+    return row(key, label, box);
+  };
+  const button = (label: string, act: () => Promise<unknown>, kind = ""): HTMLElement =>
+    element("button", { type: "button", class: `small ${kind}`, onclick: () => void act() }, label);
+
+  const build = (): void => {
+    updates.length = 0;
+    places.clear();
+    const membranes = scene().membranes.map(({ name }): [string, string] => [name, name]);
+    form.replaceChildren(
+      words("title", "Title"),
+      words("instruction", "Instruction"),
+      choice(
+        "scene",
+        "Scene",
+        scenes.map(({ name, title }) => [name, title]),
+      ),
+      choice("behind", "Goal behind", membranes),
+      strip.root,
+      number("from", "Goal from, mm", false),
+      number("to", "Goal to, mm", true),
+      words("space", "Called"),
+      tick("wholeTip", "The whole tip"),
+      number("stay", "Stay, s", true),
+      number("stopWithin", "Stop within, mm", true),
+      choice("neverPass", "Never pass", [["", "not asked"], ...membranes]),
+      number("peakForce", "Force at most, N", true),
+      number("entries", "Entries at most", true),
+      number("seconds", "Time, s", true),
+      number("angle", "Angle, degrees", false),
+      tick("blind", "Blind"),
+      element(
+        "div",
+        { class: "tools" },
+        button("Try", attempt, "primary"),
+        button("Save on this computer", save),
+        button("Download file", download),
+      ),
+      element("div", { class: "field" }, replace, element("label", { for: "maker-replace" }, "Replace a saved one")),
+    );
+  };
+  root.addEventListener("toggle", async () => {
+    if (!root.open || draft) return;
+    try {
+      scenes = await app.api.json<SceneOutline[]>("/api/scenes");
+    } catch (error) {
+      note.textContent = `Cannot load the scenes: ${error instanceof Error ? error.message : String(error)}`;
+      return;
+    }
+    draft = draftOf(scenes.find(({ title }) => title === app.live.scene.value?.name) ?? scenes[0]!);
+    build();
+    show();
+    await check();
+  });
+  return root;
+}
+
+type Optional = "stay" | "stopWithin" | "peakForce" | "entries" | "seconds";

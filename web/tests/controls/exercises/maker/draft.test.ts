@@ -1,0 +1,60 @@
+import { expect, test } from "vitest";
+import {
+  draftOf,
+  fieldOf,
+  nameOf,
+  type SceneOutline,
+  tablesOf,
+} from "../../../../src/controls/exercises/maker/draft.ts";
+
+const membrane = (name: string, depth: number, thickness: number) => ({
+  name,
+  point: [0, -depth, 0],
+  inward_normal: [0, -1, 0],
+  thickness,
+  look: "skin",
+  behind: "fat",
+});
+const SCENE = {
+  name: "venipuncture",
+  title: "Venipuncture",
+  tip_length: 4.1e-3,
+  membranes: [membrane("skin", 0, 1.2e-3), membrane("front", 4.81e-3, 0.4e-3), membrane("back", 8.22e-3, 0.4e-3)],
+} as unknown as SceneOutline;
+
+test("a new exercise asks for the space between the last two membranes", () => {
+  const draft = draftOf(SCENE);
+  expect([draft.behind, draft.from, draft.to]).toEqual(["front", 0, 3]);
+});
+
+test("the tables have only the goals that are asked for", () => {
+  const draft = { ...draftOf(SCENE), stay: null, stopWithin: 2.5, entries: null, seconds: null, neverPass: "back" };
+  expect(tablesOf(draft, SCENE)).toMatchObject({
+    scene: "venipuncture",
+    space: { behind: "front", depth_mm: 0, deepest_mm: 3 },
+    goal: [
+      { kind: "reach" },
+      { kind: "stop_after_pop", membrane: "front", within_mm: 2.5 },
+      { kind: "never_pass", membrane: "back" },
+    ],
+  });
+});
+
+test("a slanted needle starts where it points at the middle of the goal", () => {
+  const start = (angle: number) =>
+    (tablesOf({ ...draftOf(SCENE), angle }, SCENE) as { start: { position_mm: number[] } }).start.position_mm;
+  expect(start(90)).toEqual([0, 5, 0]);
+  expect(start(45)).toEqual([-11.7, 5, 0]); // 5 mm above the skin, 6.71 mm below it
+});
+
+test("a problem of the file is shown at its field", () => {
+  const tables = tablesOf(draftOf(SCENE), SCENE);
+  expect(fieldOf("goal[0].seconds", tables)).toBe("stay");
+  expect(fieldOf("goal[1].at_most", tables)).toBe("entries");
+  expect(fieldOf("space.deepest_mm", tables)).toBe("to");
+  expect(fieldOf("space.press_mm", tables)).toBe("");
+});
+
+test("a title becomes the name of a file", () => {
+  expect(nameOf("  Übung: 3 mm / rückwärts! ")).toBe("ubung-3-mm-ruckwarts");
+});
