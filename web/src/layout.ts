@@ -51,7 +51,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["scene", "Scene", editorPanel],
         ["recordings", "Recordings", recordingsPanel],
         ["exercises", "Exercises", exercisesPanel],
-        ["lab", "Laboratory", labPanel],
+        ["lab", "Lab", labPanel],
         ["health", "Health", both(healthPanel, faultTrial)],
       ]),
     ),

@@ -36,7 +36,7 @@ scenes/NN.toml            the scene of a run; `punctura run FILE` runs it
 
 Model force: what the model gives. Felt force: what the device gives, after all limits; without a device it is equal
 to the model force. Permitted force: the most that the limits allow. All are positive if they push the needle out.
-Work: of the hand against the force, from the first contact to the deepest place. Overshoot: how far the bevel ran on
+Work: of the hand against the force, in the first insertion up to its deepest place. Overshoot: how far the bevel ran on
 past a membrane in the 0.3 s after the pop. {against}
 
 How to cite: CITATION.cff. Please cite the software with its version, and the paper whose model it computes.

@@ -40,6 +40,16 @@ class Run:
         first = next((event for event in self.events if event.what == "touch"), None)
         return 0 if first is None else min(int(np.searchsorted(self.time, first.time)), len(self.time) - 1)
 
+    @property
+    def out(self) -> int:
+        """The row after the first insertion: the needle has left the membrane that it touched first."""
+        first = next((event for event in self.events if event.what == "touch"), None)
+        if first is None:
+            return len(self.time)
+        left = (e for e in self.events if e.what == "out" and e.membrane == first.membrane and e.time > first.time)
+        end = next(left, None)
+        return len(self.time) if end is None else int(np.searchsorted(self.time, end.time)) + 1
+
     @classmethod
     def of_ticks(cls, name: str, scene: Scene, ticks: Ticks) -> Run:
         """A run of ticks in memory, such as those of `punctura.simulate`. Raises ValueError if there is none."""

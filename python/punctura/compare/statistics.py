@@ -38,7 +38,7 @@ class Statistics(BaseModel):
     depth: Finite  # m, deepest place of the tip below the first surface
     peak: Finite  # N, largest model force
     felt_peak: Finite  # N, largest felt force
-    work: Finite  # J, of the hand against the model's force, from the first contact to the deepest place
+    work: Finite  # J, of the hand against the model's force, from the first contact to the insertion's deepest place
     felt_work: Finite  # J, the same against the felt force
     pops: list[Pop]
 
@@ -59,12 +59,11 @@ FELT_S = 0.05  # s on either side of a pop in which the drop of the felt force i
 def statistics(run: Run) -> Statistics:
     """The numbers of a run."""
     touch = run.touch
-    deepest = touch + int(np.nanargmax(run.depth[touch:]))
-    inward = slice(touch, deepest + 1)
+    inward = slice(touch, touch + int(np.nanargmax(run.depth[touch : run.out])) + 1)
     return Statistics(
         name=run.name,
         duration=float(run.time[-1] - run.time[touch]),
-        depth=float(run.depth[deepest]),
+        depth=float(np.nanmax(run.depth)),
         peak=float(np.nanmax(run.model)),
         felt_peak=float(np.nanmax(run.felt)),
         work=float(np.nansum(run.model[inward] * run.travel[inward])),

@@ -12,7 +12,7 @@ import punctura as pn
 import pyarrow.parquet as pq
 import pytest
 from punctura._core import SimulatedDevice
-from punctura.compare import Run, VaryError, compare, recorded_motion, recorded_run, stroke, vary
+from punctura.compare import Motion, Run, VaryError, compare, recorded_motion, recorded_run, stroke, vary
 from punctura.compare.bundle import save_bundle
 from punctura.events import crossing
 from punctura.live import stroke_ends
@@ -56,6 +56,14 @@ def test_the_overshoot_is_the_way_that_the_tip_went_on_after_the_pop(scene, runs
         # For 0.3 s the tip goes on at SPEED; at the pop itself it was ahead of the law by the coupling's give.
         give = pop.drop / scene.coupling.stiffness + law.shaft / scene.coupling.stiffness
         assert 0.3 * SPEED - give - 0.1e-3 < pop.overshoot < 0.3 * SPEED + give + 0.1e-3
+
+
+def test_the_work_is_that_of_the_first_insertion_only(scene):
+    once = stroke(scene, SPEED)
+    twice = Motion("twice", np.arange(2 * len(once.time)) / 1600, np.tile(once.position, (2, 1)), once.axis)
+    first, second = (compare(vary(scene, PATH, [500.0], motion)).statistics[0] for motion in (once, twice))
+    assert len(second.pops) == 2 * len(first.pops)
+    assert second.work == pytest.approx(first.work, rel=1e-6)
 
 
 def test_mean_and_deviation_are_those_of_the_runs_at_each_place(runs):

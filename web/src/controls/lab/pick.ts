@@ -24,7 +24,7 @@ export function pickRuns(act: (names: readonly string[]) => void): {
   return {
     root: element(
       "section",
-      { class: "pad" },
+      {},
       element("h3", {}, "Compare runs"),
       element("p", { class: "quiet" }, "The first chosen run is the reference for the differences."),
       none,

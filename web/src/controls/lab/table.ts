@@ -5,7 +5,7 @@ import type { LabComparison, LabNumber } from "../../wire/files.ts";
 const COLUMNS: readonly (readonly [name: LabNumber, head: string, gain: number, places: number])[] = [
   ["peak", "peak, N", 1, 3],
   ["felt_peak", "felt peak, N", 1, 3],
-  ["drop", "largest drop at a pop, N", 1, 3],
+  ["drop", "largest drop, N", 1, 3],
   ["overshoot", "overshoot, mm", 1e3, 2],
   ["work", "work, mJ", 1e3, 2],
   ["duration", "duration, s", 1, 2],
@@ -34,7 +34,8 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
   );
   const whole = COLUMNS.map(([name, , gain, places]) => {
     const { n, mean, deviation } = summary[name];
-    const text = `${numberText(mean, gain, places)} ± ${numberText(deviation, gain, places)} (n = ${n})`;
+    const count = n === statistics.length ? "" : ` (n = ${n})`;
+    const text = `${numberText(mean, gain, places)} ± ${numberText(deviation, gain, places)}${count}`;
     return element("td", {}, n > 1 ? text : "–");
   });
   return element(
@@ -57,7 +58,7 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
         "tbody",
         {},
         ...rows,
-        element("tr", { class: "mean" }, element("th", { scope: "row" }, "mean ± s.d."), ...whole),
+        element("tr", { class: "mean" }, element("th", { scope: "row" }, `mean ± s.d. (n = ${statistics.length})`), ...whole),
       ),
     ),
   );

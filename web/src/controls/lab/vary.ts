@@ -55,7 +55,7 @@ export function varyForm(act: (job: Variation) => void): {
   return {
     root: element(
       "section",
-      { class: "pad" },
+      {},
       element("h3", {}, "Vary a parameter"),
       element("p", { class: "quiet" }, "The same motion, simulated once for each value. The run goes on meanwhile."),
       form,
@@ -74,7 +74,7 @@ export function varyForm(act: (job: Variation) => void): {
       const known = offered.some(({ path }) => path === before);
       if (known) field.value = before;
       else {
-        field.value = offered.find(({ path }) => path.endsWith(".stiffness"))?.path ?? offered[0]?.path ?? "";
+        field.value = offered.find(({ path }) => path.startsWith("membrane[0]."))?.path ?? offered[0]?.path ?? "";
         suggest();
       }
     },
