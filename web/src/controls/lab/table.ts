@@ -58,7 +58,12 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
         "tbody",
         {},
         ...rows,
-        element("tr", { class: "mean" }, element("th", { scope: "row" }, `mean ± s.d. (n = ${statistics.length})`), ...whole),
+        element(
+          "tr",
+          { class: "mean" },
+          element("th", { scope: "row" }, `mean ± s.d. (n = ${statistics.length})`),
+          ...whole,
+        ),
       ),
     ),
   );
