@@ -1,7 +1,7 @@
 // core/punctura/safety and device: force limits, faults, and the description of a device.
 #include "bindings.hpp"
 #include "punctura/device/device.hpp"
-#include "punctura/scene/check.hpp"
+#include "punctura/scene/build.hpp"
 #include "punctura/servo/snapshot.hpp"
 #include "value.hpp"
 
@@ -77,6 +77,18 @@ void bind_limits(nb::module_& m) {
           .def_ro("ramp_time", &ForceLimits::ramp_time, "s")
           .def_ro("warm_motor", &ForceLimits::warm_motor);
   def_value(limits_class, {"max_force", "continuous_force", "continuous_time", "ramp_time", "warm_motor"});
+
+  m.def("lasting_force", &lasting_force, nb::arg("limits"),
+        "The largest force that the limits permit for any time, N.");
+  m.def(
+      "largest_force", [](const Scene& scene) { return largest_force(build_insertion(scene)); }, nb::arg("scene"),
+      "The largest friction along a needle that goes straight through all membranes, in and out, N: all membranes\n"
+      "together. The needle points along the first membrane's inward normal.");
+  m.def(
+      "force_scale",
+      [](const Scene& scene, const ForceLimits& limits) { return force_scale(scene, build_insertion(scene), limits); },
+      nb::arg("scene"), nb::arg("limits"),
+      "How much of the model's force a device with these limits gives: the scene's own number, or the automatic one.");
 
   const Placement nowhere;
   auto placement =

@@ -216,6 +216,8 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,
                    "The force limits in effect, device ratings included.")
+      .def_prop_ro("force_scale", &ServoLoop::force_scale,
+                   "How much of the model's force the device gives in the running scene, before the limits.")
       .def("report", &report, nb::sig("def report(self) -> LoopReport"),
            "Timing statistics: ticks, late, and for period and compute the quantiles p50, p99, p99_9, the largest\n"
            "(s) and the counts by bin.")

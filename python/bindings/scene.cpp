@@ -3,6 +3,7 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/variant.h>
 
 #include <map>
 
@@ -61,9 +62,18 @@ ServoSettings make_servo(double rate, double low_pass, std::string solver, std::
   return {rate, low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning), encoder_step};
 }
 
+using ScaleOrWord = std::variant<double, std::string>;
+
+DisplaySettings display_from(const ScaleOrWord& force_scale) {
+  if (const auto* number = std::get_if<double>(&force_scale)) return {*number, false};
+  const auto& word = std::get<std::string>(force_scale);
+  if (word != "automatic") raise_word("display.force_scale", word, "must be a number or \"automatic\"");
+  return {DisplaySettings{}.force_scale, true};
+}
+
 Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector<PlacedMembrane> membranes,
-                 ServoSettings servo, std::string direction) {
-  Scene made{std::move(name), needle, coupling, std::move(membranes), servo, direction_from(direction)};
+                 ServoSettings servo, std::string direction, DisplaySettings display) {
+  Scene made{std::move(name), needle, coupling, std::move(membranes), servo, direction_from(direction), display};
   raise_if(check(made));
   return made;
 }
@@ -230,6 +240,20 @@ void bind_scene(nb::module_& m) {
            "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).");
   def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
 
+  auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.")
+                     .def_prop_ro(
+                         "force_scale",
+                         [](const DisplaySettings& d) {
+                           return d.automatic ? ScaleOrWord("automatic") : ScaleOrWord(d.force_scale);
+                         },
+                         nb::sig("def force_scale(self) -> float | typing.Literal['automatic']"),
+                         "How much of the model's force the device gives: a number, or \"automatic\"");
+  def_init(display, {{"force_scale", "float | typing.Literal['automatic']", nb::float_(DisplaySettings{}.force_scale)}},
+           &display_from,
+           "force_scale: how much of the model's force the device gives, greater than 0 and at most 1. \"automatic\"\n"
+           "lowers it so that the limits in use never cut the friction along the needle.");
+  def_value(display, {"force_scale"});
+
   bind_scene_field(m);
   auto scene =
       nb::class_<Scene>(m, "Scene", "All parameters of a run, checked together.")
@@ -243,6 +267,7 @@ void bind_scene(nb::module_& m) {
           .def_prop_ro(
               "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
               nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
+          .def_ro("display", &Scene::display)
           .def_prop_ro(
               "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
               "Indices of the two membranes with blood between them; None if there is no blood")
@@ -258,24 +283,26 @@ void bind_scene(nb::module_& m) {
             {"coupling", "Coupling"},
             {"membranes", "Sequence[PlacedMembrane]"},
             {"servo", "ServoSettings", nb::cast(defaults)},
-            {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")}},
+            {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")},
+            {"display", "DisplaySettings", nb::cast(DisplaySettings{})}},
            &make_scene,
            "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). Raises\n"
            "ConfigurationError with all problems.");
-  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction"});
+  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction", "display"});
 
   m.def(
       "scene_problems",
       [](const std::string& name, const Needle& needle, const Coupling& coupling,
-         const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo) {
+         const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const DisplaySettings& display) {
         nb::list out;
-        for (const Problem& p : check(Scene{name, needle, coupling, membranes, servo, {}}))
+        for (const Problem& p : check(Scene{name, needle, coupling, membranes, servo, {}, display}))
           out.append(nb::make_tuple(p.path, p.value, p.reason));
         return out;
       },
       nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo"),
+      nb::arg("display"),
       nb::sig("def scene_problems(name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
-              "servo: ServoSettings) -> list[tuple[str, float, str]]"),
+              "servo: ServoSettings, display: DisplaySettings) -> list[tuple[str, float, str]]"),
       "All problems of a scene that may be invalid: (path, value in SI, reason).");
 
   m.def(
@@ -286,6 +313,7 @@ void bind_scene(nb::module_& m) {
         describe_fields(out, "membrane", membrane_fields);
         describe_fields(out, "coupling", coupling_fields);
         describe_fields(out, "servo", servo_fields);
+        describe_fields(out, "display", display_fields);
         return out;
       },
       nb::sig("def fields() -> list[FieldBounds]"),

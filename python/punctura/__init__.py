@@ -3,6 +3,7 @@
 from punctura._core import (
     Coupling,
     DeviceError,
+    DisplaySettings,
     Experiment,
     Fault,
     Hand,
@@ -42,6 +43,7 @@ __all__ = [
     "ConfigurationError",
     "Coupling",
     "DeviceError",
+    "DisplaySettings",
     "Experiment",
     "Fault",
     "Hand",

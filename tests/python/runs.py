@@ -38,6 +38,8 @@ def experiment(scene: pn.Scene, motion: Any, duration: float, axis: Any, seed: i
         **of_trace(trace),
         "model_force": trace.model_force,
         "force": trace.force,
+        "ceiling": trace.ceiling,
+        "force_scale": trace.force_scale,
         **_more(scene, trace.position, unit(axis)),
     }
 

@@ -21,7 +21,13 @@ struct ForceLimits {
   double warm_motor = 0.8;      ///< motor temperature, 0 to 1, above which the ceiling decreases; it is 0 N at 1
 };
 
-/// The limit that makes the force of a tick smaller than the force of the model.
+/// The largest force that these limits permit for any time, N. Motors that get warm can lower it further.
+inline double lasting_force(const ForceLimits& limits) noexcept {
+  return std::min(limits.max_force,
+                  std::sqrt(BasicForceBudget<double>(limits.continuous_time, limits.continuous_force).rate()));
+}
+
+/// The limit that makes the force of a tick smaller than the force of the model times the force scale.
 enum class Limit : std::uint8_t {
   none,         ///< no limit acts, or the force of the model is zero
   ramp,         ///< the ramp after arming
@@ -75,8 +81,9 @@ class BasicForceLimiter {
     budget_.set_spent(previous.budget_.spent());
   }
 
-  /// One tick. wanted: the force of the model, N, finite. Returns the force for the device, N. motor_temperature: 0
-  /// to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is left out.
+  /// One tick. wanted: the force of the model times the force scale, N, finite. Returns the force for the device, N.
+  /// motor_temperature: 0 to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is
+  /// left out.
   Vector step(const Vector& wanted, Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
     gain_ = std::min(Scalar(1), gain_ + ramp_step_);

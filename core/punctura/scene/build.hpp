@@ -1,7 +1,9 @@
 // Builds an insertion or a servo step from a scene. try_build() returns the problems of the scene. build() throws them.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "punctura/insertion/insertion.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura/servo/force_scale.hpp"
 #include "punctura/servo/servo_step.hpp"
 
 namespace punctura {
@@ -63,8 +66,14 @@ std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, st
   return try_build_insertion<Scalar>(scene, problems, detail::k06_law<Scalar>);
 }
 
-/// The whole tick of a scene: input gate, model, force limits. Laws as in try_build_insertion(). Empty where scene or
-/// limits have problems, which are added to `problems`.
+/// How much of the model's force a device with these limits gives. insertion: of the scene, which has passed check().
+template <typename Insertion>
+double force_scale(const Scene& scene, const Insertion& insertion, const ForceLimits& limits) {
+  return scene.display.automatic ? automatic_force_scale(insertion, limits) : scene.display.force_scale;
+}
+
+/// The whole tick of a scene: input gate, model, force scale, force limits. Laws as in try_build_insertion(). Empty
+/// where scene or limits have problems, which are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of, const GateLimits& gate = {},
                const ForceLimits& limits = {}) {
@@ -73,7 +82,10 @@ auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_o
   const auto found = check(gate, limits);
   problems.insert(problems.end(), found.begin(), found.end());
   if (!insertion || !found.empty()) return std::optional<Result>();
-  return std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits);
+  const auto scale = std::max(static_cast<Scalar>(force_scale(scene, *insertion, limits)),
+                              std::numeric_limits<Scalar>::min());  // a scale that is too small for a float
+  return std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits,
+                                    scale);
 }
 /// Builds the servo step of a scene with K06's law.
 template <typename Scalar = double>

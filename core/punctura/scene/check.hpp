@@ -38,6 +38,14 @@ inline constexpr FieldOf<ServoSettings> servo_fields[] = {
      &ServoSettings::encoder_step},
 };
 
+inline constexpr FieldOf<DisplaySettings> display_fields[] = {
+    {{"force_scale",
+      "-",
+      "-",
+      {0, 1, true, false, "must be greater than 0 and at most 1: a device must not give more than the model's force"}},
+     &DisplaySettings::force_scale},
+};
+
 inline constexpr FieldOf<GateLimits> gate_fields[] = {
     {{"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::max_speed},
     {{"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::stale},
@@ -88,6 +96,7 @@ inline std::vector<Problem> check(const Scene& scene) {
   check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
   check_fields(servo_fields, scene.servo, "servo", problems);
+  check_fields(display_fields, scene.display, "display", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
   if (scene.membranes.size() > max_membranes)
     problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be 64 membranes at most"});

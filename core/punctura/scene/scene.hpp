@@ -35,6 +35,12 @@ struct ServoSettings {
   double encoder_step = Omni::encoder_step;  ///< m, for line_fit; 0 is an ideal sensor
 };
 
+/// How a device shows the forces of the model, if it cannot give them.
+struct DisplaySettings {
+  double force_scale = 1;  ///< how much of the model's force the device gives: greater than 0, at most 1
+  bool automatic = false;  ///< replaces force_scale by automatic_force_scale(), for the limits in use
+};
+
 /// The description of a run: needle, coupling, membranes and settings, in SI units.
 struct Scene {
   std::string name;
@@ -43,6 +49,7 @@ struct Scene {
   std::vector<PlacedMembrane> membranes;
   ServoSettings servo{};
   Direction direction = Direction::stylus;
+  DisplaySettings display{};
 };
 
 }  // namespace punctura

@@ -23,6 +23,7 @@ void for_each_value(SceneT& scene, Visit&& visit) {
   all("needle", needle_fields, scene.needle);
   all("coupling", coupling_fields, scene.coupling);
   all("servo", servo_fields, scene.servo);
+  if (!scene.display.automatic) all("display", display_fields, scene.display);
   for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
     const std::string path = "membrane[" + std::to_string(i) + "]";
     auto& placed = scene.membranes[i];

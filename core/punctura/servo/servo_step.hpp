@@ -1,8 +1,8 @@
 // One tick, from the sample of the device to the force for the device. Read this first.
 //
-//   device -> input gate -> conditioning -> proxy 1..n -> sum -> force limits -> device
-//                |          '--------- Insertion ---------'           |
-//                +--------- fault (latched) -> zero force <-----------+
+//   device -> input gate -> conditioning -> proxy 1..n -> sum -> force scale -> force limits -> device
+//                |          '--------- Insertion ---------'                           |
+//                +----------------- fault (latched) -> zero force <-------------------+
 //
 // A tick throws nothing, allocates no memory, takes no lock and writes no log.
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace punctura {
 
-/// The servo step: input gate, model, force limits and the record of a tick.
+/// The servo step: input gate, model, force scale, force limits and the record of a tick.
 ///
 /// Insertion: an InsertionOf, with K06's or your own laws and coupling. A tick is computed in its Scalar. The record is
 /// double.
@@ -32,14 +32,17 @@ class ServoStepOf {
   using Scalar = typename Insertion::Scalar;
   using Vector = Vector3<Scalar>;
 
-  /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. If insertion has more than
-  /// max_membranes membranes, the program aborts.
-  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {})
+  /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. force_scale: how much of the model's
+  /// force the device gives. The program aborts if it is not greater than 0 and at most 1, or if insertion has more
+  /// than max_membranes membranes.
+  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {},
+              Scalar force_scale = 1)
       : insertion_(std::move(insertion)),
         gate_(gate, period, insertion_.uses_axis()),
         limiter_(limits, period),
+        force_scale_(force_scale),
         fade_step_(period / fade_time) {
-    if (insertion_.proxies().size() > max_membranes) std::abort();
+    if (insertion_.proxies().size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
   }
 
@@ -70,8 +73,8 @@ class ServoStepOf {
 
   /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
   ///
-  /// Membranes at the same place keep their proxies. The change of the force is faded in over `fade_time`, so that
-  /// the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
+  /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
+  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
   void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     gate_.resume(previous.gate_);
@@ -111,7 +114,7 @@ class ServoStepOf {
     const auto temperature = static_cast<Scalar>(sample.motor_temperature);
     if (std::isfinite(sample.time)) time_ = sample.time;
     if (state_ == ServoState::active) {
-      force = limiter_.step(faded(model_force), temperature, elapsed);
+      force = limiter_.step(faded(force_scale_ * model_force), temperature, elapsed);
       if (!force.allFinite()) {  // impossible with limits that passed check(), but safety must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
@@ -137,6 +140,7 @@ class ServoStepOf {
   void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
   const Snapshot& snapshot() const noexcept { return snapshot_; }
+  Scalar force_scale() const noexcept { return force_scale_; }
   const Insertion& insertion() const noexcept { return insertion_; }
   ServoState state() const noexcept { return state_; }
   Fault fault() const noexcept { return fault_; }
@@ -165,15 +169,15 @@ class ServoStepOf {
     insertion_.describe(parameters);
     gate_.describe(parameters);
     limiter_.describe(parameters);
-    parameters.numbers(fade_step_);
+    parameters.numbers(force_scale_, fade_step_);
   }
 
  private:
-  /// Fades from the force before resume() to the force of the model.
-  Vector faded(const Vector& model_force) noexcept {
-    if (fade_starts_) fade_offset_ = faded_force_ - model_force;
+  /// Fades from the force before resume() to the wanted force.
+  Vector faded(const Vector& wanted) noexcept {
+    if (fade_starts_) fade_offset_ = faded_force_ - wanted;
     fade_starts_ = false;
-    faded_force_ = model_force + fade_ * fade_offset_;
+    faded_force_ = wanted + fade_ * fade_offset_;
     fade_ = std::max(Scalar(0), fade_ - fade_step_);
     return faded_force_;
   }
@@ -184,6 +188,7 @@ class ServoStepOf {
     snapshot_.tip = to_array(insertion_.tip());
     snapshot_.model_force = to_array(model_force);
     snapshot_.force = to_array(force);
+    snapshot_.force_scale = force_scale_;
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
     snapshot_.limit = limiter_.limit();
@@ -202,6 +207,7 @@ class ServoStepOf {
   std::uint64_t tick_ = 0;
   std::uint32_t commands_ = 0;
   double time_ = std::numeric_limits<double>::quiet_NaN();  ///< time of the last sample in this run, s
+  Scalar force_scale_;
   Scalar fade_step_, fade_ = 0;
   bool fade_starts_ = false;
   Vector faded_force_{}, fade_offset_{};

@@ -43,11 +43,12 @@ struct Snapshot {
   std::array<double, 3> tip;          ///< the conditioned position, m
   std::array<double, 3> model_force;  ///< the force of the model: the sum of all membranes, N
   std::array<double, 3> force;        ///< the force for the device, N
+  double force_scale;                 ///< how much of the model's force the device gives, before all limits
   double ceiling;                     ///< the largest force that all limits permit in this tick, N
   LimitCounters limits;
   ServoState state;
   Fault fault;
-  Limit limit;             ///< the limit that makes `force` smaller than `model_force`
+  Limit limit;             ///< the limit that makes `force` smaller than `force_scale` times `model_force`
   std::uint32_t commands;  ///< bits of Command, executed in the order reset, arm, disarm
   std::uint32_t membrane_count;
   std::array<MembraneRecord, max_membranes> membranes;  ///< the first membrane_count are valid

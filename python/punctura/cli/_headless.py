@@ -17,8 +17,10 @@ from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
 from punctura.live import (
     ANY_PROCESSOR,
+    MODEL_FORCE,
     Limits,
     RunSummary,
+    felt_force,
     fit_conditioning,
     fit_direction,
     open_for,
@@ -139,7 +141,8 @@ def begun(scene: str, loop: ServoLoop, device: Device) -> str:
     """The scene, the device and the limits of the force."""
     most = loop.limits
     strong = f"at most {most.max_force:.3g} N, {most.continuous_force:.3g} N rms in any {most.continuous_time:.3g} s"
-    return f"punctura: {scene} on {device.info.model}, {strong}; Ctrl-C ends it"
+    scale = "" if loop.force_scale == 1 else f", {felt_force(loop.force_scale)}"
+    return f"punctura: {scene} on {device.info.model}, {strong}{scale}; Ctrl-C ends it"
 
 
 def in_words(summary: RunSummary) -> str:
@@ -148,7 +151,8 @@ def in_words(summary: RunSummary) -> str:
         f"{summary.scene} on {summary.device}",
         f"  {summary.ticks} ticks at {summary.rate_Hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
         f"99.9 % were computed within {summary.compute_p99_9_s * 1e6:.3g} us",
-        f"  strongest force {summary.strongest_N:.3g} N, "
+        f"  strongest {felt_force(summary.force_scale)} {summary.strongest_N:.3g} N, "
+        f"strongest {MODEL_FORCE} {summary.strongest_model_N:.3g} N, "
         + (f"cut by {summary.limits_in_words}" if summary.limited_ticks else "never cut by a limit"),
     ]
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from punctura.live import DroppingStream, RunSummary
+from punctura.live import DroppingStream, RunSummary, felt_force
 
 EVERY_S = 0.1
 
@@ -38,12 +38,13 @@ class StatusLine:
 def status_text(summary: RunSummary) -> str:
     """Time, rate, state, force, and of each membrane depth and phase."""
     x, y, z = summary.force_N
-    cut = f" (of {summary.model_force_N:.2f} N: {summary.limit})" if summary.limit else ""
+    wanted = summary.force_scale * summary.model_force_N
+    cut = f" (of {wanted:.2f} N: {summary.limit})" if summary.limit else ""
     membranes = "  ".join(
         f"{name} {depth * 1e3:.1f} mm {phase.replace('_', ' ')}"
         for name, depth, phase in zip(summary.membranes, summary.depth_m, summary.phases, strict=False)
     )
     return (
         f"{summary.time_s:6.1f} s  {summary.rate_Hz:g} Hz  {summary.state}  "
-        f"force {x:+.2f} {y:+.2f} {z:+.2f} N{cut}  {membranes}  lost {summary.gaps}"
+        f"{felt_force(summary.force_scale)} {x:+.2f} {y:+.2f} {z:+.2f} N{cut}  {membranes}  lost {summary.gaps}"
     )

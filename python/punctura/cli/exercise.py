@@ -40,6 +40,7 @@ def score(
     from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge
     from punctura.exercise.words import state, tenths
+    from punctura.live import felt_force
 
     wanted = load_exercise(exercise)
     for warning in wanted.warnings:
@@ -59,6 +60,11 @@ def score(
         typer.echo(f"  {state(goal):{width}}  {goal.text}")
     m = result.metrics
     typer.echo(f"  {m.entries} {'entry' if m.entries == 1 else 'entries'}, model force {m.peak_force:.2f} N at most")
+    if m.peak_felt_force is not None:
+        typer.echo(f"  {felt_force(m.force_scale)} {m.peak_felt_force:.2f} N at most")
+    for loss in m.losses:
+        needed = "" if loss.needed is None else f" ({loss.needed:.2g} N needed)"
+        typer.echo(f"  {loss.drop:.2f} N loss of resistance felt at the pop of the {loss.name}{needed}")
     typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:

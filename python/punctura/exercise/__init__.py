@@ -2,9 +2,10 @@
 
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
+from punctura.exercise.expected import cannot_show, expected_losses
 from punctura.exercise.load import exercise_names, exercise_of, exercises, load_exercise
 from punctura.exercise.remark import Coaching, Remark
-from punctura.exercise.result import GoalState, Metrics, Overshoot, Result, Status
+from punctura.exercise.result import GoalState, Loss, Metrics, Overshoot, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
 from punctura.exercise.schema import exercise_json_schema
 from punctura.exercise.score import score
@@ -14,6 +15,7 @@ __all__ = [
     "Coaching",
     "Exercise",
     "GoalState",
+    "Loss",
     "Metrics",
     "Overshoot",
     "Remark",
@@ -21,11 +23,13 @@ __all__ = [
     "ResultStore",
     "ResultsError",
     "Status",
+    "cannot_show",
     "default_folder",
     "exercise_json_schema",
     "exercise_names",
     "exercise_of",
     "exercises",
+    "expected_losses",
     "load_exercise",
     "score",
 ]

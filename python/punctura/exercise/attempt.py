@@ -17,9 +17,10 @@ from punctura.exercise.coach import Coach
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.limit import Limit, Moment, first_of, moment
 from punctura.exercise.limits import TimeJudge, limit_of
+from punctura.exercise.losses import felt_membranes
 from punctura.exercise.measures import Measures
 from punctura.exercise.remark import Coaching
-from punctura.exercise.result import GoalState, Result, Status
+from punctura.exercise.result import GoalState, Result, Status, unfelt
 from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
 from punctura.exercise.stop import StopJudge
@@ -47,7 +48,8 @@ class Attempt:
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
-        self._measures = Measures(scene, self._geometry, self._space, _windows(self._limits))
+        must = felt_membranes(exercise.file, scene)
+        self._measures = Measures(scene, self._geometry, self._space, _windows(self._limits), must)
         self._coach = Coach(exercise.file, scene, self._space)
         self._finder = EventFinder(scene, scene.servo.rate)
         self._events: list[Event] = []
@@ -140,8 +142,9 @@ class Attempt:
 
     @property
     def passed(self) -> bool:
-        """Whether everything was achieved, no limit was missed, and no limit was still being measured."""
-        return self._passed
+        """Whether everything was achieved, no limit was missed or still being measured, and each loss of resistance
+        that the exercise needs could be felt."""
+        return self._passed and not unfelt(self._measures.losses)
 
     def _goals(self, ended: bool) -> list[GoalState]:
         complete = self._passed or (ended and not self.over and self._achieved)
@@ -194,9 +197,11 @@ class Attempt:
             now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
             return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
+            lost = unfelt(self._measures.losses)
             blind = [one for one in self._limits if one.state(self._decision, True) == "not measured"]
             said = words.passed(self._achievements, self._measures, self._space, first)
-            return said + [words.not_measured(one, self._decision, first) for one in blind]
+            said += [words.not_measured(one, self._decision, first) for one in blind]
+            return said + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from punctura import Scene
 from punctura._core import Limit as ForceLimit
 from punctura.events import Event
+from punctura.exercise.losses import Losses
 from punctura.exercise.path import Path, PathSoFar
-from punctura.exercise.result import Metrics, Overshoot
+from punctura.exercise.result import Loss, Metrics, Overshoot
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
@@ -24,15 +25,26 @@ class Measures:
     """Takes all ticks up to the decision, and their events."""
 
     def __init__(
-        self, scene: Scene, geometry: Geometry, space: TargetSpace, windows: Mapping[int, float] | None = None
+        self,
+        scene: Scene,
+        geometry: Geometry,
+        space: TargetSpace,
+        windows: Mapping[int, float] | None = None,
+        must: Collection[int] = (),
     ) -> None:
-        """windows: by membrane, the time after a pop in which the overshoot is measured, s; default OVERSHOOT_S."""
+        """windows: by membrane, the time after a pop in which the overshoot is measured, s; default OVERSHOOT_S.
+
+        must: the membranes whose loss of resistance must be felt.
+        """
         self._windows = dict(windows or {})
         self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
         self._space = space
         self.entries = 0
         self.peak_force = 0.0
+        self.peak_felt_force = 0.0
+        self._force_scale = 1.0
+        self._losses = Losses(scene, must)
         self.first_touch: float | None = None
         self.arrival: float | None = None
         self.longest_stay = 0.0
@@ -58,6 +70,9 @@ class Measures:
         for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
+        self.peak_felt_force = float(np.fmax(self.peak_felt_force, np.fmax.reduce(ticks.felt_size)))
+        self._force_scale = float(ticks.force_scale[-1])
+        self._losses.add(ticks, events)
         self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
         self.settle(ticks)
         arrived = self._space.arrived(ticks)
@@ -123,12 +138,20 @@ class Measures:
         """Time from the first contact to the last tick before the decision, s."""
         return self._last_time - self.first_touch if self.first_touch is not None else 0.0
 
+    @property
+    def losses(self) -> list[Loss]:
+        """The losses of resistance so far."""
+        return self._losses.found
+
     def metrics(self) -> Metrics:
         way = self._way or (self._path.deepest if self._path else None)
         touched = self.first_touch
         return Metrics(
             entries=self.entries,
             peak_force=self.peak_force,
+            peak_felt_force=self.peak_felt_force,
+            force_scale=self._force_scale,
+            losses=self.losses,
             overshoot=self._overshoots,
             dwell=self.dwell,
             longest_stay=self.longest_stay,

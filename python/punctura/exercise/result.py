@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
@@ -49,11 +50,49 @@ class Overshoot(_Part):
     seconds: Finite = 0.3  # length of the measurement, from the membrane's stop_after_pop goal
 
 
+class Loss(_Part):
+    """The loss of resistance at a pop, as the hand got it. Forces are along the needle, N."""
+
+    membrane: int
+    name: str
+    time: Finite  # time of the pop, s
+    before: Finite  # felt force at the membrane's largest resistance, as far as the limits permitted it until the pop
+    after: Finite  # felt force at the pop
+    model_before: Finite  # model force at the same ticks
+    model_after: Finite
+    force_scale: Finite
+    needed: Finite | None  # smallest drop that counts as felt; None if the exercise does not need this pop to be felt
+
+    @property
+    def drop(self) -> float:
+        """N"""
+        return self.before - self.after
+
+    @property
+    def felt(self) -> bool:
+        """Whether a hand can feel it."""
+        return self.needed is None or self.drop >= self.needed
+
+    @property
+    def figures(self) -> str:
+        """ "0.04 N; 0.1 N needed"."""
+        return f"{self.drop:.2f} N; {self.needed or 0:.2g} N needed"
+
+
+def unfelt(losses: Sequence[Loss]) -> list[Loss]:
+    """Of the losses that must be felt, those that cannot be felt: for each membrane its last pop counts."""
+    last = {loss.membrane: loss for loss in losses if loss.needed is not None}
+    return [loss for loss in last.values() if not loss.felt]
+
+
 class Metrics(_Part):
     """Measures up to the decision (overshoots: to the end of their seconds), SI. None: not available."""
 
     entries: int = Field(validation_alias=AliasChoices("entries", "attempts"))  # into the first membrane
     peak_force: Finite  # N, largest total force of the model
+    peak_felt_force: Finite | None = None  # N, largest force on the hand, after force scale and limits
+    force_scale: Finite = 1.0  # how much of the model's force the device gives, before the limits
+    losses: list[Loss] = []  # of resistance, at each pop
     overshoot: list[Overshoot]
     dwell: Finite  # s, total time in the space: of the whole tip if a stay goal asks for it, else of the point
     longest_stay: Finite  # s, longest time in the space without a break
@@ -94,8 +133,21 @@ class Result(_Part):
         return [goal.text for goal in self.goals if goal.state == "not measured"]
 
     @property
+    def achieved(self) -> bool:
+        """Whether every goal was met, or was not measured."""
+        return all(goal.state in ("met", "not measured") for goal in self.goals)
+
+    @property
+    def unfelt(self) -> list[Loss]:
+        """The losses of resistance that must be felt and that the device could not show."""
+        return unfelt(self.metrics.losses)
+
+    @property
     def verdict(self) -> str:
-        """The verdict in words. A pass tells if something was not measured."""
+        """The verdict in words. It tells if something was not measured, or could not be felt."""
+        if not self.passed and self.achieved and self.unfelt:
+            worst = min(self.unfelt, key=lambda loss: loss.drop)
+            return f"not judged as passed: the device could not show the loss of resistance ({worst.figures})"
         if not self.passed:
             return "not passed"
         return "passed, but not everything was measured" if self.unmeasured else "passed"

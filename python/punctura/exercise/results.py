@@ -23,10 +23,9 @@ _LARGEST = 20_000_000  # bytes; a result has some kilobytes
 # Columns of the CSV table, with the unit in the name, as in `punctura simulate`.
 COLUMNS = (
     "name", "person", "class", "exercise", "title", "scene", "date", "recording", "version", "passed", "not_measured",
-    "reasons", "entries",
-    "peak_force_N", "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm",
-    "straightness", "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks",
-    "force_cut_s",
+    "reasons", "entries", "peak_force_N", "peak_felt_force_N", "force_scale", "felt_drop_N",
+    "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm", "straightness",
+    "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks", "force_cut_s",
 )  # fmt: skip
 
 
@@ -131,6 +130,9 @@ def _row(result: Result) -> dict[str, object]:
         "reasons": " ".join(result.reasons),
         "entries": m.entries,
         "peak_force_N": m.peak_force,
+        "peak_felt_force_N": m.peak_felt_force,
+        "force_scale": m.force_scale,
+        "felt_drop_N": min((loss.drop for loss in m.losses if loss.needed is not None), default=None),
         "largest_overshoot_mm": _times(largest, 1e3),
         "dwell_s": m.dwell,
         "longest_stay_s": m.longest_stay,

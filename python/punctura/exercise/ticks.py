@@ -27,10 +27,16 @@ class Ticks:
     tip: Numbers  # (n, 3), m
     held: Numbers  # (n, 3), the needle's direction: fixed by the first membrane at entry, else the stylus's
     force: Numbers  # N, the norm of the model's force; NaN if unknown
+    model: Numbers  # N, the model's force against the needle, along it
+    felt: Numbers  # N, the same of the felt force; the model's if only that is known
+    felt_size: Numbers  # N, the norm of the felt force
+    ceiling: Numbers  # N, what all limits permit
+    force_scale: Numbers  # how much of the model's force the device gives, before the limits
     fault: NDArray[np.int64]
     limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
     new_scene: Flags
     inside: Flags  # (n, m), the membrane holds the needle
+    resistance: Numbers  # (n, m), N, against the needle
     depth: Numbers  # (n, m), depth of the point, m: along the needle while inside, else along the normal
     below: Numbers  # (n, m), depth of the point along the normal, m
     run_on: Numbers  # (n, m), distance of the bevel past the membrane along the needle, m; negative before
@@ -79,19 +85,27 @@ class Geometry:
         cosine = self._cosine(columns, axis, inside)
         below = np.where(inside, depth * cosine, depth)
         tick = columns["tick"].astype(np.int64) if "tick" in columns else np.arange(first, first + n)
-        force = columns["model_force"] if "model_force" in columns else columns["force"]
+        force = np.asarray(columns["model_force" if "model_force" in columns else "force"], dtype=np.float64)
+        felt = np.asarray(columns["force"], dtype=np.float64) if "force" in columns else force
+        held = self._held(columns, axis, inside)
         zeros = np.zeros(n, dtype=np.int64)
         time = np.asarray(columns["time"] if "time" in columns else tick / self._rate, dtype=np.float64)
         return Ticks(
             tick=tick,
             time=time,
             tip=columns["tip"],
-            held=self._held(columns, axis, inside),
+            held=held,
             force=np.linalg.norm(force, axis=1),
+            model=-np.einsum("ij,ij->i", force, held),
+            felt=-np.einsum("ij,ij->i", felt, held),
+            felt_size=np.linalg.norm(felt, axis=1),
+            ceiling=np.asarray(columns["ceiling"], np.float64) if "ceiling" in columns else np.full(n, np.inf),
+            force_scale=np.asarray(columns["force_scale"], np.float64) if "force_scale" in columns else np.ones(n),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & COMMAND_SCENE) != 0,
             inside=inside,
+            resistance=-_wide(columns["axial_force"], m, np.nan),
             depth=depth,
             below=below,
             run_on=np.where(inside, depth - self.tip_length - self.thickness / cosine, -np.inf),

@@ -9,8 +9,9 @@ from punctura._core import Fault, describe
 from punctura.exercise.achievements import Achievement, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
+from punctura.exercise.loss import remedy
 from punctura.exercise.measures import Measures
-from punctura.exercise.result import GoalState
+from punctura.exercise.result import GoalState, Loss
 from punctura.exercise.schema import Space
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.stop import StopJudge
@@ -63,6 +64,14 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
     return f"Not measured: “{limit.text}”, because there was no contact with the {first}."
 
 
+def not_felt(loss: Loss) -> str:
+    """The reason why an attempt that achieved everything is not judged as passed."""
+    return (
+        f"Not judged as passed: the device could not show the loss of resistance of the {loss.name} ({loss.figures}). "
+        f"{remedy(loss)}"
+    )
+
+
 def waiting(limit: StopJudge) -> str:
     """The instruction while a limit is still being measured."""
     if limit.waits_for == "rest":
@@ -101,9 +110,9 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
 
 
 def force_cut(seconds_by_limit: Mapping[str, float]) -> list[str]:
-    """Tells how long the device's force was below the model's."""
+    """Tells how long the limits made the felt force smaller."""
     cut = " and ".join(f"{tenths(seconds)} s ({words})" for words, seconds in seconds_by_limit.items())
-    return [f"The device gave less than the model's force for {cut}."] if cut else []
+    return [f"Limits cut the felt force for {cut}."] if cut else []
 
 
 def passed(achievements: Sequence[Achievement], measures: Measures, space: TargetSpace, first: str) -> list[str]:

@@ -11,6 +11,8 @@ from typing import Annotated, Any
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
+AUTOMATIC = "automatic"
+
 
 def _as_decimal(value: object) -> Decimal | None:
     if isinstance(value, bool) or not isinstance(value, (int, float, Decimal)):
@@ -22,6 +24,15 @@ def _number(value: object) -> Decimal:
     number = _as_decimal(value)
     if number is None:
         raise PydanticCustomError("number", "must be a number")
+    return number
+
+
+def _number_or_automatic(value: object) -> Decimal | str:
+    if value == AUTOMATIC:
+        return AUTOMATIC
+    number = _as_decimal(value)
+    if number is None:
+        raise PydanticCustomError("number_or_automatic", 'must be a number or "automatic"')
     return number
 
 
@@ -65,6 +76,8 @@ def _text(value: object) -> str:
 
 
 def _plain(value: Any) -> Any:
+    if isinstance(value, str):
+        return value
     return [float(v) for v in value] if isinstance(value, tuple) else float(value)
 
 
@@ -73,6 +86,12 @@ _VECTOR_SCHEMA = {"type": "array", "items": {"type": "number"}, "minItems": 3, "
 # Numbers stay decimals, exactly as written, until they are converted to SI (files/units.py).
 _AS_FLOAT = PlainSerializer(_plain, when_used="json")
 Number = Annotated[Decimal, PlainValidator(_number), _AS_FLOAT, WithJsonSchema({"type": "number"})]
+NumberOrAutomatic = Annotated[
+    Decimal | str,
+    PlainValidator(_number_or_automatic),
+    _AS_FLOAT,
+    WithJsonSchema({"anyOf": [{"type": "number"}, {"const": AUTOMATIC}]}),
+]
 Vector = Annotated[tuple[Decimal, Decimal, Decimal], PlainValidator(_vector), _AS_FLOAT, WithJsonSchema(_VECTOR_SCHEMA)]
 Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator(_quaternion)]
 Buttons = Annotated[list[int], PlainValidator(_buttons)]

@@ -17,6 +17,7 @@ from punctura._core import (
 )
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
 from punctura.live.dropping_stream import DroppingStream
+from punctura.live.force_words import MODEL_FORCE, felt_force
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
@@ -31,6 +32,7 @@ from punctura.results import BackendState, LoopReport, Quantiles
 
 __all__ = [
     "ANY_PROCESSOR",
+    "MODEL_FORCE",
     "BackendState",
     "Device",
     "DeviceError",
@@ -51,6 +53,7 @@ __all__ = [
     "SilenceWatch",
     "SimulatedDevice",
     "enumerate_devices",
+    "felt_force",
     "fit_conditioning",
     "fit_direction",
     "gate_for",

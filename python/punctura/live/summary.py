@@ -34,7 +34,9 @@ class RunSummary:
     membranes: list[str]
     ticks: int = 0
     gaps: int = 0  # ticks whose snapshot never came
-    strongest_N: float = 0.0
+    force_scale: float = 1.0  # how much of the model's force the device gives, before the limits
+    strongest_N: float = 0.0  # of the felt force
+    strongest_model_N: float = 0.0
     deepest_m: list[float] = field(default_factory=list)
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
     limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names in CUTS
@@ -45,7 +47,7 @@ class RunSummary:
     statements: list[str] = field(default_factory=list)
     # The last tick, for a status line.
     force_N: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    model_force_N: float = 0.0  # before the limits, norm
+    model_force_N: float = 0.0  # before force scale and limits, norm
     limit: str = ""  # which limit cuts the force, in words
     depth_m: list[float] = field(default_factory=list)
     phases: list[str] = field(default_factory=list)
@@ -66,7 +68,9 @@ class RunSummary:
             return
         self.ticks += n
         self.gaps = int(tick[-1]) + 1 - self.ticks
+        self.force_scale = float(ticks.force_scale[-1])
         self.strongest_N = max(self.strongest_N, strongest(ticks.force, ticks.ceiling))
+        self.strongest_model_N = max(self.strongest_model_N, float(np.linalg.norm(ticks.model_force, axis=1).max()))
         deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
         self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in CUTS}

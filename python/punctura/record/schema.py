@@ -111,6 +111,8 @@ def input_ticks(batch: pa.RecordBatch) -> Ticks:
 def ticks_of(batch: pa.RecordBatch) -> Ticks:
     """The ticks of a batch. A membrane that a tick did not have is NaN, its phase ABSENT."""
     ticks = Ticks(gather({f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}))
+    if "force_scale" not in ticks:  # an earlier version, which always gave all of the model's force
+        ticks = ticks.replace(force_scale=np.ones(len(batch)))
     if "limit" in ticks:
         return ticks
     return ticks.replace(limit=np.full(len(batch), ABSENT, np.uint8))  # format 1 has no `limit`

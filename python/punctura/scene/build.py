@@ -6,18 +6,18 @@ from collections.abc import Collection, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
-from punctura._core import Coupling, Membrane, Needle, PlacedMembrane, Scene, ServoSettings
+from punctura._core import Coupling, DisplaySettings, Membrane, Needle, PlacedMembrane, Scene, ServoSettings
 from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.schema import CouplingTable, DisplayTable, MembraneTable, NeedleTable, SceneFile, ServoTable
 
 # What stands in for a value that is missing or of the wrong type while the core looks at the others. Chosen so that
 # it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
 _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
-    "behind": "tissue", "look": "plain", "precompression": 0.0, "friction": 1e-6, "thickness": 0.0,
-    "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
+    "force_scale": 1.0, "behind": "tissue", "look": "plain", "precompression": 0.0, "friction": 1e-6,
+    "thickness": 0.0, "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
 }  # fmt: skip
 
 
@@ -73,6 +73,7 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
     needle = reader.table(data.get("needle"), "needle", NeedleTable)
     coupling = reader.table(data.get("coupling"), "coupling", CouplingTable)
     servo = reader.table(data.get("servo"), "servo", ServoTable)
+    display = reader.table(data.get("display"), "display", DisplayTable)
     tables = data.get("membrane")
     membranes = []
     for i, raw in enumerate(tables if isinstance(tables, list) else []):
@@ -89,6 +90,7 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         membranes,
         ServoSettings(**servo),
         needle["direction"],
+        DisplaySettings(**display),
     )
     return Parts(arguments, reader.keys, reader.stand_ins)
 

@@ -21,11 +21,19 @@ from punctura.files.toml import Tables
 from punctura.files.units import split_key, to_si
 from punctura.scene.build import Parts, scene_parts
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.schema import ALTERNATIVES, CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.schema import (
+    ALTERNATIVES,
+    CouplingTable,
+    DisplayTable,
+    MembraneTable,
+    NeedleTable,
+    SceneFile,
+    ServoTable,
+)
 
 _SCHEMA = Schema(
     SceneFile,
-    {"needle": NeedleTable, "coupling": CouplingTable, "servo": ServoTable},
+    {"needle": NeedleTable, "coupling": CouplingTable, "servo": ServoTable, "display": DisplayTable},
     {"membrane": MembraneTable},
 )
 _ENOUGH = 100  # membranes to check: more than the core allows, and few enough to report all their problems
@@ -66,7 +74,8 @@ def _alternative_problems(data: Mapping[str, object]) -> Iterator[Problem]:
 def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Problem]:
     parts: Parts = scene_parts(data, unsound)
     problems = []
-    for path, value, reason in _core.scene_problems(*parts.arguments[:5]):
+    name, needle, coupling, membranes, servo, _direction, display = parts.arguments
+    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display):
         if path in parts.stand_ins:
             continue
         key_path = parts.keys.get(path, path)

@@ -13,7 +13,10 @@ from punctura.results import FieldBounds
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import ALTERNATIVES, SceneFile
 
-_TABLE_OF = {"NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "MembraneTable": "membrane"}
+_TABLE_OF = {
+    "NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "DisplayTable": "display",
+    "MembraneTable": "membrane",
+}  # fmt: skip
 
 
 def scene_json_schema() -> JsonSchemaValue:
@@ -35,21 +38,24 @@ def scene_json_schema() -> JsonSchemaValue:
 
 
 def _complete(entry: JsonSchemaValue, key: str, field: FieldBounds | None) -> None:
-    optional = entry.pop("anyOf", None)
-    if optional:  # the key is optional, but never null
-        entry |= next(kind for kind in optional if kind.get("type") != "null")
+    kinds = entry.pop("anyOf", [])
+    if any(kind.get("type") == "null" for kind in kinds):  # the key is optional, but never null
+        entry |= next(kind for kind in kinds if kind.get("type") != "null")
         entry.pop("default", None)
-    if entry.get("type") == "number" and "default" in entry:
+    elif kinds:  # a number or a word
+        entry["anyOf"] = kinds
+    number = next((kind for kind in (entry, *kinds) if kind.get("type") == "number"), None)
+    if number is not None and "default" in entry:
         entry["default"] = float(entry["default"])
     unit = split_key(key)[1]
     if unit.name:
         entry["x-unit"] = unit.name
-    if field is None or entry.get("type") != "number":
+    if field is None or number is None:
         return
     for bound, is_open, closed_name, open_name in (
         (field["min"], field["min_open"], "minimum", "exclusiveMinimum"),
         (field["max"], field["max_open"], "maximum", "exclusiveMaximum"),
     ):
         if math.isfinite(bound):
-            entry[open_name if is_open else closed_name] = bound / to_si(Decimal(1), unit)
+            number[open_name if is_open else closed_name] = bound / to_si(Decimal(1), unit)
     entry["x-reason"] = field["reason"]

@@ -11,12 +11,12 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from punctura._core import ServoSettings
-from punctura.files.fields import Number, Text, Vector, WholeNumber
+from punctura._core import DisplaySettings, ServoSettings
+from punctura.files.fields import Number, NumberOrAutomatic, Text, Vector, WholeNumber
 from punctura.files.tables import Table
 from punctura.files.units import UNITS, from_si
 
-_SERVO = ServoSettings()  # for the defaults
+_SERVO, _DISPLAY = ServoSettings(), DisplaySettings()  # for the defaults
 
 # The words of core/punctura/scene/look.hpp. A test compares them.
 Look = Literal[
@@ -86,6 +86,20 @@ class ServoTable(Table):
     )
 
 
+class DisplayTable(Table):
+    """How a device shows forces that it cannot give."""
+
+    model_config = ConfigDict(title="Display")
+
+    force_scale: NumberOrAutomatic = _field(
+        "Force scale",
+        "How much of the model's force the device gives. automatic: as much as it can give for any time, and at most "
+        "all.",
+        "",
+        Decimal(repr(_DISPLAY.force_scale)),
+    )
+
+
 class MembraneTable(Table):
     """A membrane: a layer that grips the needle with dry friction (K06 section 2)."""
 
@@ -119,6 +133,7 @@ class SceneFile(Table):
     needle: NeedleTable
     coupling: CouplingTable
     servo: ServoTable = Field(default_factory=ServoTable)
+    display: DisplayTable = Field(default_factory=DisplayTable)
     membrane: list[MembraneTable] = _field("Membranes", "In the order in which their forces are added.")
 
 

@@ -10,10 +10,10 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from punctura._core import Scene
+from punctura._core import DisplaySettings, Scene
 from punctura.files.units import from_si, split_key
 from punctura.files.whole_file import write_whole
-from punctura.scene.schema import CouplingTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.schema import CouplingTable, DisplayTable, MembraneTable, NeedleTable, SceneFile, ServoTable
 
 _SKIPPED = ("gauge", "tip_angle_deg")  # the alternatives of diameter_mm and tip_angle_rad
 
@@ -25,6 +25,8 @@ def scene_text(scene: Scene) -> str:
     lines += _table("[needle]", NeedleTable, needle)
     lines += _table("[coupling]", CouplingTable, _attributes(scene.coupling, CouplingTable))
     lines += _table("[servo]", ServoTable, _attributes(scene.servo, ServoTable))
+    if scene.display != DisplaySettings():
+        lines += _table("[display]", DisplayTable, _attributes(scene.display, DisplayTable))
     for placed in scene.membranes:
         values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable)
         lines += _table("[[membrane]]", MembraneTable, values)
@@ -36,6 +38,8 @@ def file_text(file: SceneFile) -> str:
     lines = [f"name = {_string(file.name)}"]
     for head, table in (("[needle]", file.needle), ("[coupling]", file.coupling), ("[servo]", file.servo)):
         lines += ["", head, *_given(table)]
+    if file.display != DisplayTable():
+        lines += ["", "[display]", *_given(file.display)]
     for membrane in file.membrane:
         lines += ["", "[[membrane]]", *_given(membrane)]
     return "\n".join(lines) + "\n"

@@ -140,11 +140,9 @@ class Api:
 
     def exercises(self, request: Request) -> Response:
         experts = {name: run for name, run in self._session.experts.all().items() if self._shelf.has(run)}
+        entries = self._session.exercises.overviews(self._session.run.loop.limits)
         return JSONResponse(
-            [
-                entry.model_dump(mode="json") | {"expert": experts.get(entry.name, "")}
-                for entry in self._session.exercises.overviews()
-            ]
+            [entry.model_dump(mode="json") | {"expert": experts.get(entry.name, "")} for entry in entries]
         )
 
     def scenes(self, request: Request) -> Response:

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from pydantic import Field
 
-from punctura._core import tip_length
+from punctura._core import ForceLimits, tip_length
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.exercise import Attempt, Exercise, exercise_names, exercises, load_exercise
+from punctura.exercise import Attempt, Exercise, cannot_show, exercise_names, exercises, load_exercise
 from punctura.exercise.schema import OnLine
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
@@ -21,6 +21,7 @@ from punctura.studio.view import membrane_views
 from punctura.studio.wire.common import MembraneView, Part, ProblemPart, Vector
 from punctura.studio.wire.messages import Choice
 
+_USUAL_LIMITS = ForceLimits()
 DRAFT = "draft"  # the name of an exercise that is tried before it is saved
 
 
@@ -84,6 +85,7 @@ class ExerciseOverview(Part):
     goals: list[str] = Field(default=[])
     problems: list[ProblemPart] = Field(default=[])
     warnings: list[ProblemPart] = Field(default=[])
+    unfelt: str = ""  # why this device cannot show what the student must feel, and what to do; empty if it can
 
 
 class Exercises:
@@ -148,20 +150,22 @@ class Exercises:
             return self.draft
         return load_exercise(self._files.get(name) or self._made().get(name) or name)
 
-    def overviews(self) -> list[ExerciseOverview]:
-        """All exercises. Of a file with an error: its problems."""
-        draft = [_overview(self.draft)] if self.draft else []
-        made = [self._own(name, path).model_copy(update={"made": True}) for name, path in self._made().items()]
-        return draft + [self._own(name, path) for name, path in self._files.items()] + made + list(_ready_exercises())
+    def overviews(self, limits: ForceLimits = _USUAL_LIMITS) -> list[ExerciseOverview]:
+        """All exercises. Of a file with an error: its problems. limits: in effect on the device."""
+        draft = [_on(self.draft, limits)] if self.draft else []
+        made = [self._own(name, path, limits).model_copy(update={"made": True}) for name, path in self._made().items()]
+        own = [self._own(name, path, limits) for name, path in self._files.items()]
+        ready = [entry.model_copy(update={"unfelt": _unfelt(entry.name, limits)}) for entry in _ready_exercises()]
+        return draft + own + made + ready
 
     def choices(self) -> list[Choice]:
         """Names, and the titles of the files when the studio started."""
         own = [Choice(name=name, title=title) for name, title in self._titles.items()]
         return own + [Choice(name=entry.name, title=entry.title) for entry in _ready_exercises()]
 
-    def _own(self, name: str, path: Path) -> ExerciseOverview:
+    def _own(self, name: str, path: Path, limits: ForceLimits) -> ExerciseOverview:
         try:
-            return _overview(load_exercise(path))
+            return _on(load_exercise(path), limits)
         except ConfigurationError as error:
             return ExerciseOverview(name=name, title=path.name, problems=problem_parts(error.problems))
 
@@ -192,6 +196,17 @@ def _line(exercise: Exercise) -> Line | None:
     if goal is None:
         return None
     return Line(point=[v * 1e-3 for v in goal.point_mm], along=goal.along, within=goal.within_mm * 1e-3)
+
+
+def _on(exercise: Exercise, limits: ForceLimits) -> ExerciseOverview:
+    """The exercise, and what a device with these limits cannot show of it."""
+    return _overview(exercise).model_copy(update={"unfelt": cannot_show(exercise, exercise.scene, limits)})
+
+
+@cache
+def _unfelt(name: str, limits: ForceLimits) -> str:
+    exercise = load_exercise(name)
+    return cannot_show(exercise, exercise.scene, limits)
 
 
 @cache

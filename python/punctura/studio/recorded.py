@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura import Phase, Scene
+from punctura._core import force_scale
 from punctura.errors import ConfigurationError
 from punctura.events import find_events
 from punctura.record import Recording
@@ -52,7 +53,8 @@ def overview(recording: Recording) -> dict[str, Any]:
     """All except the ticks, as JSON. Reads the whole recording to find its events."""
     info = recording.info
     loaded = loaded_of(recording)
-    view = scene_view(loaded, 0, info.scene.servo.rate, _laws(loaded.scene, recording))
+    scale = force_scale(info.scene, info.limits)
+    view = scene_view(loaded, 0, info.scene.servo.rate, scale, _laws(loaded.scene, recording))
     events = [{"kind": "event", **event.model_dump()} for event in find_events(recording)]
     data = {key: value for key, value in info.data.items() if key not in ("scene", "about")}
     return {

@@ -12,8 +12,11 @@ from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
 from punctura.studio.wire.messages import SceneMessage
 
 
-def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | None = None) -> SceneView:
-    """number: index of the scene in this run. rate: the device's, Hz. laws: by default those of an upright needle."""
+def scene_view(
+    loaded: Loaded, number: int, rate: float, force_scale: float, laws: list[LawCurve] | None = None
+) -> SceneView:
+    """number: index of the scene in this run. rate: the device's, Hz. force_scale: of this device. laws: by default
+    those of an upright needle."""
     scene = loaded.scene
     if laws is None:
         laws = law_curves(scene, obliquities(scene, np.array(scene.membranes[0].inward_normal)))
@@ -25,6 +28,7 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
         direction=scene.direction,
         solver=scene.servo.solver,
         rate=rate,
+        force_scale=force_scale,
         membranes=membrane_views(scene),
         laws=laws,
         tables=loaded.tables(),
@@ -34,7 +38,7 @@ def scene_view(loaded: Loaded, number: int, rate: float, laws: list[LawCurve] | 
 
 def scene_message(run: Run, laws: list[LawCurve], new_run: bool) -> SceneMessage:
     """The scene of this run for the pages. new_run: the run begins; else its scene has changed."""
-    view = scene_view(run.loaded, run.scenes, run.rate, laws)
+    view = scene_view(run.loaded, run.scenes, run.rate, run.loop.force_scale, laws)
     return SceneMessage(scene=view, new_run=new_run, run=run.number)
 
 

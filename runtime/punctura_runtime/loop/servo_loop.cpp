@@ -38,6 +38,7 @@ std::mutex& motor_use_mutex() {
 ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
     : device_(std::move(device)),
       scene_(std::move(scene)),
+      force_scale_(1),
       settings_(settings),
       period_(1 / device_->info().rate),
       placer_(settings.placement),
@@ -46,6 +47,7 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
   step_ = built(scene_).release();
+  force_scale_ = step_->force_scale();
   scene_.servo.rate = device_->info().rate;
   history_.resize(settings_.history);
   auto& [mutex, loops] = all_loops();
@@ -170,6 +172,7 @@ void ServoLoop::exchange(Scene scene) {
   {
     const std::lock_guard lock(between_ticks_);
     scene_ = std::move(scene);
+    force_scale_ = step->force_scale();
     handover_.offer(std::move(step));
     if (!running_) take();
   }

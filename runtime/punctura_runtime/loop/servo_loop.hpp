@@ -44,8 +44,8 @@ void copy(const Snapshot& from, Snapshot& to) noexcept;
 /// durations to histograms of atomics.
 ///
 /// Threads: all calls are allowed from any thread at the same time, with these exceptions. listen() must come before
-/// start(), on the same thread. exchange() changes what scene() refers to: call both on one thread. stop() waits for a
-/// running start(), never for an exchange(). While the loop is destroyed, only stop_all() may be running.
+/// start(), on the same thread. exchange() changes what scene() and force_scale() give: call them on one thread. stop()
+/// waits for a running start(), never for an exchange(). While the loop is destroyed, only stop_all() may be running.
 class ServoLoop {
  public:
   /// The period is the device's, not the scene's. The device's force ratings tighten the limits. Throws SceneError.
@@ -81,6 +81,7 @@ class ServoLoop {
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
+  double force_scale() const noexcept { return force_scale_; }  ///< of scene(): how much of the model's force is given
   /// The force budget that the motors have spent by the next start(), N^2 s: see ForceBudget. Not while the loop runs.
   double spent();
   LoopReport report() const noexcept;
@@ -103,6 +104,7 @@ class ServoLoop {
 
   std::shared_ptr<Device> device_;
   Scene scene_;
+  double force_scale_;
   LoopSettings settings_;
   double period_;
   Placer placer_;

@@ -150,15 +150,16 @@ def test_a_limit_that_cut_the_force_is_told_with_its_time(write):
     columns["limit"][:400] = Limit.ramp.value  # a force that grows after arming is no news
     result = measured(write, columns, NEVER)
     assert result.metrics.force_cut == {"long-run limit": pytest.approx(800 / SCENE.servo.rate)}
-    assert result.reasons[-1] == "The device gave less than the model's force for 0.5 s (long-run limit)."
+    assert result.reasons[-1] == "Limits cut the felt force for 0.5 s (long-run limit)."
 
 
 def test_nothing_at_all_gives_a_result_without_metrics(write):
     exercise = load_exercise(write(NEVER))
     m = judged(exercise, ideal(SCENE, (0, 5, 0), (0, 4, 0)), scene=SCENE).finish().metrics
     assert m.model_dump() == {
-        "entries": 0, "peak_force": 0, "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None,
-        "net_distance": None, "straightness": None, "lateral_deviation": None, "entry_angle": None,
+        "entries": 0, "peak_force": 0, "peak_felt_force": 0, "force_scale": 1, "losses": [], "overshoot": [],
+        "dwell": 0, "longest_stay": 0, "path_length": None, "net_distance": None, "straightness": None,
+        "lateral_deviation": None, "entry_angle": None,
         "time_to_target": None, "total_time": 0, "lost_ticks": 0, "force_cut": {},
     }  # fmt: skip
 

@@ -9,6 +9,11 @@ from punctura import ServoSettings, scene_json_schema
 from punctura._core import fields
 from punctura.files.units import split_key
 
+TABLES = {
+    "needle": "NeedleTable", "coupling": "CouplingTable", "servo": "ServoTable", "display": "DisplayTable",
+    "membrane": "MembraneTable",
+}  # fmt: skip
+
 
 def properties(table):
     return scene_json_schema()["$defs"][table]["properties"]
@@ -24,25 +29,25 @@ def test_unknown_keys_are_forbidden_everywhere():
 
 
 def test_every_key_has_title_help_and_type():
-    for table in ("NeedleTable", "CouplingTable", "ServoTable", "MembraneTable"):
+    for table in TABLES.values():
         for key, entry in properties(table).items():
-            assert entry["title"] and entry["description"] and entry["type"], key
+            assert entry["title"] and entry["description"] and (entry.get("type") or entry["anyOf"]), key
 
 
 def test_every_number_of_the_core_is_in_the_schema_with_its_bounds_in_its_unit():
-    tables = {"needle": "NeedleTable", "coupling": "CouplingTable", "servo": "ServoTable", "membrane": "MembraneTable"}
     seen = 0
     for field in fields():
         table, name = field["path"].split(".")
-        for key, entry in properties(tables[table]).items():
+        for key, entry in properties(TABLES[table]).items():
             if split_key(key)[0] != name or key == "gauge":
                 continue
             seen += 1
             scale = float(split_key(key)[1].si)
-            low = entry["exclusiveMinimum" if field["min_open"] else "minimum"]
+            number = entry["anyOf"][0] if "anyOf" in entry else entry
+            low = number["exclusiveMinimum" if field["min_open"] else "minimum"]
             assert math.isclose(low * scale, field["min"])
             if math.isfinite(field["max"]):
-                high = entry["exclusiveMaximum" if field["max_open"] else "maximum"]
+                high = number["exclusiveMaximum" if field["max_open"] else "maximum"]
                 assert math.isclose(high * scale, field["max"])
             assert entry["x-reason"] == field["reason"]
     assert seen == len(fields()) + 1  # the tip angle has two keys

@@ -66,6 +66,6 @@ def test_a_file_s_text_has_every_value_as_it_was_given(name):
 def test_a_view_is_of_unit_normals_and_plain_numbers():
     loaded = from_tables({**tables("tissue", "blood"), "membrane": [
         {**m, "inward_normal": [0, -3, 0]} for m in tables("tissue", "tissue")["membrane"]]})  # fmt: skip
-    view = scene_view(loaded, 2, 1000.0)
+    view = scene_view(loaded, 2, 1000.0, 1.0)
     assert view.membranes[0].inward_normal == [0.0, -1.0, 0.0] and view.number == 2 and view.rate == 1000.0
     assert "NaN" not in view.model_dump_json()

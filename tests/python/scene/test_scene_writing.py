@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from punctura import (
     Coupling,
+    DisplaySettings,
     Membrane,
     Needle,
     PlacedMembrane,
@@ -28,7 +29,7 @@ def plain(scene):
     places = [(p.name, tuple(p.point), tuple(p.inward_normal)) for p in scene.membranes]
     needle = (scene.needle.diameter, scene.needle.tip_angle, scene.direction)
     servo = scene.servo
-    return scene.name, needle, (scene.coupling.stiffness, scene.coupling.damping), servo, laws, places
+    return scene.name, needle, (scene.coupling.stiffness, scene.coupling.damping), servo, laws, places, scene.display
 
 
 positive = st.floats(1e-9, 1e9)
@@ -52,6 +53,7 @@ def scenes(draw):
             draw(st.floats(0, 1e-3)),
         ),
         draw(st.sampled_from(["stylus", "motion"])),
+        DisplaySettings(draw(st.one_of(st.just("automatic"), st.just(1.0), st.floats(1e-6, 1)))),
     )
 
 

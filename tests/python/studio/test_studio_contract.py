@@ -83,7 +83,7 @@ def test_any_ticks_come_back_as_f32(seed):
     columns = {"tick": np.arange(first, first + n, dtype=np.uint64), "time": time}
     for name in ("position", "axis", "tip", "model_force", "force"):
         columns[name] = rng.normal(size=(n, 3))
-    columns["ceiling"] = rng.normal(size=n)
+    columns["ceiling"], columns["force_scale"] = rng.normal(size=n), rng.uniform(size=n)
     for name in ("depth", "axial_force", "lower", "upper"):
         columns[name] = rng.normal(size=(n, m))
     for name in ("proxy", "direction"):

@@ -2,6 +2,7 @@ import { element } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
 import { showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
+import { scaleOf } from "../state/scale.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { badge } from "./badge.ts";
 import { eventsSince, eventWords, popSentence } from "./event_words.ts";
@@ -26,7 +27,7 @@ export function eventList(app: App): HTMLElement {
     );
   };
   const row = (event: MembraneEvent): HTMLLIElement => {
-    const { word, force } = eventWords(event);
+    const { word, force } = eventWords(event, scaleOf(app.source.value));
     const go = (): void => {
       if (!plots.jump(event.tick)) app.say("This moment is too old for the plots: they keep the last 80 seconds.");
     };
@@ -53,7 +54,7 @@ export function eventList(app: App): HTMLElement {
     for (const event of (fresh ?? events).slice(-SHOWN)) list.prepend(row(event));
     while (list.childElementCount > SHOWN) list.lastElementChild!.remove();
     const pop = fresh && shown.length ? fresh.findLast((event) => event.what === "pop") : undefined;
-    if (pop && app.source.value.live) spoken.textContent = popSentence(pop);
+    if (pop && app.source.value.live) spoken.textContent = popSentence(pop, scaleOf(app.source.value));
     shown = events;
     empty.hidden = events.length > 0;
   };

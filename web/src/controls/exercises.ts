@@ -130,6 +130,7 @@ function card(
     ),
     ...(wrong ? [problemList("problems", exercise.problems)] : []),
     ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
+    ...(exercise.unfelt ? [element("p", { class: "unfelt", role: "note" }, exercise.unfelt)] : []),
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
     ...(wrong ? [] : [expertChoice(app, exercise, () => void changed())]),

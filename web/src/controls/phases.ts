@@ -1,5 +1,6 @@
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
+import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { badge } from "./badge.ts";
 import { eventList } from "./events.ts";
 import { phaseWords } from "./phase_words.ts";
@@ -25,6 +26,7 @@ interface Row {
   readonly detail: HTMLElement;
   readonly depth: HTMLElement;
   readonly force: HTMLElement;
+  readonly felt: HTMLElement;
   readonly band: HTMLElement;
   readonly needle: HTMLElement;
 }
@@ -34,7 +36,7 @@ function makeRow(index: number, name: string): Row {
     element("span", { class: c }),
   );
   const phase = element("span", { class: "phase" }, symbol!, word!, " ", detail!);
-  const [depth, force, band] = [0, 1, 2].map(() => element("span", { class: "number" }));
+  const [depth, force, felt, band] = [0, 1, 2, 3].map(() => element("span", { class: "number" }));
   const needle = element("i", {});
   const gauge = element("span", { class: "band-gauge", "aria-hidden": "true" }, needle);
   const head = element(
@@ -43,7 +45,7 @@ function makeRow(index: number, name: string): Row {
     badge(index),
     element("span", { class: "membrane-name", title: name }, name),
   );
-  const cells = [phase, depth!, force!].map((node) => element("td", {}, node));
+  const cells = [phase, depth!, force!, felt!].map((node) => element("td", {}, node));
   const row = element("tr", {}, head, ...cells, element("td", {}, band!, gauge));
   return {
     row,
@@ -53,6 +55,7 @@ function makeRow(index: number, name: string): Row {
     detail: detail!,
     depth: depth!,
     force: force!,
+    felt: felt!,
     band: band!,
     needle,
   };
@@ -63,8 +66,9 @@ export const phasesPanel: Panel = (host, app) => {
   const plots = plotsOf(app);
   const when = element("span", { class: "phases-when" });
   const body = element("tbody");
-  const columns = ["membrane", "phase", "depth, mm", "model force, N", "friction band, N"];
-  const head = element("tr", {}, ...columns.map((text) => element("th", { scope: "col" }, text)));
+  const columns = ["membrane", "phase", "depth, mm", `${MODEL_FORCE}, N`, "", "friction band, N"];
+  const heads = columns.map((text) => element("th", { scope: "col" }, text));
+  const head = element("tr", {}, ...heads);
   host.append(
     element("div", { class: "phases-head" }, element("h2", {}, "Membranes"), when),
     element("table", { class: "phases-table" }, element("thead", {}, head), body),
@@ -94,6 +98,8 @@ export const phasesPanel: Panel = (host, app) => {
     const lowers = history.row("lower", tick);
     const uppers = history.row("upper", tick);
     const phases = history.byteRow("phase", tick);
+    const share = feltShare(history, tick);
+    write(heads[4]!, `${feltForce(scaleOf(plots.source, tick))}, N`);
     rows.forEach((row, i) => {
       const depth = depths[i] ?? Number.NaN;
       const through = laws.value[i]?.through ?? Number.POSITIVE_INFINITY;
@@ -109,6 +115,7 @@ export const phasesPanel: Panel = (host, app) => {
       const high = -(lowers[i] ?? Number.NaN);
       const inside = high > low;
       write(row.force, fixed(force, 3));
+      write(row.felt, fixed(force * share, 3));
       write(row.band, inside ? `${fixed(low, 2)} to ${fixed(high, 2)}` : "–");
       row.needle.style.left = inside
         ? `${(100 * Math.min(1, Math.max(0, (force - low) / (high - low)))).toFixed(1)}%`

@@ -1,5 +1,6 @@
 import type { History } from "../state/history.ts";
 import { onePerApp } from "../state/one_per_app.ts";
+import { feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { LabComparison } from "../wire/files.ts";
 import { isCompared } from "./gather.ts";
@@ -27,7 +28,7 @@ export const membraneCurves = (source: Source, theme: Theme): Curve[] =>
 /** The curves of the forces at the hand, and of the other solver while it runs. */
 export function forceCurves(source: Source, first: number, end: number, theme: Theme): Curve[] {
   const curves: Curve[] = [
-    { id: "felt", text: "felt force", colour: theme.text },
+    { id: "felt", text: feltForce(scaleOf(source)), colour: theme.text },
     { id: "permitted", text: "permitted force", colour: theme.danger, dash: DASH },
   ];
   if (isCompared(source.history, first, end))

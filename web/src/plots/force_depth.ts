@@ -1,5 +1,6 @@
 import { mm, newton } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
+import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { hiddenOf } from "./curves.ts";
 import { difference } from "./difference.ts";
 import { ForceDepthDrawing, forceDepthCurves } from "./force_depth_drawing.ts";
@@ -9,6 +10,7 @@ import { legend } from "./kit/legend.ts";
 import { type Box, Surface } from "./kit/surface.ts";
 import { type Theme, watchTheme } from "./kit/theme.ts";
 import { reading } from "./reading.ts";
+import { scaleChip } from "./scale_chip.ts";
 import { plotsOf } from "./shared.ts";
 import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
 
@@ -61,6 +63,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       { class: "plot-bar" },
       element("h2", {}, "Force against depth"),
       which.select,
+      scaleChip(plots),
       element("span", { class: "plot-gap" }),
       reset,
       pauseButton(app),
@@ -149,7 +152,10 @@ export const forceDepthPlot: Panel = (host, app) => {
     }
     const depth = history.row("depth", tick)[m]!;
     const force = -history.row("axial_force", tick)[m]!;
-    const at = `${m + 1} ${name(m)}: ${mm(depth, 3)}, ${newton(force, 3)} at ${history.timeOf(tick).toFixed(4)} s`;
+    const felt = `${feltForce(scaleOf(plots.source, tick))} ${newton(force * feltShare(history, tick), 3)}`;
+    const at =
+      `${m + 1} ${name(m)}: ${mm(depth, 3)}, ${MODEL_FORCE} ${newton(force, 3)}, ${felt} ` +
+      `at ${history.timeOf(tick).toFixed(4)} s`;
     readout.textContent = at.replaceAll("-", "−");
   };
   let seen = "";

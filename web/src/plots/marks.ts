@@ -1,4 +1,5 @@
+import { dropText } from "../state/scale.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 
-/** The label of a pop: the drop of the force. */
-export const popLabel = (event: MembraneEvent): string => `pop −${Math.abs(event.drop).toFixed(2)} N`;
+/** The label of a pop: the drop of the model's force. scale: of the felt force. */
+export const popLabel = (event: MembraneEvent, scale: number): string => `pop ${dropText(event.drop, scale)}`;

@@ -1,6 +1,7 @@
 import { element } from "../panel.ts";
 import { lastPop, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
+import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -36,7 +37,7 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
       shown = "";
       return;
     }
-    const text = popLabel(pop);
+    const text = popLabel(pop, scaleOf(plots.source));
     if (text !== shown) {
       shown = text;
       words.textContent = text;

@@ -1,3 +1,4 @@
+import { scaleOf } from "../state/scale.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture } from "./force_depth_picture.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -30,7 +31,7 @@ export function drawPops(pen: Pen, pane: Pane, picture: ForceDepthPicture, theme
   });
   const labels = pops.map((pop) => ({
     x: pane.x.px(pop.depth * MM) + CAP + 4,
-    text: popLabel(pop),
+    text: popLabel(pop, scaleOf(source)),
     weight: Math.abs(pop.drop),
   }));
   pen.within(pane.left, pane.top, pane.width, pane.height, () => {

@@ -1,5 +1,6 @@
 import type { History } from "../state/history.ts";
 import { cutFigures, cuts, LIMIT_WORDS, limitOf } from "../state/limits.ts";
+import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { drawBadge } from "./badge.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -18,8 +19,9 @@ export function reading(source: Source, tick: number): string {
   const names = source.scene.value?.membranes ?? [];
   const parts = Array.from({ length: history.membranes }, (_, i) => {
     const depth = (history.row("depth", tick)[i]! * 1e3).toFixed(3);
-    const force = (-history.row("axial_force", tick)[i]!).toFixed(3);
-    return `${names[i]?.name ?? `membrane ${i + 1}`} ${depth} mm, ${force} N`;
+    const model = -history.row("axial_force", tick)[i]!;
+    const felt = `${feltForce(scaleOf(source, tick))} ${(model * feltShare(history, tick)).toFixed(3)} N`;
+    return `${names[i]?.name ?? `membrane ${i + 1}`} ${depth} mm, ${MODEL_FORCE} ${model.toFixed(3)} N, ${felt}`;
   });
   return `${history.timeOf(tick).toFixed(4)} s, ${forceWords(history, tick)}: ${parts.join("; ")}`;
 }

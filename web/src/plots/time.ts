@@ -7,6 +7,7 @@ import { Surface } from "./kit/surface.ts";
 import { type Theme, watchTheme } from "./kit/theme.ts";
 import { popCallout } from "./pop_callout.ts";
 import { reading } from "./reading.ts";
+import { scaleChip } from "./scale_chip.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
 import { TimeDrawing, type TimePicture, timeCurves } from "./time_drawing.ts";
 import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
@@ -54,6 +55,7 @@ export const timePlots: Panel = (host, app) => {
       { class: "plot-bar" },
       element("h2", {}, "Against time"),
       spans.select,
+      scaleChip(plots),
       element("span", { class: "plot-gap" }),
       reset,
       pauseButton(app),

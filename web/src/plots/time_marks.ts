@@ -1,5 +1,6 @@
 import type { History } from "../state/history.ts";
 import { cuts, LIMIT_WORDS } from "../state/limits.ts";
+import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { CUT_SHADE } from "./curves.ts";
@@ -86,7 +87,12 @@ export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, wi
     }
   });
   const pops = inside.filter((event) => event.what === "pop");
-  const labels = pops.map((event) => ({ x: at(event) - 2, text: popLabel(event), weight: Math.abs(event.drop) }));
+  const scale = scaleOf(source);
+  const labels = pops.map((event) => ({
+    x: at(event) - 2,
+    text: popLabel(event, scale),
+    weight: Math.abs(event.drop),
+  }));
   labelsThatFit(labels, force.left + NAME, right + MARGIN.right).forEach((fits, i) => {
     const { x, text } = labels[i]!;
     if (fits) pen.text(x, force.top - 9, text, { colour: theme.text, size: 10.5 });

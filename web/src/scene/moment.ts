@@ -1,4 +1,5 @@
 import { Vector3 } from "three";
+import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { codeOf } from "../wire/ticks.ts";
 
@@ -26,6 +27,8 @@ export class Moment {
   readonly axis = new Vector3(0, -1, 0);
   readonly force = new Vector3();
   readonly modelForce = new Vector3();
+  /** How much of the model's force the device gives, before the limits. */
+  scale = 1;
   membranes: MembraneMoment[] = [];
 
   /** Reads the source's shown tick. Returns false before its first tick. */
@@ -42,6 +45,7 @@ export class Moment {
     this.axis.normalize();
     this.force.fromArray(history.row("force", tick));
     this.modelForce.fromArray(history.row("model_force", tick));
+    this.scale = scaleOf(source, tick);
     this.readMembranes(source, tick);
     return Number.isFinite(this.tip.x + this.tip.y + this.tip.z);
   }

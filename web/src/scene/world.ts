@@ -2,6 +2,7 @@ import { type Camera, Vector3 } from "three";
 import { newton } from "../format.ts";
 import type { Pose } from "../hand/hand.ts";
 import type { Goal } from "../state/app.ts";
+import { feltForce, MODEL_FORCE } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { codeOf } from "../wire/ticks.ts";
@@ -162,7 +163,9 @@ export class World {
       labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, "column");
     });
     if (this.arrow.group.visible) {
-      const words = `${newton(this.arrow.shown)}${moment.state === ACTIVE ? "" : " (not output)"}`;
+      const given = moment.state === ACTIVE;
+      const much = newton(this.arrow.shown);
+      const words = given ? `${feltForce(moment.scale)} ${much}` : `${MODEL_FORCE} ${much} (not output)`;
       labels.put("force", words, "force", this.arrow.head, camera, size, "left");
     }
     if (this.mark.group.visible)

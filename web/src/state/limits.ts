@@ -1,6 +1,7 @@
 import limits from "../wire/limit_words.json";
 import { wordsOf } from "../wire/ticks.ts";
 import type { History } from "./history.ts";
+import { sizeOf } from "./scale.ts";
 
 /** By the codes of the `limit` column. */
 export const LIMITS = wordsOf("limit");
@@ -25,11 +26,9 @@ export function lastCut(history: History, first: number): number | null {
   return null;
 }
 
-/** "0.76 of 2.19 N": the device's force and the model's force in a tick. */
+/** "0.76 of 2.19 N": the felt force in a tick, and what it would be without the limit. */
 export function cutFigures(history: History, tick: number): string {
-  const norm = (column: "force" | "model_force"): string => {
-    const [x, y, z] = history.row(column, tick);
-    return Math.hypot(x!, y!, z!).toFixed(2);
-  };
-  return `${norm("force")} of ${norm("model_force")} N`;
+  const scale = history.row("force_scale", tick)[0] ?? 1;
+  const wanted = scale * sizeOf(history, "model_force", tick);
+  return `${sizeOf(history, "force", tick).toFixed(2)} of ${wanted.toFixed(2)} N`;
 }

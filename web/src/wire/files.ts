@@ -76,6 +76,8 @@ export interface ExerciseOverview {
   readonly problems: readonly ProblemPart[];
   /** Warnings: allowed values that are usually a mistake. */
   readonly warnings: readonly ProblemPart[];
+  /** Why this device cannot show what the student must feel, and what to do; empty if it can. */
+  readonly unfelt: string;
 }
 
 /** `GET /api/results/NAME`: see python/punctura/exercise/result.py. SI; null: not available. */
@@ -107,9 +109,23 @@ export interface Remark {
   readonly text: string;
 }
 
+/** The loss of resistance at a pop, as the hand got it. N */
+export interface Loss {
+  readonly membrane: number;
+  readonly name: string;
+  readonly before: number;
+  readonly after: number;
+  /** The smallest drop that counts as felt; null if the exercise does not need this pop to be felt. */
+  readonly needed: number | null;
+}
+
 export interface ExerciseMetrics {
   readonly entries: number;
   readonly peak_force: number;
+  /** Missing in results of earlier versions, as are the next two. */
+  readonly peak_felt_force?: number | null;
+  readonly force_scale?: number;
+  readonly losses?: readonly Loss[];
   readonly overshoot: readonly {
     readonly membrane: number;
     readonly name: string;

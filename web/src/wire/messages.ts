@@ -104,6 +104,7 @@ export interface SceneView {
   direction: string;
   solver: string;
   rate: number;
+  force_scale: number;
   membranes: MembraneView[];
   laws: LawCurve[];
   tables: {

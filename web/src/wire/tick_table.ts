@@ -14,6 +14,7 @@ export const FIELDS = [
   { name: "proxy", column: "proxy_{i}_{a}_m", width: 3, perMembrane: true, words: null },
   { name: "direction", column: "direction_{i}_{a}", width: 3, perMembrane: true, words: null },
   { name: "model_force", column: "model_f{a}_N", width: 3, perMembrane: false, words: null },
+  { name: "force_scale", column: "force_scale", width: 1, perMembrane: false, words: null },
   { name: "tip", column: "tip_{a}_m", width: 3, perMembrane: false, words: null },
   { name: "state", column: "state", width: 1, perMembrane: false, words: ["disarmed", "waiting", "active", "faulted"] },
   { name: "fault", column: "fault", width: 1, perMembrane: false, words: ["none", "non_finite_input", "bad_axis", "position_jump", "stale_sample", "missed_deadline", "clock", "non_finite_force", "device"] },

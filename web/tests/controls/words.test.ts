@@ -29,6 +29,8 @@ describe("what happened in words", () => {
   it("a pop shows the drop of the force", () => {
     expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });
     expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newtons.");
+    expect(eventWords(event(1, "pop"), 0.3).force).toBe("model force −0.24 N");
+    expect(popSentence(event(1, "pop"), 0.3)).toBe("Pop through skin: the model force fell by 0.24 newtons.");
     expect(eventWords(event(1, "touch")).force).toBe("");
   });
   it("only new events are added; another run starts again", () => {

@@ -90,6 +90,7 @@ export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {
     direction: "stylus",
     solver: "exact",
     rate: 1600,
+    force_scale: 1,
     membranes: membranes.map((m, i) => ({
       name: m.name,
       point: [0, -m.place, 0],

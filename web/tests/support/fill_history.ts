@@ -3,7 +3,7 @@ import type { FloatColumn, TickBatch } from "../../src/wire/ticks.ts";
 import { rowWidth } from "../../src/wire/ticks.ts";
 
 const FLOATS = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling", "depth", "axial_force",
+  "time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling", "depth", "axial_force",
   "lower", "upper", "proxy", "direction",
 ] as const; // biome-ignore format: a table
 
@@ -22,6 +22,7 @@ export function batch(first: number, count: number, membranes: number, cells: Ce
     return values;
   };
   for (const name of FLOATS) floats[name] = fill(name);
+  if (!cells.force_scale) floats.force_scale.fill(1);
   for (let i = 0; i < count; i++) floats.time[i] = i / 1000;
   const bytes = {
     state: new Uint8Array(count),

@@ -62,6 +62,7 @@ class SceneView(Part):
     direction: str
     solver: str
     rate: Finite  # Hz, the device's
+    force_scale: Finite  # how much of the model's force the device gives, before the limits; at most 1
     membranes: list[MembraneView]
     laws: list[LawCurve]
     tables: Tables

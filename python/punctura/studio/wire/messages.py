@@ -9,7 +9,7 @@ from pydantic import Field
 from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView, Vector
 from punctura.studio.wire.requests import Request, parse_request
 
-PROTOCOL = 2  # increased when an old page cannot read a new server
+PROTOCOL = 3  # increased when an old page cannot read a new server
 
 
 class DevicePart(Part):

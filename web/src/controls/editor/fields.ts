@@ -21,6 +21,8 @@ export interface Field {
   /** The reason for the bounds. */
   readonly reason: string;
   readonly options: readonly (string | number)[];
+  /** A word that may stand in place of the number; empty if none may. */
+  readonly word: string;
   /** Each option's value in the unit of the other key of its pair: a gauge's diameter in mm. */
   readonly sizes: readonly number[];
   readonly required: boolean;
@@ -96,7 +98,10 @@ function pair(rule: unknown): [string, string][] {
   return keys.length === 2 && keys[0] && keys[1] ? [[keys[0], keys[1]]] : [];
 }
 
-function field(key: string, entry: Json, required: boolean): Field {
+function field(key: string, whole: Json, required: boolean): Field {
+  // A number or a word: {"anyOf": [{"type": "number", ...}, {"const": "automatic"}]}
+  const kinds = list(whole.anyOf).map((each) => object(each, key));
+  const entry = { ...whole, ...kinds.find((each) => each.type === "number") };
   const options = list(entry.enum).filter((o): o is string | number => typeof o === "string" || typeof o === "number");
   return {
     key,
@@ -109,6 +114,7 @@ function field(key: string, entry: Json, required: boolean): Field {
     most: bound(entry.maximum, entry.exclusiveMaximum),
     reason: text(entry["x-reason"]),
     options,
+    word: text(kinds.find((each) => "const" in each)?.const),
     sizes: list(entry["x-diameters-mm"]).filter((size) => typeof size === "number"),
     required,
     standard: entry.default,

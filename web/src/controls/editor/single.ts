@@ -2,6 +2,7 @@ import type { Draft } from "./draft.ts";
 import type { Input } from "./field_frame.ts";
 import type { Field } from "./fields.ts";
 import { numberField } from "./number_field.ts";
+import { numberOrWordField } from "./number_or_word_field.ts";
 import { choiceField, textField, vectorField } from "./other_fields.ts";
 import { type Path, pathText } from "./tables.ts";
 
@@ -21,6 +22,7 @@ export function single(field: Field, path: Path, draft: Draft): Input {
     case "vector":
       return vectorField(field, idOf(path), change);
     default:
+      if (field.word) return numberOrWordField(field, idOf(path), change);
       return numberField(field, idOf(path), !NO_SLIDER.has(field.key), change);
   }
 }

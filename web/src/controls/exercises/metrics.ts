@@ -1,4 +1,6 @@
+import { feltForce } from "../../state/scale.ts";
 import type { ExerciseMetrics } from "../../wire/files.ts";
+import { lossText } from "./goals.ts";
 
 /** A row of the result's table: a label, a value and help. */
 export interface MetricRow {
@@ -23,8 +25,22 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
     {
       label: "Peak model force",
       value: peakText({ metrics }),
-      help: "Largest total force of the model. A limit can have cut the device’s force below it.",
+      help: "Largest total force of the model.",
     },
+    ...(metrics.peak_felt_force == null
+      ? []
+      : [
+          {
+            label: `Peak ${feltForce(metrics.force_scale ?? 1)}`,
+            value: `${metrics.peak_felt_force.toFixed(2)} N`,
+            help: "Largest force on the hand, after force scale and limits.",
+          },
+        ]),
+    ...(metrics.losses ?? []).map((loss) => ({
+      label: `Loss of resistance felt, ${loss.name}`,
+      value: loss.needed === null ? `${(loss.before - loss.after).toFixed(2)} N` : lossText(loss),
+      help: "Drop of the force on the hand at this pop.",
+    })),
     ...metrics.overshoot.map(({ name, distance, seconds: window }) => ({
       label: `Overshoot after ${name}`,
       value: millimetres(distance),
@@ -60,7 +76,7 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
     ...Object.entries(metrics.force_cut ?? {}).map(([limit, time]) => ({
       label: `Force cut, ${limit}`,
       value: seconds(time),
-      help: "Time in which the device’s force was below the model’s.",
+      help: "Time in which this limit made the felt force smaller.",
     })),
     ...(metrics.lost_ticks > 0
       ? [

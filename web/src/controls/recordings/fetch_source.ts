@@ -69,7 +69,7 @@ function take(source: Source, batch: TickBatch, period: number): void {
 
 /** Bytes of one tick in a frame. */
 function tickBytes(membranes: number): number {
-  const floats = ["time", "position", "axis", "tip", "model_force", "force", "ceiling"] as const;
+  const floats = ["time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling"] as const;
   const each = ["depth", "axial_force", "lower", "upper", "proxy", "direction"] as const;
   const numbers = [...floats, ...each].reduce((sum, name) => sum + rowWidth(name, membranes), 0);
   return 4 * numbers + BYTE_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);

@@ -2,7 +2,7 @@ import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../../
 
 // biome-ignore format: a table
 const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
-  "time", "position", "axis", "tip", "model_force", "force", "ceiling",
+  "time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling",
   "depth", "axial_force", "lower", "upper", "proxy", "direction",
 ];
 

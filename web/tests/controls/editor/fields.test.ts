@@ -44,3 +44,19 @@ test("a value that is not a schema is refused", () => {
   expect(() => sceneForm(null)).toThrow(SchemaError);
   expect(() => sceneForm({ properties: { x: { type: "boolean" } } })).toThrow("x has a type");
 });
+
+test("a number that a word may replace has its bounds and the word", () => {
+  const anyOf = [{ type: "number", exclusiveMinimum: 0, maximum: 1 }, { const: "automatic" }];
+  const made = sceneForm({
+    $defs: { Display: { properties: { force_scale: { title: "Force scale", anyOf, default: 1 } } } },
+    properties: { display: { $ref: "#/$defs/Display" } },
+  });
+  expect(made.tables[0]!.fields[0]).toMatchObject({
+    kind: "number",
+    least: { value: 0, open: true },
+    most: { value: 1, open: false },
+    word: "automatic",
+    standard: 1,
+  });
+  expect(field("membrane", "friction").word).toBe("");
+});

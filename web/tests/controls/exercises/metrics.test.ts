@@ -22,6 +22,21 @@ test("the help of an overshoot names the time in which it was measured", () => {
   expect(metricRows(metrics).find(({ label }) => label.startsWith("Overshoot"))?.help).toContain("in the 0.5 s after");
 });
 
+test("the felt force stands beside the model force, with the scale, and each loss of resistance", () => {
+  const losses = [
+    { membrane: 0, name: "skin", before: 0.4, after: 0.15, needed: null },
+    { membrane: 1, name: "wall", before: 0.4, after: 0.36, needed: 0.1 },
+  ];
+  const told = metricRows({ ...metrics, peak_felt_force: 0.2712, force_scale: 0.3, losses });
+  expect(Object.fromEntries(told.map(({ label, value }) => [label, value]))).toMatchObject({
+    "Peak model force": "0.90 N",
+    "Peak felt force (× 0.30)": "0.27 N",
+    "Loss of resistance felt, skin": "0.25 N",
+    "Loss of resistance felt, wall": "0.04 N; 0.1 N needed",
+  });
+  expect(metricRows(metrics).some(({ label }) => label.includes("felt"))).toBe(false);
+});
+
 test("measures are told in units for people; what there was not is a dash", () => {
   const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
   expect(Object.fromEntries(rows)).toMatchObject({

@@ -1,0 +1,85 @@
+// The force scale of a device that cannot give the forces of a scene: how much of the model's force it gives.
+//
+// These functions allocate memory. Do not call them in a tick.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "punctura/model/law.hpp"
+#include "punctura/proxy/in_space.hpp"
+#include "punctura/safety/force_limits.hpp"
+
+namespace punctura {
+
+/// The part of the lasting force that the automatic scale uses. The rest is for a needle that enters at an angle of up
+/// to 18 degrees to the first membrane's normal: its friction is at most 1 / cos(18 degrees) = 1.05 times as large.
+inline constexpr double automatic_share = 0.95;
+
+/// The largest friction along a needle, N, of all membranes that hold it together, on its way in and on its way out.
+///
+/// The needle goes straight through all membranes, along the inward normal of the first. A membrane that such a needle
+/// does not enter from the front is left out. For a law with memory, the membrane is untouched. Sideways, only the
+/// coupling limits the force; this is not included.
+template <typename Insertion>
+double largest_force(const Insertion& insertion) {
+  using Scalar = typename Insertion::Scalar;
+  const auto& first = insertion.proxies()[0].params();
+  struct Layer {
+    PiecesOf<std::remove_cvref_t<decltype(first.law)>> pieces;
+    double surface;  // m along the needle, from the first membrane's surface
+  };
+  std::vector<Layer> layers;
+  std::vector<double> depths;  // of all breaks, m along the needle
+  for (const auto& proxy : insertion.proxies()) {
+    const auto& membrane = proxy.params();
+    const Scalar cosine = membrane.n.dot(first.n);
+    if (!(cosine >= grazing_cosine<Scalar>)) continue;
+    const auto surface = static_cast<double>((membrane.a - first.a).dot(membrane.n) / cosine);
+    layers.push_back({membrane.law.pieces(std::min(cosine, Scalar(1))), surface});
+    for (const Scalar at : layers.back().pieces.breaks)
+      if (std::isfinite(at)) depths.push_back(surface + static_cast<double>(at));
+  }
+  std::sort(depths.begin(), depths.end());
+
+  double largest = 0;
+  for (const bool inwards : {true, false}) {
+    struct Sum {
+      double value = 0, slope = 0;  // N, N/m
+    };
+    // The sum of all edges at a depth, with the pieces that hold at the depth `within`. So both sides of a break count.
+    const auto sum = [&](double depth, double within) {
+      Sum all;
+      for (const Layer& layer : layers) {
+        const auto& piece = layer.pieces.pieces[layer.pieces.index(static_cast<Scalar>(within - layer.surface))];
+        const auto& edge = inwards ? piece.lower : piece.upper;
+        const auto x = static_cast<Scalar>(depth - layer.surface) - piece.origin;
+        all.value += static_cast<double>(inwards ? -edge.value(x) : edge.value(x));
+        all.slope += static_cast<double>(inwards ? -edge.slope(x) : edge.slope(x));
+      }
+      return all;
+    };
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+      const double from = depths[k], to = k + 1 < depths.size() ? depths[k + 1] : from + 1;
+      const double within = from + (to - from) / 2;
+      const Sum begin = sum(from, within), end = sum(to, within);
+      largest = std::max({largest, begin.value, end.value});
+      if (begin.slope > 0 && end.slope < 0)  // the edges are quadratic: the sum turns once
+        largest = std::max(largest, sum(from + (to - from) * (begin.slope / (begin.slope - end.slope)), within).value);
+    }
+  }
+  return largest;
+}
+
+/// The force scale that lets a device give the forces of an insertion for any time: then no limit cuts the friction.
+///
+/// It is at most 1, so it never makes a force larger.
+template <typename Insertion>
+double automatic_force_scale(const Insertion& insertion, const ForceLimits& limits) {
+  const double largest = largest_force(insertion), lasting = automatic_share * lasting_force(limits);
+  return largest > lasting ? lasting / largest : 1;
+}
+
+}  // namespace punctura

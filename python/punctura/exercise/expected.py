@@ -1,0 +1,74 @@
+"""The loss of resistance that a device can show at best in an exercise: known before the attempt."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from punctura import Scene
+from punctura._core import ForceLimits, crossing, force_scale, grazing_cosine, law_curve
+from punctura.exercise.exercise import Exercise, start_axis
+from punctura.exercise.loss import needed_drop, remedy
+from punctura.exercise.losses import felt_membranes
+from punctura.exercise.result import Loss, unfelt
+
+
+def expected_losses(exercise: Exercise, scene: Scene, limits: ForceLimits) -> list[Loss]:
+    """For each membrane whose loss must be felt: the loss for a needle that goes straight in from the start.
+
+    scene: as the device runs it. limits: in effect on the device. Only the peak limit counts, because how far the
+    long-run limit lowers the ceiling depends on the person.
+    """
+    axis = np.asarray(start_axis(scene, exercise.file.start.angle_deg, exercise.file.start.heading))
+    start = np.asarray(exercise.start_position)
+    scale = force_scale(scene, limits)
+    walls = _walls(scene, start, axis)
+    losses = []
+    for i in sorted(felt_membranes(exercise.file, scene)):
+        _, _, peak, through, _, _ = crossing(scene, i, walls[i][1])
+        surface = walls[i][0]
+        model = [_friction(scene, walls, surface + depth) for depth in (peak, through)]
+        felt = [min(scale * force, limits.max_force) for force in model]
+        losses.append(
+            Loss(
+                membrane=i,
+                name=scene.membranes[i].name,
+                time=0.0,
+                before=felt[0],
+                after=felt[1],
+                model_before=model[0],
+                model_after=model[1],
+                force_scale=scale,
+                needed=needed_drop(felt[0]),
+            )
+        )
+    return losses
+
+
+def cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits) -> str:
+    """Why this device cannot show a loss that the exercise needs, and what to do; empty if it can."""
+    return " ".join(
+        f"This device cannot show the loss of resistance of the {loss.name} ({loss.figures}), so an attempt cannot be "
+        f"passed here. {remedy(loss)}"
+        for loss in unfelt(expected_losses(exercise, scene, limits))
+    )
+
+
+def _walls(scene: Scene, start: np.ndarray, axis: np.ndarray) -> list[tuple[float, float]]:
+    """Of each membrane: where the needle meets its surface, m along the needle, and n.b."""
+    walls = []
+    for placed in scene.membranes:
+        normal = np.asarray(placed.inward_normal) / np.linalg.norm(placed.inward_normal)
+        cosine = max(float(normal @ axis), grazing_cosine)
+        walls.append((float(normal @ (np.asarray(placed.point) - start)) / cosine, cosine))
+    return walls
+
+
+def _friction(scene: Scene, walls: list[tuple[float, float]], depth: float) -> float:
+    """The friction of all membranes on a needle that moves in, N. depth: of the point, m along the needle."""
+    total = 0.0
+    for i, (surface, cosine) in enumerate(walls):
+        law = law_curve(scene, i, math.acos(min(1.0, cosine)))
+        total += float(np.interp(depth - surface, law["depth"], [-edge for edge in law["lower"]]))
+    return total

@@ -1,0 +1,31 @@
+"""How much of a loss of resistance the hand got, and whether a hand can feel it (docs/felt-force.md)."""
+
+from __future__ import annotations
+
+from punctura.exercise.result import Loss
+
+# A person notices a change of about 7 % (X. D. Pang, H. Z. Tan, N. I. Durlach, Perception & Psychophysics, 1991,
+# forces of 2.5 to 10 N) to 10 % (index finger, 2 to 5 N) of a force. Below 1 N the needed drop stays that of 1 N, which
+# is our choice. docs/felt-force.md has the sources.
+NEEDED_SHARE = 0.1
+LEAST_NEEDED_N = 0.1
+
+
+def needed_drop(before: float) -> float:
+    """The smallest drop that counts as felt, N. before: the felt force before the pop, N."""
+    return max(LEAST_NEEDED_N, NEEDED_SHARE * before)
+
+
+def remedy(loss: Loss) -> str:
+    """What makes the loss larger, as a sentence."""
+    if loss.before == 0:
+        return "The force was off: turn it on."
+    wanted = loss.force_scale * loss.model_before
+    if loss.before < 0.99 * wanted:
+        return (
+            f"The limits cut the force to {loss.before:.2f} of {wanted:.2f} N: set force_scale in the scene to "
+            '"automatic", or use a stronger device.'
+        )
+    if loss.force_scale < 1:
+        return "Set a larger force_scale in the scene, if the device can give it, or use a stronger device."
+    return f"In this scene the loss itself is only {loss.model_before - loss.model_after:.2f} N."

@@ -1,0 +1,34 @@
+import type { History } from "./history.ts";
+import type { Source } from "./source.ts";
+
+/** The names of the two forces; python/punctura/live/force_words.py has the same for the terminal. */
+export const MODEL_FORCE = "model force";
+
+/** A force scale with two decimals, or two digits if it is below 0.1: "0.30", "0.066". */
+export const scaleText = (scale: number): string =>
+  scale >= 0.0995 ? scale.toFixed(2) : String(Number(scale.toPrecision(2)));
+
+/** The name of the force on the hand, with the scale if the device gives less than the model's force. */
+export const feltForce = (scale: number): string => (scale === 1 ? "felt force" : `felt force (× ${scaleText(scale)})`);
+
+/** How much of the model's force the device gives, before the limits: at the shown tick, or in the scene. */
+export function scaleOf(source: Source, tick: number | null = source.shown()): number {
+  const shown = tick === null ? Number.NaN : (source.history.row("force_scale", tick)[0] ?? Number.NaN);
+  return Number.isFinite(shown) ? shown : (source.scene.value?.force_scale ?? 1);
+}
+
+/** The size of a force in a tick, N. */
+export function sizeOf(history: History, column: "force" | "model_force", tick: number): number {
+  const [x, y, z] = history.row(column, tick);
+  return Math.hypot(x!, y!, z!);
+}
+
+/** The felt part of the model's force in a tick, after force scale and limits: 0 while the force is off. */
+export function feltShare(history: History, tick: number): number {
+  const model = sizeOf(history, "model_force", tick);
+  return model > 0 ? sizeOf(history, "force", tick) / model : 0;
+}
+
+/** The drop of the model's force at a pop: "−0.79 N". Where the felt force is another one, it says which it is. */
+export const dropText = (drop: number, scale: number): string =>
+  `${scale === 1 ? "" : `${MODEL_FORCE} `}−${Math.abs(drop).toFixed(2)} N`;
