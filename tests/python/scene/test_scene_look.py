@@ -36,7 +36,7 @@ def test_a_scene_keeps_its_looks_in_files_recordings_and_copies():
 
 
 def test_the_page_gets_the_looks_and_k06_stays_plain():
-    view = scene_view(from_name("venipuncture"), 0, 1600.0)
+    view = scene_view(from_name("venipuncture"), 0, 1600.0, 1.0)
     assert [(m.look, m.behind) for m in view.membranes] == [
         ("skin", "fat"), ("vein wall", "blood"), ("vein wall", "muscle")]  # fmt: skip
     for name in ("k06-fig10", "k06-fig11", "k06-fig12"):
