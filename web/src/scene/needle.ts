@@ -103,13 +103,13 @@ export class Needle {
   }
 
   /**
-   * Whether a camera sees the hub. A hub with a syringe is not drawn for a camera that looks along the needle: it would
-   * hide all that lies before it.
+   * Whether a camera sees the hub. covered: share of the view's height under its toolbar. A hub with a syringe is not
+   * drawn for a camera that looks along the needle: it would hide all that lies before it.
    */
-  hubSeen(camera: Camera): boolean {
+  hubSeen(camera: Camera, covered: number): boolean {
     const along = Math.abs(camera.getWorldDirection(this.ahead).dot(this.axis));
     this.hub.group.visible = this.look !== "tuohy" || along < ALONG;
-    return this.hub.group.visible && !outOfView(this.hubMiddle(), camera);
+    return this.hub.group.visible && !outOfView(this.hubMiddle(), camera, covered);
   }
 
   /** The middle of the hub, mm. */

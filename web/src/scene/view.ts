@@ -113,7 +113,7 @@ export const view: Panel = (host, app) => {
       stage.rest(orbit.camera, now);
       return;
     }
-    showHub(world.hiddenHub(orbit.camera));
+    showHub(world.hiddenHub(orbit.camera, (bar.offsetTop + bar.offsetHeight) / Math.max(1, stage.height)));
     stage.draw(orbit.camera, now);
     world.name(orbit.camera);
     drawScale(pixel);

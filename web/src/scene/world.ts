@@ -148,10 +148,10 @@ export class World {
   private readonly entryEnd = new Vector3();
 
   /** What the hub and the syringe show, if they show anything and are out of view. */
-  hiddenHub(camera: Camera): NeedleState | null {
+  hiddenHub(camera: Camera, covered: number): NeedleState | null {
     const { state } = this.needle;
     const shows = this.scene?.lumen.length || state.look === "tuohy";
-    return !this.needle.hubSeen(camera) && shows ? state : null;
+    return !this.needle.hubSeen(camera, covered) && shows ? state : null;
   }
 
   name(camera: Camera): void {

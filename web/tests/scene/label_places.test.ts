@@ -9,13 +9,15 @@ const overlap = (a: Rect, b: Rect): boolean =>
   a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 function clear(places: readonly Place[], width: number, height: number, obstacles: readonly Rect[]): void {
-  places.forEach((place, i) => {
-    expect(place.left).toBeGreaterThanOrEqual(0);
-    expect(place.top).toBeGreaterThanOrEqual(0);
-    expect(place.right).toBeLessThanOrEqual(width);
-    expect(place.bottom).toBeLessThanOrEqual(height);
-    for (const other of [...places.slice(i + 1), ...obstacles]) expect(overlap(place, other), place.id).toBe(false);
-  });
+  const wrong = places.filter(
+    (place, i) =>
+      place.left < 0 ||
+      place.top < 0 ||
+      place.right > width ||
+      place.bottom > height ||
+      [...places.slice(i + 1), ...obstacles].some((other) => overlap(place, other)),
+  );
+  expect(wrong).toEqual([]);
 }
 
 /** A toolbar above, a note below on the left, a scale below on the right. */
