@@ -44,6 +44,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     dialog = page.get_by_role("dialog")
     expect(dialog).to_contain_text("not passed", timeout=PATIENCE)
     expect(dialog).to_contain_text("You went through the back vein wall")
+    expect(dialog.locator(".coach.change")).to_contain_text("You still moved in at ")
     expect(dialog).to_contain_text("Peak model force")
     expect(dialog.locator(".trace svg")).to_contain_text("model force (N)", timeout=PATIENCE)
     expect(dialog.locator(".trace svg")).to_contain_text("✕ lost")
@@ -54,6 +55,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
 def test_staying_in_the_vein_passes(page):
     begin(page)
     running = page.locator(".running")
+    expect(page.locator(".view-label.goal")).to_have_text("Goal: the vein", timeout=PATIENCE)
     push(page, "Shift+ArrowDown", 17)  # the skin is 10 mm away, the vein 20
     for _ in range(200):
         words = running.locator(".instruction").inner_text()

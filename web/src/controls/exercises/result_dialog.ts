@@ -45,7 +45,8 @@ export function openResult(
       {},
       element(
         "h2",
-        { id: "result-title" },
+        // The focus goes here, so that the dialog opens with its first words and not scrolled to its buttons.
+        { id: "result-title", tabindex: -1, autofocus: true },
         title,
         " ",
         element("span", { class: result.passed ? "passed" : "failed" }, verdict(result)),

@@ -24,7 +24,7 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   );
   const root = element(
     "section",
-    { class: "running", hidden: true, "aria-label": "Exercise" },
+    { class: "running tab", hidden: true, "aria-label": "Exercise" },
     ring.root,
     element("div", { class: "task-words" }, title, instruction),
     goals,

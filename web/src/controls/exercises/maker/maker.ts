@@ -90,7 +90,12 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     return row(key, label, box);
   };
   const number = (key: "from" | "angle" | "to" | Optional, label: string, optional: boolean): HTMLElement => {
-    const box = element("input", { type: "number", step: "any", placeholder: optional ? "not asked" : "" });
+    const box = element("input", {
+      type: "number",
+      class: "words",
+      step: "any",
+      placeholder: optional ? "not asked" : "",
+    });
     box.addEventListener("change", () => {
       const value = box.value === "" ? null : Number(box.value);
       if (value !== null || optional) change({ [key]: value });
@@ -153,7 +158,12 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
         button("Save on this computer", save),
         button("Download file", download),
       ),
-      element("div", { class: "field" }, replace, element("label", { for: "maker-replace" }, "Replace a saved one")),
+      element(
+        "div",
+        { class: "maker-replace" },
+        replace,
+        element("label", { for: "maker-replace" }, "Replace a saved one"),
+      ),
     );
   };
   root.addEventListener("toggle", async () => {
