@@ -32,7 +32,8 @@ const both =
  * the panels change size and place. */
 export function layout(root: HTMLElement, app: App): void {
   const place = (name: string, label: string, panel: Panel): HTMLElement => {
-    const host = element("section", { class: `panel ${name}`, "aria-label": label });
+    const scrolls = name === "phases" && { tabindex: 0 }; // so that the arrow keys can scroll it
+    const host = element("section", { class: `panel ${name}`, "aria-label": label, ...scrolls });
     panel(host, app);
     return host;
   };

@@ -3,7 +3,8 @@ import type { App } from "../state/app.ts";
 import { type Saving, save } from "./save.ts";
 
 export function button(text: string, title: string, act: () => void): HTMLButtonElement {
-  return element("button", { type: "button", title, "aria-label": title, onclick: act }, text);
+  const named = /[a-z]{2}/i.test(text); // words are their own name for a screen reader and for voice control
+  return element("button", { type: "button", title, ...(named ? {} : { "aria-label": title }), onclick: act }, text);
 }
 
 /** A drop-down list whose entries can change. */

@@ -1,0 +1,83 @@
+"""axe-core finds nothing serious or moderate in the states of the page, light and dark; and no address is missing."""
+
+import json
+from pathlib import Path
+
+import pytest
+from person import PATIENCE, ready, tab
+from playwright.sync_api import Browser, Page, expect
+from studio_process import StudioProcess
+
+AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
+RUN = """async () => (await axe.run(document, {resultTypes: ['violations']})).violations
+  .filter(({impact}) => impact !== 'minor')
+  .map(({id, impact, nodes}) => ({id, impact, nodes: nodes.map(({html, failureSummary}) => [html.slice(0, 200),
+    failureSummary])}))"""
+
+
+def check(page: Page, state: str) -> None:
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        found = page.evaluate(RUN)
+        assert not found, f"{state}, {scheme}: {json.dumps(found, indent=1)}"
+
+
+@pytest.fixture
+def studio(tmp_path):
+    with StudioProcess(tmp_path, "venipuncture") as running:
+        yield running
+
+
+def the_panels_change(page: Page) -> None:
+    """By keyboard: a wider view, two panels swapped, one panel alone, and the layout for a projector."""
+    picture = page.locator(".panel.view")
+    before = picture.bounding_box()
+    page.get_by_role("separator", name="Width of the left panels").press("ArrowRight")
+    wider = picture.bounding_box()
+    assert before and wider and wider["width"] > before["width"]
+    page.locator(".view .menu summary").press("Enter")
+    page.get_by_role("button", name="Swap with Against time").press("Enter")
+    expect(picture).to_have_attribute("data-place", "d")
+    page.get_by_role("button", name="Maximise Membranes").press("Enter")
+    expect(page.locator(".panel.view")).to_be_hidden()
+    page.keyboard.press("Escape")
+    page.reload()
+    expect(picture).to_have_attribute("data-place", "d", timeout=PATIENCE)  # it keeps its place
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    page.keyboard.press("Alt+p")
+    expect(page.locator(".side")).to_be_hidden()
+
+
+def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address(browser: Browser, studio):
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, device_scale_factor=0.5)
+    page = context.new_page()
+    missing: list[str] = []
+    page.on("response", lambda answer: missing.append(answer.url) if answer.status >= 400 else None)
+    page.goto(studio.url, timeout=PATIENCE)
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    expect(page.locator(".tour")).to_be_visible(timeout=PATIENCE)
+    check(page, "the tour")
+    ready(page)
+    for name in ("Hand", "Scene", "Recordings", "Exercises", "Health"):
+        tab(page, name)
+        check(page, f"the tab {name}")
+    page.get_by_role("button", name="Try a fault").click()
+    expect(page.locator(".fault")).to_contain_text("The force is off", timeout=PATIENCE)
+    check(page, "a fault")
+    page.locator(".fault").get_by_role("button", name="Turn force on").click(timeout=PATIENCE)
+    tab(page, "Scene")
+    friction = page.get_by_role("textbox", name="Friction").first
+    friction.fill("36")
+    friction.press("Enter")
+    expect(friction).to_have_attribute("aria-invalid", "true", timeout=PATIENCE)
+    check(page, "a wrong value")
+    tab(page, "Exercises")
+    page.locator("article.exercise").first.get_by_role("button", name="Start").click()
+    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    check(page, "a running exercise")
+    page.locator(".running").get_by_role("button", name="End").click()
+    expect(page.locator(".running")).to_be_hidden(timeout=PATIENCE)
+    the_panels_change(page)
+    check(page, "the projector layout")
+    context.close()
+    assert not missing, missing
