@@ -120,7 +120,18 @@ def punctura(*arguments):
 def test_the_command_line_bounds_the_force(tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("max_force_N = 0.6\nramp_time_s = 0.01\n")
-    run = ("run", "--headless", "--device", "simulated", "--duration", "2.5", "--json", "--limits", str(path))
+    run = (
+        "run",
+        "k06-fig10",
+        "--headless",
+        "--device",
+        "simulated",
+        "--duration",
+        "2.5",
+        "--json",
+        "--limits",
+        str(path),
+    )
     said_strongest = {}
     for name, more in {"file": (), "option": ("--max-force-N", "0.4")}.items():
         done = punctura(*run, *more)
