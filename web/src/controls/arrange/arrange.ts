@@ -5,8 +5,6 @@ import { Arrangements, PANELS, PLACES } from "./arrangement.ts";
 import { addPanelTools } from "./panel_tools.ts";
 import { separator } from "./separator.ts";
 
-const NARROW = matchMedia("(max-width: 1080px)");
-
 /** The layout of this page; there is one per app. */
 export const arrangementsOf = onePerApp(() => new Arrangements());
 
@@ -53,13 +51,7 @@ export const arrange: Panel = (root, app) => {
     });
   });
   keys(app);
-  app.exercise.watch((status) => {
-    const running = status?.running ?? false;
-    const began = running && !root.hasAttribute("data-exercise");
-    root.toggleAttribute("data-exercise", running);
-    // Where the page scrolls, the view and, below it, the instruction come to the screen.
-    if (began && NARROW.matches) panels[0]!.scrollIntoView({ block: "start" });
-  });
+  app.exercise.watch((status) => root.toggleAttribute("data-exercise", status?.running ?? false));
 };
 
 /** The order of reading and of the tab key is the order on the page. The focus stays where it is. */
