@@ -24,13 +24,17 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** Calls once per animation frame while the page is visible; the returned function ends that. */
+/** Calls once per animation frame while the page is visible. The returned function ends that, also from within a call. */
 export function everyFrame(draw: (now: number) => void): () => void {
   let handle = 0;
+  let ended = false;
   const step = (now: number): void => {
     draw(now);
-    handle = requestAnimationFrame(step);
+    if (!ended) handle = requestAnimationFrame(step);
   };
   handle = requestAnimationFrame(step);
-  return () => cancelAnimationFrame(handle);
+  return () => {
+    ended = true;
+    cancelAnimationFrame(handle);
+  };
 }
