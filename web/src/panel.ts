@@ -24,7 +24,7 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** Calls once per animation frame while the page is visible. The returned function ends that, also from within a call. */
+/** Calls once per animation frame while the page is visible. The returned function ends that, also within a call. */
 export function everyFrame(draw: (now: number) => void): () => void {
   let handle = 0;
   let ended = false;
