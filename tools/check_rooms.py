@@ -15,6 +15,7 @@ ROOMS = (
     "core/punctura/state",
     "core/punctura/signal",
     "core/punctura/proxy",
+    "core/punctura/syringe",
     "core/punctura/insertion",
     "core/punctura/device",
     "core/punctura/safety",

@@ -146,6 +146,7 @@ def messages() -> dict[str, Any]:
         *({"id": 1, "do": do} for do in PLAIN),
         {"do": "target", "run": 3, "position": TRIPLE, "axis": [0.0, -1.0, 0.0], "buttons": 1},
         {"id": 2, "do": "strokes", "period": 2.0},
+        {"id": 22, "do": "push_plunger", "force": 3.5},
         {"id": 3, "do": "play_motion", "recording": "r"},
         {"id": 4, "do": "edit", "tables": TABLES},
         {"id": 5, "do": "load", "scene": "venipuncture"},
@@ -165,7 +166,8 @@ def messages() -> dict[str, Any]:
         {"do": "target", "run": 0, "position": [0.0, 0.0], "axis": TRIPLE},
         {"do": "target", "run": 0, "position": TRIPLE, "axis": None},
         {"do": "target", "position": TRIPLE, "axis": TRIPLE},
-        {"id": 1, "do": "strokes", "period": 0.1}, {"id": 1, "do": "load", "scene": ""}, [], "arm", 7, None,
+        {"id": 1, "do": "strokes", "period": 0.1}, {"id": 1, "do": "push_plunger", "force": 16},
+        {"id": 1, "do": "load", "scene": ""}, [], "arm", 7, None,
     ]  # fmt: skip
     return {"messages": sent, "requests": asked, "refused": refused}
 

@@ -15,6 +15,8 @@
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/servo_step.hpp"
 #include "punctura/state/archive.hpp"
+#include "punctura/syringe/opening.hpp"
+#include "punctura/syringe/plunger.hpp"
 #if defined(__cpp_exceptions)
 #include "punctura/plant/experiment.hpp"
 #endif

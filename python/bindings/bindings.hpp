@@ -27,6 +27,7 @@ namespace punctura::bindings {
 
 void bind_model(nb::module_&);
 void bind_proxy(nb::module_&);
+void bind_syringe(nb::module_&);
 void bind_scene(nb::module_&);
 void bind_insertion(nb::module_&);
 void bind_events(nb::module_&);
@@ -34,6 +35,7 @@ void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
 void bind_limits(nb::module_&);
 void bind_tick_table(nb::module_&);
+void bind_thumb(nb::module_&);
 void bind_runtime(nb::module_&);
 void bind_given_devices(nb::module_&);
 void bind_devices(nb::module_&);
@@ -97,6 +99,8 @@ void def_repr(nb::class_<T, Options...>& cls, const char* format) {
 
 /// All problems of a needle, a membrane, and their combination.
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
+/// Adds a problem if the period of a tick (s) is not between 0 and 1 s.
+void check_period(double period, std::vector<Problem>& problems);
 /// Throws punctura.ConfigurationError with all problems, if there are any.
 void raise_if(const std::vector<Problem>& problems);
 /// The same for a word that is not allowed.

@@ -78,6 +78,13 @@ std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane)
   return problems;
 }
 
+void check_period(double period, std::vector<Problem>& problems) {
+  if (!(period > 0 && std::isfinite(period)))
+    problems.push_back({"period", period, "must be greater than 0 s"});
+  else if (period >= 1)
+    problems.push_back({"period", period, "must be less than 1 s: the period of a tick is wanted, not its rate in Hz"});
+}
+
 void raise_if(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   nb::list list;

@@ -17,7 +17,8 @@ void bind_limits(nb::module_& m) {
       .value("missed_deadline", Fault::missed_deadline)
       .value("clock", Fault::clock)
       .value("non_finite_force", Fault::non_finite_force)
-      .value("device", Fault::device);
+      .value("device", Fault::device)
+      .value("thumb", Fault::thumb);
   m.def("describe", &describe, nb::arg("fault"), "The meaning of a fault, and the remedy.");
 
   nb::enum_<ServoState>(m, "ServoState", nb::is_arithmetic(), "Whether the device gets force.")

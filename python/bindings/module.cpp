@@ -14,6 +14,7 @@ NB_MODULE(_core, m) {
       nullptr));
   bind_model(m);
   bind_proxy(m);
+  bind_syringe(m);
   bind_scene(m);
   bind_insertion(m);
   bind_events(m);
@@ -21,6 +22,7 @@ NB_MODULE(_core, m) {
   bind_experiment(m);
   bind_limits(m);
   bind_tick_table(m);
+  bind_thumb(m);
   bind_runtime(m);
   bind_given_devices(m);
   bind_devices(m);

@@ -18,10 +18,7 @@ namespace {
 
 void check_coupling(const Coupling& coupling, double period, std::vector<Problem>& problems) {
   check(coupling, problems);
-  if (!(period > 0 && std::isfinite(period)))
-    problems.push_back({"period", period, "must be greater than 0 s"});
-  else if (period >= 1)
-    problems.push_back({"period", period, "must be less than 1 s: the period of a tick is wanted, not its rate in Hz"});
+  check_period(period, problems);
 }
 
 using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;

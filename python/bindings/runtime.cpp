@@ -157,17 +157,18 @@ void bind_runtime(nb::module_& m) {
   loop.def(
           "__init__",
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
-             const ForceLimits& limits, const Placement& placement) {
+             const ForceLimits& limits, const Placement& placement, std::shared_ptr<ThumbLoop> thumb) {
             LoopSettings settings;
+            settings.thumb = std::move(thumb);
             settings.gate = gate;
             settings.limits = limits;
             settings.placement = placement;
             new (self) ServoLoop(std::move(device), scene, settings);
           },
           nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},
-          nb::arg("placement") = Placement{},
+          nb::arg("placement") = Placement{}, nb::arg("thumb") = nb::none(),
           "A device can be in one running loop at a time. The period is the device's own. Its force ratings tighten\n"
-          "the limits.")
+          "the limits. thumb: a second device, which holds the plunger of the scene's syringe.")
       .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),
            "Starts the ticks, disarmed. Raises DeviceError.")
       .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Sets zero force, then ends the ticks.")
@@ -183,6 +184,9 @@ void bind_runtime(nb::module_& m) {
       .def("arm", &ServoLoop::arm, "Enables force as soon as the tip is outside tissue.")
       .def("pause", &ServoLoop::pause, "Disables force. Ticks continue.")
       .def("reset", &ServoLoop::reset, "Clears a latched fault. The loop is then disarmed.")
+      .def("push_plunger", &ServoLoop::push_plunger, nb::arg("force"),
+           "A simulated thumb pushes the plunger of the scene's syringe with this force, N; 0 to 15.\n\n"
+           "With a thumb device, or without a syringe in the scene, it has no effect.")
       .def(
           "exchange",
           [](ServoLoop& loop, const Scene& scene) {

@@ -48,13 +48,15 @@ Enum from_word(const std::string& path, const std::string& given, const std::arr
 }
 
 PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
-                           std::string look) {
+                           std::string look, Outlet outflow, Outlet outflow_behind) {
   return {std::move(name),
           membrane,
           point,
           inward_normal,
           from_word<Behind>("membrane.behind", behind, behind_words),
-          from_word<Look>("membrane.look", look, look_words)};
+          from_word<Look>("membrane.look", look, look_words),
+          outflow,
+          outflow_behind};
 }
 
 ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
@@ -71,9 +73,13 @@ DisplaySettings display_from(const ScaleOrWord& force_scale) {
   return {DisplaySettings{}.force_scale, true};
 }
 
+SyringeSettings make_settings(Syringe syringe, Coupling thumb) { return {syringe, thumb}; }
+
 Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector<PlacedMembrane> membranes,
-                 ServoSettings servo, std::string direction, DisplaySettings display) {
-  Scene made{std::move(name), needle, coupling, std::move(membranes), servo, direction_from(direction), display};
+                 ServoSettings servo, std::string direction, DisplaySettings display,
+                 std::optional<SyringeSettings> syringe) {
+  Scene made{std::move(name),           needle,  coupling, std::move(membranes), servo,
+             direction_from(direction), display, syringe};
   raise_if(check(made));
   return made;
 }
@@ -201,7 +207,9 @@ void bind_scene(nb::module_& m) {
           .def_prop_ro(
               "look", [](const PlacedMembrane& p) { return text(word_of(p.look)); },
               nb::sig(("def look(self) -> " + look_type).c_str()),
-              "The kind of tissue that the studio draws. It does not affect the force");
+              "The kind of tissue that the studio draws. It does not affect the force")
+          .def_ro("outflow", &PlacedMembrane::outflow, "What liquid from the needle's syringe meets in the membrane")
+          .def_ro("outflow_behind", &PlacedMembrane::outflow_behind, "The same for the space behind it");
   def_init(
       placed,
       {{"name", "str"},
@@ -209,11 +217,21 @@ void bind_scene(nb::module_& m) {
        {"point", three_numbers},
        {"inward_normal", three_numbers},
        {"behind", behind_type.c_str(), nb::str("tissue")},
-       {"look", look_type.c_str(), nb::str("plain")}},
+       {"look", look_type.c_str(), nb::str("plain")},
+       {"outflow", "Outlet", nb::cast(dense_tissue)},
+       {"outflow_behind", "Outlet", nb::cast(dense_tissue)}},
       &make_placed,
       "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
-      "this membrane and the next. look: kind of tissue in the studio's picture.");
-  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind", "look"});
+      "this membrane and the next. look: kind of tissue in the studio's picture. outflow,\n"
+      "outflow_behind: what liquid from a syringe meets in the membrane and behind it; by default it cannot leave.");
+  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind", "look", "outflow", "outflow_behind"});
+
+  auto syringe = nb::class_<SyringeSettings>(m, "SyringeSettings", "The syringe on a scene's needle. docs/syringe.md")
+                     .def_ro("syringe", &SyringeSettings::syringe)
+                     .def_ro("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger");
+  def_init(syringe, {{"syringe", "Syringe"}, {"thumb", "Coupling", nb::cast(SyringeSettings{}.thumb)}}, &make_settings,
+           "The scene that uses it checks all values.");
+  def_value(syringe, {"syringe", "thumb"});
 
   const ServoSettings defaults;
   auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
@@ -268,6 +286,7 @@ void bind_scene(nb::module_& m) {
               "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
               nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
           .def_ro("display", &Scene::display)
+          .def_ro("syringe", &Scene::syringe, "The syringe on the needle; None without one")
           .def_prop_ro(
               "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
               "Indices of the two membranes with blood between them; None if there is no blood")
@@ -284,25 +303,28 @@ void bind_scene(nb::module_& m) {
             {"membranes", "Sequence[PlacedMembrane]"},
             {"servo", "ServoSettings", nb::cast(defaults)},
             {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")},
-            {"display", "DisplaySettings", nb::cast(DisplaySettings{})}},
+            {"display", "DisplaySettings", nb::cast(DisplaySettings{})},
+            {"syringe", "SyringeSettings | None", nb::none()}},
            &make_scene,
            "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). Raises\n"
            "ConfigurationError with all problems.");
-  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction", "display"});
+  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction", "display", "syringe"});
 
   m.def(
       "scene_problems",
       [](const std::string& name, const Needle& needle, const Coupling& coupling,
-         const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const DisplaySettings& display) {
+         const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const DisplaySettings& display,
+         const std::optional<SyringeSettings>& syringe) {
         nb::list out;
-        for (const Problem& p : check(Scene{name, needle, coupling, membranes, servo, {}, display}))
+        for (const Problem& p : check(Scene{name, needle, coupling, membranes, servo, {}, display, syringe}))
           out.append(nb::make_tuple(p.path, p.value, p.reason));
         return out;
       },
       nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo"),
-      nb::arg("display"),
+      nb::arg("display"), nb::arg("syringe") = nb::none(),
       nb::sig("def scene_problems(name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
-              "servo: ServoSettings, display: DisplaySettings) -> list[tuple[str, float, str]]"),
+              "servo: ServoSettings, display: DisplaySettings, syringe: SyringeSettings | None = None) -> "
+              "list[tuple[str, float, str]]"),
       "All problems of a scene that may be invalid: (path, value in SI, reason).");
 
   m.def(
@@ -314,6 +336,10 @@ void bind_scene(nb::module_& m) {
         describe_fields(out, "coupling", coupling_fields);
         describe_fields(out, "servo", servo_fields);
         describe_fields(out, "display", display_fields);
+        describe_fields(out, "membrane", outflow_fields);
+        describe_fields(out, "membrane", outflow_behind_fields);
+        describe_fields(out, "syringe", syringe_fields);
+        describe_fields(out, "syringe", thumb_fields);
         return out;
       },
       nb::sig("def fields() -> list[FieldBounds]"),

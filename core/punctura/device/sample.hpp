@@ -15,6 +15,8 @@ struct DeviceSample {
   std::uint32_t buttons;           ///< one bit for each button
   bool healthy;                    ///< false: the back-end reports a fault
   double motor_temperature = 0;    ///< of the hottest motor: 1 is the maker's danger limit; 0 if it is not reported
+  double thumb = 0;                ///< depth of the thumb on the syringe's plunger, m, from where the plunger starts;
+                                   ///< NaN: the thumb's device has a fault
 };
 
 }  // namespace punctura

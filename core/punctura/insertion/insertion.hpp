@@ -43,6 +43,7 @@ class InsertionOf {
   using Vector = Vector3<Scalar>;
   using Proxy = Proxy3d<L, C>;
   using Proxies = typename Storage::template Membranes<Proxy>;
+  using StoredIn = Storage;
 
   /// period: T, s. low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m.
   InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,

@@ -16,6 +16,7 @@ enum class Fault : std::uint8_t {
   clock,             ///< the time went back
   non_finite_force,  ///< the model computed NaN or infinity: a defect, please report it
   device,            ///< the back-end reported a fault
+  thumb,             ///< the device under the thumb has a fault or is silent
 };
 
 /// The meaning of a fault, and what to do. The text is constant, because a tick formats nothing.
@@ -37,6 +38,8 @@ constexpr const char* describe(Fault fault) noexcept {
     case Fault::non_finite_force:
       return "the model gave a force that is not a number: please report the scene and the recording";
     case Fault::device: return "the device reported a fault of its own";
+    case Fault::thumb:
+      return "the device under the thumb has a fault or sends nothing: check its connection, then reset";
   }
   return "unknown fault";
 }

@@ -38,6 +38,30 @@ auto insertion_of(const Scene& scene, LawOf&& law_of) {
                         scene.servo.conditioning, to(scene.servo.encoder_step));
 }
 
+/// The syringe of a scene that has passed check(), and the membranes from the front to the back, as seen along the
+/// first one's inward normal.
+template <typename Step>
+void put_syringe(const Scene& scene, Step& step) {
+  using Scalar = typename Step::Scalar;
+  const auto to = [](double x) { return static_cast<Scalar>(x); };
+  const auto outlet = [&](const Outlet& o) { return BasicOutlet<Scalar>{to(o.resistance), to(o.pressure)}; };
+  const Vector3d inward = to_vector(scene.membranes[0].inward_normal);
+  const auto place = [&](std::uint32_t i) { return inward.dot(to_vector(scene.membranes[i].point)); };
+  std::vector<LayerOutlets<Scalar>> layers;
+  for (std::uint32_t i = 0; i < scene.membranes.size(); ++i) {
+    const PlacedMembrane& m = scene.membranes[i];
+    layers.push_back({i, to(m.membrane.thickness), outlet(m.outflow), outlet(m.outflow_behind)});
+  }
+  std::stable_sort(layers.begin(), layers.end(),
+                   [&](const auto& a, const auto& b) { return place(a.membrane) < place(b.membrane); });
+  const auto& [s, thumb] = *scene.syringe;
+  const BasicSyringe<Scalar> syringe{to(s.bore),     to(s.liquid),     to(s.air),
+                                     to(s.friction), to(s.compliance), to(s.resistance)};
+  const BasicCoupling<Scalar> coupling{to(thumb.stiffness), to(thumb.damping)};
+  const BasicPlunger<Scalar> plunger(syringe, coupling, to(1 / scene.servo.rate));
+  step.set_syringe({plunger, to(tip_length(scene.needle)), layers});
+}
+
 /// K06's law for each membrane.
 template <typename Scalar>
 BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, std::size_t) {
@@ -84,8 +108,10 @@ auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_o
   if (!insertion || !found.empty()) return std::optional<Result>();
   const auto scale = std::max(static_cast<Scalar>(force_scale(scene, *insertion, limits)),
                               std::numeric_limits<Scalar>::min());  // a scale that is too small for a float
-  return std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits,
-                                    scale);
+  auto made =
+      std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits, scale);
+  if (scene.syringe) detail::put_syringe(scene, *made);
+  return made;
 }
 /// Builds the servo step of a scene with K06's law.
 template <typename Scalar = double>

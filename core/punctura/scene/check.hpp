@@ -46,6 +46,22 @@ inline constexpr FieldOf<DisplaySettings> display_fields[] = {
      &DisplaySettings::force_scale},
 };
 
+inline constexpr FieldOf<Coupling> thumb_fields[] = {
+    {{"thumb_stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the plunger hangs on it"}},
+     &Coupling::stiffness},
+    {{"thumb_damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more"}}, &Coupling::damping},
+};
+
+/// What liquid from the needle meets: in a membrane, and in the space behind it.
+inline constexpr FieldOf<Outlet> outflow_fields[] = {
+    {{"outflow_resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
+    {{"outflow_pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
+};
+inline constexpr FieldOf<Outlet> outflow_behind_fields[] = {
+    {{"behind_resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
+    {{"behind_pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
+};
+
 inline constexpr FieldOf<GateLimits> gate_fields[] = {
     {{"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::max_speed},
     {{"stale", "-", "s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::stale},
@@ -89,6 +105,11 @@ inline bool check(const Coupling& coupling, std::vector<Problem>& problems) {
   return check_fields(coupling_fields, coupling, "coupling", problems);
 }
 
+inline void check(const SyringeSettings& settings, std::vector<Problem>& problems) {
+  check(settings.syringe, "syringe", problems);
+  check_fields(thumb_fields, settings.thumb, "syringe", problems);
+}
+
 /// All problems of a scene, each with its path (`membrane[1].friction`), its SI value and the reason. If there are
 /// none, the scene can be built.
 inline std::vector<Problem> check(const Scene& scene) {
@@ -108,6 +129,8 @@ inline std::vector<Problem> check(const Scene& scene) {
     if (needle_fields[1].range.holds(scene.needle.tip_angle) &&
         membrane_fields[2].range.holds(placed.membrane.friction))
       check_insertion(scene.needle, placed.membrane, path, problems);
+    check_fields(outflow_fields, placed.outflow, path, problems);
+    check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
     if (!detail::finite(placed.point))
       problems.push_back({path + ".point", detail::value_to_show(placed.point), "must be three finite numbers"});
     const auto& n = placed.inward_normal;
@@ -117,6 +140,7 @@ inline std::vector<Problem> check(const Scene& scene) {
       problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
   }
   check_lumen(scene, problems);
+  if (scene.syringe) check(*scene.syringe, problems);
   return problems;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,12 @@
 #include "punctura/proxy/solver.hpp"
 #include "punctura/scene/look.hpp"
 #include "punctura/signal/conditioning.hpp"
+#include "punctura/syringe/syringe.hpp"
 
 namespace punctura {
+
+/// The outlet of tissue that takes no liquid: 1 mL leaves in a day at 10 kPa. Illustrative.
+inline constexpr Outlet dense_tissue{1e15, 0};
 
 /// A membrane with its place in the scene.
 struct PlacedMembrane {
@@ -24,6 +29,14 @@ struct PlacedMembrane {
   std::array<double, 3> inward_normal{};  ///< a direction of any length except 0
   Behind behind = Behind::tissue;         ///< for the picture and for lumen(); no force depends on it
   Look look = Look::plain;                ///< for the picture
+  Outlet outflow = dense_tissue;          ///< what liquid from the needle meets in the membrane
+  Outlet outflow_behind = dense_tissue;   ///< the same for the space behind it
+};
+
+/// The syringe on the needle, and the virtual coupling between thumb and plunger.
+struct SyringeSettings {
+  Syringe syringe{};  ///< no default: check() reports missing values
+  Coupling thumb{2000, 2};
 };
 
 /// The settings of the servo step.
@@ -50,6 +63,7 @@ struct Scene {
   ServoSettings servo{};
   Direction direction = Direction::stylus;
   DisplaySettings display{};
+  std::optional<SyringeSettings> syringe{};  ///< empty: no syringe
 };
 
 }  // namespace punctura

@@ -32,7 +32,13 @@ void for_each_value(SceneT& scene, Visit&& visit) {
       visit(path + "." + std::string(point_fields[k].name), point_fields[k], placed.point[k]);
     for (std::size_t k = 0; k < 3; ++k)
       visit(path + "." + std::string(normal_fields[k].name), normal_fields[k], placed.inward_normal[k]);
+    if (!scene.syringe) continue;  // nothing else reads the outlets
+    all(path, outflow_fields, placed.outflow);
+    all(path, outflow_behind_fields, placed.outflow_behind);
   }
+  if (!scene.syringe) return;
+  all("syringe", syringe_fields, scene.syringe->syringe);
+  all("syringe", thumb_fields, scene.syringe->thumb);
 }
 
 }  // namespace punctura

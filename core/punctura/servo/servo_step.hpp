@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include "punctura/insertion/insertion.hpp"
+#include "punctura/insertion/needle_syringe.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/servo/record.hpp"
@@ -31,6 +33,7 @@ class ServoStepOf {
  public:
   using Scalar = typename Insertion::Scalar;
   using Vector = Vector3<Scalar>;
+  using Syringe = NeedleSyringe<Scalar, typename Insertion::StoredIn>;
 
   /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. force_scale: how much of the model's
   /// force the device gives. The program aborts if it is not greater than 0 and at most 1, or if insertion has more
@@ -45,6 +48,9 @@ class ServoStepOf {
     if (insertion_.proxies().size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
     snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
   }
+
+  /// Puts a syringe on the needle. Before the first tick.
+  void set_syringe(const Syringe& syringe) { syringe_ = syringe; }
 
   /// Requests force. The force starts when the tip is in front of every membrane, with a ramp of
   /// ForceLimits::ramp_time.
@@ -66,6 +72,7 @@ class ServoStepOf {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
     insertion_.reset();
+    if (syringe_) syringe_->reset();
     gate_.reset();
     fault_ = Fault::none;
     state_ = ServoState::disarmed;
@@ -77,6 +84,7 @@ class ServoStepOf {
   /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
   void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
+    if (syringe_ && previous.syringe_) syringe_->resume(*previous.syringe_);
     gate_.resume(previous.gate_);
     limiter_.resume(previous.limiter_);
     state_ = previous.state_;
@@ -99,6 +107,9 @@ class ServoStepOf {
       model_force = insertion_.step(to_vector(sample.position).template cast<Scalar>(),
                                     to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
+      // NaN says that the thumb's device has a fault: then neither hand gets force.
+      if (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_.proxies())))
+        fault_ = Fault::thumb;
     }
     if (fault_ != Fault::none) {
       state_ = ServoState::faulted;
@@ -142,6 +153,7 @@ class ServoStepOf {
   const Snapshot& snapshot() const noexcept { return snapshot_; }
   Scalar force_scale() const noexcept { return force_scale_; }
   const Insertion& insertion() const noexcept { return insertion_; }
+  const std::optional<Syringe>& syringe() const noexcept { return syringe_; }
   ServoState state() const noexcept { return state_; }
   Fault fault() const noexcept { return fault_; }
 
@@ -149,10 +161,11 @@ class ServoStepOf {
   /// A loaded step may be active: it gives force in its first tick.
   static void archive(auto& self, auto& state) {
     Insertion::archive(self.insertion_, state);
+    if (self.syringe_) Syringe::archive(*self.syringe_, state);
     BasicInputGate<Scalar>::archive(self.gate_, state);
     BasicForceLimiter<Scalar>::archive(self.limiter_, state);
     state.choice(self.state_, ServoState::faulted);
-    state.choice(self.fault_, Fault::device);
+    state.choice(self.fault_, Fault::thumb);
     state.require((self.state_ == ServoState::faulted) == (self.fault_ != Fault::none));
     state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
     state.index(self.commands_, std::numeric_limits<std::uint32_t>::max());
@@ -167,6 +180,8 @@ class ServoStepOf {
   }
   void describe(auto& parameters) const {
     insertion_.describe(parameters);
+    parameters.flag(syringe_.has_value());
+    if (syringe_) syringe_->describe(parameters);
     gate_.describe(parameters);
     limiter_.describe(parameters);
     parameters.numbers(force_scale_, fade_step_);
@@ -182,6 +197,15 @@ class ServoStepOf {
     return faded_force_;
   }
 
+  /// The plunger gives no force on the thumb in a fault.
+  SyringeRecord syringe_record() const noexcept {
+    if (!syringe_) return no_syringe;
+    const auto& plunger = syringe_->plunger();
+    const auto wide = [](Scalar x) { return static_cast<double>(x); };
+    return {wide(plunger.position()), fault_ == Fault::none ? wide(plunger.force()) : 0, wide(plunger.pressure()),
+            wide(plunger.left())};
+  }
+
   void record(const DeviceSample& sample, const Vector& model_force, const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
@@ -192,6 +216,7 @@ class ServoStepOf {
     snapshot_.ceiling = limiter_.ceiling();
     snapshot_.limits = limiter_.counters();
     snapshot_.limit = limiter_.limit();
+    snapshot_.syringe = syringe_record();
     snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;
@@ -200,6 +225,7 @@ class ServoStepOf {
   }
 
   Insertion insertion_;
+  std::optional<Syringe> syringe_;
   BasicInputGate<Scalar> gate_;
   BasicForceLimiter<Scalar> limiter_;
   ServoState state_ = ServoState::disarmed;

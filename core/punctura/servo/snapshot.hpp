@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "punctura/device/sample.hpp"
@@ -36,6 +37,16 @@ struct MembraneRecord {
   Phase phase;
 };
 
+/// The record of the syringe in a tick. All NaN if the scene has none.
+struct SyringeRecord {
+  double plunger;   ///< q(k), m, inwards from where it starts
+  double force;     ///< N, on the thumb, negative while it pushes
+  double pressure;  ///< in the syringe, above that of the atmosphere, Pa
+  double left;      ///< volume that left through the needle so far, m^3
+};
+inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+inline constexpr SyringeRecord no_syringe{nothing, nothing, nothing, nothing};
+
 /// The record of a tick.
 struct Snapshot {
   std::uint64_t tick;
@@ -46,6 +57,7 @@ struct Snapshot {
   double force_scale;                 ///< how much of the model's force the device gives, before all limits
   double ceiling;                     ///< the largest force that all limits permit in this tick, N
   LimitCounters limits;
+  SyringeRecord syringe;
   ServoState state;
   Fault fault;
   Limit limit;             ///< the limit that makes `force` smaller than `force_scale` times `model_force`

@@ -30,6 +30,10 @@ UNITS = {
     "N": Unit("N", Decimal(1)),
     "N_per_mm": Unit("N/mm", Decimal(1000)),
     "Ns_per_mm": Unit("N s/mm", Decimal(1000)),
+    "mL": Unit("mL", Decimal("1e-6")),
+    "kPa": Unit("kPa", Decimal(1000)),
+    "mL_per_kPa": Unit("mL/kPa", Decimal("1e-9")),
+    "kPa_s_per_mL": Unit("kPa s/mL", Decimal("1e9")),
 }
 _NO_UNIT = Unit("", Decimal(1))
 

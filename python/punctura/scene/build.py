@@ -6,10 +6,29 @@ from collections.abc import Collection, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
-from punctura._core import Coupling, DisplaySettings, Membrane, Needle, PlacedMembrane, Scene, ServoSettings
+from punctura._core import (
+    Coupling,
+    DisplaySettings,
+    Membrane,
+    Needle,
+    Outlet,
+    PlacedMembrane,
+    Scene,
+    ServoSettings,
+    Syringe,
+    SyringeSettings,
+)
 from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.schema import CouplingTable, DisplayTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.schema import (
+    CouplingTable,
+    DisplayTable,
+    MembraneTable,
+    NeedleTable,
+    SceneFile,
+    ServoTable,
+    SyringeTable,
+)
 
 # What stands in for a value that is missing or of the wrong type while the core looks at the others. Chosen so that
 # it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
@@ -17,7 +36,10 @@ _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
     "force_scale": 1.0, "behind": "tissue", "look": "plain", "precompression": 0.0, "friction": 1e-6,
-    "thickness": 0.0, "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
+    "thickness": 0.0, "bore": 1e-2, "liquid": 1e-6, "air": 0.0, "compliance": 1e-12,
+    "resistance": 1e9, "thumb_stiffness": 1.0, "thumb_damping": 1.0, "outflow_resistance": 1.0,
+    "outflow_pressure": 0.0, "behind_resistance": 1.0, "behind_pressure": 0.0,
+    "point": [0.0, 0.0, 0.0], "inward_normal": [0.0, -1.0, 0.0],
 }  # fmt: skip
 
 
@@ -79,7 +101,10 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
     for i, raw in enumerate(tables if isinstance(tables, list) else []):
         m = reader.table(raw, f"membrane[{i}]", MembraneTable)
         membrane = Membrane.unchecked(m["stiffness"], m["precompression"], m["friction"], m["thickness"])
-        membranes.append(PlacedMembrane(m["name"], membrane, m["point"], m["inward_normal"], m["behind"], m["look"]))
+        placed = m["name"], membrane, m["point"], m["inward_normal"], m["behind"], m["look"]
+        outflow = Outlet.unchecked(m["outflow_resistance"], m["outflow_pressure"])
+        behind = Outlet.unchecked(m["behind_resistance"], m["behind_pressure"])
+        membranes.append(PlacedMembrane(*placed, outflow, behind))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")
@@ -91,8 +116,17 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         ServoSettings(**servo),
         needle["direction"],
         DisplaySettings(**display),
+        _syringe(reader, data.get("syringe")),
     )
     return Parts(arguments, reader.keys, reader.stand_ins)
+
+
+def _syringe(reader: _Reader, raw: object) -> SyringeSettings | None:
+    if raw is None:
+        return None
+    s = reader.table(raw, "syringe", SyringeTable)
+    thumb = Coupling.unchecked(s.pop("thumb_stiffness"), s.pop("thumb_damping"))
+    return SyringeSettings(Syringe.unchecked(**s), thumb)
 
 
 def build_scene(scene_file: SceneFile) -> Scene:

@@ -29,11 +29,18 @@ from punctura.scene.schema import (
     NeedleTable,
     SceneFile,
     ServoTable,
+    SyringeTable,
 )
 
 _SCHEMA = Schema(
     SceneFile,
-    {"needle": NeedleTable, "coupling": CouplingTable, "servo": ServoTable, "display": DisplayTable},
+    {
+        "needle": NeedleTable,
+        "coupling": CouplingTable,
+        "servo": ServoTable,
+        "display": DisplayTable,
+        "syringe": SyringeTable,
+    },
     {"membrane": MembraneTable},
 )
 _ENOUGH = 100  # membranes to check: more than the core allows, and few enough to report all their problems
@@ -74,8 +81,8 @@ def _alternative_problems(data: Mapping[str, object]) -> Iterator[Problem]:
 def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Problem]:
     parts: Parts = scene_parts(data, unsound)
     problems = []
-    name, needle, coupling, membranes, servo, _direction, display = parts.arguments
-    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display):
+    name, needle, coupling, membranes, servo, _direction, display, syringe = parts.arguments
+    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display, syringe):
         if path in parts.stand_ins:
             continue
         key_path = parts.keys.get(path, path)

@@ -15,7 +15,7 @@ from punctura.scene.schema import ALTERNATIVES, SceneFile
 
 _TABLE_OF = {
     "NeedleTable": "needle", "CouplingTable": "coupling", "ServoTable": "servo", "DisplayTable": "display",
-    "MembraneTable": "membrane",
+    "SyringeTable": "syringe", "MembraneTable": "membrane",
 }  # fmt: skip
 
 

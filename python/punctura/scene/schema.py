@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from punctura._core import DisplaySettings, ServoSettings
+from punctura._core import Coupling, DisplaySettings, Membrane, PlacedMembrane, ServoSettings, Syringe, SyringeSettings
 from punctura.files.fields import Number, NumberOrAutomatic, Text, Vector, WholeNumber
 from punctura.files.tables import Table
 from punctura.files.units import UNITS, from_si
@@ -23,6 +23,12 @@ Look = Literal[
     "plain", "skin", "fat", "muscle", "fascia", "ligament", "ligamentum flavum", "dura", "vein wall", "artery wall"
 ]
 Behind = Literal["tissue", "blood", "fat", "muscle", "epidural space", "cerebrospinal fluid"]
+
+# No default of the core is written twice: what tissue takes, and the coupling of a thumb.
+_DENSE = from_si(
+    PlacedMembrane("", Membrane.unchecked(1, 0, 1, 0), (0, 0, 0), (0, -1, 0)).outflow.resistance, UNITS["kPa_s_per_mL"]
+)
+_THUMB: Coupling = SyringeSettings(Syringe.unchecked(1, 1, 0, 0, 1, 1)).thumb
 
 
 def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
@@ -100,6 +106,28 @@ class DisplayTable(Table):
     )
 
 
+class SyringeTable(Table):
+    """The syringe on the needle. It has no effect on the force on the needle."""
+
+    model_config = ConfigDict(title="Syringe")
+
+    bore_mm: Number = _field("Bore", "Inner diameter of the barrel.", "d")
+    liquid_mL: Number = _field("Liquid", "Volume of liquid at the start.", "V_w")
+    air_mL: Number = _field("Air", "Volume of air at the start, at the pressure of the atmosphere.", "V_a", Decimal(0))
+    friction_N: Number = _field("Friction", "Dry friction of the plunger.", "F")
+    compliance_mL_per_kPa: Number = _field("Compliance", "By how much pressure widens barrel and seal.", "C")
+    resistance_kPa_s_per_mL: Number = _field("Resistance", "Flow resistance of the cannula for the liquid.", "R_c")
+    thumb_stiffness_N_per_mm: Number = _field(
+        "Thumb stiffness",
+        "Spring of the virtual coupling between thumb and plunger.",
+        "K",
+        from_si(_THUMB.stiffness, UNITS["N_per_mm"]),
+    )
+    thumb_damping_Ns_per_mm: Number = _field(
+        "Thumb damping", "Damper of this coupling.", "B", from_si(_THUMB.damping, UNITS["Ns_per_mm"])
+    )
+
+
 class MembraneTable(Table):
     """A membrane: a layer that grips the needle with dry friction (K06 section 2)."""
 
@@ -122,6 +150,14 @@ class MembraneTable(Table):
         "",
         "tissue",
     )
+    outflow_resistance_kPa_s_per_mL: Number = _field(
+        "Outflow resistance", "Flow resistance for liquid from the needle, in the membrane.", "R_t", _DENSE
+    )
+    outflow_pressure_kPa: Number = _field("Outflow pressure", "Pressure in the membrane.", "P_t", Decimal(0))
+    behind_resistance_kPa_s_per_mL: Number = _field(
+        "Resistance behind", "Flow resistance for liquid from the needle, in the space behind.", "R_t", _DENSE
+    )
+    behind_pressure_kPa: Number = _field("Pressure behind", "Pressure in the space behind.", "P_t", Decimal(0))
 
 
 class SceneFile(Table):
@@ -134,6 +170,7 @@ class SceneFile(Table):
     coupling: CouplingTable
     servo: ServoTable = Field(default_factory=ServoTable)
     display: DisplayTable = Field(default_factory=DisplayTable)
+    syringe: SyringeTable | None = Field(None, title="Syringe")
     membrane: list[MembraneTable] = _field("Membranes", "In the order in which their forces are added.")
 
 

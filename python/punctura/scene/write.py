@@ -10,11 +10,20 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from punctura._core import DisplaySettings, Scene
+from punctura._core import DisplaySettings, Membrane, PlacedMembrane, Scene, SyringeSettings
 from punctura.files.units import from_si, split_key
 from punctura.files.whole_file import write_whole
-from punctura.scene.schema import CouplingTable, DisplayTable, MembraneTable, NeedleTable, SceneFile, ServoTable
+from punctura.scene.schema import (
+    CouplingTable,
+    DisplayTable,
+    MembraneTable,
+    NeedleTable,
+    SceneFile,
+    ServoTable,
+    SyringeTable,
+)
 
+_DENSE = PlacedMembrane("", Membrane.unchecked(1, 0, 1, 0), (0, 0, 0), (0, -1, 0)).outflow  # the default
 _SKIPPED = ("gauge", "tip_angle_deg")  # the alternatives of diameter_mm and tip_angle_rad
 
 
@@ -27,8 +36,10 @@ def scene_text(scene: Scene) -> str:
     lines += _table("[servo]", ServoTable, _attributes(scene.servo, ServoTable))
     if scene.display != DisplaySettings():
         lines += _table("[display]", DisplayTable, _attributes(scene.display, DisplayTable))
+    if scene.syringe is not None:
+        lines += _table("[syringe]", SyringeTable, _syringe(scene.syringe))
     for placed in scene.membranes:
-        values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable)
+        values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable) | _outflow(placed)
         lines += _table("[[membrane]]", MembraneTable, values)
     return "\n".join(lines) + "\n"
 
@@ -40,6 +51,8 @@ def file_text(file: SceneFile) -> str:
         lines += ["", head, *_given(table)]
     if file.display != DisplayTable():
         lines += ["", "[display]", *_given(file.display)]
+    if file.syringe is not None:
+        lines += ["", "[syringe]", *_given(file.syringe)]
     for membrane in file.membrane:
         lines += ["", "[[membrane]]", *_given(membrane)]
     return "\n".join(lines) + "\n"
@@ -53,6 +66,20 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
 def _attributes(struct: object, model: type[Any]) -> dict[str, Any]:
     names = [split_key(key)[0] for key in model.model_fields]
     return {name: getattr(struct, name) for name in names if hasattr(struct, name)}
+
+
+def _syringe(settings: SyringeSettings) -> dict[str, Any]:
+    thumb = {"thumb_stiffness": settings.thumb.stiffness, "thumb_damping": settings.thumb.damping}
+    return _attributes(settings.syringe, SyringeTable) | thumb
+
+
+def _outflow(placed: PlacedMembrane) -> dict[str, float]:
+    """Empty for tissue that takes no liquid, as in most scenes."""
+    values: dict[str, float] = {}
+    for name, outlet in (("outflow", placed.outflow), ("behind", placed.outflow_behind)):
+        if outlet != _DENSE:
+            values |= {f"{name}_resistance": outlet.resistance, f"{name}_pressure": outlet.pressure}
+    return values
 
 
 def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:

@@ -41,6 +41,8 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return lambda session: session.set_compare(request.on)
         case ask.Strokes():
             return lambda session: _strokes(session, request.period)
+        case ask.PushPlunger():
+            return lambda session: _push_plunger(session, request.force)
         case ask.PlayMotion():
             motion = motion_of(session.shelf.open(request.recording))
             return lambda session: _needs_simulated(session, lambda: session.hand.motion(*motion, time.monotonic()))
@@ -105,6 +107,12 @@ def _edit(session: Session, loaded: Loaded) -> Done:
 def _strokes(session: Session, period: float) -> None:
     scene = session.run.loaded.scene
     _needs_simulated(session, lambda: session.hand.strokes(scene, period, time.monotonic()))
+
+
+def _push_plunger(session: Session, force: float) -> None:
+    if session.run.loaded.scene.syringe is None:
+        raise NotNow("the scene has no syringe")
+    session.thumb.push(session.run.loop, force, time.monotonic())
 
 
 def _needs_simulated(session: Session, do: Callable[[], None]) -> None:

@@ -22,6 +22,7 @@ from punctura.studio.rounds import Rounds
 from punctura.studio.run import Settings
 from punctura.studio.runs import Runs
 from punctura.studio.shelf import Shelf
+from punctura.studio.thumb import SimulatedThumb
 from punctura.studio.watchdog import Watchdog
 from punctura.studio.wire.messages import Notice
 from punctura.studio.wire.requests import Target
@@ -50,6 +51,7 @@ class Session(Runs):
         self.exercises = exercises or Exercises()
         self.experts = Experts(results.folder)
         self.failure: BaseException | None = None
+        self.thumb = SimulatedThumb()
         self._rounds = Rounds()
         self._target: Target | None = None
         self._stopping = threading.Event()
@@ -139,6 +141,7 @@ class Session(Runs):
             self.arming.asked_at(self.arming.pauses)  # what follows is the worker's own work
             now = time.monotonic()
             self.hand.drive(now)
+            self.thumb.turn(self.run.loop, now)
             if now >= pump_at:
                 self.defects.guard(self.turn)
                 pump_at = max(pump_at + PUMP_S, now)  # one turn takes all ticks that wait

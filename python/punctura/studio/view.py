@@ -33,6 +33,7 @@ def scene_view(
         laws=laws,
         tables=loaded.tables(),
         lumen=list(scene.lumen or ()),
+        syringe=scene.syringe is not None,
     )
 
 

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <thread>
 
+#include "punctura_runtime/loop/motor_rest.hpp"
+
 namespace punctura {
 
 void copy(const Snapshot& from, Snapshot& to) noexcept {
@@ -27,12 +29,6 @@ Loops& all_loops() {
   return all;
 }
 
-/// Guards `motor_use` of all devices.
-std::mutex& motor_use_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 }  // namespace
 
 ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings settings)
@@ -44,6 +40,8 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
       placer_(settings.placement),
       placed_(settings.placement != Placement{}) {
   if (auto problems = check(settings.placement); !problems.empty()) throw SceneError(std::move(problems));
+  if (settings.thumb && &settings.thumb->device() == device_.get())
+    throw std::invalid_argument("the thumb needs a device of its own, not the needle's");
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
   step_ = built(scene_).release();
@@ -95,8 +93,10 @@ void ServoLoop::start() {
       ask(reset_bit);  // do not take the motion since the last run for one of this run
   }
   try {
+    if (settings_.thumb) settings_.thumb->start();
     device_->start({&ServoLoop::call, this});
   } catch (...) {
+    if (settings_.thumb) settings_.thumb->stop();
     end_run();
     throw;
   }
@@ -107,6 +107,7 @@ void ServoLoop::stop() noexcept {
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
+  if (settings_.thumb) settings_.thumb->stop();
   asked_.fetch_and(~(arm_bit | pause_bit));  // requests of the run that has ended
   end_run();
 }
@@ -117,10 +118,7 @@ void ServoLoop::end_run() noexcept {
   running_ = false;
   const double now = seconds();
   if (last_begin_ != 0) step_->end(now - static_cast<double>(last_begin_) * 1e-9);
-  {
-    const std::lock_guard motors(motor_use_mutex());
-    device_->motor_use = {step_->spent(), now};
-  }
+  keep_spent(*device_, step_->spent(), now);
   handover_.collect();
   take();
 }
@@ -133,17 +131,9 @@ double ServoLoop::spent() {
 /// The time since the last run on this device counts as rest, until the first call. So a recorder that asks before
 /// start() gets the value with which the run begins.
 double ServoLoop::rested() {
-  const std::lock_guard lock(motor_use_mutex());
-  MotorUse& motors = device_->motor_use;
-  if (!rest_counted_) {
-    ForceBudget budget(settings_.limits.continuous_time, settings_.limits.continuous_force);
-    budget.set_spent(motors.spent);
-    const double now = seconds();
-    if (motors.time <= now) budget.spend(0, now - motors.time);
-    motors = {budget.spent(), now};
-    rest_counted_ = true;
-  }
-  return motors.spent;
+  if (rest_counted_) return kept_spent(*device_);
+  rest_counted_ = true;
+  return punctura::rested(*device_, settings_.limits, seconds());
 }
 
 void ServoLoop::stop_all() noexcept {
@@ -216,7 +206,11 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   take();
   obey();
 
-  const Snapshot& snapshot = step_->step(placed_ ? placer_.to_scene(sample) : sample);
+  DeviceSample in_scene = placed_ ? placer_.to_scene(sample) : sample;
+  in_scene.thumb = thumb_depth(sample);
+  const Snapshot& snapshot = step_->step(in_scene);
+  if (settings_.thumb)
+    settings_.thumb->give(snapshot.force_scale * snapshot.syringe.force, snapshot.state == ServoState::active);
   remember(snapshot);
   latest_.write([&](Snapshot& to) { copy(snapshot, to); });
   for (auto& ring : listeners_) ring->push(snapshot);
@@ -233,6 +227,17 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   return force;
 }
 
+/// The depth of the thumb on the plunger in this tick, m.
+double ServoLoop::thumb_depth(const DeviceSample& sample) noexcept {
+  if (!step_->syringe()) return 0;
+  if (settings_.thumb) return settings_.thumb->depth();
+  const double wanted = wanted_thumb_.load(std::memory_order_relaxed);
+  if (std::isnan(wanted)) return sample.thumb;
+  if (step_->fault() == Fault::none)
+    simulated_thumb_ = Thumb{}.step(simulated_thumb_, wanted, step_->syringe()->plunger().force(), period_);
+  return simulated_thumb_;
+}
+
 void ServoLoop::obey() noexcept {
   const std::uint32_t asked = asked_.load(std::memory_order_acquire);
   if (asked == 0) return;
@@ -241,6 +246,8 @@ void ServoLoop::obey() noexcept {
   asked_.fetch_and(~asked, std::memory_order_acq_rel);
   if (asked & reset_bit) {
     step_->reset();
+    if (settings_.thumb) settings_.thumb->reset();
+    simulated_thumb_ = 0;  // the reset fills the syringe
     remembered_ = 0;
   }
   if (asked & arm_bit) step_->arm();

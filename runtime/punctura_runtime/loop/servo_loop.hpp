@@ -1,6 +1,7 @@
 // Runs the servo step of a scene on a device.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -10,7 +11,9 @@
 #include "punctura/device/device.hpp"
 #include "punctura/device/placement.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura/syringe/thumb.hpp"
 #include "punctura_runtime/loop/histogram.hpp"
+#include "punctura_runtime/loop/thumb_loop.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
@@ -23,6 +26,7 @@ struct LoopSettings {
   ForceLimits limits{};
   Placement placement{};
   std::size_t history = 1000;                      ///< snapshots kept before a fault
+  std::shared_ptr<ThumbLoop> thumb{};              ///< a second device, which holds the plunger of the scene's syringe
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
 };
 
@@ -73,11 +77,18 @@ class ServoLoop {
   void pause() noexcept { ask(pause_bit); }  ///< no force; ticks continue
   void reset() noexcept;                     ///< clears a fault; disarmed
 
+  /// A simulated thumb pushes the plunger with this force, N, from 0 to strongest_thumb. Without a call, the thumb is
+  /// that of the sample. With a thumb device, it is that of the device, and this call has no effect.
+  void push_plunger(double force) noexcept {
+    wanted_thumb_.store(std::clamp(force, 0.0, strongest_thumb), std::memory_order_relaxed);
+  }
+
   /// Changes the scene, also while running: builds it here; the next tick takes it and fades it in. Throws SceneError
   /// and then changes nothing.
   void exchange(Scene scene);
 
   Device& device() noexcept { return *device_; }
+  ThumbLoop* thumb() noexcept { return settings_.thumb.get(); }
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
@@ -94,6 +105,7 @@ class ServoLoop {
   void end_run() noexcept;
   double rested();
   double seconds() const noexcept { return static_cast<double>(settings_.now_ns()) * 1e-9; }
+  double thumb_depth(const DeviceSample& sample) noexcept;
   void take() noexcept;
   void obey() noexcept;
   void remember(const Snapshot& snapshot) noexcept;
@@ -117,10 +129,12 @@ class ServoLoop {
   std::int64_t last_begin_ = 0;
   std::vector<Snapshot> history_;
   std::uint64_t remembered_ = 0;
+  double simulated_thumb_ = 0;  ///< m
 
   // Shared between threads.
   std::atomic<std::uint32_t> asked_{0};
-  std::atomic<bool> frozen_{false};  ///< a fault is latched: history_ is no longer written
+  std::atomic<double> wanted_thumb_{unknown};  ///< N; NaN: no simulated thumb
+  std::atomic<bool> frozen_{false};            ///< a fault is latched: history_ is no longer written
   std::atomic<std::uint64_t> ticks_{0}, late_{0};
   Handover<ServoStep> handover_;
   TripleBuffer<Snapshot> latest_;

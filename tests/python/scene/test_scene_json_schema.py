@@ -11,7 +11,7 @@ from punctura.files.units import split_key
 
 TABLES = {
     "needle": "NeedleTable", "coupling": "CouplingTable", "servo": "ServoTable", "display": "DisplayTable",
-    "membrane": "MembraneTable",
+    "syringe": "SyringeTable", "membrane": "MembraneTable",
 }  # fmt: skip
 
 

@@ -60,7 +60,7 @@ ONE_PROBLEM = {
     ),
     "an unknown table": (
         ("[needle]", "[foo]\n[needle]"),
-        "foo: unknown key; known here: name, needle, coupling, servo, display, membrane",
+        "foo: unknown key; known here: name, needle, coupling, servo, display, syringe, membrane",
     ),
     "text for a number": (
         ("stiffness_N_per_mm = 0.4", 'stiffness_N_per_mm = "stiff"'),

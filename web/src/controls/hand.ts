@@ -3,6 +3,7 @@ import type { Panel } from "../panel.ts";
 import { angleRow } from "./hand/angle.ts";
 import { whyBarred } from "./hand/barred.ts";
 import { keyHelp, placeRows } from "./hand/place.ts";
+import { plungerRows } from "./hand/plunger.ts";
 import { scriptRows } from "./hand/scripts.ts";
 import { senseRows } from "./hand/senses.ts";
 
@@ -11,7 +12,7 @@ export const handPanel: Panel = (host, app) => {
   const hand = handOf(app);
   const fields = document.createElement("fieldset");
   fields.append(placeRows(app, hand), angleRow(hand), scriptRows(app, hand));
-  host.append(whyBarred(app, hand), fields, senseRows(app, hand), keyHelp());
+  host.append(whyBarred(app, hand), fields, plungerRows(app), senseRows(app, hand), keyHelp());
   hand.barred.watch((why) => {
     fields.disabled = why !== null;
   });

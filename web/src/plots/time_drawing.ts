@@ -17,6 +17,7 @@ import type { Window } from "./window.ts";
 
 const MM = 1e3;
 const FORCE_SHARE = 0.58;
+const THUMB_DASH = [8, 3] as const;
 const WIDE = 5; // px: the model's force stays visible behind an equal felt force
 const SIZES = [["model", "model_force"], ["felt", "force"]] as const; // biome-ignore format: a table
 
@@ -31,11 +32,16 @@ export interface TimePicture {
   readonly comparison: LabComparison | null;
 }
 
+const hasThumb = (source: Source): boolean => source.scene.value?.syringe === true;
+const thumbCurve = (source: Source, theme: Theme): Curve[] =>
+  hasThumb(source) ? [{ id: "thumb", text: "thumb", colour: theme.accent, dash: THUMB_DASH }] : [];
+
 /** The curves that the plot can show, for its legend. */
 export const timeCurves = ({ source, window, comparison }: TimePicture, theme: Theme): Curve[] => [
   ...membraneCurves(source, theme),
   { id: "model", text: "model force", colour: theme.quiet, width: WIDE },
   ...forceCurves(source, window.first, window.end, theme),
+  ...thumbCurve(source, theme),
   ...limitCurve(source.history, window, theme),
   ...meanCurve(comparison, theme),
 ];
@@ -78,6 +84,8 @@ export class TimeDrawing {
       extent.takeNumbers(this.ys, window.end - window.first);
     }
     if (hidden.shows("permitted")) extent.takeColumn(history, window.first, window.end, "ceiling", 0, 1);
+    if (hasThumb(source) && hidden.shows("thumb"))
+      extent.takeColumn(history, window.first, window.end, "thumb_force", 0, -1);
     this.rangeForce.follow(extent.low, extent.high, now);
     extent.forget();
     extent.take(-1);
@@ -169,6 +177,10 @@ export class TimeDrawing {
       if (!hidden.shows(id)) continue;
       gatherSize(history, first, end, column, gain, zero, this.ys);
       this.drawLine(pen, n, looks[id]);
+    }
+    if (hasThumb(source) && hidden.shows("thumb")) {
+      gather(history, first, end, "thumb_force", 0, -gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: theme.accent, width: 1.5, dash: THUMB_DASH });
     }
     if (hidden.shows("permitted")) {
       gather(history, first, end, "ceiling", 0, gain, zero, this.ys);

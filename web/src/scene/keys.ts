@@ -1,4 +1,5 @@
 import type { Hand } from "../hand/hand.ts";
+import { FIRM, type Thumb } from "../hand/thumb.ts";
 import { scaled } from "../hand/vectors.ts";
 import type { OrbitCamera } from "./camera.ts";
 
@@ -15,10 +16,11 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["+ −", "zoom in, out"],
   ["A D W S", "orbit the scene"],
   ["R", "show the last pop again, slowly"],
+  ["Space", "push the syringe's plunger, while held"],
 ];
 
 /** Handles keys while the view has the focus. */
-export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, again: () => void): void {
+export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, again: () => void, thumb: Thumb): void {
   let run = hand.run; // the run in which the last key was pressed
   canvas.addEventListener("keydown", (event) => {
     if (!event.repeat) run = hand.run;
@@ -40,6 +42,7 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
       w: () => orbit.orbit(0, 12),
       s: () => orbit.orbit(0, -12),
       r: again,
+      " ": () => thumb.push("key", FIRM),
     };
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;
@@ -47,4 +50,8 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     // A key held since an earlier run must be released first.
     if (!event.repeat || run === hand.run) act();
   });
+  canvas.addEventListener("keyup", (event) => {
+    if (event.key === " ") thumb.push("key", 0);
+  });
+  canvas.addEventListener("blur", () => thumb.push("key", 0));
 }

@@ -29,6 +29,8 @@ export class Moment {
   readonly modelForce = new Vector3();
   /** How much of the model's force the device gives, before the limits. */
   scale = 1;
+  /** Depth of the syringe's plunger, mm; NaN if the scene has no syringe. */
+  plunger = Number.NaN;
   membranes: MembraneMoment[] = [];
 
   /** Reads the source's shown tick. Returns false before its first tick. */
@@ -46,6 +48,7 @@ export class Moment {
     this.force.fromArray(history.row("force", tick));
     this.modelForce.fromArray(history.row("model_force", tick));
     this.scale = scaleOf(source, tick);
+    this.plunger = (history.row("plunger", tick)[0] ?? Number.NaN) * MM;
     this.readMembranes(source, tick);
     return Number.isFinite(this.tip.x + this.tip.y + this.tip.z);
   }

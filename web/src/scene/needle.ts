@@ -18,7 +18,7 @@ import { Level } from "./needle_level.ts";
 import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
 import { atTip, type Content } from "./needle_space.ts";
-import { Syringe } from "./needle_syringe.ts";
+import { SYRINGE, Syringe } from "./needle_syringe.ts";
 import { outOfView } from "./out_of_view.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
@@ -133,9 +133,13 @@ export class Needle {
     const bleeds = content === "blood";
     this.mouth.color.copy(bleeds ? this.theme.color("blood") : EMPTY);
     const filled = this.blood.step(bleeds ? 1 : 0, moment.time, bleeds ? FILLS : DRAINS);
-    // Saline that has left the syringe does not return: it is refilled when the needle is out of the tissue.
-    const yields = this.look === "tuohy" && YIELDING.has(content);
-    const goal = yields ? 1 : content === "outside" ? 0 : this.pressed.value;
+    // Without a syringe in the scene, the picture's own empties in the spaces where resistance is lost. What has left
+    // it does not return: it is refilled when the needle is out of the tissue.
+    const real = Number.isFinite(moment.plunger);
+    const yields = !real && this.look === "tuohy" && YIELDING.has(content);
+    const goal = real
+      ? Math.min(1, Math.max(0, moment.plunger / SYRINGE.travel))
+      : yields ? 1 : content === "outside" ? 0 : this.pressed.value; // biome-ignore format: a table
     const moved = this.pressed.step(goal, moment.time, yields ? YIELDS * open : 100, true);
     if (filled) this.hub.show(this.blood.value);
     if (moved) this.syringe.show(this.pressed.value);

@@ -1,4 +1,5 @@
 import { handOf } from "../hand/hand.ts";
+import { thumbOf } from "../hand/thumb.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
@@ -81,7 +82,7 @@ export const view: Panel = (host, app) => {
   hand.barred.watch((why) => {
     if (why !== null) drag.cancel();
   });
-  viewKeys(canvas, hand, orbit, () => showLastAgain(app));
+  viewKeys(canvas, hand, orbit, () => showLastAgain(app), thumbOf(app));
 
   let built: SceneView | null = null;
   const build = (scene: SceneView): void => {

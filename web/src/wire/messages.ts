@@ -19,6 +19,7 @@ export type Request =
   | Reset
   | Target
   | Strokes
+  | PushPlunger
   | PlayMotion
   | Edit
   | Load
@@ -111,6 +112,7 @@ export interface SceneView {
     [k: string]: unknown;
   };
   lumen: number[];
+  syringe?: boolean;
 }
 /**
  * One membrane as the page draws it, SI.
@@ -345,6 +347,14 @@ export interface Strokes {
   id: number;
   do: "strokes";
   period?: number;
+}
+/**
+ * A simulated thumb pushes the plunger of the scene's syringe. It lets go after 1 s without a further request.
+ */
+export interface PushPlunger {
+  id: number;
+  do: "push_plunger";
+  force: number;
 }
 /**
  * The simulated hand follows a recording's tip, until its end or the next target.

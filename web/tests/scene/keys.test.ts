@@ -1,5 +1,6 @@
 import { expect, it } from "vitest";
 import type { Hand } from "../../src/hand/hand.ts";
+import type { Thumb } from "../../src/hand/thumb.ts";
 import type { OrbitCamera } from "../../src/scene/camera.ts";
 import { viewKeys } from "../../src/scene/keys.ts";
 
@@ -7,7 +8,7 @@ it("a key that was held when a new run began moves nothing until it is pressed a
   const canvas = new EventTarget();
   const pushed: number[] = [];
   const hand = { run: 0, push: (depth: number) => pushed.push(depth) };
-  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {});
+  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {}, {} as Thumb);
   const press = (repeat: boolean): void => {
     canvas.dispatchEvent(Object.assign(new Event("keydown", { cancelable: true }), { key: "ArrowDown", repeat }));
   };
@@ -21,4 +22,20 @@ it("a key that was held when a new run began moves nothing until it is pressed a
   press(false);
   press(true);
   expect(pushed).toHaveLength(4);
+});
+
+it("Space pushes the plunger while it is held, and losing the focus lets go", () => {
+  const canvas = new EventTarget();
+  const pushes: number[] = [];
+  const thumb = { push: (_by: string, force: number) => pushes.push(force) };
+  viewKeys(
+    canvas as unknown as HTMLElement, { run: 0 } as Hand, {} as OrbitCamera, () => {}, thumb as unknown as Thumb,
+  ); // biome-ignore format: short
+  const key = (type: string): void => {
+    canvas.dispatchEvent(Object.assign(new Event(type, { cancelable: true }), { key: " " }));
+  };
+  key("keydown");
+  key("keyup");
+  canvas.dispatchEvent(new Event("blur"));
+  expect(pushes).toEqual([4, 0, 0]);
 });

@@ -67,3 +67,4 @@ class SceneView(Part):
     laws: list[LawCurve]
     tables: Tables
     lumen: list[int]  # indices of the two membranes with blood between them; empty without blood
+    syringe: bool = False  # whether a syringe with a plunger is on the needle

@@ -54,6 +54,13 @@ class Strokes(_Request):
     period: Annotated[float, Field(ge=0.5, le=60, allow_inf_nan=False)] = 4.0  # s, in and out
 
 
+class PushPlunger(_Request):
+    """A simulated thumb pushes the plunger of the scene's syringe. It lets go after 1 s without a further request."""
+
+    do: Literal["push_plunger"] = "push_plunger"
+    force: Annotated[float, Field(ge=0, le=15, allow_inf_nan=False)]  # N
+
+
 class PlayMotion(_Request):
     """The simulated hand follows a recording's tip, until its end or the next target."""
 
@@ -160,12 +167,12 @@ class TripFault(_Request):
 
 
 NumberedRequest = (
-    TakeControl | Arm | Pause | Reset | Strokes | PlayMotion | Edit | Load | LoadText | Compare
+    TakeControl | Arm | Pause | Reset | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
-    TakeControl | Arm | Pause | Reset | Target | Strokes | PlayMotion | Edit | Load | LoadText | Compare
+    TakeControl | Arm | Pause | Reset | Target | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),

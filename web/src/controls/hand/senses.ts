@@ -1,15 +1,20 @@
 import { buzz, firstGamepad, rumble, Sticks } from "../../hand/gamepad.ts";
 import type { Hand } from "../../hand/hand.ts";
+import { thumbOf } from "../../hand/thumb.ts";
 import { element, everyFrame } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { Felt } from "./felt.ts";
 import { soundOf } from "./sound.ts";
+
+const RIGHT_TRIGGER = 7; // of the standard gamepad
+const FULL_TRIGGER = 8; // N. Illustrative
 
 /** Gamepad and sound; sound also works for recordings. */
 export function senseRows(app: App, hand: Hand): HTMLElement {
   const sound = soundOf(app);
   const felt = new Felt();
   const sticks = new Sticks(hand);
+  const thumb = thumbOf(app);
   const pad = element("output", { class: "pad-name" });
   const loud = element("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.6, "aria-label": "Volume" });
   const toggle = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Sound is off");
@@ -34,7 +39,10 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     before = now;
     const source = app.source.value;
     const found = firstGamepad();
-    if (found) sticks.lead(found, seconds);
+    if (found) {
+      sticks.lead(found, seconds);
+      thumb.push("trigger", FULL_TRIGGER * (found.buttons[RIGHT_TRIGGER]?.value ?? 0), now);
+    }
     for (const pop of felt.pops(source)) {
       sound.click(pop.drop);
       if (found) rumble(found, pop.drop);
@@ -46,7 +54,8 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
     name = words;
     pad.textContent = words;
     pad.title = found
-      ? "Left stick: along the needle, to the side. Right stick: tilt, nearer. It vibrates at a pop."
+      ? "Left stick: along the needle, to the side. Right stick: tilt, nearer. Right trigger: the plunger. " +
+        "It vibrates at a pop."
       : "";
   });
   return element(

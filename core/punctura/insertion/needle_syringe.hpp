@@ -1,0 +1,73 @@
+// The syringe on a needle: its plunger, and the outlet at the place where the needle's opening is.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <utility>
+
+#include "punctura/model/storage.hpp"
+#include "punctura/syringe/opening.hpp"
+#include "punctura/syringe/plunger.hpp"
+
+namespace punctura {
+
+/// A membrane and the space behind it, as liquid from the needle meets them.
+template <typename Scalar>
+struct LayerOutlets {
+  std::uint32_t membrane;  ///< its number in the scene
+  Scalar thickness;        ///< H, m
+  BasicOutlet<Scalar> inside, behind;
+};
+
+/// A plunger whose outlet follows the proxies of an insertion.
+template <typename Scalar_, typename Storage = HeapStorage>
+class NeedleSyringe {
+ public:
+  using Scalar = Scalar_;
+
+  /// opening: X, length of the needle's slanted face, m. layers: from the front to the back.
+  NeedleSyringe(const BasicPlunger<Scalar>& plunger, Scalar opening, std::span<const LayerOutlets<Scalar>> layers)
+      : plunger_(plunger), opening_(opening) {
+    layers_.reserve(layers.size());
+    for (const auto& layer : layers) layers_.emplace_back(layer);
+  }
+
+  void reset() noexcept { plunger_.reset(); }
+  /// Continues with the contents and the plunger of another syringe.
+  void resume(const NeedleSyringe& previous) noexcept { plunger_.set_state(previous.plunger_.state()); }
+
+  /// One tick, after the insertion's. thumb: depth of the thumb, m. Returns the force on the thumb, N.
+  template <typename Proxies>
+  Scalar step(Scalar thumb, const Proxies& proxies) noexcept {
+    Opening<Scalar> opening(opening_);
+    for (const auto& layer : layers_) {
+      if (layer.membrane >= proxies.size()) std::abort();
+      const auto& proxy = proxies[layer.membrane];
+      const bool in = inside(proxy.phase());
+      const Scalar U = in ? layer.thickness / proxy.state().cos_beta : layer.thickness;  // K06 (17)
+      opening.pass({in ? proxy.depth() : Scalar(0), U, layer.inside, layer.behind});
+    }
+    return plunger_.step(thumb, opening.outlet());
+  }
+
+  static void archive(auto& self, auto& state) { BasicPlunger<Scalar>::archive(self.plunger_, state); }
+  void describe(auto& parameters) const {
+    plunger_.describe(parameters);
+    parameters.numbers(opening_);
+    for (const auto& layer : layers_) {
+      parameters.index(layer.membrane, 0);
+      parameters.numbers(layer.thickness, layer.inside.resistance, layer.inside.pressure, layer.behind.resistance,
+                         layer.behind.pressure);
+    }
+  }
+
+  const BasicPlunger<Scalar>& plunger() const noexcept { return plunger_; }
+
+ private:
+  BasicPlunger<Scalar> plunger_;
+  Scalar opening_;
+  typename Storage::template Membranes<LayerOutlets<Scalar>> layers_;
+};
+
+}  // namespace punctura

@@ -1,0 +1,122 @@
+// The plunger of a syringe under the thumb: the second hand of a loss of resistance.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "punctura/proxy/coupling.hpp"
+#include "punctura/proxy/solver.hpp"
+#include "punctura/syringe/contents.hpp"
+
+namespace punctura {
+
+/// The state of a plunger between two ticks.
+template <typename Scalar>
+struct PlungerState {
+  bool started = false;
+  Phase phase = Phase::sticking;
+  Scalar p{};  ///< p(k), m: depth of the thumb
+  Scalar e{};  ///< e(k) = q(k) - p(k), m
+  Scalar f{};  ///< f(k), N, on the thumb
+  Contents<Scalar> contents{};
+
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started);
+    state.choice(self.phase, Phase::sliding_out);
+    state.numbers(self.p, self.e, self.f);
+    Contents<Scalar>::archive(self.contents, state);
+    state.require(inside(self.phase) && is_place(self.p));
+  }
+};
+
+/// A plunger that the thumb pushes, through a virtual coupling like that of a needle's proxy.
+///
+/// Dry friction holds the plunger against the difference between thumb and pressure. It sticks if the thumb's force
+/// lies in the band -A P -+ F (A: its area). Else it slides, and the force is on the edge of the band at the pressure
+/// of the same tick. Both are solved in closed form: docs/syringe.md.
+template <typename Scalar_>
+class BasicPlunger {
+ public:
+  using Scalar = Scalar_;
+  using State = PlungerState<Scalar>;
+  static_assert(std::is_trivially_copyable_v<State>);
+
+  /// period: T, s. Check the syringe, the coupling and the period first.
+  BasicPlunger(const BasicSyringe<Scalar>& syringe, const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
+      : syringe_(syringe), coupling_(coupling, period) {
+    reset();
+  }
+
+  /// The full syringe, with the thumb at rest on the plunger.
+  void reset() noexcept {
+    state_ = {};
+    state_.contents = {syringe_.liquid, syringe_.air};
+  }
+
+  /// One tick. p: depth of the thumb, m, inwards from where the plunger starts. Returns the force on the thumb, N:
+  /// negative while it pushes.
+  ///
+  /// If p is NaN or beyond 1000 km, it returns NaN and the state does not change.
+  Scalar step(Scalar p, const BasicOutlet<Scalar>& outlet) noexcept {
+    if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
+    const auto& c = coupling_;
+    const Scalar A = syringe_.area(), F = syringe_.friction;
+    const Scalar p_prev = state_.started ? state_.p : p;
+    const Scalar q_prev = p_prev + state_.e;
+    const Scalar f_star = c.holding_force(p, p_prev, state_.e, {});  // holds the plunger still, as in K06 (27)
+
+    const Room<Scalar> held{volume(q_prev), syringe_.compliance};
+    Contents<Scalar> contents = filled(state_.contents, syringe_, outlet, held, c.T);
+    const Scalar middle = -A * contents.pressure;
+    Scalar f = f_star;
+    Phase phase = Phase::sticking;
+    if (f_star < middle - F || f_star > middle + F) {
+      const Scalar edge = f_star < middle - F ? -F : F;
+      phase = f_star < middle - F ? Phase::sliding_in : Phase::sliding_out;
+      // f = f* + g (q - q_prev) on the coupling and f = -A P + edge on the plunger give
+      // q - q_prev = (edge - f* - A P) / g: while it slides, the pressure pushes the plunger back.
+      const Room<Scalar> sliding{held.volume - A * (edge - f_star) * c.inv_g, held.growth + A * A * c.inv_g};
+      contents = filled(state_.contents, syringe_, outlet, sliding, c.T);
+      f = -A * contents.pressure + edge;
+    }
+    state_.e = state_.e - (p - p_prev) + c.inv_g * (f - f_star);  // K06 (25) and (26) combined
+    state_.started = true;
+    state_.p = p;
+    state_.f = f;
+    state_.phase = phase;
+    state_.contents = contents;
+    return f;
+  }
+
+  const State& state() const noexcept { return state_; }
+  void set_state(const State& state) noexcept { state_ = state; }
+
+  static void archive(auto& self, auto& state) { State::archive(self.state_, state); }
+  void describe(auto& parameters) const {
+    const auto& s = syringe_;
+    parameters.numbers(s.bore, s.liquid, s.air, s.friction, s.compliance, s.resistance);
+    coupling_.describe(parameters);
+  }
+
+  const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }
+  const SampledCoupling<Scalar>& coupling() const noexcept { return coupling_; }
+  Scalar force() const noexcept { return state_.f; }                     ///< f(k), N, on the thumb
+  Scalar position() const noexcept { return state_.p + state_.e; }       ///< q(k), m, of the plunger
+  Scalar pressure() const noexcept { return state_.contents.pressure; }  ///< P(k), Pa
+  Scalar left() const noexcept { return state_.contents.left; }          ///< through the needle so far, m^3
+  Phase phase() const noexcept { return state_.phase; }
+
+ private:
+  /// Volume of the barrel with the plunger at q (m), without pressure, m^3. Beyond the barrel's floor it is negative:
+  /// then the barrel's compliance is the stop.
+  Scalar volume(Scalar q) const noexcept { return syringe_.liquid + syringe_.air - syringe_.area() * q; }
+
+  BasicSyringe<Scalar> syringe_;
+  SampledCoupling<Scalar> coupling_;
+  State state_{};
+};
+
+using Plunger = BasicPlunger<double>;
+
+}  // namespace punctura

@@ -1,0 +1,82 @@
+// A syringe: its parameters, and the resistance of a cannula.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "punctura/model/validity.hpp"
+
+namespace punctura {
+
+/// A syringe with liquid, air, or both. The plunger starts where the contents are at the pressure of the atmosphere.
+template <typename Scalar>
+struct BasicSyringe {
+  Scalar bore;        ///< inner diameter of the barrel, m
+  Scalar liquid;      ///< V_w at the start, m^3
+  Scalar air;         ///< V_a at the start, at the pressure of the atmosphere, m^3
+  Scalar friction;    ///< F, dry friction of the plunger, N
+  Scalar compliance;  ///< C: by how much the pressure widens barrel and seal, m^3/Pa
+  Scalar resistance;  ///< R_c, flow resistance of the cannula for the liquid, Pa s/m^3
+
+  /// Area of the plunger, m^2.
+  Scalar area() const noexcept { return std::numbers::pi_v<Scalar> / 4 * bore * bore; }
+};
+
+using Syringe = BasicSyringe<double>;
+
+/// What the opening of the needle leads to: a pressure behind a flow resistance.
+///
+/// What flows back into the syringe counts as liquid.
+template <typename Scalar>
+struct BasicOutlet {
+  Scalar resistance;  ///< R_t for the liquid, Pa s/m^3; 0 in open air
+  Scalar pressure;    ///< P_t above that of the atmosphere, Pa
+};
+
+using Outlet = BasicOutlet<double>;
+
+inline constexpr double atmosphere = 101325;          ///< P_0, Pa: the standard atmosphere
+inline constexpr double liquid_viscosity = 1.002e-3;  ///< of water at 20 C, Pa s
+/// How much more easily air flows than the liquid: the ratio of their viscosities at 20 C, 1.002e-3 / 1.81e-5.
+inline constexpr double air_flows_easier = 55.4;
+
+/// Flow resistance of a tube for the liquid, Pa s/m^3: 128 mu L / (pi d^4), by Hagen and Poiseuille.
+///
+/// bore: inner diameter d, m. length: L, m.
+inline double tube_resistance(double bore, double length) noexcept {
+  return 128 * liquid_viscosity * length / (std::numbers::pi * bore * bore * bore * bore);
+}
+
+inline constexpr FieldOf<Syringe> syringe_fields[] = {
+    {{"bore", "d", "m", {0, no_bound, true, true, "must be greater than 0"}}, &Syringe::bore},
+    {{"liquid", "V_w", "m^3", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::liquid},
+    {{"air", "V_a", "m^3", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::air},
+    {{"friction", "F", "N", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::friction},
+    {{"compliance",
+      "C",
+      "m^3/Pa",
+      {0, no_bound, true, true, "must be greater than 0: a rigid barrel has no single pressure"}},
+     &Syringe::compliance},
+    {{"resistance", "R_c", "Pa s/m^3", {0, no_bound, true, true, "must be greater than 0"}}, &Syringe::resistance},
+};
+
+inline constexpr Range resistance_range = {0, no_bound, false, true, "must be 0 (open) or more"};
+inline constexpr Range pressure_range = {-atmosphere, no_bound, true, true,
+                                         "must be greater than -101325 Pa: there is no lower pressure than none"};
+inline constexpr FieldOf<Outlet> outlet_fields[] = {
+    {{"resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
+    {{"pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
+};
+
+inline bool check(const Syringe& syringe, const std::string& path, std::vector<Problem>& problems) {
+  const bool good = check_fields(syringe_fields, syringe, path, problems);
+  if (!good || syringe.liquid + syringe.air > 0) return good;
+  problems.push_back({path, 0, "liquid or air must be greater than 0: an empty syringe has no plunger to push"});
+  return false;
+}
+
+inline bool check(const Outlet& outlet, const std::string& path, std::vector<Problem>& problems) {
+  return check_fields(outlet_fields, outlet, path, problems);
+}
+
+}  // namespace punctura

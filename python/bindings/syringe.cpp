@@ -1,0 +1,167 @@
+// core/punctura/syringe: the plunger of a syringe under the thumb.
+#include <tuple>
+
+#include "arguments.hpp"
+#include "bindings.hpp"
+#include "punctura/scene/check.hpp"
+#include "punctura/syringe/opening.hpp"
+#include "punctura/syringe/plunger.hpp"
+#include "state.hpp"
+#include "value.hpp"
+
+#include <nanobind/stl/tuple.h>
+
+namespace punctura::bindings {
+namespace {
+
+Syringe make_syringe(double bore, double liquid, double air, double friction, double compliance, double resistance) {
+  const Syringe made{bore, liquid, air, friction, compliance, resistance};
+  std::vector<Problem> problems;
+  check(made, "syringe", problems);
+  raise_if(problems);
+  return made;
+}
+
+Outlet make_outlet(double resistance, double pressure) {
+  const Outlet made{resistance, pressure};
+  std::vector<Problem> problems;
+  check(made, "outlet", problems);
+  raise_if(problems);
+  return made;
+}
+
+/// A plunger that keeps its constructor arguments.
+struct GivenPlunger : Plunger, OneThread {
+  Coupling given_coupling;
+  double period;
+
+  GivenPlunger(const Syringe& syringe, const Coupling& coupling, double period)
+      : Plunger(syringe, coupling, period), given_coupling(coupling), period(period) {}
+  std::vector<std::byte> save() const { return save_state<Plunger>(*this); }
+  bool load(std::span<const std::byte> state) { return load_state<Plunger>(*this, state); }
+  nb::tuple arguments() const { return nb::make_tuple(syringe(), given_coupling, period); }
+};
+
+GivenPlunger make_plunger(Syringe syringe, Coupling coupling, double period) {
+  std::vector<Problem> problems;
+  check(coupling, problems);
+  check_period(period, problems);
+  raise_if(problems);
+  return {syringe, coupling, period};
+}
+
+void check_depth(double depth) {
+  if (!is_place(depth)) throw nb::value_error("p must be a finite depth within 1000 km, in m");
+}
+
+using Layers = std::vector<std::tuple<double, double, Outlet, Outlet>>;
+
+Outlet at_opening(const Layers& given, double length) {
+  std::vector<LayerAtTip<double>> layers;
+  for (const auto& [depth, path_length, inside, behind] : given) {
+    if (!std::isfinite(depth) || !std::isfinite(path_length) || path_length < 0)
+      throw nb::value_error("layers: each depth and path length must be finite, and no path length below 0 m");
+    layers.push_back({depth, path_length, inside, behind});
+  }
+  if (!(length > 0 && std::isfinite(length))) throw nb::value_error("length must be greater than 0 m and finite");
+  return outlet_at(std::span<const LayerAtTip<double>>(layers), length);
+}
+
+}  // namespace
+
+void bind_syringe(nb::module_& m) {
+  auto syringe =
+      nb::class_<Syringe>(m, "Syringe", "A syringe with liquid, air, or both. docs/syringe.md")
+          .def_static(
+              "unchecked",
+              [](double bore, double liquid, double air, double friction, double compliance, double resistance) {
+                return Syringe{bore, liquid, air, friction, compliance, resistance};
+              },
+              nb::arg("bore"), nb::arg("liquid"), nb::arg("air"), nb::arg("friction"), nb::arg("compliance"),
+              nb::arg("resistance"), "Creates a syringe without checks. The scene that uses it checks all values.")
+          .def_ro("bore", &Syringe::bore, "Inner diameter of the barrel, m")
+          .def_ro("liquid", &Syringe::liquid, "V_w at the start, m^3")
+          .def_ro("air", &Syringe::air, "V_a at the start, at the pressure of the atmosphere, m^3")
+          .def_ro("friction", &Syringe::friction, "F, dry friction of the plunger, N")
+          .def_ro("compliance", &Syringe::compliance, "C of barrel and seal, m^3/Pa")
+          .def_ro("resistance", &Syringe::resistance, "R_c of the cannula for the liquid, Pa s/m^3")
+          .def_prop_ro("area", &Syringe::area, "Area of the plunger, m^2");
+  def_init(syringe,
+           {{"bore", "float"},
+            {"liquid", "float"},
+            {"air", "float"},
+            {"friction", "float"},
+            {"compliance", "float"},
+            {"resistance", "float"}},
+           &make_syringe, "Raises ConfigurationError.");
+  def_value(syringe, {"bore", "liquid", "air", "friction", "compliance", "resistance"});
+
+  auto outlet = nb::class_<Outlet>(m, "Outlet", "What the opening of a needle leads to. docs/syringe.md")
+                    .def_static(
+                        "unchecked", [](double resistance, double pressure) { return Outlet{resistance, pressure}; },
+                        nb::arg("resistance"), nb::arg("pressure"),
+                        "Creates an outlet without checks. The scene that uses it checks all values.")
+                    .def_ro("resistance", &Outlet::resistance, "R_t for the liquid, Pa s/m^3; 0 in open air")
+                    .def_ro("pressure", &Outlet::pressure, "P_t above that of the atmosphere, Pa");
+  def_init(outlet, {{"resistance", "float"}, {"pressure", "float", nb::float_(0.0)}}, &make_outlet,
+           "Raises ConfigurationError.");
+  def_value(outlet, {"resistance", "pressure"});
+
+  auto plunger = nb::class_<GivenPlunger>(m, "Plunger", nb::is_final(),
+                                          "The plunger of a syringe under the thumb, tick by tick. docs/syringe.md");
+  def_init(plunger, {{"syringe", "Syringe"}, {"coupling", "Coupling"}, {"period", "float"}}, &make_plunger,
+           "period: T, s. Raises ConfigurationError.");
+  def_state(plunger);
+  def_repr(plunger, "<Plunger {0.phase.name}: {0.position:g} m, {0.force:g} N, {0.pressure:g} Pa>");
+  plunger
+      .def(
+          "reset",
+          [](GivenPlunger& p) {
+            p.must_rest();
+            p.reset();
+          },
+          "Resets to the full syringe.")
+      .def(
+          "step",
+          [](GivenPlunger& self, double p, const Outlet& outlet) {
+            check_depth(p);
+            return self.step(p, outlet);
+          },
+          nb::arg("p"), nb::arg("outlet"),
+          "Makes one tick. Returns the force on the thumb, N; negative while it pushes.\n\n"
+          "p: depth of the thumb, m, inwards from where the plunger starts. Raises ValueError.")
+      .def(
+          "peek",
+          [](const GivenPlunger& self, double p, const Outlet& outlet) {
+            check_depth(p);
+            return Plunger(self).step(p, outlet);
+          },
+          nb::arg("p"), nb::arg("outlet"), "The force of step(p, outlet), without changing the state.")
+      .def_prop_ro(
+          "syringe", [](const GivenPlunger& p) { return p.syringe(); }, "The syringe at the start")
+      .def_prop_ro(
+          "force", [](const GivenPlunger& p) { return p.force(); }, "f(k), N, on the thumb")
+      .def_prop_ro(
+          "position", [](const GivenPlunger& p) { return p.position(); }, "q(k), m, of the plunger")
+      .def_prop_ro(
+          "pressure", [](const GivenPlunger& p) { return p.pressure(); }, "P(k) above that of the atmosphere, Pa")
+      .def_prop_ro(
+          "left", [](const GivenPlunger& p) { return p.left(); },
+          "Volume that left through the needle so far, m^3; negative if more came back")
+      .def_prop_ro(
+          "liquid", [](const GivenPlunger& p) { return p.state().contents.liquid; }, "In the barrel now, m^3")
+      .def_prop_ro(
+          "air", [](const GivenPlunger& p) { return p.state().contents.air; },
+          "In the barrel now, m^3 at the pressure of the atmosphere")
+      .def_prop_ro("phase", [](const GivenPlunger& p) { return p.phase(); });
+
+  m.def("tube_resistance", &tube_resistance, nb::arg("bore"), nb::arg("length"),
+        "Flow resistance of a tube for water at 20 C, Pa s/m^3, by Hagen and Poiseuille. bore, length: m.");
+  m.def("outlet_at", &at_opening, nb::arg("layers"), nb::arg("length"),
+        nb::sig("def outlet_at(layers: Sequence[tuple[float, float, Outlet, Outlet]], length: float) -> Outlet"),
+        "One outlet for the layers beside a needle's opening of this length (m).\n\n"
+        "layers, from the front to the back: depth of the point in the membrane (m; 0 outside), length of the\n"
+        "needle's path through it (m), the outlet inside it, and that behind it. Raises ValueError.");
+}
+
+}  // namespace punctura::bindings

@@ -1,0 +1,52 @@
+import { FIRM, thumbOf } from "../../hand/thumb.ts";
+import { element, everyFrame } from "../../panel.ts";
+import type { App } from "../../state/app.ts";
+
+const number = (value: number | undefined, digits: number): string =>
+  value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits).replace("-", "−");
+
+/** The syringe, in scenes that have one: a button that pushes while it is held, and what the thumb feels. */
+export function plungerRows(app: App): HTMLElement {
+  const thumb = thumbOf(app);
+  const push = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Hold to push");
+  const hold = (on: boolean): void => thumb.push("button", on ? FIRM : 0);
+  push.addEventListener("pointerdown", (event) => {
+    push.setPointerCapture(event.pointerId);
+    hold(true);
+  });
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) {
+    push.addEventListener(end, () => hold(false));
+  }
+  push.addEventListener("keydown", (event) => {
+    if (event.key !== " " && event.key !== "Enter") return;
+    event.preventDefault();
+    if (!event.repeat) hold(true);
+  });
+  push.addEventListener("keyup", () => hold(false));
+  thumb.force.watch((force) => push.setAttribute("aria-pressed", String(force > 0)));
+
+  const force = element("output", { class: "figure" }, "– N");
+  const volume = element("output", { class: "figure" }, "– mL");
+  const host = element(
+    "section",
+    { class: "rows", hidden: true },
+    element("h3", {}, "Syringe"),
+    element("div", { class: "row" }, push, element("span", {}, "or hold Space in the view")),
+    element("div", { class: "row" }, element("span", {}, "Thumb, model force"), force),
+    element("div", { class: "row" }, element("span", {}, "Injected"), volume),
+  );
+  const put = (where: HTMLElement, text: string): void => {
+    if (where.textContent !== text) where.textContent = text;
+  };
+  everyFrame((now) => {
+    thumb.renew(now);
+    const source = app.source.value;
+    host.hidden = source.scene.value?.syringe !== true;
+    const tick = host.hidden ? null : source.shown();
+    if (tick === null || host.offsetParent === null) return;
+    put(force, `${number(Math.abs(source.history.row("thumb_force", tick)[0] ?? Number.NaN), 2)} N`);
+    put(volume, `${number((source.history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 2)} mL`);
+    push.toggleAttribute("disabled", !thumb.there);
+  });
+  return host;
+}

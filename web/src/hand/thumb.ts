@@ -1,0 +1,59 @@
+import type { App } from "../state/app.ts";
+import { onePerApp } from "../state/one_per_app.ts";
+import { Signal } from "../state/signal.ts";
+
+/** N, of a thumb that pushes by a key or a button. Illustrative. */
+export const FIRM = 4;
+const REPEAT_MS = 400; // the server lets go after 1 s of silence
+const STEP = 0.1; // N; smaller changes of a trigger are not sent
+
+/** The simulated thumb on the plunger. It pushes as long as something holds it: a key, a button or a trigger. */
+export class Thumb {
+  /** N, what is sent now; 0 if nothing pushes. */
+  readonly force = new Signal(0);
+  private readonly held = new Map<string, number>();
+  private sent = 0;
+
+  constructor(private readonly app: App) {
+    app.run.watch(() => this.letGo());
+    app.control.watch((control) => {
+      if (!control.you) this.letGo();
+    });
+    // A key that is released in another window is not seen here.
+    globalThis.addEventListener?.("blur", () => this.letGo());
+  }
+
+  /** Whether the scene has a plunger that this page can push. */
+  get there(): boolean {
+    const { source, control } = this.app;
+    return source.value.live && control.value.you && source.value.scene.value?.syringe === true;
+  }
+
+  /** by: what pushes, so that a key that is released does not end the push of a trigger. force: N; 0 lets go. */
+  push(by: string, force: number, now = performance.now()): void {
+    if (force > 0 && this.there) this.held.set(by, force);
+    else this.held.delete(by);
+    this.send(now);
+  }
+
+  /** Call in each frame: says again that the thumb still pushes. */
+  renew(now: number): void {
+    if (this.force.value > 0 && now - this.sent > REPEAT_MS) this.send(now, true);
+  }
+
+  private letGo(): void {
+    this.held.clear();
+    this.send(performance.now());
+  }
+
+  private send(now: number, again = false): void {
+    const wanted = Math.max(0, ...this.held.values());
+    const changed = wanted === 0 ? this.force.value !== 0 : Math.abs(wanted - this.force.value) >= STEP;
+    if (!changed && !again) return;
+    this.force.value = wanted;
+    this.sent = now;
+    if (this.app.connection.value.state === "open") void this.app.ask({ do: "push_plunger", force: wanted });
+  }
+}
+
+export const thumbOf = onePerApp((app) => new Thumb(app));

@@ -1,0 +1,70 @@
+import { beforeEach, expect, it } from "vitest";
+import type { Ask, Engine, EngineListener } from "../../src/engine/engine.ts";
+import { FIRM, Thumb } from "../../src/hand/thumb.ts";
+import { App } from "../../src/state/app.ts";
+import type { SceneView } from "../../src/wire/messages.ts";
+
+let server: EngineListener;
+let sent: number[];
+let app: App;
+let thumb: Thumb;
+
+const control = (you: boolean): void => server.message({ kind: "control", holder: 1, you, hand: null });
+const scene = (syringe: boolean, run = 0): void =>
+  server.message({
+    kind: "scene",
+    scene: { membranes: [{}], laws: [], number: 0, syringe } as unknown as SceneView,
+    new_run: true,
+    run,
+  });
+
+beforeEach(() => {
+  sent = [];
+  const engine: Partial<Engine> = {
+    start: (listener: EngineListener) => {
+      server = listener;
+    },
+    ask: async (request: Ask) => {
+      if (request.do === "push_plunger") sent.push(request.force);
+      return { kind: "reply", id: 1, ok: true };
+    },
+  };
+  app = new App(engine as Engine);
+  app.start();
+  server.connection({ state: "open" });
+  thumb = new Thumb(app);
+  control(true);
+  scene(true);
+});
+
+it("pushes while something holds it, and lets go with the last of them", () => {
+  thumb.push("key", FIRM);
+  thumb.push("trigger", FIRM + 2);
+  thumb.push("trigger", 0);
+  thumb.push("key", 0);
+  expect(sent).toEqual([FIRM, FIRM + 2, FIRM, 0]);
+});
+
+it("says again that it pushes, so that the server does not let go", () => {
+  thumb.push("key", FIRM, 0);
+  thumb.renew(100);
+  expect(sent).toEqual([FIRM]);
+  thumb.renew(500);
+  expect(sent).toEqual([FIRM, FIRM]);
+  thumb.push("key", 0, 600);
+  thumb.renew(2000);
+  expect(sent).toEqual([FIRM, FIRM, 0]);
+});
+
+it("lets go when a run begins, when another page takes control and when the scene has no plunger", () => {
+  thumb.push("key", FIRM);
+  scene(true, 1);
+  expect(sent).toEqual([FIRM, 0]);
+  thumb.push("key", FIRM);
+  control(false);
+  expect(sent).toEqual([FIRM, 0, FIRM, 0]);
+  control(true);
+  scene(false, 2);
+  thumb.push("key", FIRM);
+  expect(sent).toEqual([FIRM, 0, FIRM, 0]);
+});
