@@ -34,6 +34,10 @@ _WORDS: dict[Fault, tuple[str, str]] = {
         "This is a defect: please report it, with the scene and the saved ticks.",
     ),
     Fault.device: ("The device reported a fault.", "Check the device."),
+    Fault.thumb: (
+        "The device under the thumb has a fault or sends nothing.",
+        "Check the connection of the device under the thumb.",
+    ),
 }
 NO_TICKS = "The device has stopped."
 

@@ -175,7 +175,7 @@ def test_a_recorded_run_holds_every_tick_and_runs_again_to_the_last_bit(tmp_path
 
 def test_a_recording_that_cannot_be_written_is_told_before_anything_moves(tmp_path):
     done = punctura("run", "--headless", "--duration", "1", "--record", str(tmp_path / "run.csv"))
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert "must end in .parquet" in done.stderr
 
 

@@ -11,9 +11,11 @@ import pytest
 from punctura._core import Limit
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
+from punctura.studio.wire.frames import NUMBERS, WORDS
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.schema import wire_schema
 from punctura.ticks import Ticks
+from punctura.ticks.fields import shape_of
 from pydantic import TypeAdapter, ValidationError
 
 ROOT = Path(__file__).parents[3]
@@ -80,24 +82,18 @@ def test_any_ticks_come_back_as_f32(seed):
     n, m = int(rng.integers(1, 40)), int(rng.integers(0, 7))
     first = int(rng.integers(0, 2**40))
     time = 100.0 + np.cumsum(rng.uniform(5e-4, 8e-4, n))
-    columns = {"tick": np.arange(first, first + n, dtype=np.uint64), "time": time}
-    for name in ("position", "axis", "tip", "model_force", "force"):
-        columns[name] = rng.normal(size=(n, 3))
-    columns["ceiling"], columns["force_scale"] = rng.normal(size=n), rng.uniform(size=n)
-    for name in ("depth", "axial_force", "lower", "upper"):
-        columns[name] = rng.normal(size=(n, m))
-    for name in ("proxy", "direction"):
-        columns[name] = rng.normal(size=(n, m, 3))
-    for name in ("state", "fault", "limit"):
-        columns[name] = rng.integers(0, 255, n)
-    columns["phase"] = rng.integers(0, 5, (n, m))
+    columns = {field.name: rng.normal(size=shape_of(field, n, m)) for field in NUMBERS}
+    columns |= {field.name: rng.integers(0, 5 if field.per_membrane else 255, shape_of(field, n, m)) for field in WORDS}
+    columns |= {"tick": np.arange(first, first + n, dtype=np.uint64), "time": time}
+    for name in ("plunger", "thumb_force", "pressure", "injected"):  # as in a scene without a syringe
+        columns[name] = columns[name] * (np.nan if seed == 0 else 1.0)
     other = rng.normal(size=(n, 3)) if seed % 2 else None
     ticks = decode_ticks(encode_ticks(Ticks(columns), 3, 9, other))
     assert (ticks.first_tick, ticks.run, ticks.lost, ticks.membranes) == (first, 3, 9, m)
     assert np.allclose(ticks.first_time + ticks.ticks.time, time, atol=1e-8)
     for name, column in columns.items():
         if name not in ("tick", "time"):
-            assert np.array_equal(ticks.ticks[name].astype(np.float32), column.astype(np.float32)), name
+            assert np.array_equal(ticks.ticks[name].astype(np.float32), column.astype(np.float32), equal_nan=True), name
 
 
 def test_a_frame_holds_no_gap_and_no_nothing():

@@ -21,6 +21,7 @@ def hello(viewer):
         "scenes": [],
         "exercises": [],
         "notes": [],
+        "figures": False,
     }
     limits = dict.fromkeys(LimitsPart.model_fields, 1.0) | {"dead_man_buttons": []}
     return Hello.model_validate(told | {"limits": limits})
@@ -127,7 +128,7 @@ def test_control_goes_to_the_first_and_when_its_holder_leaves_to_the_next_who_co
 
 VIEW = {
     "number": 3, "name": "s", "diameter": 1e-3, "tip_length": 3e-3, "direction": "stylus", "solver": "exact",
-    "rate": 1600.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
+    "rate": 1600.0, "force_scale": 1.0, "membranes": [], "laws": [], "tables": {}, "lumen": [],
 }  # fmt: skip
 
 
