@@ -49,7 +49,8 @@ def cell(value: object) -> str:
 def bounds(schema: dict[str, Any]) -> str:
     """What a value may be: a list of words, or a range."""
     words = schema.get("enum", [schema["const"]] if "const" in schema else [])
-    if len(words) > 5 and words == list(range(words[0], words[-1] + 1)):
+    numbers = all(isinstance(word, int) for word in words)
+    if numbers and len(words) > 5 and words == list(range(words[0], words[-1] + 1)):
         return f"{words[0]} to {words[-1]}"
     signs = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
     return ", ".join(f"`{word}`" for word in words) or " and ".join(
