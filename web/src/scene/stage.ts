@@ -77,9 +77,8 @@ export class Stage {
   }
 
   draw(camera: Camera, now: number): void {
-    const took = now - this.drawn;
     this.drawn = now;
-    if (this.quality.watch(took)) this.coarser(this.quality.words());
+    if (this.quality.draw(now)) this.coarser(this.quality.words());
     this.setRatio(this.quality.ratio);
     this.renderer.render(this.scene, camera);
     this.stale = false;
@@ -87,6 +86,7 @@ export class Stage {
 
   /** Called in frames without a change: after a while the picture is drawn once more, at full sharpness. */
   rest(camera: Camera, now: number): void {
+    this.quality.skip();
     if (this.ratio >= this.resting || now - this.drawn < REST_MS) return;
     this.setRatio(this.resting);
     this.renderer.render(this.scene, camera);

@@ -1,9 +1,9 @@
 import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Line, LineBasicMaterial } from "three";
 import type { Source } from "../state/source.ts";
+import { TRAIL_SECONDS } from "./fade.ts";
 import { MM } from "./moment.ts";
 import type { Theme } from "./theme.ts";
 
-export const TRAIL_SECONDS = 2.5;
 const POINTS = 120;
 
 /** The recent path of the tip. Older parts are paler. */

@@ -24,6 +24,9 @@ import { Theme } from "./theme.ts";
 import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
 
+const COARSER =
+  "Pictures came late on this computer, so a moving picture has fewer pixels along each side. 100 %: all of them.";
+
 /** The 3D view of the needle and the membranes. It draws only after a change, at most once per frame. */
 export const view: Panel = (host, app) => {
   const canvas = element("canvas", {
@@ -35,7 +38,7 @@ export const view: Panel = (host, app) => {
   const theme = new Theme();
   const orbit = new OrbitCamera();
   const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });
-  const coarser = element("p", { class: "view-coarser", hidden: true, title: "Pictures came late on this computer." });
+  const coarser = element("p", { class: "view-coarser", hidden: true, title: COARSER });
   host.append(trouble, coarser);
   const tell = (words: string): void => {
     trouble.textContent = words;

@@ -10,6 +10,7 @@ import { type Extent, extentOf } from "./anatomy.ts";
 import { ForceArrow } from "./arrow.ts";
 import { Block } from "./block.ts";
 import { Blood } from "./blood.ts";
+import { Fade } from "./fade.ts";
 import { FatLine } from "./fat_line.ts";
 import { Ghost } from "./ghost.ts";
 import { GoalMark } from "./goal_mark.ts";
@@ -22,10 +23,9 @@ import { needleLook } from "./needle_look.ts";
 import { Shown } from "./shown.ts";
 import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
-import { TRAIL_SECONDS, Trail } from "./trail.ts";
+import { Trail } from "./trail.ts";
 
 const ACTIVE = codeOf("state", "active");
-const FADES_PER_SECOND = 15;
 
 /** Everything that the view draws for one moment of a source. */
 export class World {
@@ -44,8 +44,7 @@ export class World {
   private readonly mark: GoalMark;
   private goal: Goal | null = null;
   private readonly drawn = new Shown();
-  private moved = 0;
-  private faded = -1;
+  private readonly fade = new Fade();
 
   constructor(
     private readonly stage: Stage,
@@ -187,12 +186,8 @@ export class World {
 
   /** Whether the picture changed. The trail goes on fading for a while after the needle has stopped. */
   private differs(values: readonly number[], changed: boolean): boolean {
-    const { time } = this.moment;
     const differs = this.drawn.differs(values) || changed;
-    if (differs) this.moved = time;
-    const fading = Math.abs(time - this.moved) < TRAIL_SECONDS ? Math.floor(time * FADES_PER_SECOND) : -1;
-    const faded = fading !== this.faded;
-    this.faded = fading;
+    const faded = this.fade.step(this.moment.time, differs);
     return differs || faded;
   }
 

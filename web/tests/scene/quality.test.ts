@@ -1,14 +1,31 @@
-import { expect, it } from "vitest";
+import { beforeEach, expect, it } from "vitest";
+import { Fade } from "../../src/scene/fade.ts";
 import { Quality } from "../../src/scene/quality.ts";
 
+let clock = 0; // ms
+beforeEach(() => {
+  clock = 0;
+});
 const pictures = (quality: Quality, count: number, took: number): void => {
-  for (let i = 0; i < count; i++) quality.watch(took);
+  for (let i = 0; i < count; i++) {
+    clock += took;
+    quality.draw(clock);
+  }
+};
+/** Animation frames while the needle stands still and its trail fades. took: ms for each frame. */
+const fading = (quality: Quality, count: number, took: number): void => {
+  const fade = new Fade();
+  for (let i = 0; i < count; i++) {
+    clock += took;
+    if (fade.step(clock / 1e3, i === 0)) quality.draw(clock);
+    else quality.skip();
+  }
 };
 
 it("late pictures get fewer pixels step by step, and the view says so", () => {
   const quality = new Quality(1);
   expect(quality.words()).toBe("");
-  pictures(quality, 12, 60);
+  pictures(quality, 13, 60);
   expect(quality.ratio).toBeCloseTo(0.8);
   expect(quality.words()).toBe("Coarser while moving: 80 %");
   pictures(quality, 500, 60);
@@ -19,7 +36,7 @@ it("pictures that come in time stay sharp, and so do single late ones and an idl
   const quality = new Quality(2);
   pictures(quality, 300, 30);
   for (let i = 0; i < 100; i++) {
-    quality.watch(90);
+    pictures(quality, 1, 90);
     pictures(quality, 3, 17);
   }
   pictures(quality, 100, 5000);
@@ -28,7 +45,7 @@ it("pictures that come in time stay sharp, and so do single late ones and an idl
 
 it("sharpness comes back when pictures come early, and waits twice as long after each failed attempt", () => {
   const quality = new Quality(1);
-  pictures(quality, 12, 60);
+  pictures(quality, 13, 60);
   pictures(quality, 119, 17);
   expect(quality.lowered).toBe(true);
   pictures(quality, 1, 17);
@@ -46,4 +63,22 @@ it("a screen with few pixels is never coarser than it already is", () => {
   pictures(quality, 100, 100);
   expect(quality.ratio).toBe(0.5);
   expect(quality.words()).toBe("");
+});
+
+it("a trail that fades asks for few pictures, and these are not late", () => {
+  const quality = new Quality(2);
+  for (const took of [7, 17, 33]) for (let i = 0; i < 50; i++) fading(quality, 2500 / took, took);
+  expect(quality.words()).toBe("");
+  fading(quality, 30, 80);
+  expect(quality.lowered).toBe(true); // here the frames themselves come late
+});
+
+it("the wait for sharpness has an end, however many attempts failed", () => {
+  const quality = new Quality(1);
+  for (let i = 0; i < 20; i++) {
+    pictures(quality, 13, 60);
+    expect(quality.lowered).toBe(true);
+    pictures(quality, 2000, 17);
+    expect(quality.lowered).toBe(false);
+  }
 });
