@@ -38,7 +38,7 @@ def test_a_parameter_of_the_present_scene_is_varied_while_the_run_goes_on(served
 
 def test_the_zip_file_of_a_variation_comes_from_the_same_address(served):
     status, body = get(served, "/api/lab/bundle", on="time", **VARIATION)
-    assert status == 200
+    assert status == 200, body
     assert {"figure.svg", "figure.pdf", "README.txt", "CITATION.cff"} <= set(
         zipfile.ZipFile(io.BytesIO(body)).namelist()
     )

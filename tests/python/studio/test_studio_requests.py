@@ -4,6 +4,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ServoState
+from punctura.exercise import exercise_names
 from punctura.live import Limits
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
@@ -23,7 +24,7 @@ def test_a_newcomer_is_told_everything_there_is(page):
     assert kinds[0] == "hello"
     hello, scene = page.of("hello")[0], page.of("scene")[0]
     assert hello["device"]["simulated"] and {"name": "venipuncture", "title": "Venipuncture"} in hello["scenes"]
-    assert [c["name"] for c in hello["exercises"]] == ["epidural", "venipuncture"]
+    assert [c["name"] for c in hello["exercises"]] == exercise_names()
     assert scene["new_run"] and [m["name"] for m in scene["scene"]["membranes"]] == [
         "first membrane",
         "second membrane",
