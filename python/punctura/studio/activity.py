@@ -17,12 +17,12 @@ from punctura.ticks import Ticks
 class Outcome(NamedTuple):
     """How an activity ended.
 
-    message: for the pages. notice: replaces the message if another activity runs already. trouble: what went wrong.
+    message: for the pages. notice: replaces the message if another activity runs already. remark: said in any case.
     """
 
     message: BaseModel | None = None
     notice: str = ""
-    trouble: str = ""
+    remark: str = ""
 
 
 class Activity(Protocol):
@@ -103,5 +103,5 @@ class Activities:
             self._out.say(outcome.message)
         elif outcome.notice:
             self._out.say(Notice(text=outcome.notice))
-        if outcome.trouble:
-            self._out.say(Notice(text=outcome.trouble))
+        if outcome.remark:
+            self._out.say(Notice(text=outcome.remark))

@@ -13,6 +13,7 @@ from punctura.exercise.space import need_membranes
 from punctura.live import room_note
 from punctura.record import RecorderStatus
 from punctura.scene import scene_names
+from punctura.studio.catalog import DRAFT
 from punctura.studio.exercise_activity import ExerciseActivity
 from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
 from punctura.studio.making import made_of, make
@@ -45,7 +46,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return lambda session: _push_plunger(session, request.force)
         case ask.PlayMotion():
             motion = motion_of(session.shelf.open(request.recording))
-            return lambda session: _needs_simulated(session, lambda: session.hand.motion(*motion, time.monotonic()))
+            return lambda session: _moves_by_itself(session, lambda: session.hand.motion(*motion, time.monotonic()))
         case ask.TripFault():
             return lambda session: _needs_simulated(session, lambda: session.bench.simulated_device.trip())
         case ask.Edit() | ask.Load() | ask.LoadText():
@@ -106,13 +107,20 @@ def _edit(session: Session, loaded: Loaded) -> Done:
 
 def _strokes(session: Session, period: float) -> None:
     scene = session.run.loaded.scene
-    _needs_simulated(session, lambda: session.hand.strokes(scene, period, time.monotonic()))
+    _moves_by_itself(session, lambda: session.hand.strokes(scene, period, time.monotonic()))
 
 
 def _push_plunger(session: Session, force: float) -> None:
     if session.run.loaded.scene.syringe is None:
         raise NotNow("the scene has no syringe")
     session.thumb.push(session.run.loop, force, time.monotonic())
+
+
+def _moves_by_itself(session: Session, do: Callable[[], None]) -> None:
+    """A result is about a person, so the hand does not move by itself while a person is judged."""
+    if activity := session.activities.now:
+        raise NotNow(f"the {activity.what} judges your own hand; end it first")
+    _needs_simulated(session, do)
 
 
 def _needs_simulated(session: Session, do: Callable[[], None]) -> None:
@@ -137,7 +145,7 @@ def _prepare_take(
             exercise = session.exercises.load(request.exercise)
             loaded = from_name(exercise.scene_name)
             name = session.shelf.new_name(None, exercise.title)
-            activity = ExerciseActivity(exercise, request.person, name, session.results, request.group)
+            activity = _activity(request, exercise, name, session)
             return lambda session: _start_exercise(session, exercise, loaded, activity, name)
         case _:
             return _end_exercise
@@ -147,18 +155,29 @@ def _prepare_trial(request: ask.TryExercise, session: Session) -> Job:
     exercise = made_of(request.tables)
     loaded = from_name(exercise.scene_name)
     name = session.shelf.new_name(None, exercise.title)
-    activity = ExerciseActivity(exercise, request.person, name, session.results, request.group)
+    activity = _activity(request, exercise, name, session)
 
     def start(session: Session) -> Done:
+        done = _start_exercise(session, exercise, loaded, activity, name)
         session.exercises.draft = exercise
-        return _start_exercise(session, exercise, loaded, activity, name)
+        return done
 
     return start
+
+
+def _activity(
+    request: ask.StartExercise | ask.TryExercise, exercise: Exercise, recording: str, session: Session
+) -> ExerciseActivity:
+    """Results of a draft are not kept: the next draft has the same name and may ask for something else."""
+    results = None if exercise.name == DRAFT else session.results
+    return ExerciseActivity(exercise, request.person, recording, results, request.group)
 
 
 def _prepare_expert(request: ask.SetExpert, session: Session) -> Job:
     if request.exercise not in session.exercises.names():
         raise NotNow(f"there is no exercise {request.exercise!r}")
+    if request.exercise == DRAFT:
+        raise NotNow("a draft has no expert's run; save the exercise first")
     if request.recording:
         exercise = session.exercises.load(request.exercise)
         need_membranes(exercise.file, session.shelf.open(request.recording).info.scene)

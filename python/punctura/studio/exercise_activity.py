@@ -6,6 +6,7 @@ import math
 
 from punctura import Scene
 from punctura.exercise import Attempt, Exercise, ResultStore
+from punctura.exercise.result import Status
 from punctura.studio.activity import Outcome
 from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
 from punctura.ticks import Ticks
@@ -23,8 +24,10 @@ class ExerciseActivity:
 
     what = "exercise"
 
-    def __init__(self, exercise: Exercise, person: str, recording: str, results: ResultStore, group: str = "") -> None:
-        """recording: the name of the run's recording. results: where the result is saved. group: a class."""
+    def __init__(
+        self, exercise: Exercise, person: str, recording: str, results: ResultStore | None, group: str = ""
+    ) -> None:
+        """recording: the name of the run's recording. results: where the result is saved, if at all. group: a class."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
         self._group = group
         self._attempt: Attempt
@@ -56,14 +59,20 @@ class ExerciseActivity:
         result = self._attempt.finish(self._person, self._recording, group=self._group)
         if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
+        if self._results is None:
+            verdict = "passed" if result.passed else "not passed"
+            said = " ".join([f"{result.title}: {verdict}.", *result.reasons, "The result of a draft is not kept."])
+            return Outcome(self._status(running=False), remark=said)
         try:
             name = self._results.save(result).name
         except OSError as error:
-            return Outcome(self._status(running=False), trouble=f"The result cannot be saved: {error}")
+            return Outcome(self._status(running=False), remark=f"The result cannot be saved: {error}")
         return Outcome(self._status(running=False, result=name), f"The result of the last exercise is saved as {name}.")
 
     def _status(self, running: bool, result: str = "") -> ExerciseStatus:
         status = self._attempt.status
+        if running and self._exercise.file.blind and not self._attempt.over:
+            status = self._blindfold(status)
         return ExerciseStatus(
             exercise=self._exercise.name,
             running=running,
@@ -76,3 +85,9 @@ class ExerciseActivity:
             time=_tenths(status.time),
             time_limit=status.time_limit,
         )
+
+    def _blindfold(self, status: Status) -> Status:
+        """Without what tells where the needle is: the goals' states, the stay, the instruction of the moment."""
+        goals = [goal.model_copy(update={"state": "open"}) for goal in status.goals]
+        instruction = self._exercise.instruction
+        return status.model_copy(update={"instruction": instruction, "goals": goals, "held": 0.0, "hold": 0.0})
