@@ -39,7 +39,7 @@ def popped(page: Page) -> None:
 
 def again(page: Page) -> None:
     popped(page)
-    page.get_by_role("button", name="Show again, slowly").click()
+    page.get_by_role("button", name="Show the pop again, slowly", exact=True).first.click()
     bar = page.get_by_role("group", name="Replay")
     bar.get_by_role("button", name="Next event").click()
     for _ in range(8):

@@ -40,7 +40,7 @@ class WatchedPage:
         self._page.add_init_script(COUNT)
         self._page.goto(url, timeout=120_000)
         self._page.wait_for_function("window.drawn.plots > 0", timeout=120_000)
-        self._page.keyboard.press("Escape")  # the tour
+        self._page.get_by_role("button", name="Skip the tour").click()
         self._tools = self._page.context.new_cdp_session(self._page)
         self._before, self._at = self._drawn(), time.monotonic()
 

@@ -1,8 +1,8 @@
 import { element } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
-import { showAgain } from "../pop/again.ts";
+import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
-import { scaleOf } from "../state/scale.ts";
+import { keptWords } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { badge } from "./badge.ts";
 import { eventsSince, eventWords, popSentence } from "./event_words.ts";
@@ -17,19 +17,18 @@ export function eventList(app: App): HTMLElement {
   const spoken = element("p", { class: "only-read", "aria-live": "polite" });
 
   const againButton = (event: MembraneEvent): HTMLButtonElement => {
-    const title = "Show the pop again, slowly";
-    const label = `${title}: ${event.name}, ${event.time.toFixed(3)} s`;
+    const label = `${SHOW_AGAIN}: ${event.name}, ${event.time.toFixed(3)} s`;
     const act = (): boolean => showAgain(app, event);
     return element(
       "button",
-      { type: "button", class: "event-again", title, "aria-label": label, onclick: act },
+      { type: "button", class: "event-again", title: SHOW_AGAIN, "aria-label": label, onclick: act },
       "Again",
     );
   };
   const row = (event: MembraneEvent): HTMLLIElement => {
-    const { word, force } = eventWords(event, scaleOf(app.source.value));
+    const { word, force } = eventWords(event, app.source.value.history);
     const go = (): void => {
-      if (!plots.jump(event.tick)) app.say("This moment is too old for the plots: they keep the last 80 seconds.");
+      if (!plots.jump(event.tick)) app.say(`This moment is too old for the plots: they keep ${keptWords(app.live)}.`);
     };
     return element(
       "li",
@@ -54,7 +53,7 @@ export function eventList(app: App): HTMLElement {
     for (const event of (fresh ?? events).slice(-SHOWN)) list.prepend(row(event));
     while (list.childElementCount > SHOWN) list.lastElementChild!.remove();
     const pop = fresh && shown.length ? fresh.findLast((event) => event.what === "pop") : undefined;
-    if (pop && app.source.value.live) spoken.textContent = popSentence(pop, scaleOf(app.source.value));
+    if (pop && app.source.value.live) spoken.textContent = popSentence(pop, app.source.value.history);
     shown = events;
     empty.hidden = events.length > 0;
   };

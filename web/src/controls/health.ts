@@ -90,7 +90,7 @@ export const healthPanel: Panel = (host, app) => {
     setLost(status.lost.toLocaleString("en"), status.lost > 0);
     setDropped(status.dropped.toLocaleString("en"), status.dropped > 0);
     setViewers(String(status.viewers));
-    setForce(status.armed ? "armed" : "off");
+    setForce(status.armed ? "Force on" : "Force off");
     setHand(HANDS[status.hand]);
     if (!host.hidden) {
       period.show(status.period, 1 / nominal);

@@ -77,6 +77,7 @@ export const phasesPanel: Panel = (host, app) => {
   );
 
   let rows: Row[] = [];
+  let seen = -1; // the tick that the rows show
   const build = (): void => {
     const { source } = plots;
     const membranes = source.scene.value?.membranes ?? [];
@@ -84,6 +85,7 @@ export const phasesPanel: Panel = (host, app) => {
       makeRow(i, membranes[i]?.name ?? `membrane ${i + 1}`),
     );
     body.replaceChildren(...rows.map(({ row }) => row));
+    seen = -1; // the new rows are empty
   };
   let leave = (): void => {};
   app.source.watch((source) => {
@@ -125,7 +127,6 @@ export const phasesPanel: Panel = (host, app) => {
   };
 
   let last = 0;
-  let seen = -1;
   everyFrame((now) => {
     if (now - last < INTERVAL) return;
     last = now;

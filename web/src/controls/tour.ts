@@ -1,6 +1,6 @@
 import { handOf } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
-import { showAgain } from "../pop/again.ts";
+import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
 import { remember, remembered } from "../state/remembered.ts";
 import { askSound } from "./hand/ask_sound.ts";
@@ -14,7 +14,7 @@ export const startTour = (): void => begin();
 
 /**
  * Four things to do with the needle. Each is done when the ticks show it. The tour is a bar above the page, so it
- * covers nothing. Escape ends it.
+ * covers nothing. Escape in the bar ends it.
  */
 export const tour: Panel = (root, app) => {
   let end: () => void = () => {};
@@ -41,7 +41,7 @@ function show(root: HTMLElement, app: App): () => void {
   const progress = new Progress();
   const steps = NAMES.map((name) => element("li", {}, name));
   const words = element("p", { "aria-live": "polite" });
-  const again = element("button", { type: "button", hidden: true }, "Show the pop again, slowly");
+  const again = element("button", { type: "button", hidden: true }, SHOW_AGAIN);
   const close = element("button", { type: "button" }, "Skip the tour");
   const bar = element(
     "section",
@@ -85,14 +85,15 @@ function show(root: HTMLElement, app: App): () => void {
   const finish = (): void => {
     remember("tour", "seen");
     for (const end of ends) end();
-    document.removeEventListener("keydown", keys);
     bar.remove();
   };
   const keys = (event: KeyboardEvent): void => {
-    if (event.key === "Escape" && !document.querySelector("dialog[open]")) finish();
+    if (event.key !== "Escape") return;
+    event.preventDefault(); // the panels keep their size
+    finish();
   };
   close.addEventListener("click", finish);
-  document.addEventListener("keydown", keys);
+  bar.addEventListener("keydown", keys); // elsewhere, Escape belongs to menus, dialogs and the view
   root.before(bar);
   return finish;
 }

@@ -36,9 +36,10 @@ export class Thumb {
     this.send(now);
   }
 
-  /** Call in each frame: says again that the thumb still pushes. */
+  /** Call in each frame: says again that the thumb still pushes, or lets go if the page shows another run. */
   renew(now: number): void {
-    if (this.force.value > 0 && now - this.sent > REPEAT_MS) this.send(now, true);
+    if (!this.there) this.letGo();
+    else if (this.force.value > 0 && now - this.sent > REPEAT_MS) this.send(now, true);
   }
 
   private letGo(): void {

@@ -1,7 +1,6 @@
 import { element } from "../panel.ts";
-import { lastPop, showAgain } from "../pop/again.ts";
+import { lastPop, SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
-import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -20,12 +19,12 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
     "button",
     {
       type: "button",
-      title: "Show the pop again, slowly (R in the view)",
+      title: `${SHOW_AGAIN} (R in the view)`,
       onclick: () => {
         if (pop) showAgain(app, pop);
       },
     },
-    "Show again, slowly",
+    SHOW_AGAIN,
   );
   const box = element("div", { class: "pop-callout", hidden: true }, words, again);
   host.append(box);
@@ -37,7 +36,7 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
       shown = "";
       return;
     }
-    const text = popLabel(pop, scaleOf(plots.source));
+    const text = popLabel(pop, plots.source.history);
     if (text !== shown) {
       shown = text;
       words.textContent = text;

@@ -1,4 +1,3 @@
-import { scaleOf } from "../state/scale.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { drawnMembranes, endOf, type ForceDepthPicture } from "./force_depth_picture.ts";
 import type { Pane } from "./kit/axes.ts";
@@ -31,7 +30,7 @@ export function drawPops(pen: Pen, pane: Pane, picture: ForceDepthPicture, theme
   });
   const labels = pops.map((pop) => ({
     x: pane.x.px(pop.depth * MM) + CAP + 4,
-    text: popLabel(pop, scaleOf(source)),
+    text: popLabel(pop, source.history),
     weight: Math.abs(pop.drop),
   }));
   pen.within(pane.left, pane.top, pane.width, pane.height, () => {

@@ -1,3 +1,4 @@
+import { MODEL_FORCE } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { LabComparison } from "../wire/files.ts";
 import { drawBadge } from "./badge.ts";
@@ -34,7 +35,7 @@ export interface TimePicture {
 
 const hasThumb = (source: Source): boolean => source.scene.value?.syringe === true;
 const thumbCurve = (source: Source, theme: Theme): Curve[] =>
-  hasThumb(source) ? [{ id: "thumb", text: "thumb", colour: theme.accent, dash: THUMB_DASH }] : [];
+  hasThumb(source) ? [{ id: "thumb", text: `thumb, ${MODEL_FORCE}`, colour: theme.accent, dash: THUMB_DASH }] : [];
 
 /** The curves that the plot can show, for its legend. */
 export const timeCurves = ({ source, window, comparison }: TimePicture, theme: Theme): Curve[] => [

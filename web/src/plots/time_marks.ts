@@ -1,6 +1,5 @@
 import type { History } from "../state/history.ts";
 import { cuts, LIMIT_WORDS } from "../state/limits.ts";
-import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { CUT_SHADE } from "./curves.ts";
@@ -87,10 +86,9 @@ export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, wi
     }
   });
   const pops = inside.filter((event) => event.what === "pop");
-  const scale = scaleOf(source);
   const labels = pops.map((event) => ({
     x: at(event) - 2,
-    text: popLabel(event, scale),
+    text: popLabel(event, source.history),
     weight: Math.abs(event.drop),
   }));
   labelsThatFit(labels, force.left + NAME, right + MARGIN.right).forEach((fits, i) => {

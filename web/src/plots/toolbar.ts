@@ -48,7 +48,11 @@ export function saveMenu(saving: Saving): HTMLElement {
     element("div", {}, entry("png", "PNG picture"), entry("svg", "SVG drawing"), entry("csv", "CSV, every tick")),
   );
   menu.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") menu.open = false;
+    if (event.key !== "Escape" || !menu.open) return;
+    menu.open = false;
+    menu.querySelector("summary")?.focus();
+    event.preventDefault();
+    event.stopPropagation();
   });
   const leave = (to: EventTarget | null): void => {
     if (to instanceof Node && !menu.contains(to)) menu.open = false;

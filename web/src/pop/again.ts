@@ -1,7 +1,10 @@
 import type { App } from "../state/app.ts";
 import { copiedHistory } from "../state/frozen.ts";
-import { Source } from "../state/source.ts";
+import { keptWords, Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
+
+/** The words of every button that shows a pop again. */
+export const SHOW_AGAIN = "Show the pop again, slowly";
 
 /** Shown again: this long before the pop, and this long after it, s. */
 export const HALF = 0.05;
@@ -39,7 +42,7 @@ export function excerptAround(source: Source, event: MembraneEvent): Source | nu
 export function showAgain(app: App, event: MembraneEvent): boolean {
   const made = excerptAround(app.source.value, event);
   if (made) app.source.value = made;
-  else app.say("This pop is too old to be shown again: the page keeps the last 80 seconds.");
+  else app.say(`This pop is too old to be shown again: the page keeps ${keptWords(app.live)}.`);
   return made !== null;
 }
 

@@ -2,7 +2,6 @@ import { type Camera, Vector3 } from "three";
 import { element } from "../panel.ts";
 import { popLabel } from "../plots/marks.ts";
 import { ringOf } from "../pop/ring.ts";
-import { scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";
@@ -47,7 +46,7 @@ export function popRing(host: HTMLElement): (source: Source, scene: SceneView, c
     path.setAttribute("d", d);
     layer.style.opacity = ring.alpha.toFixed(2);
     layer.style.display = "";
-    const text = popLabel(ring.event, scaleOf(source));
+    const text = popLabel(ring.event, source.history);
     if (words.textContent !== text) words.textContent = text;
     words.hidden = false;
     const right = Math.max(...points.map(([x]) => x));

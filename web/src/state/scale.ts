@@ -1,3 +1,4 @@
+import type { MembraneEvent } from "../wire/messages.ts";
 import type { History } from "./history.ts";
 import type { Source } from "./source.ts";
 
@@ -29,6 +30,21 @@ export function feltShare(history: History, tick: number): number {
   return model > 0 ? sizeOf(history, "force", tick) / model : 0;
 }
 
-/** The drop of the model's force at a pop: "−0.79 N". Where the felt force is another one, it says which it is. */
-export const dropText = (drop: number, scale: number): string =>
-  `${scale === 1 ? "" : `${MODEL_FORCE} `}−${Math.abs(drop).toFixed(2)} N`;
+const EQUAL = 1e-3; // share of the force
+
+/**
+ * The force that fell at a pop, by its tick and the one before: "force" if the hand got all of it; else, or if these
+ * ticks are not kept, "model force".
+ */
+export function fallenForce(history: History, tick: number): "force" | typeof MODEL_FORCE {
+  const felt = [tick - 1, tick].every((at) => {
+    if (at < history.first || at >= history.end) return false;
+    const model = sizeOf(history, "model_force", at);
+    return Math.abs(sizeOf(history, "force", at) - model) <= EQUAL * model;
+  });
+  return felt ? "force" : MODEL_FORCE;
+}
+
+/** The drop of the model's force at a pop: "−0.79 N", or "model force −0.79 N" if the hand did not feel all of it. */
+export const dropText = (history: History, { tick, drop }: MembraneEvent): string =>
+  `${fallenForce(history, tick) === MODEL_FORCE ? `${MODEL_FORCE} ` : ""}−${Math.abs(drop).toFixed(2)} N`;

@@ -50,3 +50,10 @@ export class Source {
     return tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
   }
 }
+
+/** How much of a run its source keeps: "the last 82 seconds", at the scene's rate. */
+export function keptWords({ history, scene }: Source): string {
+  const rate = scene.value?.rate;
+  if (!rate) return `the last ${history.capacity} ticks`;
+  return `the last ${Math.floor(history.capacity / rate)} seconds`;
+}

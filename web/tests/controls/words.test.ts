@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import { eventsSince, eventWords, popSentence } from "../../src/controls/event_words.ts";
 import { phaseWords } from "../../src/controls/phase_words.ts";
 import type { MembraneEvent } from "../../src/wire/messages.ts";
+import { history } from "../support/fill_history.ts";
 
 describe("the phase in words", () => {
   it("each has a symbol and a word of its own", () => {
@@ -27,11 +28,12 @@ describe("what happened in words", () => {
     force_before: 0.5, force_after: 0.26, drop: 0.24,
   }); // biome-ignore format: one line
   it("a pop shows the drop of the force", () => {
-    expect(eventWords(event(1, "pop"))).toEqual({ word: "pop", force: "−0.24 N" });
-    expect(popSentence(event(1, "pop"))).toBe("Pop through skin: the force fell by 0.24 newtons.");
-    expect(eventWords(event(1, "pop"), 0.3).force).toBe("model force −0.24 N");
-    expect(popSentence(event(1, "pop"), 0.3)).toBe("Pop through skin: the model force fell by 0.24 newtons.");
-    expect(eventWords(event(1, "touch")).force).toBe("");
+    const run = (felt: number) => history(10, 1, { model_force: () => [0, 2, 0], force: () => [0, felt, 0] });
+    expect(eventWords(event(1, "pop"), run(2))).toEqual({ word: "pop", force: "−0.24 N" });
+    expect(popSentence(event(1, "pop"), run(2))).toBe("Pop through skin: the force fell by 0.24 newtons.");
+    expect(eventWords(event(1, "pop"), run(0.6)).force).toBe("model force −0.24 N");
+    expect(popSentence(event(1, "pop"), run(0))).toBe("Pop through skin: the model force fell by 0.24 newtons.");
+    expect(eventWords(event(1, "touch"), run(2)).force).toBe("");
   });
   it("only new events are added; another run starts again", () => {
     const [a, b, c, d] = [event(1, "touch"), event(2, "pop"), event(3, "out"), event(4, "touch")] as const;

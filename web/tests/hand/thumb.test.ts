@@ -2,6 +2,7 @@ import { beforeEach, expect, it } from "vitest";
 import type { Ask, Engine, EngineListener } from "../../src/engine/engine.ts";
 import { FIRM, Thumb } from "../../src/hand/thumb.ts";
 import { App } from "../../src/state/app.ts";
+import { Source } from "../../src/state/source.ts";
 import type { SceneView } from "../../src/wire/messages.ts";
 
 let server: EngineListener;
@@ -67,4 +68,14 @@ it("lets go when a run begins, when another page takes control and when the scen
   scene(false, 2);
   thumb.push("key", FIRM);
   expect(sent).toEqual([FIRM, 0, FIRM, 0]);
+});
+
+it("lets go when the page shows another run", () => {
+  thumb.push("key", FIRM, 0);
+  app.source.value = new Source("recording", false, 4);
+  thumb.renew(10);
+  expect([thumb.force.value, sent.at(-1)]).toEqual([0, 0]);
+  app.goLive();
+  thumb.renew(1000);
+  expect(sent.at(-1)).toBe(0);
 });

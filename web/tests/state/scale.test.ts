@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
+import { popLabel } from "../../src/plots/marks.ts";
 import { cutFigures } from "../../src/state/limits.ts";
-import { feltForce, feltShare, scaleOf, scaleText } from "../../src/state/scale.ts";
+import { fallenForce, feltForce, feltShare, scaleOf, scaleText } from "../../src/state/scale.ts";
 import { Source } from "../../src/state/source.ts";
-import type { SceneView } from "../../src/wire/messages.ts";
+import type { MembraneEvent, SceneView } from "../../src/wire/messages.ts";
 import { batch } from "../support/fill_history.ts";
 
 /** 10 ticks with a model force of 2 N, of which the device gives 0.3, and less while a limit acts. */
@@ -41,6 +42,17 @@ describe("the force scale", () => {
     expect(feltShare(history, 9)).toBeCloseTo(0.225);
     history.column("model_force").fill(0);
     expect(feltShare(history, 9)).toBe(0);
+  });
+  it("a pop names the model force unless the hand felt all of it at that moment", () => {
+    const cells = { model_force: () => [0, 2, 0], force: (tick: number) => [0, tick < 5 ? 2 : tick < 8 ? 1.5 : 0, 0] };
+    const { history } = new Source("test", true, 10);
+    history.push(batch(0, 10, 1, cells));
+    expect([1, 5, 6, 9].map((tick) => fallenForce(history, tick))).toEqual([
+      "force", "model force", "model force", "model force",
+    ]); // biome-ignore format: a list
+    expect(fallenForce(history, 10)).toBe("model force"); // not kept
+    expect(popLabel({ tick: 3, drop: 0.5 } as MembraneEvent, history)).toBe("pop −0.50 N");
+    expect(popLabel({ tick: 7, drop: 0.5 } as MembraneEvent, history)).toBe("pop, model force −0.50 N");
   });
   it("is no cut: a cut tells the felt force, and what it would be without the limit", () => {
     expect(cutFigures(source().history, 9)).toBe("0.45 of 0.60 N");

@@ -12,7 +12,7 @@ export class Felt {
   private source: Source | null = null;
   private generation = -1;
   private last = -1;
-  private readonly known = new Set<string>();
+  private readonly known = new Map<string, number>(); // the tick of each pop;
 
   /** Power of dry friction at the timeline's tick, W: force times speed of the proxy in the tissue. */
   power(source: Source): number {
@@ -43,13 +43,14 @@ export class Felt {
     const { generation } = source.history;
     const jumped = source !== this.source || generation !== this.generation || tick < this.last;
     if (jumped) this.known.clear();
+    for (const [key, popped] of this.known) if (popped < tick - LATE_TICKS) this.known.delete(key);
     const found: MembraneEvent[] = [];
     for (let i = events.length - 1; i >= 0; i--) {
       const event = events[i]!;
       if (event.tick < tick - LATE_TICKS) break;
       const key = `${event.tick} ${event.membrane} ${event.what}`;
       if (event.tick > tick || event.what !== "pop" || this.known.has(key)) continue;
-      this.known.add(key);
+      this.known.set(key, event.tick);
       if (!jumped) found.push(event);
     }
     this.source = source;

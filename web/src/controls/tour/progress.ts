@@ -1,3 +1,4 @@
+import { fallenForce, MODEL_FORCE } from "../../state/scale.ts";
 import type { Source } from "../../state/source.ts";
 import type { MembraneEvent } from "../../wire/messages.ts";
 import { codeOf } from "../../wire/ticks.ts";
@@ -15,6 +16,8 @@ export class Progress {
   done = 0;
   /** The pop that was made; null before it. */
   pop: MembraneEvent | null = null;
+  /** The force that fell at this pop. */
+  fallen: ReturnType<typeof fallenForce> = MODEL_FORCE;
   /** Whether the tip has been outside the tissue since the tour began: a needle in tissue must come out first. */
   ready = false;
   private next = 0; // tick
@@ -43,7 +46,10 @@ export class Progress {
       this.take(inside, share);
     }
     this.next = history.end;
-    this.pop ??= events.value.find(({ what, tick }) => what === "pop" && tick >= this.began) ?? null;
+    if (!this.pop) {
+      this.pop = events.value.find(({ what, tick }) => what === "pop" && tick >= this.began) ?? null;
+      if (this.pop) this.fallen = fallenForce(history, this.pop.tick);
+    }
     if (this.pop && this.ready && this.done < 3) this.done = 3;
     return this.done + (this.ready ? 1 : 0) !== before;
   }

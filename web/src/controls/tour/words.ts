@@ -5,7 +5,7 @@ import type { Progress } from "./progress.ts";
 export const NAMES = ["Touch", "Feel it hold", "Pop", "Draw back"] as const;
 
 /** What to do next. skin: name of the first membrane. mouse: this page moves the needle, not a device. */
-export function instruction({ done, ready, pop }: Progress, skin: string, mouse: boolean): string {
+export function instruction({ done, ready, pop, fallen }: Progress, skin: string, mouse: boolean): string {
   if (!ready) return "First draw the needle out of the tissue.";
   switch (done) {
     case 0:
@@ -17,7 +17,7 @@ export function instruction({ done, ready, pop }: Progress, skin: string, mouse:
     case 2:
       return "Push until it gives.";
     case 3:
-      return `It gave: the force fell by ${newton(Math.abs(pop?.drop ?? 0))}. Now draw the needle all the way out.`;
+      return `It gave: the ${fallen} fell by ${newton(Math.abs(pop?.drop ?? 0))}. Now draw the needle all the way out.`;
     default:
       return "That is all: the needle is out. The Exercises tab has tasks that get harder.";
   }
