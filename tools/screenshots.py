@@ -76,7 +76,7 @@ def replay(page: Page) -> None:
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     drag_in(page, pops=1)
     page.get_by_role("button", name="Stop", exact=True).click()
-    page.locator(".recording").first.get_by_role("button", name="Replay").click()
+    page.locator(".recording").first.get_by_role("button", name="Replay", exact=True).click()
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible(timeout=PATIENCE)
     for _ in range(2):

@@ -25,7 +25,7 @@ def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     again = replay(file)
     assert again.identical and again.complete
 
-    entry.get_by_role("button", name="Replay").click()
+    entry.get_by_role("button", name="Replay", exact=True).click()
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible(timeout=PATIENCE)
     expect(page.locator("body")).to_contain_text("Replay of")

@@ -21,7 +21,7 @@ _TABLE_OF = {
 
 def scene_json_schema() -> JsonSchemaValue:
     """JSON Schema (2020-12) of a scene file. `x-unit` is a number's unit, `x-symbol` its letter in K06, and
-    `x-diameters-mm` the diameters of the gauges, in the order of `enum`."""
+    `x-diameters-mm` the diameters of the gauges, in the order of `enum`, `x-optional` a table that a scene may lack."""
     schema = SceneFile.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     fields = {field["path"]: field for field in _core.fields()}
@@ -34,6 +34,8 @@ def scene_json_schema() -> JsonSchemaValue:
     needle["properties"]["gauge"]["x-diameters-mm"] = [float(mm) for mm in GAUGE_DIAMETER_MM.values()]
     needle["allOf"] = [{"oneOf": [{"required": [key]} for key in pair]} for pair in ALTERNATIVES]
     schema["properties"]["membrane"]["minItems"] = 1
+    syringe = schema["properties"]["syringe"]
+    schema["properties"]["syringe"] = {"$ref": syringe["anyOf"][0]["$ref"], "x-optional": True}
     return schema
 
 

@@ -55,6 +55,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
   const inputs = (): Inputs => new Map([...top.inputs, ...parts.flatMap((part) => [...part.inputs]), ...list.inputs]);
 
   const [needle, ...others] = parts;
+  const sections = others.map(({ table, root }) => ({ table, root: section(table, root, table.key !== "servo") }));
   const fields = element(
     "fieldset",
     { class: "fields" },
@@ -64,7 +65,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     list.root,
     element("div", { class: "tools" }, add),
     ...(needle ? [section(needle.table, needle.root, true)] : []),
-    ...others.map(({ table, root }) => section(table, root, table.key !== "servo")),
+    ...sections.map(({ root }) => root),
   );
   const drawing = lawDrawing();
   const tools = element(
@@ -102,6 +103,10 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
     list.show(tables);
     showAll(top.inputs, tables);
     for (const part of parts) showAll(part.inputs, tables);
+    for (const { table, root } of sections) root.hidden = table.optional && tables[table.key] === undefined;
+    // Only liquid from a syringe meets these.
+    for (const [path, input] of list.inputs)
+      if (/\.(outflow|behind)_/.test(path)) input.root.hidden = tables.syringe === undefined;
   });
   draft.problems.watch((problems) => showProblems(problems));
   list.selected.watch(() => showProblems(draft.problems.value));

@@ -35,6 +35,8 @@ export interface Table {
   readonly title: string;
   readonly help: string;
   readonly list: boolean;
+  /** A scene may lack this table. */
+  readonly optional: boolean;
   readonly fields: readonly Field[];
   /** The table holds exactly one key of each pair. */
   readonly pairs: readonly (readonly [string, string])[];
@@ -73,20 +75,21 @@ export function sceneForm(schema: unknown): SceneForm {
       continue;
     }
     const name = reference.replace("#/$defs/", "");
-    tables.push(table(key, object(definitions[name], name), isList, text(entry.title)));
+    tables.push(table(key, object(definitions[name], name), isList, entry));
   }
   return { fields, tables };
 }
 
-function table(key: string, definition: Json, isList: boolean, title: string): Table {
+function table(key: string, definition: Json, isList: boolean, entry: Json): Table {
   const required = new Set(list(definition.required));
   return {
     key,
-    title: title || text(definition.title) || key,
+    title: text(entry.title) || text(definition.title) || key,
     help: text(definition.description),
     list: isList,
-    fields: Object.entries(object(definition.properties, key)).map(([name, entry]) =>
-      field(name, object(entry, name), required.has(name)),
+    optional: entry["x-optional"] === true,
+    fields: Object.entries(object(definition.properties, key)).map(([name, raw]) =>
+      field(name, object(raw, name), required.has(name)),
     ),
     pairs: list(definition.allOf).flatMap(pair),
   };

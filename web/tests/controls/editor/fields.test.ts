@@ -60,3 +60,9 @@ test("a number that a word may replace has its bounds and the word", () => {
   });
   expect(field("membrane", "friction").word).toBe("");
 });
+
+test("reads a table that a scene may lack", () => {
+  const tables = sceneForm(schema).tables;
+  expect(tables.find(({ key }) => key === "syringe")).toMatchObject({ optional: true, list: false, title: "Syringe" });
+  expect(tables.filter(({ optional }) => optional)).toHaveLength(1);
+});
