@@ -19,8 +19,11 @@ from punctura.ticks.flat import flatten, gather
 
 SCENES_TYPE = pa.list_(pa.string())
 _ROWS_A_PIECE = 2048
+_LATER_INPUTS = ("thumb",)  # inputs that earlier versions did not have; 0 in their recordings
 # Required fields. Earlier versions did not record all of the others.
-_REQUIRED = (*INPUTS, "tick", "ceiling", "force", "state", "fault", "depth", "axial_force", "lower", "upper", "phase")
+_EARLIER_INPUTS = [name for name in INPUTS if name not in _LATER_INPUTS]
+_RESULTS = ("tick", "ceiling", "force", "state", "fault", "depth", "axial_force", "lower", "upper", "phase")
+_REQUIRED = (*_EARLIER_INPUTS, *_RESULTS)
 
 
 def raw_batch(ticks: Ticks, membranes: int, lost: NDArray[np.uint32], scenes: list[list[str] | None]) -> pa.RecordBatch:
@@ -105,7 +108,9 @@ def numbers(batch: pa.RecordBatch, name: str) -> NDArray[Any]:
 def input_ticks(batch: pa.RecordBatch) -> Ticks:
     """The inputs of the ticks in a batch."""
     wanted = [column.name for column in file_columns([FIELDS[name] for name in ("tick", *INPUTS)], 0)]
-    return Ticks(gather({name: numbers(batch, name) for name in wanted}))
+    known = set(batch.schema.names)
+    later = {name: np.zeros(len(batch)) for name in _LATER_INPUTS if name not in known}
+    return Ticks(gather({name: numbers(batch, name) for name in wanted if name in known} | later))
 
 
 def ticks_of(batch: pa.RecordBatch) -> Ticks:

@@ -8,7 +8,7 @@ from punctura._core import ServoLoop
 from punctura.cli._headless import begun, in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, SimulatedDevice, felt_force
-from punctura.record import Recorder, export, open_recording, replay
+from punctura.record import Recorder, export, open_recording, replay, replay_device
 from recorded import recorded, run_to_end
 from waiting import wait_until
 
@@ -62,16 +62,24 @@ def test_another_scale_while_the_run_goes_on_is_replayed_to_the_last_bit(tmp_pat
     assert result.identical and result.complete
 
 
-def test_a_recording_without_the_column_gave_the_whole_force(tmp_path):
+@pytest.mark.parametrize("more", [[], ["thumb", "plunger", "thumb_force", "pressure", "injected"]])
+def test_a_recording_without_the_column_gave_the_whole_force(tmp_path, more):
     path = recorded(tmp_path / "run.parquet", device(), scaled(1), TICKS)
     from punctura.record.header import KEY, with_check_sum
 
-    table = pq.read_table(path).drop_columns(["force_scale"])
+    table = pq.read_table(path)
+    later = [name for name in table.column_names if name.rsplit("_", 1)[0] in more]
+    assert len(later) == len(more)
+    table = table.drop_columns(["force_scale", *later])
     old = table.replace_schema_metadata(None)
     text = pq.read_schema(path).metadata[KEY]
     pq.write_table(old.replace_schema_metadata(with_check_sum(text, old.schema)), path)
     assert (open_recording(path).ticks().force_scale == 1).all()
-    assert replay(path).identical
+    result = replay(path)
+    assert (result.ticks, result.identical, result.complete) == (TICKS, True, True)
+    again = ServoLoop(replay_device(path, real_time=False), scaled(1))
+    run_to_end(again)
+    assert again.report()["ticks"] >= TICKS
 
 
 def test_the_simulation_gives_the_models_newtons():
