@@ -62,6 +62,7 @@ def pushed(device: str, display: float | str, speed: float) -> Run:
             "buttons": np.zeros(n, np.uint32),
             "healthy": np.ones(n, bool),
             "motor_temperature": np.zeros(n),
+            "thumb": np.zeros(n),
         },
         [],
     )

@@ -1,5 +1,7 @@
 """A recording of a simulated device that ends by itself, made as fast as possible."""
 
+import numpy as np
+import pyarrow as pa
 from punctura._core import ServoLoop
 from punctura.record import Recorder
 from waiting import wait_until
@@ -20,3 +22,14 @@ def recorded(path, device, scene, ticks):
         assert recorder._listener.capacity >= ticks, "nothing slows this device down: the ring must hold all its ticks"
         run_to_end(loop)
     return path
+
+
+def assert_same_table(one, other):
+    """The tables have the same columns with the same values; NaN, as in a scene without a syringe, equals NaN."""
+    assert one.schema.equals(other.schema)
+    for name in one.schema.names:
+        ours, theirs = one[name], other[name]
+        if pa.types.is_floating(ours.type):
+            np.testing.assert_array_equal(ours.to_numpy(), theirs.to_numpy(), err_msg=name)
+        else:
+            assert ours.to_pylist() == theirs.to_pylist(), name

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from punctura import load_scene
 from punctura.record import RecordingError, open_recording, replay_device
+from recorded import assert_same_table
 
 TOOLS = Path(__file__).parents[3] / "tools"
 
@@ -23,7 +24,7 @@ def growing(start, tmp_path):
 
 def test_a_killed_recording_has_what_the_finished_one_has(growing, tmp_path):
     killed, finished = open_recording(growing), open_recording(tmp_path / "run.parquet")
-    assert killed.table().to_pydict() == finished.table().to_pydict()
+    assert_same_table(killed.table(), finished.table())
     assert killed.info.scene == finished.info.scene == load_scene("k06-fig12")
     assert not killed.finished and finished.finished
 

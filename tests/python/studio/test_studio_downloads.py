@@ -9,7 +9,6 @@ import time
 from contextlib import suppress
 from urllib.parse import quote
 
-import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from punctura import Strokes, load_scene
@@ -19,6 +18,7 @@ from punctura.record.pieces import PIECE_BYTES, export_pieces
 from punctura.studio import connections, download
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
+from recorded import assert_same_table
 from waiting import wait_until
 
 TICKS = 40_000  # 30 MB as CSV: more than what the system keeps of a connection
@@ -46,10 +46,7 @@ def test_what_is_sent_is_what_an_export_writes(tmp_path, kind):
         table = pq.read_table(io.BytesIO(sent))
         (tmp_path / "sent.parquet").write_bytes(sent)
         assert open_recording(tmp_path / "sent.parquet").rows == 5000
-        recorded = pq.read_table(tmp_path / "run.parquet")
-        assert table.schema.equals(recorded.schema, check_metadata=True)
-        for name in table.column_names:  # without a syringe its columns are NaN
-            np.testing.assert_array_equal(table[name].to_numpy(), recorded[name].to_numpy(), err_msg=name)
+        assert_same_table(table, pq.read_table(tmp_path / "run.parquet"))
         return
     export(tmp_path / "run.parquet", out)
     if kind == "csv":
