@@ -13,6 +13,8 @@ import { openResult } from "./exercises/result_dialog.ts";
 import { showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
 
+const DRAFT = "draft"; // the studio's name of an exercise that is tried before it is saved
+
 /** The list of exercises, the running one, and past results. */
 export const exercisesPanel: Panel = (host, app) => {
   host.classList.add("exercises-panel");
@@ -133,16 +135,30 @@ function card(
     ...(exercise.unfelt ? [element("p", { class: "unfelt", role: "note" }, exercise.unfelt)] : []),
     element("p", {}, exercise.description),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
-    ...(wrong ? [] : [expertChoice(app, exercise, () => void changed())]),
-    ...(exercise.made ? [deleteButton(app, exercise, () => void changed())] : []),
+    ...(wrong || exercise.name === DRAFT ? [] : [expertChoice(app, exercise, () => void changed())]),
+    ...(exercise.made ? [deletePart(app, exercise, () => void changed())] : []),
   );
 }
 
-function deleteButton(app: App, { name }: ExerciseOverview, changed: () => void): HTMLElement {
-  const act = (): void => {
-    void app.ask({ do: "delete_exercise", name }).then(changed);
+/** A button that deletes the file of an exercise, after a second button is pressed. */
+function deletePart(app: App, { name }: ExerciseOverview, changed: () => void): HTMLElement {
+  const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
+    element("button", { type: "button", class: `small ${kind}`, onclick: act }, label);
+  const sure = element("span", { class: "tools sure", hidden: true });
+  const ask = (open: boolean): void => {
+    sure.hidden = !open;
+    remove.hidden = open;
+    (open ? keep : remove).focus();
   };
-  return element("button", { type: "button", class: "small", onclick: act }, "Delete this file");
+  const remove = button("Delete this file", () => ask(true));
+  const keep = button("Cancel", () => ask(false));
+  const really = button(
+    "Delete permanently",
+    () => void app.ask({ do: "delete_exercise", name }).then(changed),
+    "danger",
+  );
+  sure.append(keep, really);
+  return element("div", { class: "tools" }, remove, sure);
 }
 
 function problemList(kind: "problems" | "warnings", problems: readonly ProblemPart[]): HTMLElement {

@@ -57,6 +57,7 @@ export const recordingsPanel: Panel = (host, app) => {
   app.source.watch(mark);
   app.overlay.watch(mark);
   app.hello.watch(block);
+  app.exercise.watch(block);
   watchBlock(app, (now) => {
     blocked = now !== null;
     block();

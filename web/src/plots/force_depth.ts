@@ -98,7 +98,8 @@ export const forceDepthPlot: Panel = (host, app) => {
         if (event.key === "0") setZoom(null);
         else if (!keyTick(event, plots, app)) return false;
         const tick = plots.source.shown();
-        if (tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
+        if (tick !== null && plots.pointedBy === "keys")
+          spoken.textContent = reading(plots.source, tick, plots.noDepth);
         return true;
       },
     },
@@ -146,7 +147,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     const { history } = plots.source;
     const tick = pointed?.tick ?? plots.source.shown();
     const m = pointed?.membrane ?? chosen;
-    if (tick === null || m === null || tick < history.first || tick >= history.end) {
+    if (plots.noDepth || tick === null || m === null || tick < history.first || tick >= history.end) {
       readout.textContent = "";
       return;
     }

@@ -13,15 +13,15 @@ const ROW = 16;
 
 const minus = (text: string): string => text.replace("-", "−");
 
-/** A tick's numbers as text for a screen reader. */
-export function reading(source: Source, tick: number): string {
+/** A tick's numbers as text for a screen reader; with `noDepth` its forces only. */
+export function reading(source: Source, tick: number, noDepth: boolean): string {
   const { history } = source;
   const names = source.scene.value?.membranes ?? [];
   const parts = Array.from({ length: history.membranes }, (_, i) => {
-    const depth = (history.row("depth", tick)[i]! * 1e3).toFixed(3);
+    const depth = noDepth ? "" : ` ${(history.row("depth", tick)[i]! * 1e3).toFixed(3)} mm,`;
     const model = -history.row("axial_force", tick)[i]!;
     const felt = `${feltForce(scaleOf(source, tick))} ${(model * feltShare(history, tick)).toFixed(3)} N`;
-    return `${names[i]?.name ?? `membrane ${i + 1}`} ${depth} mm, ${MODEL_FORCE} ${model.toFixed(3)} N, ${felt}`;
+    return `${names[i]?.name ?? `membrane ${i + 1}`}${depth || ":"} ${MODEL_FORCE} ${model.toFixed(3)} N, ${felt}`;
   });
   return `${history.timeOf(tick).toFixed(4)} s, ${forceWords(history, tick)}: ${parts.join("; ")}`;
 }
@@ -33,8 +33,8 @@ function forceWords(history: History, tick: number): string {
     : STATE_WORDS[stateOf(history, tick)];
 }
 
-/** Draws a small table next to the cursor: the time, and the depth and force of every membrane. */
-export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme): void {
+/** Draws a small table next to the cursor: the time, and of every membrane the force and, unless `noDepth`, the depth. */
+export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme, noDepth: boolean): void {
   const { history } = source;
   const x = pane.x.px(history.timeOf(tick));
   const left = x + WIDTH + 14 < pane.right ? x + 10 : x - WIDTH - 10;
@@ -55,7 +55,7 @@ export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, 
     drawBadge(pen, left + 14, y, i, theme);
     const depth = minus((history.row("depth", tick)[i]! * 1e3).toFixed(3));
     const force = minus((-history.row("axial_force", tick)[i]!).toFixed(3));
-    pen.text(left + 92, y, `${depth} mm`, { colour: theme.text, anchor: "end" });
+    if (!noDepth) pen.text(left + 92, y, `${depth} mm`, { colour: theme.text, anchor: "end" });
     pen.text(left + WIDTH - 8, y, `${force} N`, { colour: theme.text, anchor: "end" });
   }
 }

@@ -34,6 +34,7 @@ export function download(name: string, parts: BlobPart[], type: string): void {
 
 export async function save(saving: Saving, format: "png" | "svg" | "csv"): Promise<void> {
   const { plots } = saving;
+  if (plots.noDepth) return; // the menu is hidden then; each format has depths
   const { source, window } = plots;
   const scene = source.scene.value;
   const [width, upper] = saving.size();

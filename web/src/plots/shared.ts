@@ -32,6 +32,11 @@ export class Plots {
     return this.app.source.value;
   }
 
+  /** Whether depths must be neither drawn, read out nor saved. */
+  get noDepth(): boolean {
+    return this.app.blind;
+  }
+
   /** Finds the ticks to draw. Called once per frame. */
   update(): Window {
     const { source, window } = this;

@@ -45,6 +45,7 @@ export const timePlots: Panel = (host, app) => {
     pointed: plots.source.pointed.value,
     cursor: plots.source.cursor.value,
     hidden,
+    noDepth: plots.noDepth,
     comparison: app.comparison.value,
   });
   const body = element("div", { class: "plot-body" });
@@ -91,7 +92,8 @@ export const timePlots: Panel = (host, app) => {
         }
         const taken = keyTick(event, plots, app);
         const tick = plots.source.shown();
-        if (taken && tick !== null && plots.pointedBy === "keys") spoken.textContent = reading(plots.source, tick);
+        if (taken && tick !== null && plots.pointedBy === "keys")
+          spoken.textContent = reading(plots.source, tick, plots.noDepth);
         return taken;
       },
     },

@@ -30,6 +30,8 @@ export interface TimePicture {
   /** The tick at which the timeline stands. */
   readonly cursor: number | null;
   readonly hidden: Hidden;
+  /** Whether the table at the pointed tick leaves the depth out. */
+  readonly noDepth: boolean;
   readonly comparison: LabComparison | null;
 }
 
@@ -205,7 +207,7 @@ export class TimeDrawing {
   }
 
   private drawNow(pen: Pen, picture: TimePicture, theme: Theme): void {
-    const { source, window, pointed, cursor, hidden } = picture;
+    const { source, window, pointed, cursor, hidden, noDepth } = picture;
     const { history } = source;
     const { force, depth } = this;
     const { bottom } = depth;
@@ -240,7 +242,7 @@ export class TimeDrawing {
           if (pane.holds(x, y)) pen.dot(x, y, 3, theme.panel, colourOf(theme, i));
         }
       }
-      drawReading(pen, force, source, pointed, theme);
+      drawReading(pen, force, source, pointed, theme, noDepth);
     }
   }
 }

@@ -65,6 +65,12 @@ export class App {
     });
   }
 
+  /** Whether a blind exercise runs: then nothing may tell a depth. */
+  get blind(): boolean {
+    const now = this.exercise.value;
+    return now?.running === true && now.blind === true;
+  }
+
   /** Sends a request, and tells the user if it is refused. */
   async ask(request: Ask): Promise<Reply | null> {
     try {

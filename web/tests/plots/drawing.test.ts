@@ -4,6 +4,7 @@ import type { ForceDepthPicture } from "../../src/plots/force_depth_picture.ts";
 import { Hidden } from "../../src/plots/kit/legend.ts";
 import { SvgPen } from "../../src/plots/kit/svg_pen.ts";
 import type { Theme } from "../../src/plots/kit/theme.ts";
+import { reading } from "../../src/plots/reading.ts";
 import { TimeDrawing, timeCurves } from "../../src/plots/time_drawing.ts";
 import { Window } from "../../src/plots/window.ts";
 import { Source } from "../../src/state/source.ts";
@@ -106,10 +107,22 @@ describe("force against depth", () => {
 });
 
 describe("force and depth against time", () => {
-  const drawn = (from: Source, off = ["permitted"]): { drawing: TimeDrawing; file: string; names: string[] } => {
+  const drawn = (
+    from: Source,
+    off = ["permitted"],
+    noDepth = false,
+  ): { drawing: TimeDrawing; file: string; names: string[] } => {
     const drawing = new TimeDrawing();
     const hidden = new Hidden("test", off);
-    const now = { source: from, window: window20(from), pointed: SPIKE, cursor: null, hidden, comparison: null };
+    const now = {
+      source: from,
+      window: window20(from),
+      pointed: SPIKE,
+      cursor: null,
+      hidden,
+      noDepth,
+      comparison: null,
+    };
     drawing.arrange(now, 480, 320, 0);
     const pen = new SvgPen();
     drawing.draw(pen, now, theme);
@@ -139,6 +152,16 @@ describe("force and depth against time", () => {
     expect(file).toContain(">12.3450 s  active<");
     expect(file).toContain(">3.000 N<");
     expect(file).toContain(">4.938 mm<");
+    expect(reading(source(), SPIKE, false)).toContain("membrane 1 4.938 mm, model force 3.000 N");
+  });
+
+  it("a blind exercise gets the force under the cursor, and no depth", () => {
+    const { file } = drawn(source(), ["permitted"], true);
+    expect(file).toContain(">3.000 N<");
+    expect(file).not.toContain(">4.938 mm<");
+    const words = reading(source(), SPIKE, true);
+    expect(words).toContain("membrane 1: model force 3.000 N");
+    expect(words).not.toContain("mm");
   });
 
   it("a pop has a mark that says what the force lost, a fault its shade", () => {

@@ -1,3 +1,4 @@
+import type { Reply } from "../../engine/engine.ts";
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
@@ -24,7 +25,11 @@ export function expertButton(
     button.disabled = true;
     const recording = is ? "" : result.recording;
     const reply = await app.ask({ do: "set_expert", exercise: exercise.name, recording });
-    if (!reply?.ok) return;
+    if (!reply?.ok) {
+      button.disabled = false;
+      tellProblems(app, reply);
+      return;
+    }
     button.textContent = is ? "No longer the expert’s run" : "This is now the expert’s run";
     changed();
   };
@@ -36,28 +41,53 @@ export function expertButton(
   return [button];
 }
 
-/** A choice of the expert's run among all recordings, which are read when it is used for the first time. */
+/** A choice of the expert's run among all recordings, which are read before it opens. */
 export function expertChoice(app: App, exercise: ExerciseOverview, changed: () => void): HTMLElement {
   const option = (name: string, text = name): HTMLElement => element("option", { value: name }, text);
-  const select = element("select", {}, option("", "none"), ...(exercise.expert ? [option(exercise.expert)] : []));
+  const known = (): HTMLElement[] => [option("", "none"), ...(exercise.expert ? [option(exercise.expert)] : [])];
+  const select = element("select", {}, ...known());
   select.value = exercise.expert;
   let read = false;
   const fill = async (): Promise<void> => {
-    if (read) return;
-    read = true;
     const entries = await app.api.json<RecordingEntry[]>("/api/recordings").catch(() => []);
     const others = entries.filter(({ name }) => name !== exercise.expert);
-    select.append(...others.map(({ name }) => option(name)));
+    select.replaceChildren(...known(), ...others.map(({ name }) => option(name)));
+    select.value = exercise.expert;
+    read = true;
   };
-  select.addEventListener("focus", () => void fill());
-  select.addEventListener("pointerdown", () => void fill());
+  const open = async (): Promise<void> => {
+    await fill();
+    select.focus();
+    try {
+      select.showPicker();
+    } catch {
+      // An old browser, or it took long: the next press opens the list.
+    }
+  };
+  // An open list does not take in new entries in every browser.
+  select.addEventListener("mousedown", (event) => {
+    if (read) return;
+    event.preventDefault();
+    void open();
+  });
+  select.addEventListener("focus", () => {
+    if (!read) void fill();
+  });
+  select.addEventListener("blur", () => {
+    read = false;
+  });
   select.addEventListener("change", () => {
     void app.ask({ do: "set_expert", exercise: exercise.name, recording: select.value }).then((reply) => {
-      if (reply && !reply.ok && reply.problems?.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
+      tellProblems(app, reply);
       changed();
     });
   });
   return element("label", { class: "expert" }, "Expert’s run ", select);
+}
+
+/** Says what is wrong with a recording; `ask` has said any other refusal. */
+function tellProblems(app: App, reply: Reply | null): void {
+  if (reply && !reply.ok && reply.problems?.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
 }
 
 /** The curves of the expert's run, in its own time; null without one, or for the expert's run itself. */

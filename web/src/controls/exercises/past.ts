@@ -65,13 +65,15 @@ export function pastResults(
     const query = all ? `group=${encodeURIComponent(group)}` : `person=${encodeURIComponent(who.name.value)}`;
     const whose = all ? `the class ${group}` : who.name.value || "attempts without a name";
     let results: ExerciseResult[] = [];
+    let words = "No results yet.";
     try {
       results = await app.api.json<ExerciseResult[]>(`/api/results?${query}`);
-      note.textContent = results.length ? `Results of ${whose}, kept on this computer.` : "No results yet.";
+      if (results.length) words = `Results of ${whose}, kept on this computer.`;
     } catch (error) {
-      note.textContent = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
+      words = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
     }
-    if (mine !== asked) return;
+    if (mine !== asked) return; // an answer to an earlier question
+    note.textContent = words;
     table.hidden = results.length === 0;
     exports.hidden = results.length === 0;
     progress.show(results);

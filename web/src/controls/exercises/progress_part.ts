@@ -3,12 +3,13 @@ import { drawAxes, MARGIN, Pane } from "../../plots/kit/axes.ts";
 import { Figure } from "../../plots/kit/figure.ts";
 import type { Pen } from "../../plots/kit/pen.ts";
 import { Polyline } from "../../plots/kit/polyline.ts";
-import { colourOf, type Theme } from "../../plots/kit/theme.ts";
+import { CSS_THEME, colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
 import { courses, MEASURES, type Measure, summaries } from "./progress.ts";
 
 const HEIGHT = 180; // px
+const nameOf = (person: string): string => person || "no name";
 
 /** The course of one measure over the attempts, of one person or of a class, as a chart and a table. */
 export function progressPart(
@@ -65,7 +66,7 @@ export function progressPart(
   };
 }
 
-/** One line a person; a full dot is a pass, an empty one is not. Returns what a screen reader says. */
+/** One line a person, with the name at its end; a full dot is a pass, an empty one is not. Returns what a screen reader says. */
 export function drawProgress(
   pen: Pen,
   width: number,
@@ -92,6 +93,11 @@ export function drawProgress(
       pen.dot(x, y, 4, colour, theme.panel);
       if (!result.passed) pen.dot(x, y, 2, theme.panel, theme.panel);
     }
+    const end = line.points.at(-1);
+    if (!end) return;
+    const x = pane.x.px(end.number);
+    const anchor = x > pane.left + pane.width / 2 ? "end" : "start"; // the name stays inside
+    pen.text(x, pane.y.px(end.value) - 11, nameOf(line.person), { colour, anchor, bold: true, halo: theme.panel });
   });
   return `${measure.label} over ${points.length} attempts. Smaller is better.`;
 }
@@ -107,11 +113,13 @@ function progressTable(results: readonly ExerciseResult[], exercise: string, mea
     element(
       "tbody",
       {},
-      ...summaries(results, exercise, measure).map((row, i) =>
-        element(
+      ...summaries(results, exercise, measure).map((row, i) => {
+        const who = element("th", { scope: "row" }, nameOf(row.person));
+        who.style.color = colourOf(CSS_THEME, i);
+        return element(
           "tr",
           {},
-          element("th", { scope: "row", class: `person-${(i % 5) + 1}` }, row.person || "no name"),
+          who,
           ...[
             String(row.attempts),
             String(row.passed),
@@ -119,8 +127,8 @@ function progressTable(results: readonly ExerciseResult[], exercise: string, mea
             number(row.best),
             number(row.last),
           ].map((text) => element("td", {}, text)),
-        ),
-      ),
+        );
+      }),
     ),
   );
 }

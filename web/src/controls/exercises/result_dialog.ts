@@ -98,8 +98,13 @@ export function openResult(
         look.disabled = false;
         if (!source) return;
         close(() => {
-          if (expert) app.overlay.value = expert;
+          app.overlay.value = expert ?? null; // never the expert of another exercise
           app.source.value = source;
+          const end = app.source.watch(({ history }) => {
+            if (history === source.history) return;
+            end();
+            if (expert && app.overlay.value === expert) app.overlay.value = null;
+          });
         });
       });
     });

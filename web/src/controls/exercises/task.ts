@@ -38,13 +38,21 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
     end.disabled = block !== null;
   });
   let shown = "";
+  let began = false;
   app.exercise.watch((status) => {
     const running = status?.running ?? false;
     root.hidden = !running;
     document.documentElement.classList.toggle("exercising", running);
-    document.documentElement.classList.toggle("blind", running && status?.blind === true);
-    if (!status || !running) return;
+    document.documentElement.classList.toggle("blind", app.blind);
+    if (!status || !running) {
+      began = false;
+      return;
+    }
     title.textContent = titleOf(status.exercise);
+    // The button that was pressed is hidden now. The keys of the view move the needle.
+    if (!began && app.control.value.you)
+      document.querySelector<HTMLElement>(".view-main > canvas")?.focus({ preventScroll: true });
+    began = true;
     if (instruction.textContent !== status.instruction) instruction.textContent = status.instruction;
     clock.textContent = clockText(status);
     ring.show(status);
@@ -94,7 +102,7 @@ function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
     class: "hold-ring",
     role: "progressbar",
     "aria-valuemin": 0,
-    "aria-label": "Held still",
+    "aria-label": "Time in the space",
   });
   root.append(drawing);
   return {

@@ -15,6 +15,10 @@ export function scriptRows(app: App, hand: Hand): HTMLElement {
   });
   const button = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Start strokes");
   let stroking = false;
+  app.exercise.watch((status) => {
+    button.disabled = status?.running ?? false; // the studio refuses strokes then
+    button.title = button.disabled ? "The exercise judges your own hand" : "";
+  });
   app.status.watch((status) => {
     stroking = status?.hand === "strokes";
     button.textContent = stroking ? "Stop strokes" : "Start strokes";

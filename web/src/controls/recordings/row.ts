@@ -137,7 +137,8 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
       compare.setAttribute("aria-pressed", String(compared));
     },
     block: (blocked, simulated) => {
-      repeat.disabled = blocked && blockOf(app)?.remedy !== "live";
+      const judged = app.exercise.value?.running ?? false; // the studio refuses it then
+      repeat.disabled = judged || (blocked && blockOf(app)?.remedy !== "live");
       repeat.hidden = !simulated;
     },
   };

@@ -132,12 +132,13 @@ const GOALS: Readonly<Record<string, keyof Draft>> = {
   time_limit: "seconds",
 };
 
-/** A file name made from a title: lower case letters, digits and hyphens. */
+/** A file name made from a title: lower case letters of any script, digits and hyphens; "exercise" without any. */
 export const nameOf = (title: string): string =>
   title
     .normalize("NFKD")
-    .replace(/\p{M}/gu, "") // the accents
+    .replace(/[\u0300-\u036f]/g, "") // the accents of Latin, Greek and Cyrillic letters
+    .normalize("NFC")
     .toLowerCase()
-    .replace(/[^a-z0-9]+/g, "-")
-    .replace(/^-+|-+$/g, "")
-    .slice(0, 60);
+    .replace(/[^\p{L}\p{M}\p{N}]+/gu, "-")
+    .slice(0, 60)
+    .replace(/^-+|-+$/g, "") || "exercise";

@@ -36,7 +36,8 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   const complain = (problems: readonly { path: string; value: string; reason: string }[]): void => {
     for (const place of places.values()) place.textContent = "";
     const left = problems.filter((problem) => {
-      const place = places.get(fieldOf(problem.path, tablesOf(draft!, scene())) || "title");
+      const field = fieldOf(problem.path, tablesOf(draft!, scene()));
+      const place = field && places.get(field);
       if (place) place.textContent = `${place.textContent} ${problem.reason}`.trim();
       return !place;
     });
@@ -67,7 +68,7 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   };
   const download = async (): Promise<void> => {
     if (!(await check())) return;
-    const link = element("a", { download: `${nameOf(draft!.title) || "exercise"}.toml` });
+    const link = element("a", { download: `${nameOf(draft!.title)}.toml` });
     link.href = URL.createObjectURL(new Blob([toml], { type: "application/toml" }));
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
@@ -137,20 +138,20 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
         "Scene",
         scenes.map(({ name, title }) => [name, title]),
       ),
-      choice("behind", "Goal behind", membranes),
+      choice("behind", "Goal behind the membrane", membranes),
       strip.root,
-      number("from", "Goal from, mm", false),
-      number("to", "Goal to, mm", true),
-      words("space", "Called"),
-      tick("wholeTip", "The whole tip"),
-      number("stay", "Stay, s", true),
-      number("stopWithin", "Stop within, mm", true),
-      choice("neverPass", "Never pass", [["", "not asked"], ...membranes]),
+      number("from", "Upper edge, mm behind its far face", false),
+      number("to", "Lower edge, mm behind its far face", true),
+      words("space", "Name of the goal"),
+      tick("wholeTip", "Whole tip in the goal, not only the point"),
+      number("stay", "Stay in the goal, s", true),
+      number("stopWithin", "After the pop, move on at most, mm", true),
+      choice("neverPass", "Never pass the membrane", [["", "not asked"], ...membranes]),
       number("peakForce", "Force at most, N", true),
-      number("entries", "Entries at most", true),
-      number("seconds", "Time, s", true),
-      number("angle", "Angle, degrees", false),
-      tick("blind", "Blind"),
+      number("entries", "Entries into the tissue, at most", true),
+      number("seconds", "Time limit, s", true),
+      number("angle", "Needle to skin, degrees", false),
+      tick("blind", "Blind: hide needle and depth"),
       element(
         "div",
         { class: "tools" },

@@ -57,4 +57,9 @@ test("a problem of the file is shown at its field", () => {
 
 test("a title becomes the name of a file", () => {
   expect(nameOf("  Übung: 3 mm / rückwärts! ")).toBe("ubung-3-mm-ruckwarts");
+  expect(nameOf("静脉 穿刺 2")).toBe("静脉-穿刺-2");
+  expect(nameOf("Игла")).toBe("игла");
+  expect(nameOf("바늘")).toBe("바늘"); // composed, as the studio compares names
+  expect(nameOf("सुई")).toBe("सुई");
+  expect(nameOf("?!")).toBe("exercise");
 });
