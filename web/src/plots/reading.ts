@@ -33,7 +33,7 @@ function forceWords(history: History, tick: number): string {
     : STATE_WORDS[stateOf(history, tick)];
 }
 
-/** Draws a small table next to the cursor: the time, and of every membrane the force and, unless `noDepth`, the depth. */
+/** Draws a small table next to the cursor: the time, and of every membrane the force and, unless `noDepth`, depth. */
 export function drawReading(pen: Pen, pane: Pane, source: Source, tick: number, theme: Theme, noDepth: boolean): void {
   const { history } = source;
   const x = pane.x.px(history.timeOf(tick));

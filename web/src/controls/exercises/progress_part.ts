@@ -66,7 +66,10 @@ export function progressPart(
   };
 }
 
-/** One line a person, with the name at its end; a full dot is a pass, an empty one is not. Returns what a screen reader says. */
+/**
+ * One line a person, with the name at its end; a full dot is a pass, an empty one is not. Returns what a screen reader
+ * says.
+ */
 export function drawProgress(
   pen: Pen,
   width: number,

@@ -55,4 +55,6 @@ test("a pass is a full dot, and an attempt that was not passed an empty one", ()
   const file = pen.file(300, 180, "none", words, "");
   expect(words).toBe("Largest overshoot, mm over 3 attempts. Smaller is better.");
   expect(file.match(/<circle/g)).toHaveLength(4); // three dots, and the hole of the one that is not passed
+  for (const [i, name] of ["Ada", "Bob"].entries()) // each name in the colour of its line, as in the table
+    expect(file).toMatch(new RegExp(`fill="var\\(--data-${i + 1}\\)"[^>]*>${name}<`));
 });
