@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Iterator
@@ -15,6 +16,7 @@ from punctura.compare.comparison import NUMBERS, Comparison, On, compare
 from punctura.compare.figure import save_figures
 from punctura.compare.run import Run
 from punctura.compare.statistics import Statistics
+from punctura.files.whole_file import whole_file
 from punctura.record.build_id import build_id
 from punctura.scene import scene_text
 from punctura.ticks.files import save
@@ -34,10 +36,10 @@ scenes/NN.toml            the scene of a run; `punctura run FILE` runs it
 
 {runs}
 
-Model force: what the model gives. Felt force: what the device gives, after all limits; without a device it is equal
-to the model force. Permitted force: the most that the limits allow. All are positive if they push the needle out.
-Work: of the hand against the force, in the first insertion up to its deepest place. Overshoot: how far the bevel ran on
-past a membrane in the 0.3 s after the pop. {against}
+Model force: what the model gives. Felt force: what the device gives, after all limits. Permitted force: the most that
+the limits allow. A simulated run has no device: its felt and permitted forces are empty. All are positive if they push
+the needle out. Work: of the hand against the force along the needle, in the first insertion up to its deepest place.
+Overshoot: how far the bevel ran on past a membrane in the 0.3 s after the pop. {against}
 
 How to cite: CITATION.cff. Please cite the software with its version, and the paper whose model it computes.
 """
@@ -49,14 +51,40 @@ AXIS = {"depth": "against the depth of the tip, m", "time": "against the time si
 _UNITS = {"duration": "s", "depth": "m", "overshoot": "m", "work": "J", "felt_work": "J"}
 
 
+MOST_TICKS_IN_ALL = 5_000_000  # of all runs together: with three membranes up to 1.4 GB as CSV before it is packed
+BYTES_A_NUMBER = 2 * (25 + 8)  # at most, of a number in CSV and in Parquet, as a temporary file and in the zip
+
+
+def check_ticks(total: int) -> None:
+    """Raises ValueError if so many ticks are too many for one zip file."""
+    if total > MOST_TICKS_IN_ALL:
+        raise ValueError(
+            f"the runs have {total} ticks together; a zip file takes at most {MOST_TICKS_IN_ALL}: choose fewer or "
+            "shorter runs"
+        )
+
+
+def _check_room(folder: Path, needed: int) -> None:
+    free = shutil.disk_usage(folder).free
+    if needed > free:
+        raise ValueError(
+            f"the next run needs up to {needed / 1e6:.0f} MB in {folder.absolute()}, where {free / 1e6:.0f} MB are "
+            "free: make room, or choose fewer or shorter runs"
+        )
+
+
 def save_bundle(
     runs: Iterable[Run], path: str | os.PathLike[str], on: On = "depth", title: str = "A comparison of runs"
 ) -> Comparison:
     """Writes figure, curves, statistics, every tick, the scenes and how to cite them into a zip file.
 
-    Raises ValueError, OSError. An existing file is replaced.
+    Raises ValueError for more than MOST_TICKS_IN_ALL, OSError. An existing file is replaced by a complete one only.
     """
-    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        whole_file(Path(path)) as new,
+        zipfile.ZipFile(new, "w", zipfile.ZIP_DEFLATED) as archive,
+    ):
         place = Path(folder)
 
         def add(name: str, write: Callable[[Path], None]) -> None:
@@ -66,8 +94,13 @@ def save_bundle(
             file.unlink()
 
         def kept() -> Iterator[Run]:
+            total = 0
             for i, run in enumerate(runs, 1):
+                total += len(run.time)
+                check_ticks(total)
                 table = ticks_table(run)
+                for needed in (place, Path(path).parent):
+                    _check_room(needed, table.num_rows * table.num_columns * BYTES_A_NUMBER)
                 for ending in ("csv", "parquet"):
                     add(f"runs/{i:02d}.{ending}", lambda file, table=table: save(table, file))  # type: ignore[misc]
                 archive.writestr(f"scenes/{i:02d}.toml", scene_text(run.scene))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from punctura import Scene
-from punctura.compare.run import Array
+from punctura.compare.run import MOST_TICKS, Array
 from punctura.events.recorded import recorded_ticks
 from punctura.live import stroke_ends
 from punctura.record import Recording
@@ -50,6 +50,12 @@ def stroke(scene: Scene, speed: float = 5e-3) -> Motion:
 
 def recorded_motion(recording: Recording) -> Motion:
     """The motion of a recording, every tick of it. Raises ValueError if there is none, or if it is too long."""
+    name, rows = recording.path.stem, recording.rows
+    too_long = f"{name} is longer than {LONGEST_S:g} s; choose a shorter recording"
+    if rows > MOST_TICKS:
+        raise ValueError(f"{name} has {rows} ticks; at most {MOST_TICKS} can move a needle; choose a shorter recording")
+    if (rows - 1) * recording.info.said.period_s > LONGEST_S * (1 + 1e-9):
+        raise ValueError(too_long)
     parts: list[list[Array]] = [[], [], []]
     for ticks, _ in recorded_ticks(recording):
         good = np.isfinite(ticks.position).all(axis=1) & np.isfinite(ticks.axis).all(axis=1)
@@ -57,9 +63,9 @@ def recorded_motion(recording: Recording) -> Motion:
             part.append(np.asarray(values[good], np.float64))
     time, position, axis = (np.concatenate(part) if part else np.empty(0) for part in parts)
     if len(time) < 2:
-        raise ValueError(f"{recording.path.stem} has no motion")
+        raise ValueError(f"{name} has no motion")
     if time[-1] - time[0] > LONGEST_S:
-        raise ValueError(f"{recording.path.stem} is longer than {LONGEST_S:g} s; choose a shorter recording")
+        raise ValueError(too_long)
     even = np.arange(time[0], time[-1], 1 / recording.info.scene.servo.rate)
     at = [np.stack([np.interp(even, time, values[:, k]) for k in range(3)], axis=1) for values in (position, axis)]
-    return Motion(recording.path.stem, even - even[0], at[0], at[1])
+    return Motion(name, even - even[0], at[0], at[1])

@@ -24,7 +24,7 @@ class Pop(BaseModel):
     name: str
     time: Finite  # s after the first contact
     drop: Finite  # N, of the model's resistance
-    felt_drop: Finite  # N, of the felt force, between its largest and its smallest value around the pop
+    felt_drop: Finite | None  # N, of the felt force, between its largest and its smallest value around the pop
     overshoot: Finite | None  # m, farthest the bevel ran on past the membrane in the next OVERSHOOT_S
 
 
@@ -37,9 +37,10 @@ class Statistics(BaseModel):
     duration: Finite  # s, from the first contact to the last tick
     depth: Finite  # m, deepest place of the tip below the first surface
     peak: Finite  # N, largest model force
-    felt_peak: Finite  # N, largest felt force
-    work: Finite  # J, of the hand against the model's force, from the first contact to the insertion's deepest place
-    felt_work: Finite  # J, the same against the felt force
+    felt_peak: Finite | None  # N, largest felt force; None without a device, as all felt numbers
+    work: Finite  # J, of the hand against the model's force along the needle, from the first contact to the deepest
+    # place of the insertion
+    felt_work: Finite | None  # J, the same against the felt force
     pops: list[Pop]
 
     @property
@@ -59,15 +60,16 @@ FELT_S = 0.05  # s on either side of a pop in which the drop of the felt force i
 def statistics(run: Run) -> Statistics:
     """The numbers of a run."""
     touch = run.touch
+    felt = bool(np.isfinite(run.felt).any())
     inward = slice(touch, touch + int(np.nanargmax(run.depth[touch : run.out])) + 1)
     return Statistics(
         name=run.name,
         duration=float(run.time[-1] - run.time[touch]),
         depth=float(np.nanmax(run.depth)),
         peak=float(np.nanmax(run.model)),
-        felt_peak=float(np.nanmax(run.felt)),
-        work=float(np.nansum(run.model[inward] * run.travel[inward])),
-        felt_work=float(np.nansum(run.felt[inward] * run.travel[inward])),
+        felt_peak=float(np.nanmax(run.felt)) if felt else None,
+        work=float(np.nansum(run.model_along[inward] * run.travel[inward])),
+        felt_work=float(np.nansum(run.felt_along[inward] * run.travel[inward])) if felt else None,
         pops=_pops(run, float(run.time[touch])),
     )
 
@@ -92,12 +94,11 @@ def _pops(run: Run, start: float) -> list[Pop]:
     return found
 
 
-def _fall(force: Array, row: int) -> float:
-    """The largest value up to a row less the smallest value from it on."""
+def _fall(force: Array, row: int) -> float | None:
+    """The largest value up to a row less the smallest value from it on; None without a value."""
     before, after = force[: row + 1], force[row:]
-    return (
-        float(np.nanmax(before) - np.nanmin(after)) if np.isfinite(before).any() and np.isfinite(after).any() else 0.0
-    )
+    known = np.isfinite(before).any() and np.isfinite(after).any()
+    return float(np.nanmax(before) - np.nanmin(after)) if known else None
 
 
 def _overshoot(run: Run, membrane: int, row: int) -> float | None:

@@ -19,12 +19,11 @@ from pydantic import BaseModel, Field
 from punctura import PuncturaError
 from punctura.compare.comparison import Band, Collector, Comparison
 from punctura.compare.motion import recorded_motion, stroke
-from punctura.compare.run import Array, Run, recorded_run
+from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
 from punctura.compare.vary import VaryError, vary
 from punctura.record import RecordingError, open_recording
 from punctura.record.scene_text import from_text
 
-MOST_TICKS = 2_000_000  # of a recording: 20 minutes at 1600 Hz need 400 MB
 DIGITS = 6
 Tell = Callable[[float, str], None]
 
@@ -56,8 +55,9 @@ def do(job: Job, tell: Tell) -> dict[str, Any]:
     count = len(job.recordings) or len(job.variation.values if job.variation else [])
     runs = _told(_varied(job.variation) if job.variation else _recorded(job.recordings), count, tell)
     if job.zip:
-        from punctura.compare.bundle import save_bundle  # matplotlib takes long to import
+        from punctura.compare.bundle import check_ticks, save_bundle  # matplotlib takes long to import
 
+        check_ticks(sum(open_recording(path).rows for _, path in job.recordings))
         title = f"A variation of {job.variation.path}" if job.variation else "A comparison of recordings"
         save_bundle(runs, job.zip, job.on, title)
         return {}

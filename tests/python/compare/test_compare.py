@@ -41,12 +41,30 @@ def test_a_runs_numbers_are_those_of_its_ticks(scene):
     ticks = ticks.replace(axis=np.broadcast_to(motion.axis, (len(ticks), 3)))
     found = compare([Run.of_ticks("one", scene, ticks)]).statistics[0]
     size = np.linalg.norm(ticks.force, axis=1)
-    assert found.peak == pytest.approx(size.max()) and found.felt_peak == found.peak
+    assert found.peak == pytest.approx(size.max())
+    assert found.felt_peak is None and found.felt_work is None and {pop.felt_drop for pop in found.pops} == {None}
     deepest = motion.position @ motion.axis - np.asarray(scene.membranes[0].point) @ motion.axis
     assert found.depth == pytest.approx(deepest.max(), abs=1e-4)  # the model filters the measured position
     inside = slice(int(np.argmax(deepest > 0)), int(np.argmax(deepest)))
     assert found.work == pytest.approx(float((size[inside] * np.diff(deepest)[inside]).sum()), rel=0.02)
     assert [pop.name for pop in found.pops] == ["skin", "front vein wall", "back vein wall"]
+
+
+def test_the_work_counts_only_the_force_along_the_needle(scene):
+    # The needle is slanted and moves aside while it goes in, so that the coupling pushes across its axis too.
+    axis = np.array([0.3, -1.0, 0.0]) / np.hypot(0.3, 1.0)
+    time = np.arange(0, 1.5, 1 / scene.servo.rate)
+    position = np.array([0.0, 2e-3, 0.0]) + 8e-3 * time[:, None] * axis
+    position[:, 2] += 4e-3 * time * np.clip(time - 0.3, 0, None)
+    ticks = pn.simulate(scene, position, time=time, axis=axis)
+    ticks = ticks.replace(axis=np.broadcast_to(axis, (len(ticks), 3)))
+    run = Run.of_ticks("slanted", scene, ticks)
+    tip = ticks.tip if "tip" in ticks else ticks.position
+    rows = slice(run.touch, run.touch + int(np.argmax(run.depth[run.touch : run.out])) + 1)
+    along = np.diff(tip @ axis, prepend=tip[0] @ axis)
+    work = -float(((ticks.force @ axis) * along)[rows].sum())
+    norm = float((np.linalg.norm(ticks.force, axis=1) * along)[rows].sum())
+    assert compare([run]).statistics[0].work == pytest.approx(work) and norm > 1.01 * work > 0
 
 
 def test_the_overshoot_is_the_way_that_the_tip_went_on_after_the_pop(scene, runs):
@@ -134,6 +152,7 @@ def test_a_recording_is_compared_by_what_its_device_gave(recording):
 
 def test_the_motion_of_a_recording_moves_another_scene(recording, scene):
     motion = recorded_motion(open_recording(recording))
+    assert motion.seconds > 0
     soft, hard = (one.model.max() for one in vary(scene, PATH, [300.0, 3000.0], motion))
     assert 0 < soft < hard
 
@@ -151,6 +170,32 @@ def test_the_zip_file_has_figure_data_scenes_and_how_to_cite(tmp_path, runs):
     (tmp_path / "again.toml").write_bytes(read["scenes/02.toml"])
     assert pn.load_scene(str(tmp_path / "again.toml")).membranes[0].membrane.stiffness == VALUES[1]
     assert pn.__version__ in read["README.txt"].decode() and b"cff-version" in read["CITATION.cff"]
+
+
+def test_a_recording_that_is_too_long_for_a_motion_is_refused_before_it_is_read(recording, monkeypatch):
+    opened = open_recording(recording)
+    monkeypatch.setattr(opened, "batches", lambda *_: pytest.fail("it was read"))
+    with monkeypatch.context() as patched, pytest.raises(ValueError, match="longer than 1 s; choose a shorter"):
+        patched.setattr("punctura.compare.motion.LONGEST_S", 1.0)
+        recorded_motion(opened)
+    with monkeypatch.context() as patched, pytest.raises(ValueError, match="5000 ticks; at most 4999 can move"):
+        patched.setattr("punctura.compare.motion.MOST_TICKS", 4999)
+        recorded_motion(opened)
+
+
+@pytest.mark.parametrize(
+    "name, limit, words",
+    [("MOST_TICKS_IN_ALL", 100, "at most 100: choose fewer"), ("BYTES_A_NUMBER", 10**12, "MB are free: make room")],
+)
+def test_a_zip_file_that_cannot_be_written_leaves_the_earlier_one_as_it_was(
+    tmp_path, runs, monkeypatch, name, limit, words
+):
+    (tmp_path / "all.zip").write_bytes(b"the earlier file")
+    monkeypatch.setattr(f"punctura.compare.bundle.{name}", limit)
+    with pytest.raises(ValueError, match=words):
+        save_bundle(runs, tmp_path / "all.zip")
+    assert [path.name for path in tmp_path.iterdir()] == ["all.zip"]
+    assert (tmp_path / "all.zip").read_bytes() == b"the earlier file"
 
 
 def test_the_worker_tells_its_progress_and_its_result_or_the_reason(scene):
