@@ -19,9 +19,10 @@ from punctura.ticks.flat import flatten, gather
 
 SCENES_TYPE = pa.list_(pa.string())
 _ROWS_A_PIECE = 2048
-_LATER_INPUTS = ("thumb",)  # inputs that earlier versions did not have; 0 in their recordings
+# Fields that earlier versions did not record, and their value in those runs: the whole force, and no syringe.
+_LATER = {"thumb": 0.0, "force_scale": 1.0} | dict.fromkeys(("plunger", "thumb_force", "pressure", "injected"), np.nan)
 # Required fields. Earlier versions did not record all of the others.
-_EARLIER_INPUTS = [name for name in INPUTS if name not in _LATER_INPUTS]
+_EARLIER_INPUTS = [name for name in INPUTS if name not in _LATER]
 _RESULTS = ("tick", "ceiling", "force", "state", "fault", "depth", "axial_force", "lower", "upper", "phase")
 _REQUIRED = (*_EARLIER_INPUTS, *_RESULTS)
 
@@ -109,15 +110,19 @@ def input_ticks(batch: pa.RecordBatch) -> Ticks:
     """The inputs of the ticks in a batch."""
     wanted = [column.name for column in file_columns([FIELDS[name] for name in ("tick", *INPUTS)], 0)]
     known = set(batch.schema.names)
-    later = {name: np.zeros(len(batch)) for name in _LATER_INPUTS if name not in known}
-    return Ticks(gather({name: numbers(batch, name) for name in wanted if name in known} | later))
+    ticks = Ticks(gather({name: numbers(batch, name) for name in wanted if name in known}))
+    return _with_later(ticks, [name for name in INPUTS if name in _LATER])
 
 
 def ticks_of(batch: pa.RecordBatch) -> Ticks:
     """The ticks of a batch. A membrane that a tick did not have is NaN, its phase ABSENT."""
     ticks = Ticks(gather({f.name: numbers(batch, f.name) for f in batch.schema if f.name != NEW_SCENES}))
-    if "force_scale" not in ticks:  # an earlier version, which always gave all of the model's force
-        ticks = ticks.replace(force_scale=np.ones(len(batch)))
+    ticks = _with_later(ticks, _LATER)
     if "limit" in ticks:
         return ticks
     return ticks.replace(limit=np.full(len(batch), ABSENT, np.uint8))  # format 1 has no `limit`
+
+
+def _with_later(ticks: Ticks, names: Iterable[str]) -> Ticks:
+    """The ticks with those of these fields that an earlier version did not record."""
+    return ticks.replace(**{name: np.full(len(ticks), _LATER[name]) for name in names if name not in ticks})

@@ -9,6 +9,7 @@ from punctura.cli._headless import begun, in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, SimulatedDevice, felt_force
 from punctura.record import Recorder, export, open_recording, replay, replay_device
+from punctura.studio.recorded import tick_frames
 from recorded import recorded, run_to_end
 from waiting import wait_until
 
@@ -74,7 +75,9 @@ def test_a_recording_without_the_column_gave_the_whole_force(tmp_path, more):
     old = table.replace_schema_metadata(None)
     text = pq.read_schema(path).metadata[KEY]
     pq.write_table(old.replace_schema_metadata(with_check_sum(text, old.schema)), path)
-    assert (open_recording(path).ticks().force_scale == 1).all()
+    ticks = open_recording(path).ticks()
+    assert (ticks.force_scale == 1).all() and (ticks.thumb == 0).all() and np.isnan(ticks.plunger).all()
+    assert list(tick_frames(open_recording(path))), "the page can show it"
     result = replay(path)
     assert (result.ticks, result.identical, result.complete) == (TICKS, True, True)
     again = ServoLoop(replay_device(path, real_time=False), scaled(1))

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from punctura import ConfigurationError, Coupling, Outlet, Syringe, SyringeSettings, Target, load_scene, save_scene
 from punctura._core import ServoLoop, SimulatedDevice, ThumbLoop
+from punctura.record import Recorder, open_recording, replay
+from recorded import run_to_end
 
 SYRINGE = SyringeSettings(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), Coupling(1500, 1))
 
@@ -88,6 +90,18 @@ def test_a_simulated_thumb_injects_in_open_air():
     ticks = run(loop, device, listener)
     assert ticks.injected[-1] > 0.1e-6
     assert (np.diff(ticks.thumb) >= 0).all()
+
+
+def test_a_replay_has_the_recorded_thumb_and_so_the_same_plunger(tmp_path):
+    device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=1600)
+    loop = ServoLoop(device, with_syringe())
+    with Recorder(loop, tmp_path / "run.parquet", 1600):
+        loop.push_plunger(3)
+        run_to_end(loop)
+    ticks = open_recording(tmp_path / "run.parquet").ticks()
+    assert ticks.thumb[-1] > 0 and ticks.injected[-1] > 0
+    result = replay(tmp_path / "run.parquet")
+    assert (result.ticks, result.identical, result.complete) == (1600, True, True), result
 
 
 def test_one_device_cannot_be_both_hands():
