@@ -1,7 +1,7 @@
 """An exercise of one's own, to success and to failure: the venipuncture, as slowly as the computer is."""
 
 import pytest
-from person import PATIENCE, push, ready, tab
+from person import PATIENCE, push, ready, tab, view
 from playwright.sync_api import expect
 from punctura.exercise import load_exercise
 from studio_process import StudioProcess
@@ -67,3 +67,21 @@ def test_staying_in_the_vein_passes(page):
             push(page, "Shift+ArrowDown" if words.startswith("Reach") else "ArrowDown", 1)
     expect(page.get_by_role("dialog")).to_contain_text("passed", timeout=PATIENCE)
     expect(page.get_by_role("dialog")).not_to_contain_text("not passed")
+
+
+@pytest.mark.parametrize("studio", [3], indirect=True)
+def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(page):
+    ready(page)
+    tab(page, "Exercises")
+    page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
+    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    expect(view(page)).to_be_focused(timeout=PATIENCE)  # the keys move the needle without a click
+    expect(page.locator(".hold-ring")).to_be_hidden()
+    plot = page.locator(".time-plots")
+    expect(plot.locator(".plot-save")).to_be_hidden()
+    plot.locator("canvas").last.focus()
+    page.keyboard.press("ArrowLeft")
+    expect(plot.locator("[aria-live]")).to_contain_text("model force", timeout=PATIENCE)
+    expect(plot.locator("[aria-live]")).not_to_contain_text("mm")
+    tab(page, "Hand")
+    expect(page.get_by_role("button", name="Start strokes")).to_be_disabled()
