@@ -8,7 +8,7 @@ from punctura import Scene, _core
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded
 from punctura.studio.run import Run
-from punctura.studio.wire.common import LawCurve, MembraneView, SceneView
+from punctura.studio.wire.common import LawCurve, MembraneView, SceneView, SyringeView
 from punctura.studio.wire.messages import SceneMessage
 
 
@@ -33,8 +33,15 @@ def scene_view(
         laws=laws,
         tables=loaded.tables(),
         lumen=list(scene.lumen or ()),
-        syringe=scene.syringe is not None,
+        syringe=_syringe_view(scene),
     )
+
+
+def _syringe_view(scene: Scene) -> SyringeView | None:
+    if scene.syringe is None:
+        return None
+    syringe = scene.syringe.syringe
+    return SyringeView(bore=syringe.bore, volume=syringe.liquid + syringe.air)
 
 
 def scene_message(run: Run, laws: list[LawCurve], new_run: bool) -> SceneMessage:

@@ -26,7 +26,7 @@ export class Thumb {
   /** Whether the scene has a plunger that this page can push. */
   get there(): boolean {
     const { source, control } = this.app;
-    return source.value.live && control.value.you && source.value.scene.value?.syringe === true;
+    return source.value.live && control.value.you && Boolean(source.value.scene.value?.syringe);
   }
 
   /** by: what pushes, so that a key that is released does not end the push of a trigger. force: N; 0 lets go. */

@@ -35,7 +35,7 @@ export interface TimePicture {
   readonly comparison: LabComparison | null;
 }
 
-const hasThumb = (source: Source): boolean => source.scene.value?.syringe === true;
+const hasThumb = (source: Source): boolean => Boolean(source.scene.value?.syringe);
 const thumbCurve = (source: Source, theme: Theme): Curve[] =>
   hasThumb(source) ? [{ id: "thumb", text: `thumb, ${MODEL_FORCE}`, colour: theme.accent, dash: THUMB_DASH }] : [];
 

@@ -2,13 +2,14 @@ import { element } from "../panel.ts";
 import { CHAMBER, HUB_MM, hubOutline } from "./hub.ts";
 import type { NeedleState } from "./needle.ts";
 import { gaugeOf } from "./needle_gauge.ts";
-import { SYRINGE } from "./needle_syringe.ts";
+import { syringeParts } from "./needle_syringe.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 /** The words under the inset. */
-export function insetWords({ look, blood, pressed, content }: NeedleState): string {
+export function insetWords({ look, blood, pressed, content, plunger }: NeedleState): string {
   if (look !== "tuohy") return blood > 0.05 ? "Hub: blood" : "Hub: no blood";
   if (pressed >= 1) return "Plunger: pressed in";
+  if (plunger) return { free: "Plunger: not pushed", held: "Plunger: holds", moves: "Plunger: gives way" }[plunger];
   if (pressed > 0 && content !== "tissue") return "Plunger: gives way";
   return content === "outside" ? "Plunger: out" : "Plunger: holds";
 }
@@ -29,7 +30,8 @@ export function hubInset(host: HTMLElement): (state: NeedleState | null) => void
   return (state) => {
     box.hidden = state === null;
     if (!state) return;
-    const key = `${state.look} ${state.diameter} ${state.blood.toFixed(2)} ${state.pressed.toFixed(2)}`;
+    const { bore, travel } = state.syringe;
+    const key = `${bore} ${travel} ${state.look} ${state.diameter} ${state.blood.toFixed(2)} ${state.pressed.toFixed(2)}`;
     if (key !== last) {
       last = key;
       picture.replaceChildren(...(state.look === "tuohy" ? syringe(state) : hub(state)));
@@ -67,10 +69,11 @@ function hub({ diameter, blood }: NeedleState): SVGElement[] {
 }
 
 /** The syringe from the side, drawn smaller. */
-function syringe({ diameter, pressed }: NeedleState): SVGElement[] {
-  const scale = 14 / (SYRINGE.length + 20);
-  const { radius, length, bore, travel, rod, rest } = SYRINGE;
-  const left = travel * (1 - pressed) + 0.5;
+function syringe({ diameter, pressed, syringe: size }: NeedleState): SVGElement[] {
+  const { bore, travel } = size;
+  const { radius, length, rod, rest } = syringeParts(size);
+  const scale = 14 / (length + 20);
+  const left = travel * (1 - pressed);
   const group = shape("g", { transform: `translate(0 7) scale(${scale})` });
   const shade = gaugeOf(diameter)?.shade;
   const foot = box("hub-body", -2.9, -9, 5.8, 9);

@@ -5,6 +5,7 @@ import { codeOf } from "../wire/ticks.ts";
 
 /** mm per m. The view is drawn in mm, which suits the precision of a graphics card. */
 export const MM = 1000;
+const SPEED_TICKS = 40; // 25 ms at 1600 Hz
 export const OUTSIDE = codeOf("phase", "outside");
 export const BARRED = codeOf("phase", "barred");
 
@@ -31,6 +32,9 @@ export class Moment {
   scale = 1;
   /** Depth of the syringe's plunger, mm; NaN if the scene has no syringe. */
   plunger = Number.NaN;
+  /** Speed of the plunger, mm/s, and force of the thumb on it, N; NaN if the scene has no syringe. */
+  plungerSpeed = Number.NaN;
+  thumbForce = Number.NaN;
   membranes: MembraneMoment[] = [];
 
   /** Reads the source's shown tick. Returns false before its first tick. */
@@ -49,6 +53,10 @@ export class Moment {
     this.modelForce.fromArray(history.row("model_force", tick));
     this.scale = scaleOf(source, tick);
     this.plunger = (history.row("plunger", tick)[0] ?? Number.NaN) * MM;
+    const from = Math.max(history.first, tick - SPEED_TICKS);
+    const before = (history.row("plunger", from)[0] ?? Number.NaN) * MM;
+    this.plungerSpeed = from < tick ? (this.plunger - before) / (this.time - history.timeOf(from)) : 0;
+    this.thumbForce = Math.abs(history.row("thumb_force", tick)[0] ?? Number.NaN);
     this.readMembranes(source, tick);
     return Number.isFinite(this.tip.x + this.tip.y + this.tip.z);
   }

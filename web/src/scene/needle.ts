@@ -18,7 +18,7 @@ import { Level } from "./needle_level.ts";
 import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
 import { atTip, type Content } from "./needle_space.ts";
-import { SYRINGE, Syringe } from "./needle_syringe.ts";
+import { Syringe, type SyringeSize, syringeSize } from "./needle_syringe.ts";
 import { outOfView } from "./out_of_view.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
@@ -36,6 +36,18 @@ const ALONG = Math.cos(Math.PI / 9);
 /** Spaces into which the syringe empties. */
 const YIELDING: ReadonlySet<Content> = new Set(["epidural space", "cerebrospinal fluid"]);
 
+const PUSHES = 0.2; // N; a thumb that only touches the plunger does not push it
+const MOVES = 0.5; // mm/s
+
+/** What the thumb does to the plunger of a scene's syringe; null without one. */
+export type Plunger = "free" | "held" | "moves" | null;
+
+export function plungerOf({ plunger, plungerSpeed, thumbForce }: Moment): Plunger {
+  if (!Number.isFinite(plunger)) return null;
+  if (!(thumbForce > PUSHES)) return "free";
+  return plungerSpeed > MOVES ? "moves" : "held";
+}
+
 /** What the hub and the syringe show. */
 export interface NeedleState {
   readonly look: NeedleLook;
@@ -44,9 +56,14 @@ export interface NeedleState {
   /** Levels from 0 to 1: of the blood in the hub, and of the plunger's way. */
   readonly blood: number;
   readonly pressed: number;
+  readonly plunger: Plunger;
+  readonly syringe: SyringeSize;
   /** What the tip is in. */
   readonly content: Content;
 }
+
+/** The share of its way that the plunger has moved. A syringe that holds nothing is pressed in from the start. */
+const shareOf = (moved: number, travel: number): number => (travel > 0 ? Math.min(1, Math.max(0, moved / travel)) : 1);
 
 /** The scene's needle with its true diameter and tip angle. The view chooses the length. mm, rad. */
 export class Needle {
@@ -70,6 +87,8 @@ export class Needle {
   private look: NeedleLook = "hypodermic";
   private diameter = 1;
   private content: Content = "outside";
+  private plunger: Plunger = null;
+  private size: SyringeSize = { bore: 1, travel: 0 };
 
   constructor(private readonly theme: Theme) {
     this.hub = new Hub(theme);
@@ -92,6 +111,9 @@ export class Needle {
     this.hub.build(diameter, this.look);
     const middle = tipOffset(this.look) * diameter;
     this.hub.group.position.set(middle, 0, length);
+    this.size = syringeSize(scene);
+    this.syringe.build(this.size);
+    this.syringe.show(this.pressed.value);
     this.syringe.group.visible = this.look === "tuohy";
     this.mark(middle, length);
   }
@@ -121,8 +143,8 @@ export class Needle {
   }
 
   get state(): NeedleState {
-    const { look, diameter, content } = this;
-    return { look, diameter, content, blood: this.blood.value, pressed: this.pressed.value };
+    const { look, diameter, content, plunger, size } = this;
+    return { look, diameter, content, plunger, syringe: size, blood: this.blood.value, pressed: this.pressed.value };
   }
 
   /** Shows blood at the bore's mouth and in the hub, and moves the plunger. Returns whether the picture changes. */
@@ -130,20 +152,22 @@ export class Needle {
     const { content, open } = atTip(moment, scene, laws);
     const before = this.content;
     this.content = content;
+    const pushed = this.plunger;
+    this.plunger = plungerOf(moment);
     const bleeds = content === "blood";
     this.mouth.color.copy(bleeds ? this.theme.color("blood") : EMPTY);
     const filled = this.blood.step(bleeds ? 1 : 0, moment.time, bleeds ? FILLS : DRAINS);
     // Without a syringe in the scene, the picture's own empties in the spaces where resistance is lost. What has left
     // it does not return: it is refilled when the needle is out of the tissue.
-    const real = Number.isFinite(moment.plunger);
+    const real = this.plunger !== null;
     const yields = !real && this.look === "tuohy" && YIELDING.has(content);
     const goal = real
-      ? Math.min(1, Math.max(0, moment.plunger / SYRINGE.travel))
+      ? shareOf(moment.plunger, this.size.travel)
       : yields ? 1 : content === "outside" ? 0 : this.pressed.value; // biome-ignore format: a table
     const moved = this.pressed.step(goal, moment.time, yields ? YIELDS * open : 100, true);
     if (filled) this.hub.show(this.blood.value);
     if (moved) this.syringe.show(this.pressed.value);
-    return filled || moved || content !== before;
+    return filled || moved || content !== before || this.plunger !== pushed;
   }
 
   /** A ring at every centimetre from the tip, as on a Tuohy needle. */

@@ -1,8 +1,27 @@
 import { CylinderGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial } from "three";
+import type { SceneView } from "../wire/messages.ts";
+import { MM } from "./moment.ts";
 import type { Theme } from "./theme.ts";
 
-/** Sizes of the syringe, mm: about those of 5 ml. Illustrative. */
-export const SYRINGE = { radius: 6.5, length: 46, bore: 5.9, travel: 30, rod: 2.4, rest: 7.5 } as const;
+/** mm. bore: inner radius of the barrel. travel: the plunger's way from full to empty. */
+export interface SyringeSize {
+  readonly bore: number;
+  readonly travel: number;
+}
+
+/** The picture's own syringe, in a scene without one: about 3 ml of saline in a syringe of 5 ml. Illustrative. */
+const OWN: SyringeSize = { bore: 5.9, travel: 30 };
+
+/** The size of a scene's syringe, or of the picture's own. */
+export function syringeSize({ syringe }: Pick<SceneView, "syringe">): SyringeSize {
+  if (!syringe) return OWN;
+  const bore = syringe.bore / 2;
+  return { bore: bore * MM, travel: (syringe.volume / (Math.PI * bore ** 2)) * MM };
+}
+
+/** The other sizes, mm: radii of the barrel, the rod and the thumb rest, and the barrel's length. Illustrative. */
+export const syringeParts = ({ bore, travel }: SyringeSize) =>
+  ({ radius: bore + 0.6, length: travel + 16, rod: 0.4 * bore, rest: bore + 1.6 }) as const;
 
 /** A syringe of saline on the hub, for the loss of resistance. Its plunger moves in by a share of its travel. */
 export class Syringe {
@@ -16,11 +35,31 @@ export class Syringe {
   private readonly saline = new MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   private readonly solid = new MeshLambertMaterial();
   private readonly rubber = new MeshLambertMaterial();
-  private readonly fluid = new Mesh(new CylinderGeometry(SYRINGE.bore, SYRINGE.bore, 1, 32), this.saline);
+  private readonly fluid = new Mesh(undefined, this.saline);
   private readonly plunger = new Group();
+  private travel = 0;
 
   constructor(theme: Theme) {
-    const { radius, length, bore, rod, rest } = SYRINGE;
+    this.fluid.renderOrder = 2;
+    theme.watch(() => {
+      this.glass.color.copy(theme.color("quiet")).lerp(theme.color("panel"), 0.5);
+      this.saline.color.copy(theme.color("accent"));
+      this.solid.color.copy(theme.color("panel")).lerp(theme.color("quiet"), 0.25);
+      this.rubber.color.copy(theme.color("text")).lerp(theme.color("quiet"), 0.5);
+    });
+  }
+
+  /** Builds it anew, full. */
+  build(size: SyringeSize): void {
+    const { bore } = size;
+    const { radius, length, rod, rest } = syringeParts(size);
+    for (const part of [...this.group.children, ...this.plunger.children]) {
+      if (part instanceof Mesh) part.geometry.dispose();
+    }
+    this.group.clear();
+    this.plunger.clear();
+    this.travel = size.travel;
+    this.fluid.geometry = new CylinderGeometry(bore, bore, 1, 32);
     const tube = (r: number, long: number, at: number, material: MeshLambertMaterial, open = false): Mesh => {
       const made = new Mesh(new CylinderGeometry(r, r, long, 32, 1, open).translate(0, at + long / 2, 0), material);
       if (material.transparent) made.renderOrder = 3;
@@ -31,7 +70,6 @@ export class Syringe {
       tube(rod, length + 6, 4, this.solid),
       tube(rest, 1.6, length + 10, this.solid),
     );
-    this.fluid.renderOrder = 2;
     this.group.add(
       tube(2.2, 5, 0, this.glass),
       tube(radius, length, 5, this.glass, true),
@@ -40,19 +78,14 @@ export class Syringe {
       this.plunger,
     );
     this.show(0);
-    theme.watch(() => {
-      this.glass.color.copy(theme.color("quiet")).lerp(theme.color("panel"), 0.5);
-      this.saline.color.copy(theme.color("accent"));
-      this.solid.color.copy(theme.color("panel")).lerp(theme.color("quiet"), 0.25);
-      this.rubber.color.copy(theme.color("text")).lerp(theme.color("quiet"), 0.5);
-    });
   }
 
   /** pressed: share of the plunger's travel, from 0 to 1. */
   show(pressed: number): void {
-    const left = SYRINGE.travel * (1 - pressed) + 0.5;
+    const left = this.travel * (1 - pressed);
+    this.fluid.visible = left > 0;
     this.plunger.position.y = 5 + left;
-    this.fluid.scale.y = left;
+    this.fluid.scale.y = Math.max(left, 1e-6); // a matrix of 0 has no inverse
     this.fluid.position.y = 5 + left / 2;
   }
 }

@@ -207,12 +207,13 @@ export class World {
 
 /** The parts of a scene that need a rebuild of the view if they change. Friction, for example, does not. */
 function shapeOf(scene: SceneView): string {
-  const { diameter, tip_length, membranes, lumen } = scene;
+  const { diameter, tip_length, membranes, lumen, syringe } = scene;
   return JSON.stringify([
     needleLook(scene),
     diameter,
     tip_length,
     lumen,
+    syringe,
     membranes.map((m) => [m.name, m.point, m.inward_normal, m.thickness, m.look, m.behind]),
   ]);
 }

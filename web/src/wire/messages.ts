@@ -112,7 +112,7 @@ export interface SceneView {
     [k: string]: unknown;
   };
   lumen: number[];
-  syringe?: boolean;
+  syringe?: SyringeView | null;
 }
 /**
  * One membrane as the page draws it, SI.
@@ -154,6 +154,13 @@ export interface LawCurve {
   depth: number[];
   lower: number[];
   upper: number[];
+}
+/**
+ * The syringe of a scene as the page draws it, SI.
+ */
+export interface SyringeView {
+  bore: number;
+  volume: number;
 }
 /**
  * The laws for another direction of the needle.

@@ -14,7 +14,12 @@ const control = (you: boolean): void => server.message({ kind: "control", holder
 const scene = (syringe: boolean, run = 0): void =>
   server.message({
     kind: "scene",
-    scene: { membranes: [{}], laws: [], number: 0, syringe } as unknown as SceneView,
+    scene: {
+      membranes: [{}],
+      laws: [],
+      number: 0,
+      syringe: syringe ? { bore: 0.012, volume: 5e-6 } : null,
+    } as unknown as SceneView,
     new_run: true,
     run,
   });

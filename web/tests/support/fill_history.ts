@@ -4,7 +4,7 @@ import { rowWidth } from "../../src/wire/ticks.ts";
 
 const FLOATS = [
   "time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling", "depth", "axial_force",
-  "lower", "upper", "proxy", "direction",
+  "lower", "upper", "proxy", "direction", "plunger", "thumb_force",
 ] as const; // biome-ignore format: a table
 
 export interface Cell {

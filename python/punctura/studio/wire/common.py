@@ -52,6 +52,13 @@ class MembraneView(Part):
     behind: Behind
 
 
+class SyringeView(Part):
+    """The syringe of a scene as the page draws it, SI."""
+
+    bore: Finite  # m, the barrel's inner diameter
+    volume: Finite  # m^3, of liquid and air at the start
+
+
 class SceneView(Part):
     """A scene as the page draws it, SI; `tables` has the same scene in the file's keys and units, for the editor."""
 
@@ -67,4 +74,4 @@ class SceneView(Part):
     laws: list[LawCurve]
     tables: Tables
     lumen: list[int]  # indices of the two membranes with blood between them; empty without blood
-    syringe: bool = False  # whether a syringe with a plunger is on the needle
+    syringe: SyringeView | None = None  # on the needle, with a plunger; None: the scene has no syringe

@@ -41,7 +41,7 @@ export function plungerRows(app: App): HTMLElement {
   everyFrame((now) => {
     thumb.renew(now);
     const source = app.source.value;
-    host.hidden = source.scene.value?.syringe !== true;
+    host.hidden = !source.scene.value?.syringe;
     const tick = host.hidden ? null : source.shown();
     if (tick === null || host.offsetParent === null) return;
     put(force, `${number(Math.abs(source.history.row("thumb_force", tick)[0] ?? Number.NaN), 2)} N`);
