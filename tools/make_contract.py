@@ -37,7 +37,8 @@ TABLES = {
 }
 VIEW = {
     "number": 1, "name": "one", "diameter": 0.0008, "tip_length": 0.004, "direction": "stylus", "solver": "exact",
-    "rate": 1600.0, "force_scale": 0.5, "laws": [LAW], "tables": TABLES, "lumen": [0, 1], "syringe": True,
+    "rate": 1600.0, "force_scale": 0.5, "laws": [LAW], "tables": TABLES, "lumen": [0, 1],
+    "syringe": {"bore": 0.012, "volume": 5e-06},
     "membranes": [
         {"name": "skin", "point": TRIPLE, "inward_normal": [0.0, -1.0, 0.0], "thickness": 0.001, "look": "skin",
          "behind": "fat"},

@@ -26,6 +26,8 @@ from punctura.studio.session import Session
 
 COMMAND = [sys.executable, "-m", "punctura.compare.worker"]
 CHUNK = 1 << 16
+KEPT_SCENES = 32  # of the last variations, for their zip files
+LONGEST_ID = 64
 
 
 class LabError(ValueError):
@@ -37,6 +39,7 @@ class Lab:
 
     def __init__(self, session: Session) -> None:
         self._session, self._shelf = session, session.shelf
+        self._scenes: dict[str, str] = {}  # scene texts by the id of their variation, the oldest first
         self._place = threading.BoundedSemaphore(1)
 
     def fields(self, request: Request) -> Response:
@@ -52,14 +55,29 @@ class Lab:
         """The comparison as JSON lines: first the progress, then the result or the error."""
         job = self._job(request.query_params)
         self._take_place()
+        if job.variation:
+            self._keep(request.query_params.get("id", ""), job.variation.scene)
         return Download(_lines(job), self._place, media_type="application/x-ndjson")
 
     def bundle(self, request: Request) -> Response:
-        """The zip file of the same comparison."""
+        """The zip file of the same comparison; with the same id, of the scene that was compared."""
         job = self._job(request.query_params)
+        if job.variation and (name := request.query_params.get("id", "")):
+            if name not in self._scenes:
+                raise LabError("the studio no longer has the scene of this variation; simulate it again")
+            same = job.variation.model_copy(update={"scene": self._scenes[name]})
+            job = job.model_copy(update={"variation": same})
         self._take_place()
         headers = {"content-disposition": 'attachment; filename="punctura-comparison.zip"'}
         return Download(_zipped(job), self._place, media_type="application/zip", headers=headers)
+
+    def _keep(self, name: str, scene: str) -> None:
+        if not name:
+            return
+        self._scenes.pop(name, None)
+        self._scenes[name] = scene
+        while len(self._scenes) > KEPT_SCENES:
+            del self._scenes[next(iter(self._scenes))]
 
     def _take_place(self) -> None:
         if not self._place.acquire(blocking=False):
@@ -71,6 +89,8 @@ class Lab:
         names = asked.getlist("run")
         if asked.get("on", on) != on:
             raise LabError("on is depth or time")
+        if len(asked.get("id", "")) > LONGEST_ID:
+            raise LabError(f"id has at most {LONGEST_ID} characters")
         if names and len(names) <= MOST_RUNS:
             return Job(on=on, recordings=[(name, str(self._shelf.find(name))) for name in names])
         if names or "path" not in asked:

@@ -44,6 +44,24 @@ def test_the_zip_file_of_a_variation_comes_from_the_same_address(served):
     )
 
 
+def scenes_of(body):
+    with zipfile.ZipFile(io.BytesIO(body)) as file:
+        return [file.read(name) for name in sorted(file.namelist()) if name.startswith("scenes/")]
+
+
+def test_the_zip_file_has_the_scene_that_was_varied_whatever_the_run_does_meanwhile(served, page):
+    status, body = get(served, "/api/lab/bundle", id="one", **VARIATION)
+    assert status == 422 and "simulate it again" in body.decode()
+    get(served, "/api/lab/compare", id="one", **VARIATION)
+    before = scenes_of(get(served, "/api/lab/bundle", id="one", **VARIATION)[1])
+    assert len(before) == VARIATION["count"]
+    run = page.run
+    assert page.ask(do="load", scene="venipuncture")["ok"]
+    page.wait(lambda: page.run > run)
+    assert scenes_of(get(served, "/api/lab/bundle", id="one", **VARIATION)[1]) == before
+    assert scenes_of(get(served, "/api/lab/bundle", **VARIATION)[1]) != before
+
+
 @pytest.mark.parametrize(
     "asked, words",
     [

@@ -53,8 +53,13 @@ export const labPanel: Panel = (host, app) => {
       trouble.textContent = wordsOf(error);
     }
   };
-  // The panel reads its lists whenever it is opened.
+  // The panel reads its lists whenever it is opened, and while it is open, when the scene changes.
+  let open = false;
   new IntersectionObserver((seen) => {
-    if (seen.some(({ isIntersecting }) => isIntersecting)) void refresh();
+    open = seen.at(-1)?.isIntersecting ?? false;
+    if (open) void refresh();
   }).observe(host);
+  app.live.scene.watch(() => {
+    if (open) void refresh();
+  });
 };

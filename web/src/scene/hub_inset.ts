@@ -30,11 +30,11 @@ export function hubInset(host: HTMLElement): (state: NeedleState | null) => void
   return (state) => {
     box.hidden = state === null;
     if (!state) return;
-    const { bore, travel } = state.syringe;
-    const key = `${bore} ${travel} ${state.look} ${state.diameter} ${state.blood.toFixed(2)} ${state.pressed.toFixed(2)}`;
+    const { look, diameter, blood, pressed, syringe: size } = state;
+    const key = `${look} ${diameter} ${blood.toFixed(2)} ${pressed.toFixed(3)} ${size.bore} ${size.travel}`;
     if (key !== last) {
       last = key;
-      picture.replaceChildren(...(state.look === "tuohy" ? syringe(state) : hub(state)));
+      picture.replaceChildren(...(look === "tuohy" ? syringe(state) : hub(state)));
     }
     const said = insetWords(state);
     if (words.textContent !== said) words.textContent = said;

@@ -12,13 +12,16 @@ export type Job =
       readonly count: number;
       /** Speed of a stroke, m/s, or the name of a recording whose motion is used. */
       readonly motion: number | string;
+      /** The studio keeps the scene of the simulation under this name, for the zip file. */
+      readonly id?: string;
     };
 
 export function queryOf(job: Job): string {
   if ("recordings" in job) return new URLSearchParams(job.recordings.map((name) => ["run", name])).toString();
-  const { path, from, to, count, motion } = job;
+  const { path, from, to, count, motion, id } = job;
   const by = typeof motion === "number" ? { speed: String(motion) } : { motion };
-  return new URLSearchParams({ path, from: String(from), to: String(to), count: String(count), ...by }).toString();
+  const values = { from: String(from), to: String(to), count: String(count) };
+  return new URLSearchParams({ path, ...values, ...by, ...(id && { id }) }).toString();
 }
 
 /** Computes the comparison in the studio. Throws ApiError, Error with the reason, or the signal's reason. */

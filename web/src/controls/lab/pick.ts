@@ -4,6 +4,12 @@ import { dateText, lengthText } from "../recordings/words.ts";
 
 const MOST = 25; // runs, as in the studio
 
+/** The chosen names in the order in which they were chosen, after a box was checked or unchecked. */
+export const choose = (chosen: readonly string[], name: string, on: boolean): readonly string[] => [
+  ...chosen.filter((other) => other !== name),
+  ...(on ? [name] : []),
+];
+
 /** A list of recordings and results with check boxes, and a button that compares the chosen ones. */
 export function pickRuns(act: (names: readonly string[]) => void): {
   readonly root: HTMLElement;
@@ -11,16 +17,19 @@ export function pickRuns(act: (names: readonly string[]) => void): {
 } {
   const list = element("ul", { class: "lab-list" });
   const none = element("p", { class: "quiet" }, "No recordings yet. Record a run, or try an exercise.");
-  const chosen = (): string[] =>
-    [...list.querySelectorAll<HTMLInputElement>("input:checked")].map(({ value }) => value);
-  const go = element("button", { type: "button", class: "small primary", onclick: () => act(chosen()) }, "Compare");
+  let chosen: readonly string[] = []; // in the order in which they were chosen
+  const go = element("button", { type: "button", class: "small primary", onclick: () => act(chosen) }, "Compare");
   const mark = (): void => {
-    const count = chosen().length;
+    const count = chosen.length;
+    for (const row of list.querySelectorAll<HTMLElement>("[data-run]")) row.hidden = row.dataset.run !== chosen[0];
     go.disabled = count < 1 || count > MOST;
     go.textContent = count ? `Compare ${count} ${count === 1 ? "run" : "runs"}` : "Choose runs to compare";
     if (count > MOST) go.textContent = `At most ${MOST} runs`;
   };
-  list.addEventListener("change", mark);
+  list.addEventListener("change", ({ target }) => {
+    if (target instanceof HTMLInputElement) chosen = choose(chosen, target.value, target.checked);
+    mark();
+  });
   return {
     root: element(
       "section",
@@ -32,7 +41,7 @@ export function pickRuns(act: (names: readonly string[]) => void): {
       go,
     ),
     offer: (entries, results) => {
-      const kept = new Set(chosen());
+      chosen = chosen.filter((name) => entries.some((entry) => entry.name === name));
       none.hidden = entries.length > 0;
       list.hidden = go.hidden = entries.length === 0;
       list.replaceChildren(
@@ -45,8 +54,9 @@ export function pickRuns(act: (names: readonly string[]) => void): {
             dateText(entry.started),
           ].filter(Boolean);
           const box = element("input", { type: "checkbox", value: entry.name });
-          box.checked = kept.has(entry.name);
+          box.checked = chosen.includes(entry.name);
           const words = element("span", {}, entry.title || entry.name, " ");
+          words.append(element("b", { "data-run": entry.name, hidden: true }, "reference "));
           words.append(element("span", { class: "quiet" }, facts.join(" · ")));
           return element("li", {}, element("label", {}, box, words));
         }),

@@ -16,7 +16,7 @@ const HEIGHT = 380; // px
 export function openComparison(app: App, job: Job, title: string, comparison: LabComparison): void {
   let on: On = "depth";
   let quantity: Quantity = "model";
-  const hidden = new Hidden("punctura.hidden-runs-of-this-page");
+  const hidden = new Hidden(null);
   const figure = new Figure("lab", HEIGHT, (pen, width, height, theme) => {
     drawLab(pen, width, height, theme, comparison, on, quantity, hidden);
     return `${title}: ${QUANTITIES[quantity]} against ${on}`;

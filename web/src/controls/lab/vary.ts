@@ -50,6 +50,7 @@ export function varyForm(act: (job: Variation) => void): {
       to: Number(to.value),
       count: Number(count.value),
       motion: chosen,
+      id: Math.random().toString(36).slice(2),
     });
   });
   return {
@@ -62,6 +63,8 @@ export function varyForm(act: (job: Variation) => void): {
     ),
     offer: (offered, entries) => {
       const [before, moved] = [field.value, motion.value];
+      const valueAt = (path: string): number | undefined => fields.find((one) => one.path === path)?.value;
+      const was = valueAt(before);
       fields = offered;
       field.replaceChildren(...offered.map(({ path }) => element("option", { value: path }, path)));
       motion.replaceChildren(
@@ -72,8 +75,10 @@ export function varyForm(act: (job: Variation) => void): {
       );
       motion.value = moved || "stroke 5";
       const known = offered.some(({ path }) => path === before);
-      if (known) field.value = before;
-      else {
+      if (known) {
+        field.value = before;
+        if (valueAt(before) !== was) suggest(); // the scene has changed
+      } else {
         field.value = offered.find(({ path }) => path.startsWith("membrane[0]."))?.path ?? offered[0]?.path ?? "";
         suggest();
       }

@@ -23,13 +23,13 @@ export interface Curve {
   readonly shade?: number;
 }
 
-/** The curves that the user has switched off. They stay off when the page is opened again. */
+/** The curves that the user has switched off. With a name, they stay off when the page is opened again. */
 export class Hidden {
   readonly ids: Signal<ReadonlySet<string>>;
 
-  /** name: key in the browser's storage. off: the curves that are off until somebody switches them on. */
+  /** name: key in the browser's storage; null stores nothing. off: curves that are off until they are switched on. */
   constructor(
-    private readonly name: string,
+    private readonly name: string | null,
     off: readonly string[] = [],
   ) {
     this.ids = new Signal<ReadonlySet<string>>(new Set(this.stored() ?? off));
@@ -43,6 +43,7 @@ export class Hidden {
     const ids = new Set(this.ids.value);
     if (!ids.delete(id)) ids.add(id);
     this.ids.value = ids;
+    if (this.name === null) return;
     try {
       localStorage.setItem(this.name, JSON.stringify([...ids]));
     } catch {
@@ -51,6 +52,7 @@ export class Hidden {
   }
 
   private stored(): string[] | null {
+    if (this.name === null) return null;
     try {
       const ids: unknown = JSON.parse(localStorage.getItem(this.name) ?? "null");
       return Array.isArray(ids) ? ids.map(String) : null;

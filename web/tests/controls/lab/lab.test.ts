@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { drawLab, labCurves } from "../../../src/controls/lab/drawing.ts";
-import { compute, queryOf } from "../../../src/controls/lab/job.ts";
+import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
+import { choose } from "../../../src/controls/lab/pick.ts";
 import { Hidden } from "../../../src/plots/kit/legend.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
@@ -46,6 +47,13 @@ describe("a comparison", () => {
     const job = { path: "membrane[0].stiffness", from: 1, to: 2, count: 3 };
     expect(queryOf({ ...job, motion: 0.005 })).toBe("path=membrane%5B0%5D.stiffness&from=1&to=2&count=3&speed=0.005");
     expect(queryOf({ ...job, motion: "Ann" })).toContain("motion=Ann");
+    expect(bundlePath({ ...job, motion: 0.005, id: "x1" }, "time")).toContain("&id=x1&on=time");
+  });
+
+  it("has the first chosen run as its reference, wherever it stands in the list", () => {
+    const second = choose(choose([], "b", true), "a", true);
+    expect(second).toEqual(["b", "a"]);
+    expect(choose(choose(second, "b", false), "b", true)).toEqual(["a", "b"]);
   });
 
   it("tells its progress while lines come in pieces, then gives the result", async () => {
