@@ -1,4 +1,4 @@
-/** Actions of a pointer over the view. Positions are CSS pixels from the view's upper left corner. */
+/** Actions of a pointer over the view. Positions are CSS pixels from where the view's upper left corner was at its start. */
 export interface GestureHandler {
   /**
    * The following drags move the needle along its own line, or in a plane if `sideways`. Returns false if the needle
@@ -25,10 +25,13 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
   const pointers = new Map<number, { x: number; y: number }>();
   let mode: Mode = "none";
 
-  const at = (event: PointerEvent): { x: number; y: number } => {
-    const box = canvas.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
-  };
+  // The view's corner when a gesture begins. The page can move the view during a gesture, but not what it holds.
+  let corner = { x: 0, y: 0 };
+
+  const at = ({ clientX, clientY }: PointerEvent): { x: number; y: number } => ({
+    x: clientX - corner.x,
+    y: clientY - corner.y,
+  });
   const enter = (next: Mode): void => {
     if (mode === "needle" && next !== "needle") handler.release();
     mode = next;
@@ -36,6 +39,10 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
   };
 
   canvas.addEventListener("pointerdown", (event) => {
+    if (pointers.size === 0) {
+      const { left, top } = canvas.getBoundingClientRect();
+      corner = { x: left, y: top };
+    }
     const point = at(event);
     pointers.set(event.pointerId, point);
     canvas.setPointerCapture(event.pointerId);

@@ -27,7 +27,13 @@ export function needleGrip(
   let from: Pixels = [0, 0];
   let inward: Pixels = [0, 0];
   let pixel = 1;
-  const at = (x: number, y: number): Vector3 | null => orbit.inPlaneOf(start, axis, x, y, stage.width, stage.height);
+  let size: Pixels = [1, 1]; // of the view, when the needle was grabbed
+  /** The place under the pointer. A view that has become larger or smaller since the grab does not move it. */
+  const at = (x: number, y: number): Vector3 | null => {
+    const [width, height] = size;
+    const now = (height * stage.width) / stage.height; // the camera's angle is that of the height
+    return orbit.inPlaneOf(start, axis, x + (now - width) / 2, y, now, height);
+  };
   const onScreen = (point: Vector3, camera: Camera): Pixels => {
     const { x, y } = point.clone().project(camera);
     return [((x + 1) / 2) * stage.width, ((1 - y) / 2) * stage.height];
@@ -39,6 +45,7 @@ export function needleGrip(
       start.set(...pose.position).multiplyScalar(MM);
       axis.set(...pose.axis).normalize();
       sideways = shift || free();
+      size = [stage.width, stage.height];
       const pointer = sideways ? at(x, y) : start;
       if (!pointer) return false;
       offset.subVectors(start, pointer);

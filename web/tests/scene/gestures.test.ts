@@ -5,8 +5,9 @@ import { gestures } from "../../src/scene/gestures.ts";
 class FakeCanvas extends EventTarget {
   readonly dataset: Record<string, string> = {};
   getBoundingClientRect(): { left: number; top: number } {
-    return { left: 100, top: 50 };
+    return { left: 100, top: this.top };
   }
+  top = 50;
   readonly captured = new Set<number>();
   setPointerCapture(id: number): void {
     this.captured.add(id);
@@ -69,6 +70,15 @@ describe("a gesture over the view", () => {
     move(155, 90, how);
     up(how);
     expect(log).toEqual(["orbit 5 10"]);
+  });
+
+  it("that drags the needle does not move it when the view moves down on the page", () => {
+    down(150, 80);
+    canvas.top = 90;
+    move(155, 90);
+    up();
+    down(150, 120);
+    expect(log).toEqual(["grab 50 30", "drag 55 40", "release", "grab 50 30"]);
   });
 
   it("with Shift drags the needle sideways, too", () => {
