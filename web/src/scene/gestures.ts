@@ -1,4 +1,4 @@
-/** Actions of a pointer over the view. Positions are CSS pixels from where the view's upper left corner was at its start. */
+/** Actions of a pointer over the view. Positions: CSS pixels from the view's upper left corner as a gesture begins. */
 export interface GestureHandler {
   /**
    * The following drags move the needle along its own line, or in a plane if `sideways`. Returns false if the needle

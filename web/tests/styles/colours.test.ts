@@ -72,8 +72,8 @@ describe.each([
   ["light", 0],
   ["dark", 1],
 ] as const)("the membranes' colours, %s", (_, scheme) => {
-  it("can be read as text on a panel", () => {
-    for (const token of TOKENS) expect(contrast(linear(token, scheme), linear("panel", scheme))).toBeGreaterThan(4.5);
+  it.each(["panel", "page"])("can be read as text on the %s", (back) => {
+    for (const token of TOKENS) expect(contrast(linear(token, scheme), linear(back, scheme))).toBeGreaterThan(4.5);
   });
   it.each(Object.entries(SIGHT))("differ from each other and from the text: %s", (_, sight) => {
     const seen = [...TOKENS, "text"].map((token) => oklab(times(sight, linear(token, scheme))));
