@@ -12,6 +12,8 @@ test("the schema of a scene gives its tables in the file's order, the membranes 
     ["needle", false],
     ["coupling", false],
     ["servo", false],
+    ["display", false],
+    ["syringe", false],
     ["membrane", true],
   ]);
 });
