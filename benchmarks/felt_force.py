@@ -63,6 +63,7 @@ def pushed(device: str, display: float | str, speed: float) -> Run:
             "healthy": np.ones(n, bool),
             "motor_temperature": np.zeros(n),
             "thumb": np.zeros(n),
+            "thumb_felt": np.zeros(n),
         },
         [],
     )

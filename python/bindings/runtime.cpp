@@ -184,9 +184,15 @@ void bind_runtime(nb::module_& m) {
       .def("arm", &ServoLoop::arm, "Enables force as soon as the tip is outside tissue.")
       .def("pause", &ServoLoop::pause, "Disables force. Ticks continue.")
       .def("reset", &ServoLoop::reset, "Clears a latched fault. The loop is then disarmed.")
-      .def("push_plunger", &ServoLoop::push_plunger, nb::arg("force"),
-           "A simulated thumb pushes the plunger of the scene's syringe with this force, N; 0 to 15.\n\n"
-           "With a thumb device, or without a syringe in the scene, it has no effect.")
+      .def(
+          "push_plunger",
+          [](ServoLoop& loop, double force) {
+            if (!(force >= 0 && force <= strongest_thumb)) throw nb::value_error("force must be from 0 to 15 N");
+            loop.push_plunger(force);
+          },
+          nb::arg("force"),
+          "A simulated thumb pushes the plunger of the scene's syringe with this force, N; 0 to 15.\n\n"
+          "With a thumb device, or without a syringe in the scene, it has no effect. Raises ValueError.")
       .def(
           "exchange",
           [](ServoLoop& loop, const Scene& scene) {

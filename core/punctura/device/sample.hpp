@@ -17,6 +17,7 @@ struct DeviceSample {
   double motor_temperature = 0;    ///< of the hottest motor: 1 is the maker's danger limit; 0 if it is not reported
   double thumb = 0;                ///< depth of the thumb on the syringe's plunger, m, from where the plunger starts;
                                    ///< NaN: the thumb's device has a fault
+  double thumb_felt = 0;           ///< force that the thumb's device gave last, after its limits, N; 0 without one
 };
 
 }  // namespace punctura

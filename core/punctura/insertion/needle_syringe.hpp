@@ -34,8 +34,11 @@ class NeedleSyringe {
   }
 
   void reset() noexcept { plunger_.reset(); }
-  /// Continues with the contents and the plunger of another syringe.
-  void resume(const NeedleSyringe& previous) noexcept { plunger_.set_state(previous.plunger_.state()); }
+  /// Continues with the contents and the plunger of an equal syringe. A syringe with other contents or another barrel
+  /// starts full, where the thumb is.
+  void resume(const NeedleSyringe& previous) noexcept {
+    if (plunger_.same_syringe(previous.plunger_)) plunger_.set_state(previous.plunger_.state());
+  }
 
   /// One tick, after the insertion's. thumb: depth of the thumb, m. Returns the force on the thumb, N.
   template <typename Proxies>

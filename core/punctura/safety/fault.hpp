@@ -39,7 +39,7 @@ constexpr const char* describe(Fault fault) noexcept {
       return "the model gave a force that is not a number: please report the scene and the recording";
     case Fault::device: return "the device reported a fault of its own";
     case Fault::thumb:
-      return "the device under the thumb has a fault or sends nothing: check its connection, then reset";
+      return "the device under the thumb has a fault of its own or sends nothing: check its connection, then reset";
   }
   return "unknown fault";
 }

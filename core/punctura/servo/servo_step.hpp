@@ -93,6 +93,7 @@ class ServoStepOf {
     time_ = previous.time_;
     commands_ = previous.commands_ | command_scene;
     faded_force_ = previous.faded_force_;
+    thumb_force_ = previous.thumb_force_;
     fade_ = 1;
     fade_starts_ = true;
   }
@@ -124,12 +125,14 @@ class ServoStepOf {
     const auto elapsed = static_cast<Scalar>(sample.time - time_);
     const auto temperature = static_cast<Scalar>(sample.motor_temperature);
     if (std::isfinite(sample.time)) time_ = sample.time;
+    thumb_force_ = state_ == ServoState::active ? faded_thumb() : Scalar(0);
     if (state_ == ServoState::active) {
       force = limiter_.step(faded(force_scale_ * model_force), temperature, elapsed);
       if (!force.allFinite()) {  // impossible with limits that passed check(), but safety must not depend on that
         fault_ = Fault::non_finite_force;
         state_ = ServoState::faulted;
         force.setZero();
+        thumb_force_ = 0;
       }
     } else {
       limiter_.rest(temperature, elapsed);
@@ -150,6 +153,9 @@ class ServoStepOf {
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
   void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
+  /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
+  /// step is active.
+  Scalar thumb_force() const noexcept { return thumb_force_; }
   const Snapshot& snapshot() const noexcept { return snapshot_; }
   Scalar force_scale() const noexcept { return force_scale_; }
   const Insertion& insertion() const noexcept { return insertion_; }
@@ -172,7 +178,7 @@ class ServoStepOf {
     bool timed = std::isfinite(self.time_);
     double time = timed ? self.time_ : 0;
     state.flag(timed);
-    state.numbers(time, self.fade_, self.faded_force_, self.fade_offset_);
+    state.numbers(time, self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_);
     state.flag(self.fade_starts_);
     state.require(self.fade_ >= 0 && self.fade_ <= 1);
     if constexpr (std::remove_reference_t<decltype(state)>::reading)
@@ -188,6 +194,13 @@ class ServoStepOf {
   }
 
  private:
+  /// The plunger's force on the thumb, scaled, and faded as the needle's force. Call it before faded().
+  Scalar faded_thumb() noexcept {
+    const Scalar wanted = syringe_ ? force_scale_ * syringe_->plunger().force() : Scalar(0);
+    if (fade_starts_) thumb_offset_ = thumb_force_ - wanted;
+    return wanted + fade_ * thumb_offset_;
+  }
+
   /// Fades from the force before resume() to the wanted force.
   Vector faded(const Vector& wanted) noexcept {
     if (fade_starts_) fade_offset_ = faded_force_ - wanted;
@@ -237,6 +250,7 @@ class ServoStepOf {
   Scalar fade_step_, fade_ = 0;
   bool fade_starts_ = false;
   Vector faded_force_{}, fade_offset_{};
+  Scalar thumb_force_ = 0, thumb_offset_ = 0;
   Snapshot snapshot_{};
 };
 

@@ -47,7 +47,11 @@ class ThumbStep {
       limiter_.rest(sample.motor_temperature, elapsed);
       return Vector3d::Zero();
     }
-    return limiter_.step(plunger_force * direction_, sample.motor_temperature, elapsed);
+    const Vector3d force = limiter_.step(plunger_force * direction_, sample.motor_temperature, elapsed);
+    if (force.allFinite()) return force;
+    fault_ = Fault::non_finite_force;  // impossible with limits that passed check(), as in ServoStepOf
+    active_ = false;
+    return Vector3d::Zero();
   }
 
   double depth() const noexcept { return depth_; }  ///< of the thumb, m

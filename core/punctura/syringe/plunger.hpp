@@ -16,17 +16,18 @@ template <typename Scalar>
 struct PlungerState {
   bool started = false;
   Phase phase = Phase::sticking;
-  Scalar p{};  ///< p(k), m: depth of the thumb
-  Scalar e{};  ///< e(k) = q(k) - p(k), m
-  Scalar f{};  ///< f(k), N, on the thumb
+  Scalar home{};  ///< depth of the thumb in the first tick, m: there the plunger starts
+  Scalar p{};     ///< p(k), m: depth of the thumb behind home
+  Scalar e{};     ///< e(k) = q(k) - p(k), m
+  Scalar f{};     ///< f(k), N, on the thumb
   Contents<Scalar> contents{};
 
   static void archive(auto& self, auto& state) {
     state.flag(self.started);
     state.choice(self.phase, Phase::sliding_out);
-    state.numbers(self.p, self.e, self.f);
+    state.numbers(self.home, self.p, self.e, self.f);
     Contents<Scalar>::archive(self.contents, state);
-    state.require(inside(self.phase) && is_place(self.p));
+    state.require(inside(self.phase) && is_place(self.home) && is_place(self.p));
   }
 };
 
@@ -54,12 +55,14 @@ class BasicPlunger {
     state_.contents = {syringe_.liquid, syringe_.air};
   }
 
-  /// One tick. p: depth of the thumb, m, inwards from where the plunger starts. Returns the force on the thumb, N:
-  /// negative while it pushes.
+  /// One tick. depth: of the thumb, m, inwards. Where it is in the first tick, the plunger starts. Returns the force on
+  /// the thumb, N: negative while it pushes.
   ///
-  /// If p is NaN or beyond 1000 km, it returns NaN and the state does not change.
-  Scalar step(Scalar p, const BasicOutlet<Scalar>& outlet) noexcept {
-    if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
+  /// If depth is NaN or beyond 1000 km, it returns NaN and the state does not change.
+  Scalar step(Scalar depth, const BasicOutlet<Scalar>& outlet) noexcept {
+    if (!is_place(depth)) return std::numeric_limits<Scalar>::quiet_NaN();
+    if (!state_.started) state_.home = depth;
+    const Scalar p = depth - state_.home;
     const auto& c = coupling_;
     const Scalar A = syringe_.area(), F = syringe_.friction;
     const Scalar p_prev = state_.started ? state_.p : p;
@@ -99,10 +102,17 @@ class BasicPlunger {
     coupling_.describe(parameters);
   }
 
+  /// Whether another plunger has the same contents and barrel: then it can continue with this one's state.
+  bool same_syringe(const BasicPlunger& other) const noexcept {
+    const auto& a = syringe_;
+    const auto& b = other.syringe_;
+    return a.bore == b.bore && a.liquid == b.liquid && a.air == b.air && a.compliance == b.compliance;
+  }
+
   const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }
   const SampledCoupling<Scalar>& coupling() const noexcept { return coupling_; }
   Scalar force() const noexcept { return state_.f; }                     ///< f(k), N, on the thumb
-  Scalar position() const noexcept { return state_.p + state_.e; }       ///< q(k), m, of the plunger
+  Scalar position() const noexcept { return state_.p + state_.e; }       ///< q(k), m, of the plunger from its start
   Scalar pressure() const noexcept { return state_.contents.pressure; }  ///< P(k), Pa
   Scalar left() const noexcept { return state_.contents.left; }          ///< through the needle so far, m^3
   Phase phase() const noexcept { return state_.phase; }

@@ -20,7 +20,8 @@ from punctura.ticks.flat import flatten, gather
 SCENES_TYPE = pa.list_(pa.string())
 _ROWS_A_PIECE = 2048
 # Fields that earlier versions did not record, and their value in those runs: the whole force, and no syringe.
-_LATER = {"thumb": 0.0, "force_scale": 1.0} | dict.fromkeys(("plunger", "thumb_force", "pressure", "injected"), np.nan)
+_NO_SYRINGE = ("plunger", "thumb_force", "pressure", "injected")
+_LATER = {"thumb": 0.0, "thumb_felt": 0.0, "force_scale": 1.0} | dict.fromkeys(_NO_SYRINGE, np.nan)
 # Required fields. Earlier versions did not record all of the others.
 _EARLIER_INPUTS = [name for name in INPUTS if name not in _LATER]
 _RESULTS = ("tick", "ceiling", "force", "state", "fault", "depth", "axial_force", "lower", "upper", "phase")

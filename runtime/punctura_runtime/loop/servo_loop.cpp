@@ -93,10 +93,13 @@ void ServoLoop::start() {
       ask(reset_bit);  // do not take the motion since the last run for one of this run
   }
   try {
-    if (settings_.thumb) settings_.thumb->start();
+    if (settings_.thumb) {
+      settings_.thumb->start();
+      thumb_runs_ = true;
+    }
     device_->start({&ServoLoop::call, this});
   } catch (...) {
-    if (settings_.thumb) settings_.thumb->stop();
+    stop_thumb();
     end_run();
     throw;
   }
@@ -107,9 +110,14 @@ void ServoLoop::stop() noexcept {
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
-  if (settings_.thumb) settings_.thumb->stop();
+  stop_thumb();
   asked_.fetch_and(~(arm_bit | pause_bit));  // requests of the run that has ended
   end_run();
+}
+
+void ServoLoop::stop_thumb() noexcept {
+  if (thumb_runs_) settings_.thumb->stop();
+  thumb_runs_ = false;
 }
 
 /// After the last tick. Takes a scene that no tick has taken.
@@ -208,9 +216,10 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
 
   DeviceSample in_scene = placed_ ? placer_.to_scene(sample) : sample;
   in_scene.thumb = thumb_depth(sample);
+  if (settings_.thumb) in_scene.thumb_felt = settings_.thumb->force();
   const Snapshot& snapshot = step_->step(in_scene);
   if (settings_.thumb)
-    settings_.thumb->give(snapshot.force_scale * snapshot.syringe.force, snapshot.state == ServoState::active);
+    settings_.thumb->give(step_->thumb_force(), snapshot.state == ServoState::active && step_->syringe().has_value());
   remember(snapshot);
   latest_.write([&](Snapshot& to) { copy(snapshot, to); });
   for (auto& ring : listeners_) ring->push(snapshot);

@@ -80,7 +80,7 @@ class ServoLoop {
   /// A simulated thumb pushes the plunger with this force, N, from 0 to strongest_thumb. Without a call, the thumb is
   /// that of the sample. With a thumb device, it is that of the device, and this call has no effect.
   void push_plunger(double force) noexcept {
-    wanted_thumb_.store(std::clamp(force, 0.0, strongest_thumb), std::memory_order_relaxed);
+    wanted_thumb_.store(force > 0 ? std::min(force, strongest_thumb) : 0.0, std::memory_order_relaxed);
   }
 
   /// Changes the scene, also while running: builds it here; the next tick takes it and fades it in. Throws SceneError
@@ -103,6 +103,7 @@ class ServoLoop {
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
   Tick::Force tick(const DeviceSample& sample) noexcept;
   void end_run() noexcept;
+  void stop_thumb() noexcept;
   double rested();
   double seconds() const noexcept { return static_cast<double>(settings_.now_ns()) * 1e-9; }
   double thumb_depth(const DeviceSample& sample) noexcept;
@@ -122,6 +123,7 @@ class ServoLoop {
   Placer placer_;
   bool placed_;  ///< false for the default placement: samples and forces then pass unchanged
   std::atomic<bool> running_{false};
+  bool thumb_runs_ = false;    ///< this loop has started the thumb's device
   bool rest_counted_ = false;  ///< the time since the last run has been counted as rest
 
   // Used by the ticking thread; between runs, by the holder of between_ticks_.

@@ -33,13 +33,17 @@ ThumbLoop::ThumbLoop(std::shared_ptr<Device> device, const ThumbSettings& settin
 ThumbLoop::~ThumbLoop() { stop(); }
 
 void ThumbLoop::start() {
-  if (running_) return;
+  if (running_.exchange(true)) throw DeviceError("the thumb's device runs in another loop: stop that one first");
   last_tick_ = last_given_ = never;
   active_ = false;
   reset();
   step_.set_spent(rested(*device_, settings_.limits, static_cast<double>(settings_.now_ns()) * 1e-9));
-  device_->start({&ThumbLoop::call, this});
-  running_ = true;
+  try {
+    device_->start({&ThumbLoop::call, this});
+  } catch (...) {
+    running_ = false;
+    throw;
+  }
 }
 
 void ThumbLoop::stop() noexcept {
@@ -55,7 +59,7 @@ void ThumbLoop::stop() noexcept {
 
 void ThumbLoop::reset() noexcept {
   reset_at_.store(settings_.now_ns(), std::memory_order_relaxed);
-  reset_.store(true, std::memory_order_release);
+  resets_.fetch_add(1, std::memory_order_release);
 }
 
 bool ThumbLoop::recent(const std::atomic<std::int64_t>& last) const noexcept {
@@ -64,7 +68,8 @@ bool ThumbLoop::recent(const std::atomic<std::int64_t>& last) const noexcept {
 }
 
 double ThumbLoop::depth() const noexcept {
-  if (reset_.load(std::memory_order_acquire))  // no tick since then: a driver may take a moment to its first one
+  if (resets_.load(std::memory_order_acquire) !=
+      resets_done_.load(std::memory_order_acquire))  // no tick since then: a driver may take a moment to its first one
     return settings_.now_ns() - reset_at_.load(std::memory_order_relaxed) <= first_tick_ns ? 0 : nothing;
   if (fault() != Fault::none) return nothing;
   if (!recent(last_tick_)) return nothing;
@@ -82,8 +87,8 @@ Tick::Force ThumbLoop::call(void* self, const DeviceSample& sample) noexcept {
 }
 
 Tick::Force ThumbLoop::tick(const DeviceSample& sample) noexcept {
-  const bool fresh = reset_.load(std::memory_order_acquire);
-  if (fresh) step_.reset();
+  const std::uint32_t resets = resets_.load(std::memory_order_acquire);
+  if (resets != resets_done_.load(std::memory_order_relaxed)) step_.reset();
   const bool active = recent(last_given_) && active_.load(std::memory_order_relaxed);
   const Vector3d force = step_.step(sample, active ? plunger_force_.load(std::memory_order_relaxed) : 0, active);
   depth_.store(step_.depth(), std::memory_order_relaxed);
@@ -91,7 +96,7 @@ Tick::Force ThumbLoop::tick(const DeviceSample& sample) noexcept {
   felt_.store(settings_.direction.dot(force), std::memory_order_relaxed);
   ticks_.fetch_add(1, std::memory_order_relaxed);
   last_tick_.store(settings_.now_ns(), std::memory_order_release);
-  if (fresh) reset_.store(false, std::memory_order_release);  // last: from now on depth() is this tick's
+  resets_done_.store(resets, std::memory_order_release);  // last: from now on depth() is this tick's
   return to_array(force);
 }
 

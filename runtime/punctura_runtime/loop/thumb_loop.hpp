@@ -38,7 +38,7 @@ class ThumbLoop {
   Device& device() noexcept { return *device_; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
 
-  void start();  ///< Throws DeviceError
+  void start();  ///< Throws DeviceError, also if another loop runs it
   void stop() noexcept;
   void reset() noexcept;  ///< clears a fault; the thumb's next place is where the plunger starts
 
@@ -60,12 +60,13 @@ class ThumbLoop {
   std::shared_ptr<Device> device_;
   ThumbSettings settings_;
   ThumbStep step_;  ///< used by the ticking thread
-  bool running_ = false;
+  std::atomic<bool> running_{false};
   static constexpr std::int64_t first_tick_ns = 1'000'000'000;
 
   static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
-  std::atomic<bool> reset_{false}, active_{false};
+  std::atomic<std::uint32_t> resets_{0}, resets_done_{0};  ///< counted, so that no reset is lost during a tick
+  std::atomic<bool> active_{false};
   std::atomic<std::int64_t> reset_at_{0};  ///< ns
   std::atomic<double> depth_{nothing}, plunger_force_{0}, felt_{0};
   std::atomic<Fault> fault_{Fault::none};

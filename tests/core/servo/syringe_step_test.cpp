@@ -111,6 +111,10 @@ TEST_CASE("a change of the scene keeps what is in the syringe, a reset fills it"
   auto next = build(changed);
   next.resume(step);
   CHECK(next.step(sample(6400, depth_at(6400), thumb)).syringe.left == doctest::Approx(left).epsilon(0.01));
+  changed.syringe->syringe.air = 1e-6;
+  auto other = build(changed);
+  other.resume(next);
+  CHECK(other.syringe()->plunger().left() == 0);  // other contents: a full syringe
   next.reset();
   CHECK(next.syringe()->plunger().left() == 0);
 }

@@ -63,7 +63,7 @@ def test_another_scale_while_the_run_goes_on_is_replayed_to_the_last_bit(tmp_pat
     assert result.identical and result.complete
 
 
-@pytest.mark.parametrize("more", [[], ["thumb", "plunger", "thumb_force", "pressure", "injected"]])
+@pytest.mark.parametrize("more", [[], ["thumb", "plunger", "thumb_force", "thumb_felt", "pressure", "injected"]])
 def test_a_recording_without_the_column_gave_the_whole_force(tmp_path, more):
     path = recorded(tmp_path / "run.parquet", device(), scaled(1), TICKS)
     from punctura.record.header import KEY, with_check_sum

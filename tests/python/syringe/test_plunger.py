@@ -43,7 +43,10 @@ class Oracle:
             high *= 10
         return brentq(gap, low, high, xtol=1e-9, rtol=1e-14)
 
-    def step(self, p, outlet):
+    def step(self, depth, outlet):
+        if self.p is None:
+            self.home = depth
+        p = depth - self.home
         A, F, g = self.s.area, self.s.friction, self.K + self.B / T
         p_prev = p if self.p is None else self.p
         q_prev = p_prev + self.e

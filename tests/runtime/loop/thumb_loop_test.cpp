@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 #include "core/support/allocations.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -152,6 +154,84 @@ TEST_CASE("the ratings of the thumb's device limit its force, and both ticks tak
   CHECK(allocations() == before);
 }
 
+TEST_CASE("a change of the scene does not jump under the thumb") {
+  const auto largest_step = [](TwoHands& hands) {
+    double largest = 0, before = hands.felt;
+    for (int i = 0; i < 800; ++i) {
+      hands.tick(-9e-3, 2e-3);
+      largest = std::max(largest, std::abs(hands.felt - before));
+      before = hands.felt;
+    }
+    return largest;
+  };
+  TwoHands other_contents, other_scale;
+  for (TwoHands* hands : {&other_contents, &other_scale}) {
+    hands->press_in_the_wall();
+    Scene scene = hands->loop->scene();
+    if (hands == &other_contents) scene.syringe->syringe.air = 1.3e-6;
+    if (hands == &other_scale) scene.display.force_scale = 0.2;
+    std::thread change([&] { hands->loop->exchange(scene); });
+    double largest = 0;
+    for (int i = 0; i < 10; ++i) largest = std::max(largest, largest_step(*hands));
+    change.join();
+    largest = std::max(largest, largest_step(*hands));
+    CHECK(largest < 0.05);
+  }
+  CHECK(std::abs(other_contents.felt) < 0.5);  // the new syringe starts full, where the thumb is
+  CHECK(other_scale.felt > 0.1);
+}
+
+TEST_CASE("the plunger starts where the thumb is in the needle's first tick") {
+  TwoHands hands;
+  hands.loop->start();
+  hands.loop->arm();
+  for (int i = 0; i < 100; ++i) hands.tick(1e-3, 2e-4 * i, false, true);  // the needle's driver is late
+  double largest = 0;
+  for (int i = 0; i < 1600; ++i) {
+    hands.tick(1e-3, 20e-3);
+    largest = std::max(largest, std::abs(hands.loop->latest().syringe.force));
+  }
+  CHECK(largest < 1);
+}
+
+TEST_CASE("in a scene without a syringe the thumb gets no force and has no fault, also after a change of the scene") {
+  TwoHands hands;
+  Scene with = hands.loop->scene(), without = with;
+  without.syringe.reset();
+  hands.loop->exchange(without);
+  hands.loop->start();
+  hands.loop->arm();
+  hands.many(1600, 1e-3, 1e-3, 0, 5e-3);
+  CHECK(hands.felt == 0);
+  CHECK(hands.thumb_loop->fault() == Fault::none);
+  CHECK(hands.loop->latest().fault == Fault::none);
+  std::thread change([&] { hands.loop->exchange(with); });
+  hands.many(800, 1e-3, 1e-3, 5e-3, 5e-3);
+  change.join();
+  hands.many(100, 1e-3, 1e-3, 5e-3, 5e-3);
+  CHECK(hands.loop->latest().fault == Fault::none);
+  CHECK(std::abs(hands.loop->latest().syringe.force) < 1);
+}
+
+TEST_CASE("a thumb's device runs in one loop at a time, and the other loop cannot stop it") {
+  TwoHands hands;
+  hands.press_in_the_wall();
+  LoopSettings settings;
+  settings.thumb = hands.thumb_loop;
+  ServoLoop second(std::make_shared<HandCranked>(), hands.loop->scene(), settings);
+  CHECK_THROWS_AS(second.start(), DeviceError);
+  second.stop();
+  CHECK(hands.thumb->started());
+  hands.tick(-9e-3, 2e-3);
+  CHECK(hands.felt > 1);
+}
+
+TEST_CASE("what the thumb felt is in the record") {
+  TwoHands hands;
+  hands.press_in_the_wall();
+  CHECK(hands.loop->latest().sample.thumb_felt == doctest::Approx(-hands.felt).epsilon(0.01));
+}
+
 TEST_CASE("a stop ends both devices, and one device cannot be both hands") {
   TwoHands hands;
   hands.press_in_the_wall();
@@ -175,6 +255,10 @@ TEST_CASE("a simulated thumb pushes without a second device") {
   loop.push_plunger(3);
   device->move(-9e-3, -9e-3, 3200);
   CHECK(loop.latest().syringe.force == doctest::Approx(-3).epsilon(0.01));
+  const double pushed = loop.latest().sample.thumb;
+  loop.push_plunger(std::nan(""));  // as 0: the thumb lets go, and does not jump
+  device->move(-9e-3, -9e-3, 1);
+  CHECK(loop.latest().sample.thumb == doctest::Approx(pushed).epsilon(0.01));
   loop.push_plunger(0);
   device->move(-9e-3, -9e-3, 3200);
   CHECK(loop.latest().syringe.force > -0.6);

@@ -19,6 +19,7 @@ export const FIELDS = [
   { name: "thumb", column: "thumb_m", width: 1, perMembrane: false, words: null },
   { name: "plunger", column: "plunger_m", width: 1, perMembrane: false, words: null },
   { name: "thumb_force", column: "thumb_force_N", width: 1, perMembrane: false, words: null },
+  { name: "thumb_felt", column: "thumb_felt_N", width: 1, perMembrane: false, words: null },
   { name: "pressure", column: "pressure_Pa", width: 1, perMembrane: false, words: null },
   { name: "injected", column: "injected_m3", width: 1, perMembrane: false, words: null },
   { name: "state", column: "state", width: 1, perMembrane: false, words: ["disarmed", "waiting", "active", "faulted"] },
