@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import os
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -70,7 +71,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
     )
     told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
-    tell_result(json.dumps(told, indent=2, default=str) if as_json else in_words(summary))
+    tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
     if not summary.force_was_on:
         button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
         say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")

@@ -91,6 +91,7 @@ def export(
     from punctura.exercise import ResultStore, default_folder
     from punctura.exercise.results import to_csv
     from punctura.exercise.xapi import HOME, to_xapi
+    from punctura.files.whole_file import write_whole
 
     if format not in ("csv", "xapi"):
         raise typer.BadParameter(f"must be csv or xapi, not {format}", param_hint="--format")
@@ -103,5 +104,7 @@ def export(
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
     if output is None:
         typer.echo(text, nl=False)
-    else:
+    elif output.exists() and not output.is_file():  # such as /dev/stdout
         output.write_text(text, encoding="utf-8")
+    else:
+        write_whole(output, text.encode("utf-8"))

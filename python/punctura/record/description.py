@@ -33,7 +33,7 @@ class _Part(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self.model_dump():
+        if name not in type(self).model_fields and name not in (self.model_extra or {}):
             raise KeyError(name)
         return getattr(self, name)
 

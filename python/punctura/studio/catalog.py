@@ -22,6 +22,7 @@ from punctura.studio.wire.common import MembraneView, Part, ProblemPart, Vector
 from punctura.studio.wire.messages import Choice
 
 _USUAL_LIMITS = ForceLimits()
+Stamp = tuple[int, int] | None  # size and time of a file
 DRAFT = "draft"  # the name of an exercise that is tried before it is saved
 
 
@@ -91,8 +92,9 @@ class ExerciseOverview(Part):
 class Exercises:
     """The exercises of the package, and files from the command line.
 
-    A file is read again each time, so that it may change while the studio runs. A page chooses by name: it cannot name
-    a file. Further ones are those that were made in the page (`own`), and the one that is tried there (`draft`).
+    A file is read again when it has changed, so that it may change while the studio runs. A page chooses by name: it
+    cannot name a file. Further ones are those that were made in the page (`own`), and the one that is tried
+    there (`draft`).
     """
 
     own: OwnExercises | None = None
@@ -101,6 +103,7 @@ class Exercises:
     def __init__(self, files: Sequence[str | os.PathLike[str]] = ()) -> None:
         """Raises ConfigurationError if a file has an error, or the name of another exercise."""
         self._files: dict[str, Path] = {}
+        self._kept: dict[Path, tuple[tuple[Stamp, ForceLimits], ExerciseOverview]] = {}
         self._titles: dict[str, str] = {}
         self.warnings: list[tuple[Path, Problem]] = []  # of the files when the studio started
         for given in files:
@@ -164,10 +167,28 @@ class Exercises:
         return own + [Choice(name=entry.name, title=entry.title) for entry in _ready_exercises()]
 
     def _own(self, name: str, path: Path, limits: ForceLimits) -> ExerciseOverview:
+        """The overview. It is kept until the file has another size or time, or the device has other limits."""
+        key = (_stamp(path), limits)  # before the file is read
+        kept = self._kept.get(path)
+        if kept and kept[0] == key:
+            return kept[1]
         try:
-            return _on(load_exercise(path), limits)
+            exercise = load_exercise(path)
+            overview = _on(exercise, limits)
         except ConfigurationError as error:
             return ExerciseOverview(name=name, title=path.name, problems=problem_parts(error.problems))
+        if exercise.scene_name in scene_names():  # another scene's file can change by itself
+            self._kept[path] = key, overview
+        return overview
+
+
+def _stamp(path: Path) -> Stamp:
+    """Size and time of a file; None if there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_size, found.st_mtime_ns
 
 
 def _overview(exercise: Exercise) -> ExerciseOverview:

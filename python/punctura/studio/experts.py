@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import os
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from punctura.files.whole_file import write_whole
@@ -13,31 +16,54 @@ LARGEST = 1_000_000  # bytes; an entry has some hundred
 
 
 class Experts:
-    """Usable from any thread. A file that cannot be read counts as empty, and the next change replaces it."""
+    """Usable from any thread. A damaged file is kept under another name and counts as empty."""
 
-    def __init__(self, folder: Path) -> None:
-        """folder: of the results. It is created with the first entry."""
+    def __init__(self, folder: Path, tell: Callable[[str], None] = lambda text: None) -> None:
+        """folder: of the results. It is created with the first entry. tell: gets a sentence about a damaged file."""
+        self._tell = tell
         self._path = folder.parent / f"{folder.name}-{FILE}"
         self._lock = threading.Lock()
 
     def all(self) -> dict[str, str]:
         """The name of the recording, by exercise."""
-        try:
-            if self._path.is_symlink() or self._path.stat().st_size > LARGEST:
+        with self._lock:
+            try:
+                return self._read()
+            except OSError:
                 return {}
-            entries = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return {}
-        if not isinstance(entries, dict):
-            return {}
-        return {str(exercise): name for exercise, name in entries.items() if isinstance(name, str)}
 
     def set(self, exercise: str, recording: str) -> None:
         """An empty name of a recording removes the entry. Raises OSError."""
         with self._lock:
-            entries = self.all()
+            entries = self._read()
             entries.pop(exercise, None)
             if recording:
                 entries[exercise] = recording
             self._path.parent.mkdir(0o700, parents=True, exist_ok=True)
             write_whole(self._path, json.dumps(entries, indent=1, ensure_ascii=False).encode("utf-8"), replace=True)
+
+    def _read(self) -> dict[str, str]:
+        """The entries; of a damaged file none. Raises OSError."""
+        try:
+            if self._path.is_symlink():
+                raise ValueError("a link")
+            if self._path.stat().st_size > LARGEST:
+                raise ValueError(f"larger than {LARGEST} bytes")
+            entries = json.loads(self._path.read_text(encoding="utf-8"))
+            if not isinstance(entries, dict) or not all(isinstance(name, str) for name in entries.values()):
+                raise ValueError("not a table of names")
+        except FileNotFoundError:
+            return {}
+        except (ValueError, RecursionError) as bad:
+            self._put_aside(bad)
+            return {}
+        return entries
+
+    def _put_aside(self, bad: Exception) -> None:
+        kept = (self._path.with_name(f"{self._path.stem}-damaged-{k}.json") for k in itertools.count(1))
+        free = next(path for path in kept if not os.path.lexists(path))
+        self._path.rename(free)
+        self._tell(
+            f"The list of experts' runs {self._path} is damaged ({bad}). It is kept as {free.name}, and the list is "
+            "empty now. Choose the experts' runs again, or mend the file and rename it."
+        )

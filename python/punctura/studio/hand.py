@@ -21,8 +21,8 @@ SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the sim
 REST_SHARE = 0.15  # share of a stroke's period for which the hand rests at each end
 LEAD_S = 1.0  # time in which the hand moves to the start of a motion
 FARTHEST = 0.5  # m from the origin
-VESSEL_ANGLE = math.radians(30)  # to the skin; the usual angle for drawing blood is 15 to 30 degrees
-VESSEL_GAP = 3e-3  # m along the needle to the skin
+VESSEL_ANGLE = math.radians(30)  # to the skin; illustrative
+VESSEL_GAP = 3e-3  # m along the needle to the skin; illustrative
 
 
 def resting_pose(scene: Scene) -> Pose:

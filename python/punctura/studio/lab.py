@@ -5,12 +5,15 @@ from __future__ import annotations
 import collections
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 from starlette.datastructures import QueryParams
@@ -24,10 +27,13 @@ from punctura.scene import scene_text
 from punctura.studio.download import Download
 from punctura.studio.session import Session
 
+# Fields on which no curve of a comparison depends: the simulation has no thumb that presses the syringe.
+_OF_THE_SYRINGE = re.compile(r"syringe\.|membrane\[\d+\]\.(outflow|behind)_")
 COMMAND = [sys.executable, "-m", "punctura.compare.worker"]
 CHUNK = 1 << 16
 KEPT_SCENES = 32  # of the last variations, for their zip files
 LONGEST_ID = 64
+MOST_ERRORS = 4096  # bytes of the worker's last error messages
 
 
 class LabError(ValueError):
@@ -43,11 +49,12 @@ class Lab:
         self._place = threading.BoundedSemaphore(1)
 
     def fields(self, request: Request) -> Response:
-        """The fields of the present scene that can be varied, SI; null: no bound."""
+        """The fields of the present scene that can be varied, with their present values, SI."""
         return JSONResponse(
             [
                 {"path": one.path, "value": one.value, "unit": one.unit}
                 for one in self._session.run.loaded.scene.fields()
+                if not _OF_THE_SYRINGE.match(one.path)
             ]
         )
 
@@ -124,24 +131,37 @@ def _number(asked: QueryParams, name: str) -> float:
 def _lines(job: Job) -> Iterator[bytes]:
     """The worker's lines as they come. Closing the iterator ends the worker."""
     environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    quiet = subprocess.DEVNULL
-    worker = subprocess.Popen(
-        COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, env=environment, start_new_session=True
+    with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as asked:
+        asked.write(job.model_dump_json().encode())
+        asked.seek(0)
+        worker = subprocess.Popen(
+            COMMAND, stdin=asked, stdout=subprocess.PIPE, stderr=errors, env=environment, start_new_session=True
+        )
+        assert worker.stdout
+        try:
+            ended = False
+            for line in worker.stdout:
+                ended = not line.startswith(b'{"share"')
+                yield line
+            if not ended:
+                yield json.dumps({"error": _why(worker.wait(), errors)}).encode() + b"\n"
+        finally:
+            worker.kill()
+            worker.stdout.close()
+            worker.wait()
+
+
+def _why(code: int, errors: IO[bytes]) -> str:
+    """Why a worker ended without a result. code: its exit status."""
+    errors.seek(max(0, errors.seek(0, os.SEEK_END) - MOST_ERRORS))
+    lines = errors.read().decode("utf-8", "replace").strip().splitlines()[-5:]
+    if code == -signal.SIGKILL or (
+        lines and lines[-1].startswith(("MemoryError", "numpy._core._exceptions._ArrayMem"))
+    ):
+        return "the computation ended early; is there enough memory?"
+    return (
+        f"the computation ended early (status {code}); a defect, please report it: {'; '.join(lines) or 'no message'}"
     )
-    assert worker.stdin and worker.stdout
-    try:
-        worker.stdin.write(job.model_dump_json().encode())
-        worker.stdin.close()
-        ended = False
-        for line in worker.stdout:
-            ended = not line.startswith(b'{"share"')
-            yield line
-        if not ended:
-            yield b'{"error": "the computation ended early; is there enough memory?"}\n'
-    finally:
-        worker.kill()
-        worker.stdout.close()
-        worker.wait()
 
 
 def _zipped(job: Job) -> Iterator[bytes]:

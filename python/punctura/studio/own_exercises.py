@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 from punctura.exercise.exercise import Exercise
@@ -17,9 +18,10 @@ class OwnExercises:
     def __init__(self, folder: Path) -> None:
         """The folder is created with the first exercise."""
         self.folder = folder
+        self._lock = threading.Lock()  # held from a check to the change that it allows
 
     def files(self) -> dict[str, Path]:
-        """The files by name, at most MOST_OWN_EXERCISES, in alphabetical order."""
+        """The files by name, in alphabetical order; with files that were copied here, more than MOST_OWN_EXERCISES."""
         found = {}
         for path in sorted(self.folder.glob("*.toml")) if self.folder.is_dir() else ():
             try:
@@ -27,28 +29,30 @@ class OwnExercises:
                     found[path.stem] = path
             except BadName:
                 continue
-        return dict(list(found.items())[:MOST_OWN_EXERCISES])
+        return found
 
     def save(self, name: str, exercise: Exercise, replace: bool) -> Path:
         """Saves an exercise under a name that no other kind of exercise has. Raises ValueError, OSError."""
         path = self.folder / f"{safe_name(name)}.toml"
         if path.is_symlink():
             raise ValueError(f"{name} is a link; choose another name")
-        known = self.files()
-        if not replace and (path.exists() or path.stem in known):
-            raise ValueError(f"there is an exercise {name} already; choose another name, or replace it")
-        if path.stem not in known and len(known) >= MOST_OWN_EXERCISES:
-            raise ValueError(f"there are {MOST_OWN_EXERCISES} exercises already; delete one first")
         text = exercise_text(exercise.file).encode("utf-8")
         if len(text) > MOST_TEXT:
             raise ValueError(f"the file is larger than {MOST_TEXT} bytes")
-        self.folder.mkdir(0o700, parents=True, exist_ok=True)
-        write_whole(path, text, replace=replace)
+        with self._lock:
+            known = self.files()
+            if not replace and (path.exists() or path.stem in known):
+                raise ValueError(f"there is an exercise {name} already; choose another name, or replace it")
+            if path.stem not in known and len(known) >= MOST_OWN_EXERCISES:
+                raise ValueError(f"there are {len(known)} of at most {MOST_OWN_EXERCISES} exercises; delete one first")
+            self.folder.mkdir(0o700, parents=True, exist_ok=True)
+            write_whole(path, text, replace=replace)
         return path
 
     def delete(self, name: str) -> None:
         """Raises ValueError if there is none."""
-        path = self.files().get(safe_name(name))
-        if path is None:
-            raise ValueError(f"there is no exercise {name} that was made here")
-        path.unlink(missing_ok=True)
+        with self._lock:
+            path = self.files().get(safe_name(name))
+            if path is None:
+                raise ValueError(f"there is no exercise {name} that was made here")
+            path.unlink(missing_ok=True)

@@ -49,7 +49,7 @@ class Session(Runs):
         super().__init__(loaded, settings, out, shelf)
         self.results = results
         self.exercises = exercises or Exercises()
-        self.experts = Experts(results.folder)
+        self.experts = Experts(results.folder, lambda text: self.jobs.post(lambda: out.say(Notice(text=text))))
         self.failure: BaseException | None = None
         self.thumb = SimulatedThumb()
         self._rounds = Rounds()

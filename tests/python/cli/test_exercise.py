@@ -93,7 +93,7 @@ def test_the_coach_is_printed_with_the_score(punctura, recording):
     assert good and all(f"\n  What went well: {remark['text']}\n" in said for remark in good)
 
 
-def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording, tmp_path):
+def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording, tmp_path, monkeypatch):
     results = ResultStore(tmp_path / "results")
     judged = score(recording, "venipuncture", "Ada")
     for person, group in (("Ada", "9b"), ("Bob", "9b"), ("Cem", "")):
@@ -106,7 +106,11 @@ def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording,
     file = tmp_path / "ada.jsonl"
     more = "--person", "Ada", "--home-page", "https://school.example", "--output", file
     assert punctura("exercise", "export", "--format", "xapi", *more, *folder).stdout == ""
-    assert json.loads(file.read_text(encoding="utf-8"))["actor"]["account"]["homePage"] == "https://school.example"
+    whole = file.read_text(encoding="utf-8")
+    assert json.loads(whole)["actor"]["account"]["homePage"] == "https://school.example"
+    monkeypatch.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    assert punctura("exercise", "export", "--format", "csv", "--output", file, *folder).returncode != 0
+    assert file.read_text(encoding="utf-8") == whole  # a full disk leaves the earlier file
 
 
 def test_an_export_that_is_not_possible_is_refused(punctura, tmp_path):

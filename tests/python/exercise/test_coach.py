@@ -229,3 +229,14 @@ def test_missing_readings_make_no_numbers_up(write):
     position[np.arange(len(position)) % 2 == 1] = np.nan
     said = coached(write, position, STOP, REACH, head=DEEP)
     assert all(np.isfinite(value) for remark in [*said.good, *said.change] for value in remark.numbers.values())
+
+
+@pytest.mark.parametrize("scale, limit, unit", [(1, 0, " N"), (0.3, 0, " N (model force)"), (1, 2, " N (model force)")])
+def test_a_force_that_the_hand_did_not_get_is_called_model_force(write, scale, limit, unit):
+    position = way((-6, 4), (-6, 0, 3))
+    n = len(position)
+    columns = {"force_scale": np.full(n, float(scale)), "limit": np.full(n, limit, np.uint8)}
+    said = coached(write, position, goal("peak_force", at_most_N=5), REACH, head=DEEP, **columns)
+    force = about(said.good)["force"].removeprefix("You never pushed with more than ")
+    number, rest = force[:4], force[4:]
+    assert float(number) > 0.1 and rest == f"{unit}; 5.00 N are allowed."

@@ -1,5 +1,6 @@
 """Any recording can be named as the expert's run of an exercise, if it has the exercise's membranes."""
 
+import pytest
 from attempts import as_a_device_runs_it
 from punctura import RecordedMotion, load_scene
 from punctura._core import SimulatedDevice
@@ -34,9 +35,24 @@ def test_a_recording_is_named_kept_and_taken_back(page, served):
     assert Experts(served.session.results.folder).all() == {}
 
 
-def test_a_broken_file_counts_as_empty_and_is_replaced(tmp_path):
-    experts = Experts(tmp_path / "results")
-    (tmp_path / "results-experts.json").write_text("[1", encoding="utf-8")
-    assert experts.all() == {}
-    experts.set("blind", "a run")
-    assert Experts(tmp_path / "results").all() == {"blind": "a run"}
+@pytest.mark.parametrize("text", ["[1", "[]", '{"blind": 3}', "\udcff"])
+def test_a_damaged_file_is_kept_under_another_name_and_told(tmp_path, text):
+    data, path = text.encode("utf-8", "surrogateescape"), tmp_path / "results-experts.json"
+    told = []
+    experts = Experts(tmp_path / "results", told.append)
+    for k in (1, 2):
+        path.write_bytes(data)
+        assert experts.all() == {} and len(told) == k
+        assert f"results-experts-damaged-{k}.json" in told[-1]
+        experts.set("blind", "a run")
+        assert experts.all() == Experts(tmp_path / "results").all() == {"blind": "a run"}
+        assert (tmp_path / f"results-experts-damaged-{k}.json").read_bytes() == data
+    assert len(told) == 2
+
+
+def test_the_page_is_told_that_the_file_was_damaged(page, served):
+    folder = served.session.results.folder
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder.parent / f"{folder.name}-experts.json").write_text("{", encoding="utf-8")
+    assert expert_of(page) == ""
+    page.wait(lambda: any("is damaged" in notice["text"] for notice in page.of("notice")))

@@ -2,12 +2,15 @@
 
 import io
 import json
+import re
+import sys
 import urllib.error
 import urllib.parse
 import urllib.request
 import zipfile
 
 import pytest
+from punctura.studio import lab
 
 
 def get(served, address, /, **asked):
@@ -29,6 +32,7 @@ VARIATION = {"path": "membrane[0].stiffness", "from": 300, "to": 900, "count": 3
 def test_a_parameter_of_the_present_scene_is_varied_while_the_run_goes_on(served):
     status, fields = get(served, "/api/lab/fields")
     assert status == 200 and "membrane[0].stiffness" in {one["path"] for one in json.loads(fields)}
+    assert set(json.loads(fields)[0]) == {"path", "value", "unit"}
     status, body = get(served, "/api/lab/compare", **VARIATION)
     *shares, last = [json.loads(line) for line in body.splitlines()]
     assert status == 200 and len(shares) == 3
@@ -76,3 +80,25 @@ def test_the_zip_file_has_the_scene_that_was_varied_whatever_the_run_does_meanwh
 def test_a_job_that_is_not_possible_is_refused_with_the_reason(served, asked, words):
     status, body = get(served, "/api/lab/compare", **asked)
     assert 400 <= status < 500 and words in body.decode().lower()
+
+
+@pytest.mark.parametrize(
+    "program, words",
+    [
+        ("raise TypeError('a wrong number')", "status 1); a defect, please report it: .*TypeError: a wrong number"),
+        ("raise MemoryError", "is there enough memory"),
+        ("import os; os.kill(os.getpid(), 9)", "is there enough memory"),
+        ("import os; os.kill(os.getpid(), 15)", "status -15.*no message"),
+    ],
+)
+def test_a_worker_that_ends_early_tells_why(served, monkeypatch, program, words):
+    monkeypatch.setattr(lab, "COMMAND", [sys.executable, "-c", program])
+    status, body = get(served, "/api/lab/compare", **VARIATION)
+    assert status == 200 and re.search(words.replace("1)", r"1\)"), json.loads(body)["error"])
+
+
+def test_fields_on_which_no_curve_depends_are_not_offered(served, page):
+    assert page.ask(do="load", scene="epidural")["ok"]
+    fields = {one["path"] for one in json.loads(get(served, "/api/lab/fields")[1])}
+    assert "membrane[0].stiffness" in fields
+    assert not [path for path in fields if "syringe" in path or "outflow" in path or "behind" in path]

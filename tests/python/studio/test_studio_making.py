@@ -1,9 +1,15 @@
 """Exercises that are made in the page: checked by the code of files, kept in one folder, and in no other place."""
 
+import threading
+
 import pytest
-from punctura.exercise import exercise_names, load_exercise
+from punctura._core import ForceLimits
+from punctura.exercise import exercise_names, exercise_of, load_exercise
 from punctura.exercise.text import exercise_text
+from punctura.studio import catalog
+from punctura.studio.catalog import Exercises
 from punctura.studio.limits import MOST_OWN_EXERCISES
+from punctura.studio.own_exercises import OwnExercises
 
 TABLES = {
     "title": 'A "quoted" \u00e4 title', "description": "Two\nlines.", "instruction": "Push.", "scene": "venipuncture",
@@ -72,7 +78,41 @@ def test_links_are_not_followed_and_the_number_of_files_is_limited(page, served,
     assert outside.read_text(encoding="utf-8") == "secret"
     for number in range(MOST_OWN_EXERCISES):
         (folder / f"e{number:03}.toml").write_text("", encoding="utf-8")
+    (folder / "zz-copied.toml").write_text("", encoding="utf-8")
+    assert "zz-copied" in names(page)  # no file is hidden
     assert "delete one first" in page.ask(do="save_exercise", name="one-more", tables=TABLES)["text"]
+
+
+def test_two_pages_that_save_at_once_do_not_exceed_the_number_of_files(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.studio.own_exercises.MOST_OWN_EXERCISES", 3)
+    own, exercise, refused = OwnExercises(tmp_path), load_exercise("venipuncture"), []
+
+    def save(number):
+        try:
+            own.save(f"e{number}", exercise, replace=False)
+        except ValueError as error:
+            refused.append(str(error))
+
+    threads = [threading.Thread(target=save, args=[number]) for number in range(12)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(own.files()) == 3 and len(refused) == 9
+
+
+def test_a_file_is_read_again_only_when_it_has_changed(tmp_path, monkeypatch):
+    exercises, read = Exercises(), []
+    exercises.own = OwnExercises(tmp_path)
+    path = exercises.own.save("mine", exercise_of(TABLES, "mine"), replace=False)
+    monkeypatch.setattr(catalog, "load_exercise", lambda file: (read.append(file), load_exercise(file))[1])
+    limits = ForceLimits()
+    titles = [exercises.overviews(limits)[0].title for _ in range(3)]
+    assert titles == [TABLES["title"]] * 3 and read == [path]
+    exercises.own.save("mine", exercise_of(TABLES | {"title": "New"}, "mine"), replace=True)
+    assert exercises.overviews(limits)[0].title == "New" and read == [path] * 2
+    path.write_text("", encoding="utf-8")
+    assert exercises.overviews(limits)[0].problems
 
 
 def test_an_exercise_is_tried_before_it_is_saved(page):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen, degrees, mm, newtons, speed, times
+from punctura.exercise.coach.seen import Seen, degrees, mm, speed, times
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
@@ -24,8 +24,8 @@ def went_through(seen: Seen) -> Iterator[Remark]:
         else:
             when, what = "", "push more slowly, so that you have time to stop"
         text = (
-            f"You still moved in at {speed(last.speed)}, against {newtons(last.force)}, when the point went through "
-            f"the {limit.membrane}{when}: {what}."
+            f"You still moved in at {speed(last.speed)}, against {seen.newtons(last.force)}, when the point went "
+            f"through the {limit.membrane}{when}: {what}."
         )
         numbers = {"speed_m_s": last.speed, "force_N": last.force}
         yield Remark(about="through", text=text, numbers=numbers | ({} if since is None else {"after_s": since}))
@@ -41,7 +41,7 @@ def went_too_far(seen: Seen) -> Iterator[Remark]:
             if push.speed * t.REACTION_S >= one.distance / 2:
                 text = f"You moved at {speed(push.speed)} {too_far}: push more slowly when the resistance grows."
             else:
-                text = f"You were still pushing with {newtons(push.force)} {too_far}: brace your hand earlier."
+                text = f"You were still pushing with {seen.newtons(push.force)} {too_far}: brace your hand earlier."
             numbers = {
                 "speed_m_s": push.speed, "force_N": push.force, "distance_m": one.distance, "allowed_m": limit.within,
             }  # fmt: skip
@@ -52,7 +52,7 @@ def pushed_too_hard(seen: Seen) -> Iterator[Remark]:
     for limit in seen.missed(ForceJudge):
         peak = seen.metrics.peak_force
         text = (
-            f"You pushed with {newtons(peak)}; {newtons(limit.at_most)} are allowed: push more gently, and stop as "
+            f"You pushed with {seen.newtons(peak)}; {limit.at_most:.2f} N are allowed: push more gently, and stop as "
             "soon as a wall gives way."
         )
         yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": limit.at_most})
@@ -179,8 +179,8 @@ def nearly_too_far(seen: Seen) -> Iterator[Remark]:
             if one.distance >= t.NEAR_STOP * limit.within:
                 text = (
                     f"You went {mm(one.distance)} past the {limit.membrane} when it gave way; {mm(limit.within)} are "
-                    f"allowed: you were pushing with {newtons(push.force)} at {speed(max(push.speed, 0.0))}, so brace "
-                    "your hand earlier."
+                    f"allowed: you were pushing with {seen.newtons(push.force)} at {speed(max(push.speed, 0.0))}, "
+                    "so brace your hand earlier."
                 )
                 numbers = {"distance_m": one.distance, "allowed_m": limit.within, "force_N": push.force}
                 yield Remark(about="stop", text=text, numbers=numbers)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen, degrees, mm, newtons
+from punctura.exercise.coach.seen import Seen, degrees, mm
 from punctura.exercise.limits import ForceJudge, LineJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
@@ -46,7 +46,7 @@ def hit_the_line(seen: Seen) -> Iterator[Remark]:
 def pushed_gently(seen: Seen) -> Iterator[Remark]:
     for limit in seen.kept(ForceJudge):
         peak = seen.metrics.peak_force
-        text = f"You never pushed with more than {newtons(peak)}; {newtons(limit.at_most)} are allowed."
+        text = f"You never pushed with more than {seen.newtons(peak)}; {limit.at_most:.2f} N are allowed."
         yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": limit.at_most})
 
 

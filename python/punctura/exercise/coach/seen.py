@@ -54,6 +54,11 @@ class Seen:
         stays = [one for one in self.achievements if isinstance(one, StayJudge)]
         return max(stays, key=lambda one: one.seconds, default=None)
 
+    def newtons(self, force: float) -> str:
+        """A force of the model; "model force" stands beside it if the hand did not get all of it."""
+        cut = self.metrics.force_scale < 1 or any(seconds > 0 for seconds in self.metrics.force_cut.values())
+        return f"{force:.2f} N (model force)" if cut else f"{force:.2f} N"
+
     @property
     def arrival(self) -> float | None:
         """Time of the first arrival, s."""
@@ -85,10 +90,6 @@ class Seen:
 
 def mm(metres: float) -> str:
     return f"{tenths(metres * 1e3)} mm"
-
-
-def newtons(force: float) -> str:
-    return f"{force:.2f} N"
 
 
 def speed(metres_per_second: float) -> str:
