@@ -147,3 +147,12 @@ def test_a_fault_that_this_version_does_not_know_is_counted_by_its_number(start,
     assert (fault.tick, fault["fault"], fault.meaning) == (1, "200", "unknown to this version")
     with pytest.raises(KeyError):
         fault["model_dump"]
+
+
+def test_a_field_is_found_by_its_name_and_only_a_field(recorded):
+    summary = open_recording(recorded[".parquet"]).summary
+    more = type(summary).model_validate(summary.model_dump() | {"of a later version": 7})
+    assert (more["ticks"], more["lost"], more["of a later version"]) == (200, 0, 7)
+    for name in ("model_dump", "none"):
+        with pytest.raises(KeyError, match=name):
+            more[name]
