@@ -15,13 +15,13 @@
 
 namespace punctura {
 
-/// Throws DeviceError if the device runs in a loop: a second one would leave the first without ticks, and that would
-/// not know.
+/// Throws DeviceError if the device already runs in a loop. A second loop would take the ticks of the first one
+/// without a message.
 inline void refuse_second_loop(bool runs) {
   if (runs) throw DeviceError("the device runs in another loop already: stop that one first");
 }
 
-/// One thread, from start() to stop(). It counts as running until stop(), also when its work has ended before.
+/// One thread, from start() to stop(). It counts as running until stop(), even if its work ended earlier.
 class TickingThread {
  public:
   TickingThread() = default;
@@ -31,9 +31,9 @@ class TickingThread {
 
   void refuse_second_loop() const { punctura::refuse_second_loop(thread_.joinable()); }
 
-  /// In the new thread: real-time scheduling where settings are given, prepare(), and, if that gives true, run(), which
-  /// returns soon after stopping(). Returns what prepare() gave, as soon as it has. Throws DeviceError if it runs or
-  /// the system has no thread to give.
+  /// The new thread requests real-time scheduling, if there are settings, and calls prepare(). If that returns true, it
+  /// calls run(), which must return soon after stopping() is true. Returns the result of prepare() without waiting for
+  /// run(). Throws DeviceError if the thread already runs, or if the system cannot create one.
   template <typename Run, typename Prepare = bool (*)()>
   bool start(const std::optional<os::RealtimeSettings>& realtime, Run run, Prepare prepare = [] { return true; }) {
     refuse_second_loop();

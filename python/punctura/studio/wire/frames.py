@@ -5,17 +5,17 @@
 | 0 | u32 | magic, "PNT2" |
 | 4 | u32 | n, ticks |
 | 8 | u32 | m, membranes |
-| 12 | u32 | flags: 1 the other solver's force is there |
+| 12 | u32 | flags: bit 1: the frame has the other solver's force |
 | 16 | u64 | the first tick; the others follow it one by one |
 | 24 | f64 | time of the first tick, s |
 | 32 | u32 | the run, from 0 |
 | 36 | u32 | snapshots lost before this frame in this run |
 | 40 | f32 | the numbers of each field, n rows of its width (times m where each membrane has one), field by field |
-| then | f32 | the other solver's force, n rows of 3, where the flag is set |
+| then | f32 | the other solver's force, n rows of 3, if the flag is set |
 | then | u8 | the fields that are words, likewise |
 
 The fields are those of core's table (docs/tick.md) that are marked for the page, in its order.
-Times are seconds after the first tick's, so that f32 keeps them to a nanosecond. What does not exist is NaN.
+Times are seconds after the first tick's, so that f32 keeps them to a nanosecond. A missing value is NaN.
 """
 
 from __future__ import annotations
