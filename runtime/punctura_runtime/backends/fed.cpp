@@ -58,7 +58,9 @@ Tick::Force FedDevice::feed(const Reading& reading) noexcept {
   return force;
 }
 
-std::string FedDevice::trouble() const { return unhealthy_ ? "a reading was fed with healthy = false: the device reports a problem" : ""; }
+std::string FedDevice::trouble() const {
+  return unhealthy_ ? "a reading was fed with healthy = false: the device reports a problem" : "";
+}
 
 std::vector<std::string> FedDevice::make_realtime(const os::RealtimeSettings& settings) {
   std::vector<std::string> lines;
