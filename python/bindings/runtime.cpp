@@ -120,8 +120,13 @@ void bind_runtime(nb::module_& m) {
           "motion: Strokes, RecordedMotion or Target. rate: Hz. real_time: False runs as fast as possible. ticks:\n"
           "number of ticks, 0 for no end. axis: direction of the stylus. priority: real-time scheduling priority, 0\n"
           "for none. processor: CPU number, -1 for any. Raises ConfigurationError.")
-      .def("move_to", &SimulatedDevice::move_to, nb::arg("position"),
-           "Moves the Target; the hand follows. position: m.")
+      .def(
+          "move_to",
+          [](SimulatedDevice& d, const Triple& position) {
+            if (!is_place(to_vector(position))) throw nb::value_error("position must be three finite numbers, in m");
+            d.move_to(position);
+          },
+          nb::arg("position"), "Moves the Target; the hand follows. position: m. Raises ValueError.")
       .def(
           "point",
           [](SimulatedDevice& d, const Triple& axis, std::uint32_t buttons) {

@@ -54,6 +54,12 @@ void check_depth(double depth) {
   if (!is_place(depth)) throw nb::value_error("p must be a finite depth within 1000 km, in m");
 }
 
+double checked_tube_resistance(double bore, double length) {
+  if (!(bore > 0 && length > 0 && std::isfinite(bore) && std::isfinite(length)))
+    throw nb::value_error("bore and length must be greater than 0 m and finite");
+  return tube_resistance(bore, length);
+}
+
 using Layers = std::vector<std::tuple<double, double, Outlet, Outlet>>;
 
 Outlet at_opening(const Layers& given, double length) {
@@ -155,8 +161,9 @@ void bind_syringe(nb::module_& m) {
           "In the barrel now, m^3 at the pressure of the atmosphere")
       .def_prop_ro("phase", [](const GivenPlunger& p) { return p.phase(); });
 
-  m.def("tube_resistance", &tube_resistance, nb::arg("bore"), nb::arg("length"),
-        "Flow resistance of a tube for water at 20 C, Pa s/m^3, by Hagen and Poiseuille. bore, length: m.");
+  m.def("tube_resistance", &checked_tube_resistance, nb::arg("bore"), nb::arg("length"),
+        "Flow resistance of a tube for water at 20 C, Pa s/m^3, by Hagen and Poiseuille. bore, length: m. Raises\n"
+        "ValueError.");
   m.def("outlet_at", &at_opening, nb::arg("layers"), nb::arg("length"),
         nb::sig("def outlet_at(layers: Sequence[tuple[float, float, Outlet, Outlet]], length: float) -> Outlet"),
         "One outlet for the layers beside a needle's opening of this length (m).\n\n"

@@ -34,8 +34,8 @@ class NeedleSyringe {
   }
 
   void reset() noexcept { plunger_.reset(); }
-  /// Continues with the contents and the plunger of an equal syringe. A syringe with other contents or another barrel
-  /// starts full, where the thumb is.
+  /// Continues with the contents and the plunger of an equal syringe. A syringe with other contents, another barrel
+  /// or another coupling starts full, where the thumb is.
   void resume(const NeedleSyringe& previous) noexcept {
     if (plunger_.same_syringe(previous.plunger_)) plunger_.set_state(previous.plunger_.state());
   }

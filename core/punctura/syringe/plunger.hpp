@@ -102,11 +102,12 @@ class BasicPlunger {
     coupling_.describe(parameters);
   }
 
-  /// Whether another plunger has the same contents and barrel: then it can continue with this one's state.
+  /// Whether another plunger has the same contents, barrel and coupling: then it can continue with this one's state.
   bool same_syringe(const BasicPlunger& other) const noexcept {
     const auto& a = syringe_;
     const auto& b = other.syringe_;
-    return a.bore == b.bore && a.liquid == b.liquid && a.air == b.air && a.compliance == b.compliance;
+    return a.bore == b.bore && a.liquid == b.liquid && a.air == b.air && a.compliance == b.compliance &&
+           coupling_.K == other.coupling_.K && coupling_.B == other.coupling_.B;
   }
 
   const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }

@@ -164,11 +164,12 @@ TEST_CASE("a change of the scene does not jump under the thumb") {
     }
     return largest;
   };
-  TwoHands other_contents, other_scale;
-  for (TwoHands* hands : {&other_contents, &other_scale}) {
+  TwoHands other_contents, other_scale, other_coupling;
+  for (TwoHands* hands : {&other_contents, &other_scale, &other_coupling}) {
     hands->press_in_the_wall();
     Scene scene = hands->loop->scene();
     if (hands == &other_contents) scene.syringe->syringe.air = 1.3e-6;
+    if (hands == &other_coupling) scene.syringe->thumb.stiffness *= 100;
     if (hands == &other_scale) scene.display.force_scale = 0.2;
     std::thread change([&] { hands->loop->exchange(scene); });
     double largest = 0;

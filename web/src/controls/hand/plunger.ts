@@ -5,6 +5,9 @@ import type { App } from "../../state/app.ts";
 const number = (value: number | undefined, digits: number): string =>
   value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits).replace("-", "−");
 
+/** Whether the syringe is empty. injected, volume: m³. Air takes less room under pressure. */
+export const isEmpty = (injected: number, volume: number): boolean => injected > 0.9 * volume;
+
 /** The syringe, in scenes that have one: a button that pushes while it is held, and what the thumb feels. */
 export function plungerRows(app: App): HTMLElement {
   const thumb = thumbOf(app);
@@ -26,6 +29,8 @@ export function plungerRows(app: App): HTMLElement {
   thumb.force.watch((force) => push.setAttribute("aria-pressed", String(force > 0)));
 
   const force = element("output", { class: "figure" }, "– N");
+  const refill = "Empty. Load the scene again to fill it.";
+  const empty = element("p", { class: "quiet", role: "status", hidden: true }, refill);
   const volume = element("output", { class: "figure" }, "– mL");
   const host = element(
     "section",
@@ -34,6 +39,7 @@ export function plungerRows(app: App): HTMLElement {
     element("div", { class: "row" }, push, element("span", {}, "or hold Space in the view")),
     element("div", { class: "row" }, element("span", {}, "Thumb, model force"), force),
     element("div", { class: "row" }, element("span", {}, "Injected"), volume),
+    empty,
   );
   const put = (where: HTMLElement, text: string): void => {
     if (where.textContent !== text) where.textContent = text;
@@ -45,6 +51,7 @@ export function plungerRows(app: App): HTMLElement {
     const tick = host.hidden ? null : source.shown();
     if (tick === null || host.offsetParent === null) return;
     put(force, `${number(Math.abs(source.history.row("thumb_force", tick)[0] ?? Number.NaN), 2)} N`);
+    empty.hidden = !isEmpty(source.history.row("injected", tick)[0] ?? 0, source.scene.value?.syringe?.volume ?? 1);
     put(volume, `${number((source.history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 2)} mL`);
     push.toggleAttribute("disabled", !thumb.there);
   });
