@@ -57,7 +57,7 @@ def test_all_of_a_reading_reaches_the_tick():
     assert last["position"][0].tolist() == [1e-3, 2e-3, 3e-3] and last["axis"][0].tolist() == [0, 0, -1]
     assert last["motor_temperature"][0] == 0.5
     device.feed((0, 0, 0), healthy=False)
-    assert loop.latest()["fault"][0] and "not healthy" in device.trouble()
+    assert loop.latest()["fault"][0] and "healthy = false" in device.trouble()
 
 
 def test_what_the_device_says_of_itself_limits_the_force():
