@@ -2,7 +2,7 @@
 
     python tools/screenshots.py [--out FOLDER]
 
-Laptop (1440 x 900) and tablet (900 x 1200), light and dark. Check the pictures by eye.
+Laptop (1440 x 900), tablet (900 x 1200) and phone (390 x 844), light and dark. Check the pictures by eye.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "tests" / "page"))
 
 from person import PATIENCE, drag_in, push, ready, tab  # noqa: E402
 
-LAPTOP, TABLET = (1440, 900), (900, 1200)
+LAPTOP, TABLET, PHONE = (1440, 900), (900, 1200), (390, 844)
 
 
 def tour(page: Page) -> None:
@@ -65,7 +65,7 @@ def fault(page: Page) -> None:
     ready(page)
     tab(page, "Health")
     page.get_by_role("button", name="Try a fault").click()
-    expect(page.locator(".fault")).to_contain_text("no force", timeout=PATIENCE)
+    expect(page.locator(".fault")).to_contain_text("The force is off", timeout=PATIENCE)
 
 
 def replay(page: Page) -> None:
@@ -98,6 +98,21 @@ def exercise(page: Page) -> None:
     expect(page.locator(".trace svg")).to_be_visible(timeout=PATIENCE)
 
 
+def sliced(page: Page) -> None:
+    popped(page)
+    page.get_by_role("button", name="Slice", exact=True).click()
+
+
+def in_the_epidural(page: Page) -> None:
+    ready(page)
+    push(page, "Shift+ArrowDown", 30)
+
+
+def projector(page: Page) -> None:
+    in_the_epidural(page)
+    page.keyboard.press("Alt+p")
+
+
 # name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...] = (
     ("tour", "venipuncture", tour, LAPTOP, "light"),
@@ -110,6 +125,10 @@ STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...
     ("fault", "k06-fig10", fault, LAPTOP, "dark"),
     ("replay", "k06-fig12", replay, LAPTOP, "light"),
     ("result", "venipuncture", exercise, LAPTOP, "light"),
+    ("slice", "venipuncture", sliced, LAPTOP, "light"),
+    ("epidural", "epidural", in_the_epidural, LAPTOP, "light"),
+    ("projector", "epidural", projector, LAPTOP, "dark"),
+    ("phone", "venipuncture", popped, PHONE, "light"),
     ("tablet", "venipuncture", popped, TABLET, "light"),
     ("tablet-dark", "epidural", popped, TABLET, "dark"),
 )
