@@ -9,9 +9,13 @@
 
 namespace punctura {
 
-/// A single number: float or double.
+/// Whether V is a single number. Specialize it for a number of your own, for example a dual number, which carries
+/// derivatives. Comparisons of such a number return bool. It has the functions that `Lanes` names, and `exp` and `log`.
 template <typename V>
-concept OneNumber = std::floating_point<V>;
+inline constexpr bool is_one_number = std::floating_point<V>;
+/// A single number: float, double or a number of your own.
+template <typename V>
+concept OneNumber = is_one_number<V>;
 
 /// A SIMD type: several numbers that are computed together, one in each lane. It needs:
 ///
@@ -59,17 +63,25 @@ constexpr bool all(bool mask) noexcept { return mask; }
 
 using std::max;
 using std::min;
-template <OneNumber T>
+template <std::floating_point T>
 T sqrt(T x) noexcept {
   return std::sqrt(x);
 }
-template <OneNumber T>
+template <std::floating_point T>
 T tan(T x) noexcept {
   return std::tan(x);
 }
-template <OneNumber T>
+template <std::floating_point T>
 T cos(T x) noexcept {
   return std::cos(x);
+}
+template <std::floating_point T>
+T exp(T x) noexcept {
+  return std::exp(x);
+}
+template <std::floating_point T>
+T log(T x) noexcept {
+  return std::log(x);
 }
 
 }  // namespace lane

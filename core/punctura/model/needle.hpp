@@ -1,7 +1,7 @@
 // The needle of K06 section 2.
 #pragma once
 
-#include <cmath>
+#include "punctura/model/lane.hpp"
 
 namespace punctura {
 
@@ -18,7 +18,8 @@ using NeedleF = BasicNeedle<float>;
 /// X, the length of the tip along the needle, m: X = w / tan(theta). K06 (15)
 template <typename Scalar>
 Scalar tip_length(const BasicNeedle<Scalar>& needle) noexcept {
-  return needle.diameter / std::tan(needle.tip_angle);
+  using namespace lane;
+  return needle.diameter / tan(needle.tip_angle);
 }
 
 }  // namespace punctura

@@ -1,0 +1,74 @@
+// A profile: the force of an infinitely thin wall against depth, with straight lines between knots.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "punctura/model/validity.hpp"
+
+namespace punctura {
+
+/// The largest number of knots in a profile.
+inline constexpr std::size_t max_knots = 32;
+
+/// One knot of a profile.
+template <typename Scalar>
+struct BasicKnot {
+  Scalar depth;  ///< m, along the needle
+  Scalar lower;  ///< phi_I there, N, 0 or less
+  Scalar upper;  ///< phi_O there, N
+};
+using Knot = BasicKnot<double>;
+
+/// phi_I and phi_O of a thin wall, N: straight lines between knots in ascending order.
+///
+/// The force is 0 before the first knot and constant behind the last one. It may jump at the first knot. Two knots at
+/// one depth are a jump there; the first of them holds at this depth. K06 (13), (14) is such a profile: 0, X and X.
+template <typename Scalar, std::size_t Most = max_knots>
+struct BasicProfile {
+  std::array<BasicKnot<Scalar>, Most> knots{};
+  std::size_t count = 0;
+
+  BasicProfile() = default;
+  /// The first `Most` of these knots.
+  explicit BasicProfile(std::span<const BasicKnot<Scalar>> from) noexcept {
+    for (const auto& knot : from) add(knot.depth, knot.lower, knot.upper);
+  }
+
+  /// Adds a knot. A full profile does not change.
+  void add(const Scalar& depth, const Scalar& lower, const Scalar& upper) noexcept {
+    if (count < Most) knots[count++] = {depth, lower, upper};
+  }
+  std::span<const BasicKnot<Scalar>> used() const noexcept { return {knots.data(), count}; }
+};
+using Profile = BasicProfile<double>;
+
+/// Adds every reason why these knots are no profile. Returns true if there is none.
+inline bool check_profile(std::span<const Knot> knots, const std::string& path, std::vector<Problem>& problems) {
+  const std::size_t before = problems.size(), n = knots.size();
+  static_assert(max_knots == 32);
+  if (n == 0 || n > max_knots) problems.push_back({path, static_cast<double>(n), "must have 1 to 32 knots"});
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& [depth, lower, upper] = knots[i];
+    const auto add = [&](const char* field, double value, const char* reason) {
+      problems.push_back({path + "[" + std::to_string(i) + "]." + field, value, reason});
+    };
+    if (!(depth >= 0 && depth <= 1e6)) add("depth", depth, "must be a number from 0 to 1e6 m");
+    if (i == 1 && depth == knots[0].depth) add("depth", depth, "must be greater than the depth of the first knot");
+    if (i > 0 && depth != knots[i - 1].depth && !(depth - knots[i - 1].depth >= 1e-9))
+      add("depth", depth, "must be the depth of the knot before it, for a jump, or greater by 1e-9 m or more");
+    if (i > 1 && depth == knots[i - 1].depth && depth == knots[i - 2].depth)
+      add("depth", depth, "must not be the depth of both knots before it: at most two knots make a jump");
+    if (!(std::abs(lower) <= 1e6)) add("lower", lower, "must be a number within 1e6 N");
+    if (!(std::abs(upper) <= 1e6)) add("upper", upper, "must be a number within 1e6 N");
+    if (lower > 0) add("lower", lower, "must be 0 N or less: the lower edge resists insertion");
+    if (lower > upper) add("lower", lower, "must not be greater than upper at the same knot");
+  }
+  return problems.size() == before;
+}
+
+}  // namespace punctura

@@ -1,0 +1,97 @@
+// What measured tissue adds to K06's membrane. Each addition at its default is K06.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "punctura/model/profile.hpp"
+#include "punctura/model/validity.hpp"
+
+namespace punctura {
+
+/// How the wall's force on the needle, the grip G, grows with the opening y of the hole.
+enum class GripShape : std::uint8_t {
+  linear,       ///< G = kappa y + c: K06
+  exponential,  ///< G = c + kappa (exp(growth y) - 1) / growth
+  table,        ///< straight lines between the points of grip_table, constant outside them
+};
+
+/// One point of a measured grip.
+template <typename Scalar>
+struct BasicGripPoint {
+  Scalar opening;  ///< y, m
+  Scalar grip;     ///< G, N
+};
+using GripPoint = BasicGripPoint<double>;
+
+/// What a membrane of measured tissue has beside the four numbers of K06. Tissue{} is K06's membrane.
+///
+/// docs/measured-tissue.md derives the law.
+template <typename Scalar>
+struct BasicTissue {
+  GripShape grip = GripShape::linear;
+  Scalar growth{};                                 ///< 1/m, for GripShape::exponential; 0 is linear
+  std::vector<BasicGripPoint<Scalar>> grip_table;  ///< for GripShape::table, openings in ascending order
+  Scalar tip_length{};                             ///< X, m; 0 is w / tan(theta)
+  Scalar tail_length{};                            ///< m: on this length behind X the shaft's friction falls
+  Scalar tail_floor{1};                            ///< the part of the shaft's friction that is left behind the tail
+  Scalar cutting{};                                ///< N: the tip's force while it cuts the wall for the first time
+  Scalar set{};                                    ///< the part of the grip that a hole has lost, 0 to 1
+  std::vector<BasicKnot<Scalar>> profile;          ///< not empty: a measured profile in place of grip and tail
+};
+using Tissue = BasicTissue<double>;
+
+/// Whether this is K06's membrane: all additions are off.
+template <typename Scalar>
+bool is_k06(const BasicTissue<Scalar>& t) noexcept {
+  const bool straight = t.grip == GripShape::linear || (t.grip == GripShape::exponential && t.growth == 0);
+  return straight && t.tip_length == 0 && t.tail_floor == 1 && t.cutting == 0 && t.set == 0 && t.profile.empty();
+}
+
+inline constexpr FieldOf<Tissue> tissue_fields[] = {
+    {{"growth", "b", "1/m", {-no_bound, no_bound, true, true, "must be a finite number"}}, &Tissue::growth},
+    {{"tip_length", "X", "m", {0, no_bound, false, true, "must be 0 (w / tan theta) or more"}}, &Tissue::tip_length},
+    {{"tail_length", "", "m", {0, no_bound, false, true, "must be 0 or more"}}, &Tissue::tail_length},
+    {{"tail_floor", "", "-", {0, 1, false, false, "must be from 0 to 1"}}, &Tissue::tail_floor},
+    {{"cutting", "C", "N", {0, no_bound, false, true, "must be 0 or more: cutting takes work"}}, &Tissue::cutting},
+    {{"set", "", "-", {0, 1, false, false, "must be from 0 to 1"}}, &Tissue::set},
+};
+
+/// The largest number of points of a measured grip: the profile also needs the surface, both sides of
+/// the tip's end, and the end of the tail.
+inline constexpr std::size_t most_grip_points = max_knots - 4;
+
+namespace detail {
+inline void check_grip_table(const std::vector<GripPoint>& table, const std::string& path,
+                             std::vector<Problem>& problems) {
+  static_assert(most_grip_points == 28);
+  if (table.empty() || table.size() > most_grip_points)
+    problems.push_back({path, static_cast<double>(table.size()), "must have 1 to 28 points"});
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto& [opening, grip] = table[i];
+    const std::string point = path + "[" + std::to_string(i) + "]";
+    if (!(opening >= 0 && opening <= 1)) problems.push_back({point + ".opening", opening, "must be from 0 to 1 m"});
+    if (i > 0 && !(opening - table[i - 1].opening >= 1e-9))
+      problems.push_back({point + ".opening", opening, "must be greater than the one before it, by 1e-9 m or more"});
+    if (!(grip >= 0 && grip <= 1e6))
+      problems.push_back({point + ".grip", grip, "must be from 0 to 1e6 N: a wall cannot pull the needle in"});
+  }
+}
+}  // namespace detail
+
+/// Adds a problem for each value that is outside its range. Returns true if there is none.
+///
+/// check_curve() (grip.hpp) also needs the needle and the membrane: whether the chords follow the curve.
+inline bool check(const Tissue& tissue, const std::string& path, std::vector<Problem>& problems) {
+  const std::size_t before = problems.size();
+  const std::string dot = path.empty() ? "" : path + ".";
+  check_fields(tissue_fields, tissue, path, problems);
+  if (tissue.grip == GripShape::table) detail::check_grip_table(tissue.grip_table, dot + "grip_table", problems);
+  if (!tissue.profile.empty()) check_profile(tissue.profile, dot + "profile", problems);
+  return problems.size() == before;
+}
+
+}  // namespace punctura
