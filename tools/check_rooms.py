@@ -22,6 +22,7 @@ ROOMS = (
     "core/punctura/servo",
     "core/punctura/scene",
     "core/punctura/events",
+    "core/punctura/trace",
     "core/punctura/plant",
     "core/punctura/punctura.hpp",  # includes all of core
     "runtime/punctura_runtime",
@@ -38,6 +39,8 @@ ROOMS = (
     "python/punctura/__init__.py",
     "python/punctura/record",
     "python/punctura/events",
+    "python/punctura/trace",
+    "python/punctura/identify",
     "python/punctura/live",
     "python/punctura/exercise",
     "python/punctura/reproduce",

@@ -1,0 +1,7 @@
+"""Measured traces of force against depth: reading, findings, segments (docs/identify.md)."""
+
+from punctura.trace.read import read_trace
+from punctura.trace.segment import Pop, Segments, Stroke, segment
+from punctura.trace.trace import Finding, Trace, TraceError
+
+__all__ = ["Finding", "Pop", "Segments", "Stroke", "Trace", "TraceError", "read_trace", "segment"]

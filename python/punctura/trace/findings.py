@@ -1,0 +1,130 @@
+"""Recognises what is wrong or missing in a trace, and names it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from punctura.trace.segment import Segments, baseline, segment, smooth
+from punctura.trace.trace import Finding, Trace
+from punctura.trace.turns import noise_of
+
+# A needle insertion outside these bounds points to a wrong unit.
+_DEPTHS = (5e-4, 0.5)  # m, range of the depth
+_FORCES = (2e-3, 200.0)  # N, greatest force
+_FASTEST = 0.1  # m/s
+_SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
+
+
+def examine(trace: Trace) -> Trace:
+    """The trace with its findings. A reversed sign and an offset are repaired, and the findings say so."""
+    repaired, found = _repair(trace)
+    segments = segment(repaired)
+    found += [
+        *_units(repaired),
+        *_drift(repaired, segments),
+        *_depth_axis(repaired, segments),
+        *_missing(repaired, segments),
+    ]
+    return replace(repaired, findings=(*trace.findings, *found))
+
+
+def _repair(trace: Trace) -> tuple[Trace, list[Finding]]:
+    found: list[Finding] = []
+    depth = trace.depth
+    if depth[0] - depth.min() > 2 * (depth.max() - depth[0]):
+        trace = replace(trace, depth=-depth)
+        found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
+    going_in = next((stroke for stroke in segment(trace).strokes if stroke.kind == "in"), None)
+    if going_in is None:
+        return trace, found
+    force = trace.force[going_in.start : going_in.end]
+    zero = baseline(force)
+    calm = smooth(force - zero, max(1, len(force) // 200) | 1)
+    if -calm.min() > 2 * calm.max():
+        trace = replace(trace, force=-trace.force)
+        zero = -zero
+        found.append(
+            Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
+        )
+    contact = segment(trace).contact
+    if contact is not None:
+        before = trace.force[going_in.start : contact + 1]
+        zero, height = float(np.median(before)), float(np.max(np.abs(trace.force - np.median(before))))
+        if abs(zero) > max(_SMALL * height, 3 * noise_of(trace.force)):
+            trace = replace(trace, force=trace.force - zero)
+            found.append(Finding("offset", f"the force is {zero:.3g} N before contact; this is subtracted", True))
+    return trace, found
+
+
+def _units(trace: Trace) -> Iterator[Finding]:
+    span, peak = float(np.ptp(trace.depth)), float(np.max(np.abs(trace.force)))
+    for what, value, unit, (least, most) in (("depth", span, "m", _DEPTHS), ("force", peak, "N", _FORCES)):
+        if not least <= value <= most:
+            factor = "1000 times too large" if value > most else "1000 times too small"
+            name = "range of the depths" if what == "depth" else "greatest force"
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; state the unit: --unit {what}=UNIT"
+            yield Finding("wrong_unit", text, severe=True)
+
+
+def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
+    if segments.contact is None:
+        return
+    height, noise = float(np.max(np.abs(trace.force))), noise_of(trace.force)
+    before = trace.force[: segments.contact + 1]
+    surface = trace.depth[segments.contact]
+    last_out = next((s for s in reversed(segments.strokes) if s.kind == "out"), None)
+    if last_out is not None:
+        free = np.flatnonzero(trace.depth[last_out.start :] < surface) + last_out.start
+        if len(free) >= 5:
+            after = float(np.median(trace.force[free[len(free) // 2 :]])) - float(np.median(before))
+            if abs(after) > max(_SMALL * height, 5 * noise):
+                text = f"the force is {after:+.3g} N different after the needle has left the tissue"
+                yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
+                return
+    if len(before) >= 30:
+        where = np.linspace(-1, 1, len(before))
+        slope = float(where @ (before - before.mean()) / (where @ where))
+        error = float(np.std(before - before.mean() - slope * where) / np.sqrt(where @ where))
+        over_all = slope * 2 * len(trace) / len(before)
+        if abs(slope) > 6 * error and abs(over_all) > 3 * _SMALL * height:
+            text = f"the force drifts before contact, by {over_all:+.3g} N if it goes on so to the end"
+            yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
+
+
+def _depth_axis(trace: Trace, segments: Segments) -> Iterator[Finding]:
+    steps = np.diff(trace.depth)
+    moving = np.concatenate([steps[s.start : s.end - 1] for s in segments.strokes if s.kind != "hold"] or [steps])
+    reasons = []
+    usual = float(np.median(np.abs(moving[moving != 0]))) if (moving != 0).any() else 0.0
+    if len(moving) and float(np.mean(moving == 0)) > 0.5 and usual > 0.005 * float(np.ptp(trace.depth)):
+        reasons.append(f"it goes in steps of {usual * 1e3:.3g} mm, with repeats between them")
+    largest = float(np.max(np.abs(steps)))
+    if usual > 0 and largest > max(0.05 * float(np.ptp(trace.depth)), 30 * usual):
+        reasons.append(f"it jumps by {largest * 1e3:.3g} mm at sample {int(np.argmax(np.abs(steps))) + 1}")
+    if trace.time is not None:
+        speed = np.abs(steps) / np.diff(trace.time)
+        fast = float(np.median(speed[speed > 0.1 * speed.max()])) if speed.max() > 0 else 0.0
+        if fast > _FASTEST:
+            reasons.append(f"the needle would move at {fast:.3g} m/s; perhaps the axis is 10 or 1000 times too large")
+    if trace.time is None and float(np.mean(steps < 0)) > 0.1 and len(segments.strokes) == 1:
+        reasons.append(f"{int((steps < 0).sum())} depths go back; for a digitised curve give --order depth")
+    if reasons:
+        yield Finding("depth_doubtful", "the depth axis is doubtful: " + "; ".join(reasons))
+
+
+def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
+    if trace.time is None:
+        text = "the trace has no time: damping and relaxation cannot be told"
+        yield Finding("no_time", text)
+    if segments.contact is None:
+        text = "the force rises from the first samples on: the depth of contact is a guess; begin before contact"
+        yield Finding("no_contact", text)
+    if not any(stroke.kind == "out" for stroke in segments.strokes):
+        text = "the needle is never withdrawn: friction and grip cannot be told apart; record the withdrawal too"
+        yield Finding("no_withdrawal", text)
+    if not segments.pops:
+        text = "no pop: the force never drops while the needle goes in; go deeper, until the tip is through"
+        yield Finding("no_pop", text)

@@ -1,0 +1,111 @@
+"""Reads a trace from a file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.record import RecordingError, open_recording
+from punctura.trace.columns import choose_columns, unit_size
+from punctura.trace.findings import examine
+from punctura.trace.tables import Table, read_table
+from punctura.trace.trace import Finding, Trace, TraceError
+
+Array = NDArray[np.float64]
+Order = Literal["recorded", "depth"]
+
+
+def read_trace(
+    path: str | os.PathLike[str],
+    columns: Mapping[str, str | int] | None = None,
+    units: Mapping[str, str] | None = None,
+    *,
+    order: Order = "recorded",
+) -> Trace:
+    """Reads CSV, Parquet, MAT, XLSX or a recording of Punctura. The findings of the trace name what is unusual.
+
+    columns: {"depth": name or number from 1, "force": ..., "time": ...}; without it, columns are found by name
+    (`depth_mm`, `force_N`, `time_s`). units: {"depth": "mm", ...}; a unit in a column's name needs none.
+    order: "depth" sorts a digitised curve of one insertion. Raises TraceError, OSError.
+    """
+    path = Path(path)
+    with path.open("rb") as file:
+        head = file.read(4)
+    if head != b"PAR1" or _is_recording(path):
+        try:
+            return examine(_from_recording(path))
+        except RecordingError:
+            if head == b"PAR1":
+                raise
+    table = read_table(path)
+    return examine(_from_table(table, str(path), columns, units, order))
+
+
+def _is_recording(path: Path) -> bool:
+    try:
+        open_recording(path)
+    except RecordingError:
+        return False
+    return True
+
+
+def _from_recording(path: Path) -> Trace:
+    ticks = open_recording(path).ticks()
+    axis = ticks.axis / np.linalg.norm(ticks.axis, axis=1, keepdims=True)
+    depth = np.sum((ticks.position - ticks.position[0]) * axis, axis=1)
+    force = -np.sum(ticks.force * axis, axis=1)
+    return Trace(depth, force, ticks.time, str(path))
+
+
+def _from_table(
+    table: Table,
+    source: str,
+    columns: Mapping[str, str | int] | None,
+    units: Mapping[str, str] | None,
+    order: Order,
+) -> Trace:
+    names = list(table)
+    held = {
+        role: table[names[i]] * unit_size(role, names[i], units, source)
+        for role, i in choose_columns(names, columns, source).items()
+    }
+    found: list[Finding] = []
+    good = np.all([np.isfinite(column) for column in held.values()], axis=0)
+    if not good.all():
+        count = int((~good).sum())
+        text = f"{count} of {len(good)} rows hold no number in a column, the first is row {int(np.argmin(good)) + 1}"
+        found.append(Finding("rows_without_numbers", f"{text}; they are left out", True))
+    if good.sum() < 5:
+        raise TraceError(f"{source}: {int(good.sum())} rows hold numbers in all columns; at least 5 are needed")
+    held = {role: column[good] for role, column in held.items()}
+    if order == "depth":
+        held = {
+            role: column[np.argsort(held["depth"], kind="stable")] for role, column in held.items() if role != "time"
+        }
+    elif "time" in held:
+        held = _with_growing_time(held, found)
+    return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
+
+
+def _with_growing_time(held: dict[str, Array], found: list[Finding]) -> dict[str, Array]:
+    """Leaves out samples whose time does not grow, and says so."""
+    time = held["time"]
+    grows = np.concatenate(([True], time[1:] > np.maximum.accumulate(time)[:-1]))
+    if grows.all():
+        return held
+    back = np.concatenate(([False], np.diff(time) < 0))
+    row = int(np.argmin(grows)) + 1
+    if back.any():
+        text = f"time goes back {int(back.sum())} times, first at sample {int(np.argmax(back)) + 1}"
+        severe = int((~grows).sum()) > len(time) // 10
+        found.append(Finding("time_goes_back", f"{text}; {int((~grows).sum())} samples are left out", True, severe))
+    else:
+        text = f"{int((~grows).sum())} samples have the time of the sample before, first sample {row}"
+        found.append(Finding("time_repeats", f"{text}; they are left out", True))
+    return {role: column[grows] for role, column in held.items()}

@@ -1,0 +1,187 @@
+"""Divides a trace into what happened: contact, pops, holds, reversals, insertions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.trace.trace import Trace
+from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Pop:
+    """A drop of the force while the needle goes in, from sample `start` to sample `end`."""
+
+    start: int
+    end: int
+    depth: float  # m, where the force is greatest
+    force: float  # N, before the drop
+    drop: float  # N, greater than 0
+    width: float  # m, how far the needle goes during the drop
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """The needle moves in one direction or rests, from sample `start` to sample `end` (exclusive)."""
+
+    kind: Literal["in", "out", "hold"]
+    start: int
+    end: int
+    insertion: int  # 0 for the first insertion and its withdrawal
+
+
+@dataclass(frozen=True)
+class Segments:
+    """What happens in a trace. Indices count its samples."""
+
+    contact: int | None  # the last sample before the force rises; None if the trace begins in contact
+    pops: tuple[Pop, ...]
+    strokes: tuple[Stroke, ...]
+
+    @property
+    def holds(self) -> tuple[Stroke, ...]:
+        """The stretches where the needle rests."""
+        return tuple(stroke for stroke in self.strokes if stroke.kind == "hold")
+
+    @property
+    def reversals(self) -> tuple[int, ...]:
+        """The samples where the needle changes its direction."""
+        moving = [stroke for stroke in self.strokes if stroke.kind != "hold"]
+        return tuple(b.start for a, b in pairwise(moving) if a.kind != b.kind)
+
+    @property
+    def insertions(self) -> int:
+        """How often the needle goes in."""
+        return len({stroke.insertion for stroke in self.strokes if stroke.kind == "in"})
+
+
+def segment(trace: Trace) -> Segments:
+    """Finds contact, pops, holds, reversals and insertions of a trace."""
+    strokes = _strokes(trace)
+    first = next((stroke for stroke in strokes if stroke.kind == "in"), None)
+    contact = contact_sample(trace.depth[: first.end], trace.force[: first.end]) if first else None
+    pops = [pop for pop in _pops(trace, strokes) if contact is None or pop.start > contact]
+    return Segments(contact, tuple(pops), tuple(strokes))
+
+
+def smooth(values: Array, width: int) -> Array:
+    """Moving average over an odd number of samples. Both ends repeat their last value."""
+    half = max(width // 2, 0)
+    if half == 0:
+        return values
+    padded = np.concatenate((np.full(half, values[0]), values, np.full(half, values[-1])))
+    total = np.concatenate(([0.0], np.cumsum(padded)))
+    return np.asarray((total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1))
+
+
+def baseline(force: Array) -> float:
+    """The force before contact, N: the median of the first samples."""
+    return float(np.median(force[: max(5, len(force) // 50)]))
+
+
+def contact_sample(depth: Array, force: Array) -> int | None:
+    """The last sample before the force rises for good. None if the force rises from the first samples on.
+
+    Among all depths of contact c, the one with which a + b (d - c) + e (d - c)^2 behind c, and a before it, fits best.
+    """
+    calm, zero = smooth(force, max(1, len(force) // 200) | 1), baseline(force)
+    height = float(np.max(np.abs(calm - zero)))
+    risen = np.abs(calm - zero) > max(0.5 * height, 4 * calm_noise(force))
+    if height == 0 or not risen.any():
+        return None
+    top = int(np.argmax(risen)) + 1
+    used = np.unique(np.linspace(0, top - 1, min(top, 400)).astype(int))
+    errors = {
+        int(i): _hinge_error(depth[used], force[used], float(depth[i])) for i in used[:: max(1, len(used) // 100)]
+    }
+    best = min(errors, key=errors.__getitem__, default=0)
+    return best if best >= 5 else None
+
+
+def _hinge_error(depth: Array, force: Array, contact: float) -> float:
+    behind = np.maximum(depth - contact, 0)
+    shapes = np.column_stack((np.ones_like(behind), behind, behind**2))
+    left = force - shapes @ np.linalg.lstsq(shapes, force, rcond=None)[0]
+    return float(left @ left)
+
+
+def calm_noise(force: Array) -> float:
+    """Noise of the force, N: from sample to sample, and over the first samples if that is more."""
+    first = force[: max(5, len(force) // 50)]
+    return max(noise_of(force), 1.4826 * float(np.median(np.abs(first - np.median(first)))))
+
+
+def _pops(trace: Trace, strokes: list[Stroke]) -> list[Pop]:
+    """Drops of at least 10 % of the range of the force and of eight times the noise."""
+    found: list[Pop] = []
+    least = max(0.1 * float(np.ptp(trace.force)), 8 * noise_of(trace.force))
+    near = 0.02 * float(np.ptp(trace.depth))
+    for stroke in strokes:
+        if stroke.kind != "in" or stroke.end - stroke.start < 3:
+            continue
+        force = trace.force[stroke.start : stroke.end]
+        points = turning_points(force, least)
+        for high, low in pairwise(points):
+            if force[high] - force[low] > least:
+                pop = _pop(trace, high + stroke.start, low + stroke.start)
+                if found and found[-1].start >= stroke.start and pop.depth - found[-1].depth < near:
+                    start = max(found.pop().start, pop.start, key=lambda i: trace.force[i])
+                    pop = _pop(trace, start, low + stroke.start)
+                found.append(pop)
+    return found
+
+
+def _pop(trace: Trace, high: int, low: int) -> Pop:
+    """A pop ends where nine tenths of the drop are over."""
+    drop = float(trace.force[high] - trace.force[low])
+    end = high + int(np.argmax(trace.force[high : low + 1] <= trace.force[low] + 0.1 * drop))
+    width = float(trace.depth[end] - trace.depth[high])
+    return Pop(high, end, float(trace.depth[high]), float(trace.force[high]), drop, width)
+
+
+def _strokes(trace: Trace) -> list[Stroke]:
+    hysteresis, numbers = depth_hysteresis(trace.depth), trace.strokes
+    points = turning_points(trace.depth, hysteresis)
+    resting = _resting(trace)
+    found: list[Stroke] = []
+    for start, end in pairwise(points):
+        last = end + (end == len(trace) - 1)
+        rise = trace.depth[end] - trace.depth[start]
+        kind: Literal["in", "out"] = "in" if rise >= 0 else "out"
+        edges = [start, *(np.flatnonzero(np.diff(resting[start:last].astype(np.int8))) + start + 1).tolist(), last]
+        for a, b in pairwise(edges):
+            if b > a:
+                stroke = Stroke("hold" if resting[a] else kind, a, b, int(numbers[a]))
+                if found and found[-1].kind == stroke.kind == "hold":  # a rest may hold a small turn
+                    stroke = replace(found.pop(), end=b)
+                found.append(stroke)
+    return found
+
+
+def _resting(trace: Trace) -> NDArray[np.bool_]:
+    """Where the needle moves at less than 5 % of its usual speed for at least 0.3 s. Nowhere without time."""
+    if trace.time is None:
+        return np.zeros(len(trace), bool)
+    half = min(0.1, (trace.time[-1] - trace.time[0]) / 100)
+    ahead = np.interp(trace.time + half, trace.time, trace.depth)
+    behind = np.interp(trace.time - half, trace.time, trace.depth)
+    speed = np.abs(ahead - behind) / (2 * half)
+    moving = speed[speed > 0.1 * speed.max()]
+    slow = speed < 0.05 * float(np.median(moving)) if len(moving) else np.ones(len(trace), bool)
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], slow, [False])).astype(np.int8)))
+    still = max(1e-3 * float(np.ptp(trace.depth)), 4 * noise_of(trace.depth))
+    rests = np.zeros(len(trace), bool)
+    for start, end in edges.reshape(-1, 2):
+        if trace.time[end - 1] - trace.time[start] >= 0.3:
+            moved = np.abs(trace.depth - float(np.median(trace.depth[start:end]))) > still
+            ends = np.flatnonzero(moved[end:])  # the speed is averaged, so a rest is longer than `slow` says
+            starts = np.flatnonzero(moved[:start])
+            rests[starts[-1] + 1 if len(starts) else 0 : end + ends[0] if len(ends) else None] = True
+    return rests

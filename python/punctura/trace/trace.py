@@ -1,0 +1,86 @@
+"""The class Trace: force against depth of one measured insertion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura._core import PuncturaError
+from punctura.trace.turns import depth_hysteresis, insertion_numbers
+
+Array = NDArray[np.float64]
+
+
+class TraceError(PuncturaError, ValueError):
+    """A trace cannot be read or used. Names the file, the problem and the remedy."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something unusual in a trace. `kind` is one word for programs, `text` says what, where and what to do."""
+
+    kind: str
+    text: str
+    repaired: bool = False  # the trace in memory no longer has it
+    severe: bool = False  # no model should be fitted before this is mended
+
+    def __str__(self) -> str:
+        return f"{self.kind.replace('_', ' ')}: {self.text}"
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """Force against depth, n samples in the order of the measurement, SI units.
+
+    depth (n,): m along the needle, growing inwards. force (n,): N, positive where the tissue resists insertion.
+    time (n,): s, ascending, or None. Raises TraceError if the arrays do not fit together.
+    """
+
+    depth: Array
+    force: Array
+    time: Array | None = None
+    source: str = ""
+    findings: tuple[Finding, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        for name in ("depth", "force", "time"):
+            given = getattr(self, name)
+            if given is None and name == "time":
+                continue
+            column = np.array(given, dtype=np.float64)
+            if column.ndim != 1 or len(column) != len(self.depth):
+                raise TraceError(f"{self._where()}{name} must hold one number for each of the {len(self.depth)} depths")
+            if not np.isfinite(column).all():
+                raise TraceError(f"{self._where()}{name} holds NaN or infinite numbers: leave these samples out")
+            column.flags.writeable = False
+            object.__setattr__(self, name, column)
+        if len(self.depth) < 5:
+            raise TraceError(f"{self._where()}the trace has {len(self.depth)} samples; at least 5 are needed")
+        if self.time is not None and (np.diff(self.time) <= 0).any():
+            row = int(np.argmax(np.diff(self.time) <= 0)) + 1
+            raise TraceError(f"{self._where()}time does not grow at sample {row}: leave out or sort these samples")
+
+    def _where(self) -> str:
+        return f"{self.source}: " if self.source else ""
+
+    def __len__(self) -> int:
+        return len(self.depth)
+
+    def __getitem__(self, which: slice | NDArray[Any]) -> Trace:
+        """A part of the trace, by slice, mask or indices in ascending order."""
+        time = None if self.time is None else self.time[which]
+        return replace(self, depth=self.depth[which], force=self.force[which], time=time)
+
+    @cached_property
+    def strokes(self) -> NDArray[np.int64]:
+        """The number of the insertion that each sample belongs to (n,): 0 for the first, with its withdrawal."""
+        return insertion_numbers(self.depth, depth_hysteresis(self.depth))
+
+    @property
+    def speed(self) -> Array | None:
+        """Speed of the needle at each sample (n,), m/s, positive inwards; None without time."""
+        return None if self.time is None else np.gradient(self.depth, self.time)

@@ -1,0 +1,167 @@
+"""Traces from files, and the findings that name what is unusual."""
+
+import numpy as np
+import punctura as pn
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+from openpyxl import Workbook
+from punctura.live import SimulatedDevice
+from punctura.trace import TraceError, read_trace
+from recorded import recorded
+from traces import trace
+
+
+def columns_of(measured, **changes):
+    columns = {"time_s": measured.time, "depth_mm": measured.depth * 1e3, "force_N": measured.force} | changes
+    return {name: np.asarray(column) for name, column in columns.items() if column is not None}
+
+
+def write_csv(path, columns, delimiter=",", decimal="."):
+    rows = [delimiter.join(columns)]
+    rows += [
+        delimiter.join(str(cell).replace(".", decimal) for cell in row) for row in zip(*columns.values(), strict=True)
+    ]
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
+def kinds(measured):
+    return {finding.kind for finding in measured.findings}
+
+
+def write_xlsx(path, columns):
+    book = Workbook()
+    book.active.append(list(columns))
+    for row in zip(*columns.values(), strict=True):
+        book.active.append([float(cell) for cell in row])
+    book.save(path)
+
+
+WRITERS = {
+    "a.csv": write_csv,
+    "semicolons.csv": lambda path, columns: write_csv(path, columns, ";", ","),
+    "tabs.txt": lambda path, columns: write_csv(path, columns, "\t"),
+    "a.parquet": lambda path, columns: pq.write_table(pa.table(columns), path),
+    "a.mat": lambda path, columns: scipy.io.savemat(path, columns),
+    "nested.mat": lambda path, columns: scipy.io.savemat(path, {"trial": columns}),
+    "a.xlsx": write_xlsx,
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_every_format_gives_the_same_trace(tmp_path, name):
+    made = trace()
+    WRITERS[name](tmp_path / name, columns_of(made))
+    read = read_trace(tmp_path / name)
+    np.testing.assert_allclose(read.depth, made.depth, rtol=1e-12)
+    np.testing.assert_allclose(read.force, made.force, rtol=1e-12)
+    np.testing.assert_allclose(read.time, made.time, rtol=1e-12)
+    assert kinds(read) == set()
+
+
+def test_a_recording_is_a_trace_along_the_needle(tmp_path):
+    scene = pn.load_scene("k06-fig12")
+    strokes = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=1, duration=1, rest=0.2)
+    recorded(tmp_path / "run.parquet", SimulatedDevice(strokes, real_time=False, ticks=3500), scene, 3500)
+    read = read_trace(tmp_path / "run.parquet")
+    assert np.ptp(read.depth) == pytest.approx(0.025, rel=0.1)
+    assert read.force.max() > 0.5 and kinds(read) <= {"no_contact"}
+
+
+@pytest.mark.parametrize("name", ["Depth (mm)", "depth [mm]", "Displacement_mm", "position/mm", "INSERTION DEPTH mm"])
+def test_columns_are_found_by_their_usual_names(tmp_path, name):
+    made = trace()
+    columns = {"t_s": made.time, name: made.depth * 1e3, "Load (N)": made.force}
+    assert read_trace(write_csv(tmp_path / "a.csv", columns)).depth == pytest.approx(made.depth)
+
+
+def test_units_are_stated_or_asked_for(tmp_path):
+    made = trace()
+    path = write_csv(tmp_path / "a.csv", {"depth": made.depth * 1e3, "force_N": made.force})
+    with pytest.raises(TraceError, match="unit of the depth column 'depth' is not stated: give --unit depth=UNIT"):
+        read_trace(path)
+    assert read_trace(path, units={"depth": "mm"}).depth == pytest.approx(made.depth)
+    with pytest.raises(TraceError, match="'furlong' is no unit of the depth"):
+        read_trace(path, units={"depth": "furlong"})
+
+
+def test_columns_that_nobody_can_guess_are_asked_for(tmp_path):
+    made = trace()
+    path = write_csv(tmp_path / "a.csv", {"a": made.depth, "b": made.force})
+    with pytest.raises(TraceError, match="no column is known to be the depth; the columns are 'a', 'b'"):
+        read_trace(path)
+    units = {"depth": "m", "force": "N"}
+    assert read_trace(path, {"depth": "a", "force": 2}, units).force == pytest.approx(made.force)
+    with pytest.raises(TraceError, match="there is no column 'c'"):
+        read_trace(path, {"depth": "c"})
+    with pytest.raises(TraceError, match="'speed' is no role"):
+        read_trace(path, {"speed": "a"})
+
+
+def test_a_file_without_names_is_read_by_numbers(tmp_path):
+    made = trace()
+    np.savetxt(tmp_path / "a.csv", np.column_stack((made.depth, made.force)), delimiter=",")
+    read = read_trace(tmp_path / "a.csv", {"depth": 1, "force": 2}, {"depth": "m", "force": "N"})
+    assert read.force == pytest.approx(made.force) and kinds(read) == {"no_time"}
+
+
+CHANGES = {
+    "reversed_sign": lambda made: {"force_N": -made.force},
+    "reversed_depth": lambda made: {"depth_mm": -made.depth * 1e3},
+    "offset": lambda made: {"force_N": made.force + 0.2},
+    "drift": lambda made: {"force_N": made.force + 0.1 * made.time / made.time[-1]},
+    "no_time": lambda made: {"time_s": None},
+    "rows_without_numbers": lambda made: {"force_N": np.where(np.arange(len(made)) % 50 == 7, np.nan, made.force)},
+    "time_repeats": lambda made: {"time_s": np.repeat(made.time[::2], 2)[: len(made)]},
+    "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
+}
+
+
+@pytest.mark.parametrize("kind", CHANGES)
+def test_each_defect_is_named_and_no_other(tmp_path, kind):
+    made = trace(hold=0.4)
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, **CHANGES[kind](made))))
+    assert kinds(read) == {kind}
+    if kind in ("reversed_sign", "offset"):
+        assert read.force == pytest.approx(made.force, abs=5e-3)
+
+
+def test_a_wrong_unit_is_severe(tmp_path):
+    made = trace()
+    path = write_csv(tmp_path / "a.csv", {"time_s": made.time, "depth_m": made.depth * 1e3, "force_N": made.force})
+    [finding] = [finding for finding in read_trace(path).findings if finding.kind == "wrong_unit"]
+    assert finding.severe and "1000 times too large" in finding.text and "--unit depth=UNIT" in finding.text
+
+
+def test_time_that_goes_back_is_named(tmp_path):
+    made = trace()
+    time = made.time.copy()
+    time[100:110] = time[40]
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, time_s=time)))
+    assert kinds(read) == {"time_goes_back"} and len(read) == len(made) - 10
+
+
+def test_no_withdrawal_and_no_pop_are_named(tmp_path):
+    made = trace()
+    only_in = made[: int(np.argmax(made.depth))]
+    assert kinds(read_trace(write_csv(tmp_path / "a.csv", columns_of(only_in)))) == {"no_withdrawal"}
+    before_pop = only_in[only_in.depth < 7e-3]
+    read = read_trace(write_csv(tmp_path / "b.csv", columns_of(before_pop)))
+    assert kinds(read) == {"no_withdrawal", "no_pop"}
+
+
+def test_a_digitised_curve_is_sorted_on_request(tmp_path):
+    made = trace()[:600]
+    order = np.random.default_rng(3).permutation(len(made))
+    path = write_csv(tmp_path / "a.csv", {"depth_m": made.depth[order], "force_N": made.force[order]})
+    assert read_trace(path, order="depth").depth == pytest.approx(made.depth)
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.parquet", "a.mat", "a.xlsx"])
+@pytest.mark.parametrize("content", [b"", b"\x00\xff" * 40, b"one,two\nthree,four\n"])
+def test_a_file_that_is_no_table_is_refused_in_words(tmp_path, name, content):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(TraceError, match=str(tmp_path / name)):
+        read_trace(tmp_path / name)
