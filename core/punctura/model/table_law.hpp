@@ -8,12 +8,9 @@
 #include <vector>
 
 #include "punctura/model/law.hpp"
-#include "punctura/model/validity.hpp"
+#include "punctura/model/profile.hpp"
 
 namespace punctura {
-
-/// The largest number of knots in a table.
-inline constexpr std::size_t max_knots = 32;
 
 /// Adds every reason why depths (m) and edges (N) are no table.
 inline void check_table(std::span<const double> depth, std::span<const double> lower, std::span<const double> upper,
