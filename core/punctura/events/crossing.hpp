@@ -29,9 +29,9 @@ inline constexpr double pop_again = 0.1;
 namespace detail {
 /// The index of the last break. Behind it, the law is constant. Breaks at infinity, as with_room() adds them, are
 /// ignored.
-template <typename Scalar, std::size_t N>
-std::size_t last_break(const PiecewiseBand<Scalar, N>& law) noexcept {
-  std::size_t last = N - 2;
+template <typename Pieces>
+std::size_t last_break(const Pieces& law) noexcept {
+  std::size_t last = law.breaks.size() - 1;
   while (last > 0 && !std::isfinite(law.breaks[last])) --last;
   return last;
 }
@@ -42,8 +42,8 @@ struct Peak {
 };
 
 /// The maximum of the insertion friction up to the last break. If several depths have it, the first one.
-template <typename Scalar, std::size_t N>
-Peak<Scalar> peak_of(const PiecewiseBand<Scalar, N>& law) noexcept {
+template <typename Pieces, typename Scalar = typename Pieces::Scalar>
+Peak<Scalar> peak_of(const Pieces& law) noexcept {
   Peak<Scalar> peak{law.breaks[0], 0};
   for (std::size_t k = 1; k <= last_break(law); ++k) {
     const Scalar from = law.breaks[k - 1], to = law.breaks[k], origin = law.pieces[k].origin;

@@ -19,8 +19,8 @@ struct LawCurve {
 };
 
 /// The curve of a law with these pieces.
-template <std::size_t N>
-LawCurve law_curve(const PiecewiseBand<double, N>& law) {
+template <typename Pieces>
+LawCurve law_curve(const Pieces& law) {
   constexpr int points = 16;                      // per piece: a quadratic then looks smooth
   constexpr double in_front = 0.1, behind = 0.3;  // margins of the curve, as fractions of the last break
   const std::size_t last = detail::last_break(law);

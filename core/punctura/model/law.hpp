@@ -42,6 +42,22 @@ concept LawWithMemory =
       { law.pieces(memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;  // on a line
     };
 
+/// A law with memory that also hears when the tip has left the wall in front. Returns true if the pieces change.
+template <typename L>
+concept HearsLeaving = LawWithMemory<L> && requires(const L law, typename L::Memory& memory) {
+  { law.leave(memory) } noexcept -> std::same_as<bool>;
+};
+
+/// A law with memory that can bring its pieces up to date faster than pieces(). The memory has changed since
+/// pieces(), the angle has not.
+template <typename L>
+concept RefreshesPieces =
+    LawWithMemory<L> && requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta,
+                                 std::remove_cvref_t<decltype(law.pieces())>& pieces) {
+      { law.refresh(pieces, cos_beta, memory) } noexcept;
+      { law.refresh(pieces, memory) } noexcept;  // on a line
+    };
+
 /// False for a law that has Memory or advance() but is not a LawWithMemory. Such a law would run without its memory.
 template <typename L>
 constexpr bool memory_is_whole = LawWithMemory<L> || !(requires { typename L::Memory; } || requires { &L::advance; });

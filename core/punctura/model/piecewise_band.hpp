@@ -24,6 +24,14 @@ template <typename Scalar>
 struct BandPiece {
   Scalar origin{};                     ///< depth where x = 0, m
   Quadratic<Scalar> lower{}, upper{};  ///< Phi_I and Phi_O on this piece
+
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    const Scalar x = q - origin;
+    return {lower.value(x), upper.value(x)};
+  }
+  void describe(auto& parameters) const {
+    parameters.numbers(origin, lower.c0, lower.c1, lower.c2, upper.c0, upper.c1, upper.c2);
+  }
 };
 
 template <typename M, Lanes V>
@@ -51,8 +59,7 @@ struct PiecewiseBand {
 
   void describe(auto& parameters) const {
     for (const Scalar at : breaks) parameters.numbers(at);
-    for (const Piece& p : pieces)
-      parameters.numbers(p.origin, p.lower.c0, p.lower.c1, p.lower.c2, p.upper.c0, p.upper.c1, p.upper.c2);
+    for (const Piece& piece : pieces) piece.describe(parameters);
   }
 
   /// Index of the piece that contains depth q (m). It counts comparisons, so that no branch depends on the depth.
@@ -72,12 +79,16 @@ struct PiecewiseBand {
     } else {  // a SIMD type cannot be an index: each lane selects the last piece that it has reached
       Piece piece = pieces[0];
       for (std::size_t k = 0; k < N - 1; ++k) piece = select(behind(k, q), pieces[k + 1], piece);
-      return band(q, piece);
+      return piece.band(q);
     }
   }
 
   /// The band at depth q (m), N, if piece i contains q.
-  constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept { return band(q, pieces[i]); }
+  constexpr Band<Scalar> band(Scalar q, std::size_t i) const noexcept { return pieces[i].band(q); }
+
+  constexpr const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
+  constexpr const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
+  static constexpr std::size_t last() noexcept { return N - 1; }                   ///< index of the last piece
 
   /// The same band as a PiecewiseBand of M >= N pieces. Laws with different numbers of pieces then have one type.
   ///
@@ -91,12 +102,6 @@ struct PiecewiseBand {
     std::copy(breaks.begin(), breaks.end(), more.breaks.begin());
     std::copy(pieces.begin(), pieces.end(), more.pieces.begin());
     return more;
-  }
-
- private:
-  static constexpr Band<Scalar> band(Scalar q, const Piece& piece) noexcept {
-    const Scalar x = q - piece.origin;
-    return {piece.lower.value(x), piece.upper.value(x)};
   }
 };
 

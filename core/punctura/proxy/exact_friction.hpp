@@ -44,10 +44,10 @@ template <int direction, typename Pieces>
 typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
                               typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   using Scalar = typename Pieces::Scalar;
-  constexpr std::size_t last = direction > 0 ? Pieces::size - 1 : 0;
+  const std::size_t last = direction > 0 ? band.last() : 0;
   Scalar start = q_prev;
   for (;; i = direction > 0 ? i + 1 : i - 1) {
-    const auto& piece = band.pieces[i];
+    const auto& piece = band.piece(i);
     const auto& edge = direction > 0 ? piece.lower : piece.upper;
     const Scalar y = start - piece.origin;
     const Scalar coupling = f_star + g * (start - q_prev);
@@ -56,7 +56,7 @@ typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces
     if (i == last) return edge.c0;  // the edge is constant from here on, so the coupling reaches it
 
     const Scalar x = first_root(direction * edge.c2, edge.slope(y) - g, gap);
-    const Scalar end = band.breaks[direction > 0 ? i : i - 1];
+    const Scalar end = band.end(direction > 0 ? i : i - 1);
     if (x >= 0 && x <= direction * (end - start)) return edge.value(y + direction * x);
     start = end;
   }

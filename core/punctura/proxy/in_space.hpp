@@ -141,7 +141,12 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
     const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
-    if (now > 0 && params.law.advance(state.law, now)) lay_out(params, state);
+    if (now > 0 && params.law.advance(state.law, now)) {
+      if constexpr (RefreshesPieces<L>)
+        params.law.refresh(state.pieces, state.cos_beta, state.law);
+      else
+        lay_out(params, state);
+    }
   }
   return {state.f, p + state.e, state.b, friction.force, depth, band, state.phase};
 }
@@ -156,6 +161,8 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   params.coupling.advance(state.coupling, state.e, e_prev);
   state.started = Mask<Scalar>(true);
   state.p = p;
+  if constexpr (HearsLeaving<L>)
+    if (state.phase == Phase::outside) params.law.leave(state.law);
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
 }
 

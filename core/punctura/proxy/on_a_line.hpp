@@ -36,8 +36,11 @@ struct LineState {
   Scalar e{};  ///< e(k) = q(k) - p(k), m
   Scalar f{};  ///< f(k), N
   typename MemoryOf<L>::type law{};
+  /// The pieces of a law with memory, from the first tick on. A law without memory stores its own.
+  std::conditional_t<LawWithMemory<L>, PiecesOf<L>, NoMemory> pieces{};
   typename C::template Memory<Scalar> coupling{};
 
+  /// Reads or writes the state without the pieces. lay_out() computes them.
   static void archive(auto& self, auto& state) {
     state.flag(self.started);
     state.choice(self.phase, Phase::sliding_out);
@@ -63,13 +66,36 @@ struct LineTick {
   }
 };
 
+/// Computes the pieces of the law for the memory of the membrane.
+template <typename L, typename C>
+void lay_out(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
+  if constexpr (LawWithMemory<L>) state.pieces = params.law.pieces(state.law);
+}
+
 /// The pieces of the law for the present memory of the membrane.
 template <typename L, typename C>
-decltype(auto) pieces_now(const LineParams<L, C>& params, const LineState<L, C>& state) noexcept {
-  if constexpr (LawWithMemory<L>)
-    return params.law.pieces(state.law);
-  else
+const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
+  if constexpr (LawWithMemory<L>) {
+    if (!state.started) lay_out(params, state);
+    return state.pieces;
+  } else {
     return params.law.pieces();
+  }
+}
+
+/// Tells a law with memory where the proxy is. q: its depth, m.
+template <typename L, typename C, typename Scalar>
+void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q) noexcept {
+  bool changed = false;
+  if (q > 0)
+    changed = params.law.advance(state.law, q);
+  else if constexpr (HearsLeaving<L>)
+    changed = params.law.leave(state.law);
+  if (!changed) return;
+  if constexpr (RefreshesPieces<L>)
+    params.law.refresh(state.pieces, state.law);
+  else
+    lay_out(params, state);
 }
 
 /// Ends a tick: moves the proxy, from the friction force.
@@ -80,8 +106,7 @@ void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Sc
   // K06 (25) and (26) combined. In this form, a proxy that sticks (f = f*) keeps its position to the last bit.
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);
   params.coupling.advance(state.coupling, state.e, e_prev);
-  if constexpr (LawWithMemory<L>)
-    if (p + state.e > 0) params.law.advance(state.law, p + state.e);
+  if constexpr (LawWithMemory<L>) remember(params, state, p + state.e);
   state.started = Mask<Scalar>(true);
   state.p = p;
   state.f = friction.force;

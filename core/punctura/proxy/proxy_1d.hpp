@@ -48,6 +48,7 @@ class Proxy1d {
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
     LineTick<Scalar>::archive(self.tick_, state);
+    if constexpr (std::remove_reference_t<decltype(state)>::reading) lay_out(self.params_, self.state_);
   }
   void describe(auto& parameters) const {
     params_.describe(parameters);

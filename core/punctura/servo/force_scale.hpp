@@ -53,7 +53,7 @@ double largest_force(const Insertion& insertion) {
     const auto sum = [&](double depth, double within) {
       Sum all;
       for (const Layer& layer : layers) {
-        const auto& piece = layer.pieces.pieces[layer.pieces.index(static_cast<Scalar>(within - layer.surface))];
+        const auto& piece = layer.pieces.piece(layer.pieces.index(static_cast<Scalar>(within - layer.surface)));
         const auto& edge = inwards ? piece.lower : piece.upper;
         const auto x = static_cast<Scalar>(depth - layer.surface) - piece.origin;
         all.value += static_cast<double>(inwards ? -edge.value(x) : edge.value(x));

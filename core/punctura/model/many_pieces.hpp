@@ -1,0 +1,70 @@
+// A friction band with a number of pieces that is only known at run time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "punctura/model/piecewise_band.hpp"
+
+namespace punctura {
+
+/// A band of at most N pieces. The breaks have the same sides as those of PiecewiseBand.
+///
+/// It is slower than PiecewiseBand for a handful of pieces and faster for many: the time grows with the pieces in use.
+template <typename Scalar_, std::size_t N>
+struct ManyPieces {
+  using Scalar = Scalar_;
+  using Piece = BandPiece<Scalar>;
+  static constexpr std::size_t size = N;
+
+  std::array<Scalar, N - 1> breaks{};  ///< m, ascending; infinite where unused
+  std::array<Piece, N> pieces{};
+  std::size_t count = 1;  ///< pieces in use
+
+  ManyPieces() noexcept { breaks.fill(Scalar(std::numeric_limits<Lane<Scalar>>::infinity())); }
+
+  void describe(auto& parameters) const {
+    for (std::size_t i = 0; i + 1 < count; ++i) parameters.numbers(breaks[i]);
+    for (std::size_t i = 0; i < count; ++i) pieces[i].describe(parameters);
+  }
+
+  /// Adds a break and the piece behind it. A piece of length 0 is replaced.
+  void add(const Scalar& at, const Piece& behind) noexcept {
+    if (count > 1 && !(breaks[count - 2] < at)) --count;
+    breaks[count - 1] = at;
+    pieces[count++] = behind;
+  }
+  /// Divides the piece that contains this depth (m), if it is no break yet.
+  void split(const Scalar& at) noexcept {
+    std::size_t i = 0;
+    while (i + 1 < count && breaks[i] < at) ++i;
+    if (i + 1 < count && !(at < breaks[i])) return;
+    for (std::size_t k = count; k > i; --k) pieces[k] = pieces[k - 1];
+    for (std::size_t k = count - 1; k > i; --k) breaks[k] = breaks[k - 1];
+    breaks[i] = at;
+    ++count;
+  }
+
+  /// Index of the piece that contains depth q (m), by bisection.
+  std::size_t index(const Scalar& q) const noexcept {
+    if (!(q >= breaks[0])) return 0;
+    std::size_t first = 1, left = count - 2;
+    while (left > 0) {
+      const std::size_t half = left / 2;
+      const bool behind = q > breaks[first + half];
+      first = behind ? first + half + 1 : first;
+      left = behind ? left - half - 1 : half;
+    }
+    return first;
+  }
+  Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
+  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept { return pieces[i].band(q); }
+
+  const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
+  const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
+  std::size_t last() const noexcept { return count - 1; }                ///< index of the last piece
+};
+
+}  // namespace punctura

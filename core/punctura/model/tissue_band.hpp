@@ -1,0 +1,106 @@
+// The band of a wall that remembers a hole: three ranges of depth, with a front between each two.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "punctura/model/many_pieces.hpp"
+
+namespace punctura {
+
+/// Depths (m, along the needle) in one wall, in ascending order:
+///
+/// - up to `made`: a hole that the needle has left. The grip is `kept` times the first one, and nothing is cut.
+/// - up to `cut`: the way of this insertion. The first grip, and nothing is cut.
+/// - behind `cut`: an untouched wall.
+///
+/// The base class is the band of the untouched wall. Its lower edge contains the cutting. The pieces that a solver
+/// visits are those of the base class, divided at the two fronts. At a front, where the edges jump, the band contains
+/// both sides: the proxy can rest there at any force between.
+template <typename Scalar_, std::size_t N>
+struct TissueBand : ManyPieces<Scalar_, N> {
+  using First = ManyPieces<Scalar_, N>;
+  using Scalar = Scalar_;
+  using Piece = BandPiece<Scalar>;
+
+  struct Front {
+    Scalar at{-infinity};   ///< m; -infinity in an untouched wall, infinity in a finished hole
+    std::size_t piece = 0;  ///< the piece of First that contains it
+  };
+  struct Cutting {
+    Scalar c0{}, c1{};  ///< N and N/m: c0 + c1 x, x from the piece's origin
+  };
+
+  std::array<Cutting, N> cutting{};  ///< in the lower edge of each piece of First
+  Scalar kept{1};
+  Front made{}, cut{};
+
+  /// Moves the fronts to these depths (m). whole: the depth at which a hole is finished, m.
+  void set_fronts(const Scalar& made_to, const Scalar& cut_to, const Scalar& whole) noexcept {
+    move(made, made_to, whole);
+    move(cut, cut_to, whole);
+  }
+
+  /// Index of the piece that contains depth q (m), for band(q, i), piece(i) and end(i).
+  std::size_t index(const Scalar& q) const noexcept {
+    return First::index(q) + (q > made.at ? 1u : 0u) + (q > cut.at ? 1u : 0u);
+  }
+  Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
+  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
+    Band<Scalar> band = piece(i).band(q);
+    if (near(q, made)) band = hull(band, hull(piece(made.piece).band(q), piece(made.piece + 1).band(q)));
+    if (near(q, cut)) band = hull(band, hull(piece(cut.piece + 1).band(q), piece(cut.piece + 2).band(q)));
+    return band;
+  }
+
+  Piece piece(std::size_t i) const noexcept {
+    const std::size_t k = in_first(i);
+    Piece piece = First::pieces[k];
+    if (i > cut.piece + 1) return piece;
+    piece.lower.c0 += cutting[k].c0;
+    piece.lower.c1 += cutting[k].c1;
+    if (i > made.piece) return piece;
+    const auto keep = [&](Quadratic<Scalar>& edge) { edge = {kept * edge.c0, kept * edge.c1, kept * edge.c2}; };
+    keep(piece.lower);
+    keep(piece.upper);
+    return piece;
+  }
+  /// Where piece i ends, m.
+  const Scalar& end(std::size_t i) const noexcept {
+    if (i == made.piece) return made.at;
+    if (i == cut.piece + 1) return cut.at;
+    return First::breaks[in_first(i)];
+  }
+  std::size_t last() const noexcept { return First::count + 1; }  ///< index of the last piece
+
+  void describe(auto& parameters) const {
+    First::describe(parameters);
+    for (std::size_t i = 0; i < First::count; ++i) parameters.numbers(cutting[i].c0, cutting[i].c1);
+    parameters.numbers(kept);
+  }
+
+ private:
+  using One = Lane<Scalar>;
+  static constexpr One infinity = std::numeric_limits<One>::infinity();
+  /// m: a proxy that rests on a front is within this distance of it, after rounding.
+  static constexpr One rounding = std::max(One(1e-10), std::numeric_limits<One>::epsilon());
+
+  void move(Front& front, const Scalar& to, const Scalar& whole) noexcept {
+    const Scalar at = !(to > 0) ? Scalar(-infinity) : to < whole ? to : Scalar(infinity);
+    front = {at, !(to > 0) ? 0 : to < whole ? First::index(to) : First::count - 1};
+  }
+  static bool near(const Scalar& q, const Front& front) noexcept {
+    return q < front.at + rounding && q > front.at - rounding;
+  }
+  static Band<Scalar> hull(const Band<Scalar>& a, const Band<Scalar>& b) noexcept {
+    return {a.lower < b.lower ? a.lower : b.lower, a.upper < b.upper ? b.upper : a.upper};
+  }
+  /// The number in First of piece i.
+  std::size_t in_first(std::size_t i) const noexcept {
+    return i - (i > made.piece ? 1u : 0u) - (i > cut.piece + 1 ? 1u : 0u);
+  }
+};
+
+}  // namespace punctura

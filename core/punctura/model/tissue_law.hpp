@@ -1,0 +1,156 @@
+// The law of a membrane of measured tissue: K06's membrane with the additions of tissue.hpp, each of which can be off.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "punctura/model/average.hpp"
+#include "punctura/model/grip.hpp"
+#include "punctura/model/law.hpp"
+#include "punctura/model/thick_law.hpp"
+#include "punctura/model/tissue_band.hpp"
+
+namespace punctura {
+
+/// What a wall remembers of one needle: one hole.
+template <typename Scalar>
+struct BasicHole {
+  Scalar cut{};   ///< the deepest point that the tip has reached, m along the needle
+  Scalar made{};  ///< the deepest point that it had reached when it last left, m
+
+  static void archive(auto& self, auto& state) {
+    state.numbers(self.cut, self.made);
+    state.require(self.made >= 0 && self.made <= self.cut);
+  }
+};
+
+/// The law of measured tissue. docs/measured-tissue.md derives it.
+///
+/// With curve, tip length, tail and profile at their defaults the pieces are those of K06's thick law, bit for bit.
+/// Otherwise they are those of a profile. Parameters must have passed check().
+template <typename Scalar_>
+class BasicTissueLaw {
+ public:
+  using Scalar = Scalar_;
+  using Pieces = TissueBand<Scalar, 2 * max_knots + 5>;  // cutting adds at most four breaks
+  using Memory = BasicHole<Scalar>;
+
+  /// cos_beta: n.b, for pieces() without n.b.
+  BasicTissueLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
+                 const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1)) noexcept
+      : k06_(needle, membrane),
+        is_k06_(has_k06_grip(tissue)),
+        H_(membrane.thickness),
+        X_(punctura::tip_length(needle, tissue)),
+        C_(tissue.cutting),
+        kept_(1 - tissue.set),
+        cos_beta_(cos_beta) {
+    if (!tissue.profile.empty())
+      profile_ = BasicProfile<Scalar>(tissue.profile);
+    else if (!is_k06_)
+      profile_ = profile_of(needle, membrane, tissue).profile;
+    pieces_ = pieces(cos_beta);
+  }
+
+  /// The pieces of the untouched wall for a needle that enters with n.b = cos_beta > 0.
+  Pieces pieces(Scalar cos_beta) const noexcept {
+    Pieces all;
+    if (is_k06_)
+      add_k06(cos_beta, all);
+    else
+      detail::average(profile_, H_, cos_beta, all);
+    if (C_ > 0) add_cutting(cos_beta, all);
+    all.kept = kept_;
+    return all;
+  }
+  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
+    Pieces all = pieces(cos_beta);
+    refresh(all, cos_beta, memory);
+    return all;
+  }
+  Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }
+  const Pieces& pieces() const noexcept { return pieces_; }
+
+  /// The proxy has reached this depth, m along the needle.
+  bool advance(Memory& memory, Scalar depth) const noexcept {
+    if (!(C_ > 0 || kept_ < 1) || !(depth > memory.cut)) return false;
+    memory.cut = depth;
+    return true;
+  }
+  /// The tip is outside, in front: from now on, its way is a hole.
+  bool leave(Memory& memory) const noexcept {
+    if (!(memory.made < memory.cut)) return false;
+    memory.made = memory.cut;
+    return true;
+  }
+  /// Changes the pieces of pieces(cos_beta, ...) to this memory, in little time.
+  void refresh(Pieces& all, Scalar cos_beta, const Memory& memory) const noexcept {
+    all.set_fronts(memory.made, memory.cut, X_ + H_ / cos_beta);
+  }
+  void refresh(Pieces& all, const Memory& memory) const noexcept { refresh(all, cos_beta_, memory); }
+
+  Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< of the untouched wall at q (m), N
+  Scalar thickness() const noexcept { return H_; }                        ///< H, m
+  Scalar tip_length() const noexcept { return X_; }                       ///< X, m
+
+ private:
+  static bool has_k06_grip(const BasicTissue<Scalar>& tissue) noexcept {
+    const bool straight =
+        tissue.grip == GripShape::linear || (tissue.grip == GripShape::exponential && tissue.growth == 0);
+    return straight && tissue.tip_length == 0 && tissue.tail_floor == 1 && tissue.profile.empty();
+  }
+  void add_k06(const Scalar& cos_beta, Pieces& all) const noexcept {
+    const auto own = k06_.pieces(cos_beta);
+    for (std::size_t i = 0; i < own.breaks.size(); ++i) all.add(own.breaks[i], own.pieces[i + 1]);
+  }
+  /// Adds C times the part of the path that lies on the tip, over H: the average of C on [0, X].
+  void add_cutting(const Scalar& cos_beta, Pieces& all) const noexcept {
+    using namespace lane;
+    const Scalar U = H_ / cos_beta;
+    for (const Scalar& at : {Scalar(0), U, X_, Scalar(X_ + U)}) all.split(at);
+    for (std::size_t i = 1; i + 1 < all.count; ++i) {
+      const Scalar begin = all.breaks[i - 1], middle = (begin + all.breaks[i]) / 2, x = all.pieces[i].origin - begin;
+      auto& cutting = all.cutting[i];
+      if (H_ > 0) {
+        const Scalar enters = middle < X_ ? C_ / H_ : Scalar(0), leaves = middle > U ? C_ / H_ : Scalar(0);
+        const Scalar on_tip = max(Scalar(min(begin, X_) - max(Scalar(begin - U), Scalar(0))), Scalar(0));
+        cutting.c1 = middle < X_ + U ? enters - leaves : Scalar(0);
+        cutting.c0 = C_ * on_tip / H_ + cutting.c1 * x;
+      } else if (middle < X_) {
+        cutting.c0 = C_ / cos_beta;
+      }
+      all.pieces[i].lower.c0 -= cutting.c0;
+      all.pieces[i].lower.c1 -= cutting.c1;
+    }
+  }
+
+  BasicThickLaw<Scalar> k06_;
+  bool is_k06_;
+  Scalar H_, X_, C_, kept_, cos_beta_;
+  BasicProfile<Scalar> profile_;
+  Pieces pieces_;
+};
+using TissueLaw = BasicTissueLaw<double>;
+static_assert(ObliqueLaw<TissueLaw> && LawWithMemory<TissueLaw>);
+
+/// Adds a problem if 28 chords do not follow the grip, or if the cutting begins in front of the profile. Returns true
+/// if there is none. All parameters must be inside their ranges.
+inline bool check_curve(const Needle& needle, const Membrane& membrane, const Tissue& tissue, const std::string& path,
+                        std::vector<Problem>& problems) {
+  const std::string dot = path.empty() ? "" : path + ".";
+  if (!tissue.profile.empty()) {
+    if (tissue.cutting == 0 || tissue.profile[0].depth == 0) return true;
+    problems.push_back({dot + "profile[0].depth", tissue.profile[0].depth,
+                        "must be 0 m in a wall that the tip cuts: cutting begins at the surface"});
+    return false;
+  }
+  if (tissue.grip != GripShape::exponential || profile_of(needle, membrane, tissue).follows) return true;
+  problems.push_back({dot + "growth", tissue.growth,
+                      "is too large for this needle: 28 chords miss the grip by more than 1e-4 of the largest force. "
+                      "Take 
+                      "a growth nearer to 0, a thicker wall, or a grip_table of your own"});
+  return false;
+}
+
+}  // namespace punctura
