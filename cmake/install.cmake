@@ -14,7 +14,7 @@ endif()
 if(TARGET punctura_runtime AND NOT PUNCTURA_PYTHON)
   set(architecture "")
   set(PUNCTURA_HAS_RUNTIME ON)
-  install(TARGETS punctura_loop punctura_runtime EXPORT punctura)
+  install(TARGETS punctura_loop punctura_runtime punctura_batch EXPORT punctura)
 endif()
 install(EXPORT punctura NAMESPACE punctura:: FILE punctura-targets.cmake DESTINATION ${punctura_config_dir})
 

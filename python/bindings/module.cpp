@@ -27,4 +27,5 @@ NB_MODULE(_core, m) {
   bind_given_devices(m);
   bind_devices(m);
   bind_replay(m);
+  bind_batch(m);
 }

@@ -1,0 +1,188 @@
+// runtime/punctura_runtime/batch: many independent trials computed together.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/variant.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "arguments.hpp"
+#include "bindings.hpp"
+#include "punctura/scene/check.hpp"
+#include "punctura_runtime/batch/line_batch.hpp"
+#include "state.hpp"
+#include "ticks.hpp"
+#include "without_lock.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+using batch::Grid;
+using batch::LineBatch;
+
+/// The instruction set with this name; by default that of the environment variable PUNCTURA_SIMD, or the fastest.
+const batch::LineCode& code_named(const std::optional<std::string>& given) {
+  const char* preset = std::getenv("PUNCTURA_SIMD");
+  const std::string name = given ? *given : preset ? preset : "";
+  if (const batch::LineCode* code = batch::line_code(name)) return *code;
+  std::string names;
+  for (const batch::LineCode* code : batch::line_codes())
+    names += (names.empty() ? "" : ", ") + std::string(code->name);
+  throw nb::value_error(("instructions: this processor or this build has no \"" + name + "\": choose one of " + names +
+                         (given ? "" : " in the environment variable PUNCTURA_SIMD, or remove it"))
+                            .c_str());
+}
+
+/// A LineBatch with the Python objects of its laws.
+struct LawBatch : LineBatch, OneThread {
+  using LineBatch::LineBatch;
+};
+
+std::size_t length_of(const nb::object& given) {
+  return nb::isinstance<nb::sequence>(given) ? nb::len(given) : 0;  // 0: one for all trials
+}
+
+void check_coupling_and_period(const Coupling& coupling, double period) {
+  std::vector<Problem> problems;
+  check(coupling, problems);
+  check_period(period, problems);
+  raise_if(problems);
+}
+
+/// The laws of the trials. They stay alive with the batch.
+struct Laws {
+  std::vector<std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>> laws;
+};
+
+LawBatch* make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period,
+               const std::string& solver, const std::optional<std::size_t>& trials) {
+  const std::size_t laws = length_of(law), couplings = length_of(coupling);
+  std::size_t n = trials.value_or(std::max<std::size_t>({laws, couplings, 1}));
+  for (const auto& [name, length] : {std::pair{"law", laws}, std::pair{"coupling", couplings}})
+    if (length != 0 && length != n)
+      throw nb::value_error((std::string(name) + " has " + std::to_string(length) + " elements, and there are " +
+                             std::to_string(n) + " trials: give one for each trial, or a single one for all")
+                                .c_str());
+  std::vector<Problem> problems;
+  check_period(period, problems);
+  raise_if(problems);
+  auto kept = std::make_shared<Laws>();
+  kept->laws.reserve(laws == 0 ? 1 : laws);
+  using One = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;
+  if (laws == 0) kept->laws.push_back(nb::cast<One>(law));
+  for (std::size_t i = 0; i < laws; ++i) kept->laws.push_back(nb::cast<One>(law[i]));
+  new (self) LawBatch(period, solver_from(solver));
+  self->reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = nb::cast<Coupling>(couplings == 0 ? coupling : nb::object(coupling[i]));
+    check_coupling_and_period(one, period);
+    std::visit([&](const auto& l) { self->add(l.pieces(), one); }, kept->laws[laws == 0 ? 0 : i]);
+  }
+  self->keep(kept);
+  return self;
+}
+
+/// An array of float64 with any strides, without a copy if it already is one.
+using Depths = nb::ndarray<const double, nb::device::cpu>;
+using Forces = nb::ndarray<double, nb::ndim<2>, nb::device::cpu>;
+
+nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, const nb::object& threads,
+               std::size_t block, const std::optional<std::string>& instructions, const nb::object& progress) {
+  const nb::object numpy = nb::module_::import_("numpy");
+  const auto p = nb::cast<Depths>(numpy.attr("asarray")(depths, numpy.attr("float64")));
+  const std::size_t n = self.trials();
+  const bool shared = p.ndim() == 1;
+  if (!shared && !(p.ndim() == 2 && p.shape(1) == n))
+    throw nb::value_error(("p must have shape (ticks,), the same motion for all trials, or (ticks, " +
+                           std::to_string(n) + "), one column for each trial")
+                              .c_str());
+  const std::size_t ticks = p.shape(0);
+  const Grid<const double> motion{p.data(), p.stride(0), shared ? 0 : p.stride(1)};
+  nb::object result = out;
+  if (result.is_none()) {
+    const bool by_trial = !shared && p.stride(0) < p.stride(1);  // the same order in memory as p
+    result = numpy.attr("empty")(nb::make_tuple(ticks, n), numpy.attr("float64"), by_trial ? "F" : "C");
+  }
+  Forces array;
+  if (!nb::try_cast(result, array, false) || array.shape(0) != ticks || array.shape(1) != n)
+    throw nb::value_error(
+        ("out must be a writable float64 array of shape (" + std::to_string(ticks) + ", " + std::to_string(n) + ")")
+            .c_str());
+  const Grid<double> force{array.data(), array.stride(0), array.stride(1)};
+  batch::RunOptions options;
+  options.threads = threads.is_none() ? 0 : nb::cast<std::size_t>(threads);
+  options.block = block;
+  options.code = &code_named(instructions);
+  const Progress told(progress);
+  options.watch = [&](std::size_t done, std::size_t all) {
+    const nb::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    told.tell(done, all);
+    return true;
+  };
+  const OneThread::Running running(self);
+  LineBatch::Outcome outcome;
+  {
+    const WithoutLock without;
+    outcome = self.run(ticks, motion, force, options);
+  }
+  if (outcome.bad) {
+    const std::string place =
+        "p[" + std::to_string(outcome.bad->tick) + (shared ? "" : ", " + std::to_string(outcome.bad->trial)) + "]";
+    throw nb::value_error((place + " is no finite position within 1000 km: leave such ticks out, or fill them in. "
+                                   "All trials keep the state from before")
+                              .c_str());
+  }
+  told.tell(1, 1);
+  return result;
+}
+
+}  // namespace
+
+void bind_batch(nb::module_& m) {
+  m.def(
+      "simd_instructions",
+      [] {
+        std::vector<std::string> names;
+        for (const batch::LineCode* code : batch::line_codes()) names.emplace_back(code->name);
+        return names;
+      },
+      "The instruction sets that a batch can use on this processor, the fastest first.");
+
+  auto line = nb::class_<LawBatch>(
+      m, "LineBatch", nb::is_final(),
+      "Many independent trials of a proxy on a line, computed together. K06 section 3.1, (33)\n\n"
+      "Each trial gets the bits that Proxy1d gives, whatever the instruction set, the block and the threads are.");
+  def_repr(line, "<LineBatch of {0.trials} trials>");
+  line.def("__init__", &make, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
+           nb::arg("trials") = nb::none(),
+           nb::sig("def __init__(self, law: ThinLaw | ThickLaw | TableLaw | Sequence[ThinLaw | ThickLaw | TableLaw], "
+                   "coupling: Coupling | Sequence[Coupling], period: float, solver: typing.Literal['exact', 'paper'] "
+                   "= 'exact', trials: int | None = None) -> None"),
+           "law, coupling: one for each trial, or a single one for all. period: T, s. trials: how many, if both are\n"
+           "single. Raises ConfigurationError, ValueError.")
+      .def(
+          "run", &run, nb::arg("p"), nb::kw_only(), nb::arg("out") = nb::none(), nb::arg("threads") = nb::none(),
+          nb::arg("block") = 256, nb::arg("instructions") = nb::none(), nb::arg("progress") = nb::none(),
+          nb::sig("def run(self, p: numpy.typing.ArrayLike, *, out: numpy.typing.NDArray[numpy.float64] | None = None, "
+                  "threads: int | None = None, block: int = 256, instructions: str | None = None, "
+                  "progress: Progress = None) -> numpy.typing.NDArray[numpy.float64]"),
+          "Makes the next ticks of all trials. Returns the forces on the devices, (ticks, trials), N.\n\n"
+          "p: depths, m, (ticks,) for the same motion in all trials, or (ticks, trials). A transposed array is read\n"
+          "without a copy, and the forces then have the same order in memory. out: an array for the forces.\n"
+          "threads: default: one for each processor. block: trials that a thread computes together. instructions:\n"
+          "one of simd_instructions(). progress, Ctrl-C: see Insertion.run. Raises ValueError, and all trials then\n"
+          "keep the state from before.")
+      .def(
+          "reset",
+          [](LawBatch& self) {
+            self.must_rest();
+            self.reset();
+          },
+          "Resets all trials to the state before the first tick.")
+      .def_prop_ro("trials", &LawBatch::trials)
+      .def_prop_ro("period", &LawBatch::period, "T, s")
+      .def_prop_ro("solver", [](const LawBatch& self) { return name_of(self.solver()); })
+      .def_prop_ro("nbytes", &LawBatch::bytes, "Memory of constants and states, bytes, without the laws");
+}
+
+}  // namespace punctura::bindings

@@ -1,0 +1,71 @@
+#include "punctura_runtime/batch/blocks.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
+namespace punctura::batch {
+
+std::size_t usable_threads(std::size_t wanted) noexcept {
+  if (wanted > 0) return wanted;
+#if defined(__linux__)
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return static_cast<std::size_t>(CPU_COUNT(&allowed));
+#endif
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+void for_each_block(std::size_t count, std::size_t threads, Work& work, const std::function<void(std::size_t)>& block,
+                    const std::function<bool()>& watch) {
+  std::atomic<std::size_t> next{0};
+  std::mutex lock;
+  std::condition_variable ended;
+  std::exception_ptr error;
+  std::size_t running = std::min(std::max<std::size_t>(threads, 1), count);
+
+  const auto fail = [&](std::exception_ptr what) {
+    const std::lock_guard guard(lock);
+    if (!error) error = what;
+    work.stop = true;
+  };
+  const auto loop = [&] {
+    try {
+      for (std::size_t i; !work.stop && (i = next++) < count;) block(i);
+    } catch (...) {
+      fail(std::current_exception());
+    }
+    const std::lock_guard guard(lock);
+    --running;
+    ended.notify_one();
+  };
+  std::vector<std::thread> workers;
+  try {
+    for (std::size_t i = running; i > 0; --i) workers.emplace_back(loop);
+  } catch (...) {  // no more threads to be had
+    const std::lock_guard guard(lock);
+    running -= std::min(running, std::min(std::max<std::size_t>(threads, 1), count) - workers.size());
+    if (workers.empty()) error = std::current_exception();
+  }
+  for (std::unique_lock guard(lock); running > 0;) {
+    if (ended.wait_for(guard, std::chrono::milliseconds(50), [&] { return running == 0; })) break;
+    guard.unlock();
+    try {
+      if (!watch()) work.stop = true;
+    } catch (...) {
+      fail(std::current_exception());
+    }
+    guard.lock();
+  }
+  for (std::thread& worker : workers) worker.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace punctura::batch

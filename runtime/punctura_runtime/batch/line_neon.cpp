@@ -1,0 +1,12 @@
+// run_line() with Neon.
+#include "punctura_runtime/batch/line_kernel.hpp"
+#include "punctura_runtime/batch/run_line.hpp"
+
+namespace punctura::batch {
+
+const LineCode& line_code_neon() noexcept {
+  static constexpr LineCode code{"neon", Neon::lanes, run_line<Neon, Paper>, run_line<Neon, Exact>};
+  return code;
+}
+
+}  // namespace punctura::batch

@@ -1,0 +1,12 @@
+// run_line() with Portable.
+#include "punctura_runtime/batch/line_kernel.hpp"
+#include "punctura_runtime/batch/run_line.hpp"
+
+namespace punctura::batch {
+
+const LineCode& line_code_portable() noexcept {
+  static constexpr LineCode code{"portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>};
+  return code;
+}
+
+}  // namespace punctura::batch

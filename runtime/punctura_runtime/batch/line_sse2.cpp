@@ -1,0 +1,12 @@
+// run_line() with Sse2.
+#include "punctura_runtime/batch/line_kernel.hpp"
+#include "punctura_runtime/batch/run_line.hpp"
+
+namespace punctura::batch {
+
+const LineCode& line_code_sse2() noexcept {
+  static constexpr LineCode code{"sse2", Sse2::lanes, run_line<Sse2, Paper>, run_line<Sse2, Exact>};
+  return code;
+}
+
+}  // namespace punctura::batch

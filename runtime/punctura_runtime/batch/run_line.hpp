@@ -1,0 +1,39 @@
+// run_line() for each instruction set, and the choice of the best one that this processor has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "punctura/proxy/solver.hpp"
+#include "punctura_runtime/batch/line_block.hpp"
+
+namespace punctura::batch {
+
+/// The code of one instruction set.
+struct LineCode {
+  const char* name;   ///< "avx512", "avx2", "sse2", "neon" or "portable"
+  std::size_t lanes;  ///< doubles in a vector
+  RunLine paper, exact;
+
+  RunLine of(Solver solver) const noexcept { return solver == Solver::paper ? paper : exact; }
+};
+
+const LineCode& line_code_portable() noexcept;
+#if defined(PUNCTURA_BATCH_SSE2)
+const LineCode& line_code_sse2() noexcept;
+#endif
+#if defined(PUNCTURA_BATCH_AVX)
+const LineCode& line_code_avx2() noexcept;
+const LineCode& line_code_avx512() noexcept;
+#endif
+#if defined(PUNCTURA_BATCH_NEON)
+const LineCode& line_code_neon() noexcept;
+#endif
+
+/// The instruction sets of this build that the processor has, the fastest first.
+const std::vector<const LineCode*>& line_codes();
+
+/// The one with this name. An empty name gives the fastest. Null if the processor or the build does not have it.
+const LineCode* line_code(const std::string& name);
+
+}  // namespace punctura::batch

@@ -1,0 +1,98 @@
+"""Batches of proxies on a line."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+from punctura import Coupling, LineBatch, Membrane, Needle, Proxy1d, TableLaw, ThickLaw, ThinLaw
+from punctura._core import simd_instructions
+
+PERIOD = 1 / 1600
+NEEDLE = Needle(diameter=1.08e-3, tip_angle=0.28)
+LAWS = [
+    ThickLaw(NEEDLE, Membrane(stiffness=570, precompression=0.41, friction=0.2, thickness=1e-3)),
+    ThinLaw(NEEDLE, Membrane(stiffness=300, precompression=0.1, friction=0.3, thickness=0)),
+    TableLaw([0, 1e-3, 2e-3], [-0.1, -1, -0.3], [0, 0.2, 0.3]),
+]
+COUPLINGS = [Coupling(stiffness=400, damping=1), Coupling(stiffness=700, damping=0.2), Coupling(stiffness=90, damping=0)]
+
+
+def motions(ticks: int = 800) -> np.ndarray:
+    time = np.arange(ticks) * PERIOD
+    return np.array([-1e-3 + depth * np.sin(2 * np.pi * time) ** 2 for depth in (4e-3, 6e-3, 9e-3)]).T.copy()
+
+
+def alone(p: np.ndarray, solver: str) -> np.ndarray:
+    each = zip(LAWS, COUPLINGS, p.T, strict=True)
+    return np.array([Proxy1d(law, coupling, PERIOD, solver).run(depth).force for law, coupling, depth in each]).T  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("solver", ["paper", "exact"])
+def test_each_trial_has_the_bits_of_a_proxy(solver: str) -> None:
+    p = motions()
+    batch = LineBatch(LAWS, COUPLINGS, PERIOD, solver)  # type: ignore[arg-type]
+    assert (batch.trials, batch.period, batch.solver) == (3, PERIOD, solver)
+    for instructions in [None, *simd_instructions()]:
+        batch.reset()
+        first = batch.run(p[:300], threads=1, instructions=instructions)
+        rest = batch.run(p[300:], threads=2, block=1, instructions=instructions)
+        assert np.concatenate([first, rest]).tobytes() == alone(p, solver).tobytes()
+
+
+def test_memory_layouts_without_a_copy() -> None:
+    p = motions()
+    rows = np.ascontiguousarray(p.T)  # (trials, ticks)
+    batch = LineBatch(LAWS, COUPLINGS, PERIOD)
+    force = batch.run(rows.T)
+    assert force.flags.f_contiguous
+    assert np.array_equal(force, alone(p, "exact"))
+    wide = np.full((len(p), 6), np.nan)
+    batch.reset()
+    assert batch.run(p, out=wide[:, ::2]) is not None
+    assert np.array_equal(wide[:, ::2], force)
+    assert np.isnan(wide[:, 1::2]).all()
+
+
+def test_one_motion_and_one_law_for_all() -> None:
+    p = motions()[:, 0]
+    force = LineBatch(LAWS[0], COUPLINGS, PERIOD).run(p)
+    for i, coupling in enumerate(COUPLINGS):
+        assert np.array_equal(force[:, i], Proxy1d(LAWS[0], coupling, PERIOD).run(p).force)
+    assert LineBatch(LAWS[0], COUPLINGS[0], PERIOD, trials=50).run(p).shape == (len(p), 50)
+
+
+def test_wrong_arguments() -> None:
+    batch = LineBatch(LAWS, COUPLINGS, PERIOD)
+    p = motions()
+    before = batch.run(p[:100])
+    bad = p.copy()
+    bad[7, 1] = np.inf
+    with pytest.raises(ValueError, match=r"p\[7, 1\] is no finite position"):
+        batch.run(bad)
+    batch.reset()
+    assert np.array_equal(batch.run(p[:100]), before)
+    with pytest.raises(ValueError, match=r"shape \(ticks,\).*\(ticks, 3\)"):
+        batch.run(p[:, :2])
+    with pytest.raises(ValueError, match=r"out must be a writable float64 array of shape \(800, 3\)"):
+        batch.run(p, out=np.empty((800, 2)))
+    with pytest.raises(ValueError, match="choose one of"):
+        batch.run(p, instructions="mmx")
+    with pytest.raises(ValueError, match="coupling has 3 elements, and there are 2 trials"):
+        LineBatch(LAWS[:2], COUPLINGS, PERIOD, trials=2)
+
+
+def test_ctrl_c_and_progress() -> None:
+    batch = LineBatch(LAWS[0], COUPLINGS[0], PERIOD, trials=1)
+    shares: list[float] = []
+    batch.run(motions()[:, 0], progress=shares.append)
+    assert shares[-1] == 1
+    long = np.broadcast_to(0.0, (400_000_000,))  # minutes of work, and no memory
+    out = np.lib.stride_tricks.as_strided(np.empty(1), (len(long), 1), (0, 0))
+    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        batch.run(long, out=out, threads=1)
