@@ -5,36 +5,42 @@ from __future__ import annotations
 import os
 import signal
 import threading
+from typing import Literal
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from punctura import Coupling, LineBatch, Membrane, Needle, Proxy1d, TableLaw, ThickLaw, ThinLaw
 from punctura._core import simd_instructions
 
 PERIOD = 1 / 1600
 NEEDLE = Needle(diameter=1.08e-3, tip_angle=0.28)
-LAWS = [
+LAWS: list[ThinLaw | ThickLaw | TableLaw] = [
     ThickLaw(NEEDLE, Membrane(stiffness=570, precompression=0.41, friction=0.2, thickness=1e-3)),
     ThinLaw(NEEDLE, Membrane(stiffness=300, precompression=0.1, friction=0.3, thickness=0)),
     TableLaw([0, 1e-3, 2e-3], [-0.1, -1, -0.3], [0, 0.2, 0.3]),
 ]
-COUPLINGS = [Coupling(stiffness=400, damping=1), Coupling(stiffness=700, damping=0.2), Coupling(stiffness=90, damping=0)]
+COUPLINGS = [Coupling(stiffness=k, damping=b) for k, b in ((400, 1), (700, 0.2), (90, 0))]
 
 
-def motions(ticks: int = 800) -> np.ndarray:
+Array = NDArray[np.float64]
+Solver = Literal["paper", "exact"]
+
+
+def motions(ticks: int = 800) -> Array:
     time = np.arange(ticks) * PERIOD
-    return np.array([-1e-3 + depth * np.sin(2 * np.pi * time) ** 2 for depth in (4e-3, 6e-3, 9e-3)]).T.copy()
+    return np.ascontiguousarray(np.array([-1e-3 + depth * np.sin(2 * np.pi * time) ** 2 for depth in (4e-3, 6e-3, 9e-3)]).T)
 
 
-def alone(p: np.ndarray, solver: str) -> np.ndarray:
+def alone(p: Array, solver: Solver = "exact") -> Array:
     each = zip(LAWS, COUPLINGS, p.T, strict=True)
-    return np.array([Proxy1d(law, coupling, PERIOD, solver).run(depth).force for law, coupling, depth in each]).T  # type: ignore[arg-type]
+    return np.array([Proxy1d(law, one, PERIOD, solver).run(depth).force for law, one, depth in each]).T
 
 
 @pytest.mark.parametrize("solver", ["paper", "exact"])
-def test_each_trial_has_the_bits_of_a_proxy(solver: str) -> None:
+def test_each_trial_has_the_bits_of_a_proxy(solver: Solver) -> None:
     p = motions()
-    batch = LineBatch(LAWS, COUPLINGS, PERIOD, solver)  # type: ignore[arg-type]
+    batch = LineBatch(LAWS, COUPLINGS, PERIOD, solver)
     assert (batch.trials, batch.period, batch.solver) == (3, PERIOD, solver)
     for instructions in [None, *simd_instructions()]:
         batch.reset()
@@ -49,7 +55,7 @@ def test_memory_layouts_without_a_copy() -> None:
     batch = LineBatch(LAWS, COUPLINGS, PERIOD)
     force = batch.run(rows.T)
     assert force.flags.f_contiguous
-    assert np.array_equal(force, alone(p, "exact"))
+    assert np.array_equal(force, alone(p)
     wide = np.full((len(p), 6), np.nan)
     batch.reset()
     assert batch.run(p, out=wide[:, ::2]) is not None
