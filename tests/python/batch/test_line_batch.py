@@ -29,7 +29,7 @@ Solver = Literal["paper", "exact"]
 
 def motions(ticks: int = 800) -> Array:
     time = np.arange(ticks) * PERIOD
-    return np.ascontiguousarray(np.array([-1e-3 + depth * np.sin(2 * np.pi * time) ** 2 for depth in (4e-3, 6e-3, 9e-3)]).T)
+    return -1e-3 + np.outer(np.sin(2 * np.pi * time) ** 2, [4e-3, 6e-3, 9e-3])
 
 
 def alone(p: Array, solver: Solver = "exact") -> Array:
@@ -55,7 +55,7 @@ def test_memory_layouts_without_a_copy() -> None:
     batch = LineBatch(LAWS, COUPLINGS, PERIOD)
     force = batch.run(rows.T)
     assert force.flags.f_contiguous
-    assert np.array_equal(force, alone(p)
+    assert np.array_equal(force, alone(p))
     wide = np.full((len(p), 6), np.nan)
     batch.reset()
     assert batch.run(p, out=wide[:, ::2]) is not None
