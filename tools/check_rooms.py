@@ -26,6 +26,7 @@ ROOMS = (
     "core/punctura/plant",
     "core/punctura/punctura.hpp",  # includes all of core
     "runtime/punctura_runtime",
+    "capi",
     "python/bindings",
     "python/punctura/restore.py",
     "python/punctura/results.py",
@@ -64,7 +65,7 @@ ROOMS = (
     "web/src/layout.ts",
     "web/src/main.ts",
 )
-WITH_ROOMS = ("core/", "runtime/", PACKAGE, PAGE)  # every source file in these folders belongs to a room
+WITH_ROOMS = ("core/", "runtime/", "capi/", PACKAGE, PAGE)  # every source file in these folders belongs to a room
 OUTSIDE = {"tests", "benchmarks", "tools", "examples", "oracles"}  # the package must not import these
 
 

@@ -34,7 +34,7 @@ def cpp_imports(root: Path) -> Iterator[Import]:
     for path, text in _texts(root, files):
         for line, name in _matches(_INCLUDE, text):
             beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
-            candidates = (beside, f"core/{name}", f"runtime/{name}")
+            candidates = (beside, f"core/{name}", f"runtime/{name}", f"capi/include/{name}")
             yield Import(path, line, name, next((file for file in candidates if file in files), None))
 
 

@@ -103,7 +103,8 @@ step_cpp() {
   else
     compile dev || return
   fi
-  build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap && both_tests dev
+  build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap &&
+    build/dev/tests/capi/capi_tests && tools/check_exports.sh build/dev/capi/libpunctura.so && both_tests dev
 }
 
 # Compiles all sources and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
@@ -124,20 +125,21 @@ step_tsan() {
   $run
 }
 
-# An external project: with the core installed, with core and runtime installed, with the Python package, and with
-# Punctura as a subfolder.
+# An external project: with the core installed, with core, runtime and C library installed, with the Python package,
+# and with Punctura as a subfolder.
 step_consumer() {
   local way prefix=$root/build/consumer/prefix
   rm -rf build/consumer
   cmake -S . -B build/consumer/core -G Ninja && cmake --install build/consumer/core --prefix "$prefix/core" &&
     compile dev && cmake --install build/dev --prefix "$prefix/runtime" &&
     use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
-    use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON &&
+    use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON -DWITH_C=ON &&
     use_it from-wheel -Dpunctura_DIR="$(punctura paths --cmake)" &&
     use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON || return
   for way in from-core from-runtime from-wheel subfolder; do "build/consumer/$way/consumer" || return; done
   for way in from-runtime subfolder; do "build/consumer/$way/own_device" || return; done
-  build/consumer/from-runtime/devices
+  build/consumer/from-runtime/devices &&
+    build/consumer/from-runtime/insert python/punctura/scenes/k06-fig12.toml
 }
 use_it() { cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1"; }
 

@@ -7,6 +7,7 @@ The words behind a block's opening fence say what happens to it:
     ```python                        runs; the blocks of a page share their variables
     ```sh                            runs in bash, in the page's own empty folder
     ```cpp                           is compiled
+    ```c                             a whole program in C99 for the C library: is compiled
     ```toml scene                    is read as what it is: scene, limits, placement, exercise or pyproject
     ```toml scene save=mine.toml     and is saved in the page's folder, for the blocks that follow
     ```text output                   is what the block before it must have printed
@@ -68,6 +69,12 @@ def compile_cpp(code: str, example: Example) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def compile_c(code: str, example: Example) -> None:
+    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{ROOT / 'capi/include'}"]
+    done = subprocess.run([*command, "-x", "c", "-"], input=code, capture_output=True, text=True, timeout=PATIENCE_S)
+    assert done.returncode == 0, done.stderr
+
+
 def read_toml(code: str, kind: str) -> None:
     from punctura.exercise import load_exercise
     from punctura.files.toml import parse_toml
@@ -110,7 +117,7 @@ def evaluate(example: Example) -> None:
     if language == "toml":
         read_toml(code, rest.split(" ")[0])
     elif saved is None:
-        runners = {"python": run_python, "sh": run_shell, "cpp": compile_cpp}
+        runners = {"python": run_python, "sh": run_shell, "cpp": compile_cpp, "c": compile_c}
         assert language in runners, f"```{words}: tests/docs/snippets.py says what may stand behind a fence"
         runners[language](code, example)
 

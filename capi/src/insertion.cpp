@@ -1,0 +1,80 @@
+// The insertion of the C ABI.
+#include "punctura/servo/record.hpp"
+#include "scene.hpp"
+#include "stepper.hpp"
+
+using namespace punctura::c;
+
+struct punctura_insertion : Stepper<SceneInsertion> {
+  using Stepper::Stepper;
+};
+
+punctura_status punctura_insertion_new(const punctura_scene* scene, punctura_insertion** insertion) {
+  return make_handle(scene, insertion, [&](auto& made) {
+    std::vector<punctura::Problem> problems;
+    auto built = punctura::try_build_insertion(scene->scene, problems);
+    if (!built) return fail(std::move(problems));
+    made = std::make_unique<punctura_insertion>(std::move(*built));
+    return ok;
+  });
+}
+
+void punctura_insertion_free(punctura_insertion* insertion) { delete insertion; }
+
+punctura_status punctura_insertion_reset(punctura_insertion* insertion) {
+  if (!insertion) return PUNCTURA_BAD_ARGUMENT;
+  insertion->stepping().reset();
+  return ok;
+}
+
+punctura_status punctura_insertion_step(punctura_insertion* insertion, const double position[3], const double axis[3],
+                                        double force[3]) {
+  if (!insertion || !position || !axis || !force) return no_force(force);
+  return step_in_space(insertion->stepping(), position, axis, force);
+}
+
+punctura_status punctura_insertion_peek(punctura_insertion* insertion, const double position[3], const double axis[3],
+                                        double force[3]) {
+  if (!insertion || !position || !axis || !force) return no_force(force);
+  return step_in_space(insertion->peeking(), position, axis, force);
+}
+
+punctura_status punctura_insertion_commit(punctura_insertion* insertion) {
+  return insertion ? insertion->commit() : PUNCTURA_BAD_ARGUMENT;
+}
+
+punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t count, const double* positions,
+                                       const double* axes, size_t axis_stride, double* forces) {
+  if (!insertion || !positions || !axes || !forces || (axis_stride != 0 && axis_stride != 3))
+    return PUNCTURA_BAD_ARGUMENT;
+  SceneInsertion& object = insertion->stepping();
+  punctura_status status = ok;
+  for (size_t i = 0; i < count; ++i) {
+    if (status == ok)
+      status = step_in_space(object, positions + 3 * i, axes + axis_stride * i, forces + 3 * i);
+    else
+      no_force(forces + 3 * i);
+  }
+  return status;
+}
+
+int32_t punctura_insertion_membrane_count(const punctura_insertion* insertion) {
+  return insertion ? static_cast<int32_t>(insertion->now.proxies().size()) : 0;
+}
+
+punctura_status punctura_insertion_membrane(const punctura_insertion* insertion, int32_t membrane,
+                                            punctura_membrane_tick* tick) {
+  if (membrane < 0 || membrane >= punctura_insertion_membrane_count(insertion)) return PUNCTURA_BAD_ARGUMENT;
+  const auto& proxy = insertion->now.proxies()[static_cast<size_t>(membrane)];
+  return give_membrane(tick, punctura::record_of(proxy.tick()));
+}
+
+size_t punctura_insertion_state_size(const punctura_insertion* insertion) { return state_size(insertion); }
+
+punctura_status punctura_insertion_save(const punctura_insertion* insertion, void* state, size_t size) {
+  return save(insertion, state, size);
+}
+
+punctura_status punctura_insertion_restore(punctura_insertion* insertion, const void* state, size_t size) {
+  return restore(insertion, state, size);
+}

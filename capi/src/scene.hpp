@@ -1,0 +1,33 @@
+// A scene behind the C ABI.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors.hpp"
+#include "punctura/scene/build.hpp"
+#include "punctura/scene/scene.hpp"
+
+struct punctura_scene {
+  punctura::Scene scene;
+};
+
+namespace punctura::c {
+
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// The types that build() and build_insertion() make.
+using SceneInsertion = decltype(build_insertion(std::declval<const Scene&>()));
+using SceneServo = decltype(build(std::declval<const Scene&>()));
+
+/// A scene whose numbers without default are NaN.
+Scene empty_scene();
+PlacedMembrane empty_membrane();
+SyringeSettings empty_syringe();
+
+/// Sets a word of the scene. Adds a problem if there is no such path or word. Returns whether there was none.
+bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems);
+
+}  // namespace punctura::c

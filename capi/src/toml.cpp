@@ -1,0 +1,191 @@
+// Scenes from the text of a scene file. The keys and units are those of the Python package (scene_keys.hpp).
+#ifdef PUNCTURA_C_TOML
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+#endif
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "punctura/scene/values.hpp"
+#include "scene.hpp"
+#include "scene_keys.hpp"
+
+#ifdef PUNCTURA_C_TOML
+
+namespace punctura::c {
+namespace {
+
+/// The double nearest to the number, as it is written in decimal, times `digits` times 10^exponent.
+///
+/// A product of doubles would be rounded twice: 1.08 mm must be the double 0.00108.
+double scaled(double value, std::string_view digits, int exponent) {
+  if (!std::isfinite(value) || value == 0) return value;
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, std::abs(value), std::chars_format::scientific).ptr;
+  const std::string_view written(text, static_cast<std::size_t>(end - text));
+  const std::size_t e = written.find('e');
+  int power = 0;
+  std::from_chars(written.data() + e + (written[e + 1] == '+' ? 2 : 1), end, power);
+  std::string mantissa(written.substr(0, e));
+  if (const auto point = mantissa.find('.'); point != std::string::npos) {
+    power -= static_cast<int>(mantissa.size() - point - 1);
+    mantissa.erase(point, 1);
+  }
+  std::vector<int> product(mantissa.size() + digits.size());  // the last digit first
+  for (std::size_t i = 0; i < mantissa.size(); ++i)
+    for (std::size_t k = 0; k < digits.size(); ++k)
+      product[i + k] += (mantissa[mantissa.size() - 1 - i] - '0') * (digits[digits.size() - 1 - k] - '0');
+  std::string all;
+  for (std::size_t i = 0, carry = 0; i < product.size(); ++i) {
+    carry += static_cast<std::size_t>(product[i]);
+    all += static_cast<char>('0' + carry % 10);
+    carry /= 10;
+  }
+  std::reverse(all.begin(), all.end());
+  all += "e" + std::to_string(power + exponent);
+  double result = 0;
+  if (std::from_chars(all.data(), all.data() + all.size(), result).ec == std::errc::result_out_of_range)
+    result = power > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return value < 0 ? -result : result;
+}
+
+/// Reads the tables of a file into a scene.
+class Reader {
+ public:
+  Reader(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {
+    for_each_value(scene_, [&](const std::string& path, const Field&, double& number) { places_[path] = &number; });
+  }
+
+  /// kind: the table's name in scene_keys; path: with the number of a membrane.
+  void table(const toml::table& from, std::string_view kind, const std::string& path) {
+    const std::string dot = path.empty() ? "" : path + ".";
+    for (const auto& [key, node] : from) {
+      const SceneKey* known = nullptr;
+      for (const SceneKey& row : scene_keys)
+        if (row.table == kind && row.key == key.str()) known = &row;
+      const std::string place = dot + std::string(key.str());
+      if (known)
+        value(*known, node, dot, place);
+      else if (!path.empty() || !node.is_table())
+        problem(place, "scene files have no such key");
+    }
+    for (const SceneKey& row : scene_keys)
+      if (row.table == kind && !row.has_default && !keys.contains(dot + std::string(row.name)))
+        problem(dot + std::string(row.key), "is missing");
+  }
+
+  void problem(const std::string& path, const std::string& reason) { problems_.push_back({path, not_given, reason}); }
+
+  std::map<std::string, std::string> keys;  ///< path in the core -> path in the file
+
+ private:
+  void value(const SceneKey& key, const toml::node& node, const std::string& dot, const std::string& place) {
+    const std::string path = dot + std::string(key.name);
+    if (const auto [first, fresh] = keys.try_emplace(path, place); !fresh)
+      return problem(place, "is the same as " + first->second + ": give only one of them");
+    const auto word = node.value<std::string>();
+    if (key.kind == KeyKind::word && !word) return problem(place, "must be text, in quotes");
+    if (key.kind == KeyKind::word || (key.kind == KeyKind::number_or_word && word))
+      return void(set_word(scene_, path, *word, problems_));
+    if (key.kind == KeyKind::gauge) return gauge(node, path, place);
+    if (key.kind == KeyKind::vector) return vector(key, node, path, place);
+    if (!node.is_number()) return problem(place, "must be a number");
+    *places_.at(path) = scaled(*node.value<double>(), key.digits, key.exponent);
+  }
+
+  void vector(const SceneKey& key, const toml::node& node, const std::string& path, const std::string& place) {
+    const toml::array* numbers = node.as_array();
+    const bool three = numbers && numbers->size() == 3 &&
+                       std::all_of(numbers->begin(), numbers->end(), [](const auto& n) { return n.is_number(); });
+    if (!three) return problem(place, "must be three numbers, [x, y, z]");
+    for (std::size_t k = 0; k < 3; ++k)
+      *places_.at(path + "[" + std::to_string(k) + "]") =
+          scaled(*numbers->get(k)->value<double>(), key.digits, key.exponent);
+  }
+
+  void gauge(const toml::node& node, const std::string& path, const std::string& place) {
+    const auto* given = node.as_integer();
+    for (const GaugeDiameter& row : gauge_diameters)
+      if (given && given->get() == row.gauge) *places_.at(path) = scaled(1, row.digits, row.exponent);
+    if (!given || std::isnan(*places_.at(path))) problem(place, "must be a whole number from 10 to 34, ISO 9626");
+  }
+
+  Scene& scene_;
+  std::vector<Problem>& problems_;
+  std::map<std::string, double*> places_;
+};
+
+/// A table of the file; nullptr, with a problem, if it is none or is missing.
+const toml::table* table_at(const toml::table& file, std::string_view name, bool needed, Reader& reader) {
+  const toml::node* node = file.get(name);
+  if (!node && needed) reader.problem(std::string(name), "the table is missing");
+  if (node && !node->is_table()) reader.problem(std::string(name), "must be a table, [" + std::string(name) + "]");
+  return node ? node->as_table() : nullptr;
+}
+
+void read(const toml::table& file, Scene& scene, std::vector<Problem>& problems) {
+  const toml::array* membranes = file.get("membrane") ? file.get("membrane")->as_array() : nullptr;
+  for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.push_back(empty_membrane());
+  scene.syringe = empty_syringe();  // so that for_each_value() visits all numbers
+  Reader reader(scene, problems);
+  toml::table rest = file;
+  rest.erase("membrane");
+  reader.table(rest, "", "");
+  for (const auto& [key, node] : rest)
+    if (const std::string_view name = key.str(); node.is_table() && name != "needle" && name != "coupling" &&
+                                                 name != "servo" && name != "display" && name != "syringe")
+      reader.problem(std::string(name), "scene files have no such table");
+  for (const std::string name : {"needle", "coupling", "servo", "display"})
+    if (const auto* table = table_at(file, name, name == "needle" || name == "coupling", reader))
+      reader.table(*table, name, name);
+  const toml::table* syringe = table_at(file, "syringe", false, reader);
+  if (syringe) reader.table(*syringe, "syringe", "syringe");
+  if (!membranes) reader.problem("membrane", "must be an array of tables, [[membrane]]");
+  for (std::size_t i = 0; membranes && i < membranes->size(); ++i) {
+    const std::string path = "membrane[" + std::to_string(i) + "]";
+    if (const auto* table = membranes->get(i)->as_table())
+      reader.table(*table, "membrane", path);
+    else
+      reader.problem(path, "must be a table, [[membrane]]");
+  }
+  if (!syringe) scene.syringe.reset();
+  if (!problems.empty()) return;
+  problems = check(scene);
+  for (Problem& p : problems)
+    if (const auto key = reader.keys.find(p.path); key != reader.keys.end()) p.path = key->second;
+}
+
+}  // namespace
+}  // namespace punctura::c
+
+using namespace punctura::c;
+
+punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene) {
+  return guarded([&] {
+    if (!text || !scene) return null_pointer();
+    const toml::parse_result file = toml::parse(std::string_view(text, size));
+    if (!file) {
+      const auto at = file.error().source().begin;
+      const std::string path = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
+      return fail({{path, not_given, "this is not TOML: " + std::string(file.error().description())}});
+    }
+    auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
+    std::vector<punctura::Problem> problems;
+    read(file.table(), made->scene, problems);
+    if (!problems.empty()) return fail(std::move(problems));
+    *scene = made.release();
+    return ok;
+  });
+}
+
+#else
+
+punctura_status punctura_scene_from_toml(const char*, size_t, punctura_scene**) {
+  return punctura::c::fail(PUNCTURA_NOT_BUILT, punctura_status_text(PUNCTURA_NOT_BUILT));
+}
+
+#endif

@@ -1,0 +1,30 @@
+# Sourced by the test.sh of each integration. Exit status: 0 passed, 77 a tool chain is missing, otherwise failed.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+[ ! -d "$root/.venv/bin" ] || PATH="$root/.venv/bin:$PATH"
+here=$(cd "$(dirname "$0")" && pwd -P)
+work=$root/build/integrations/$(basename "$here")
+
+# need PROGRAM PACKAGE: ends the test with 77 if the program is missing.
+need() {
+  command -v "$1" >/dev/null || { echo "$1 is missing. Debian: apt-get install $2"; exit 77; }
+}
+need_header() {
+  printf '#include <%s>\n' "$1" | c++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1 ||
+    { echo "the header $1 is missing. Debian: apt-get install $2"; exit 77; }
+}
+need_module() {
+  python3 -c "import $1" >/dev/null 2>&1 || { echo "the Python package $1 is missing: pip install $2"; exit 77; }
+}
+
+# Builds libpunctura. Sets: library, its folder; header, the folder of punctura.h.
+build_library() {
+  need cmake cmake
+  need_header toml++/toml.h libtomlplusplus-dev
+  local build=$root/build/integrations/library
+  mkdir -p "$build"
+  { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DPUNCTURA_C=ON && cmake --build "$build"; } \
+    >"$build/log" 2>&1 || { tail -n 40 "$build/log"; exit 1; }
+  library=$build/capi header=$root/capi/include
+  export LD_LIBRARY_PATH="$library${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+}

@@ -1,0 +1,170 @@
+// The C ABI: scenes by path and from the text of a scene file, and their problems.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "c99.h"
+#include "handles.hpp"
+
+namespace {
+using namespace capi_test;
+
+constexpr std::string_view capi_text = R"(name = "two"
+[needle]
+diameter_mm = 1.08
+tip_angle_deg = 12.1
+direction = "motion"
+[coupling]
+stiffness_N_per_mm = 0.4
+damping_Ns_per_mm = 0.001
+[servo]
+rate_hz = 2000
+solver = "paper"
+conditioning = "line_fit"
+encoder_step_mm = 0.055
+[display]
+force_scale = 0.5
+[syringe]
+bore_mm = 11.99
+liquid_mL = 2.5
+friction_N = 0.8
+compliance_mL_per_kPa = 0.002
+resistance_kPa_s_per_mL = 1.5
+[[membrane]]
+name = "skin"
+stiffness_N_per_mm = 0.57
+precompression_N = 0.41
+friction = 0.2
+thickness_mm = 2
+point_mm = [0, -0.1, 1.7]
+inward_normal = [0, -1, 0]
+look = "skin"
+behind = "epidural space"
+outflow_pressure_kPa = 4.8
+)";
+
+SceneHandle parsed(std::string_view text) {
+  return made<SceneHandle>([&](auto** to) { return punctura_scene_from_toml(text.data(), text.size(), to); });
+}
+
+/// The problems of a text: their reasons by path.
+std::map<std::string, std::string> problems_of(std::string text) {
+  punctura_scene* scene = nullptr;
+  CHECK(punctura_scene_from_toml(text.data(), text.size(), &scene) == PUNCTURA_BAD_SCENE);
+  CHECK(scene == nullptr);
+  std::map<std::string, std::string> problems;
+  for (int i = 0; i < punctura_problem_count(); ++i) {
+    const char *path = nullptr, *reason = nullptr;
+    double value = 0;
+    CHECK(punctura_problem(i, &path, &value, &reason) == PUNCTURA_OK);
+    problems[path] = reason;
+  }
+  return problems;
+}
+
+std::string with(std::string_view old, std::string_view now) {
+  std::string text(capi_text);
+  const auto at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), now);
+}
+}  // namespace
+
+TEST_CASE("C ABI: a scene file gives the doubles nearest to its decimal numbers") {
+  const auto scene = parsed(capi_text);
+  const std::map<std::string, double> expected = {
+      {"needle.diameter", 1.08e-3},
+      {"needle.tip_angle", 0.2111848394913139},  // the double nearest to 12.1 pi / 180
+      {"coupling.stiffness", 400},
+      {"coupling.damping", 1},
+      {"servo.rate", 2000},
+      {"servo.low_pass", 300},
+      {"servo.encoder_step", 0.055e-3},
+      {"display.force_scale", 0.5},
+      {"syringe.bore", 11.99e-3},
+      {"syringe.liquid", 2.5e-6},
+      {"syringe.air", 0},
+      {"syringe.compliance", 2e-12},
+      {"syringe.resistance", 1.5e9},
+      {"membrane[0].stiffness", 570},
+      {"membrane[0].thickness", 2e-3},
+      {"membrane[0].point[1]", -0.1e-3},
+      {"membrane[0].point[2]", 1.7e-3},
+      {"membrane[0].outflow_pressure", 4800},
+      {"membrane[0].behind_pressure", 0},
+  };
+  for (const auto& [path, value] : expected) {
+    INFO(path);
+    double given = std::nan("");
+    CHECK(punctura_scene_get(scene.get(), path.c_str(), &given) == PUNCTURA_OK);
+    CHECK(given == value);
+  }
+  CHECK(punctura_scene_check(scene.get()) == PUNCTURA_OK);
+}
+
+TEST_CASE("C ABI: all problems of a scene file, with the keys of the file") {
+  auto found = problems_of(with("friction = 0.2", "frictoin = 0.2"));
+  CHECK(found.size() == 2);
+  CHECK(found.contains("membrane[0].frictoin"));
+  CHECK(found["membrane[0].friction"] == "is missing");
+  found = problems_of(with("tip_angle_deg = 12.1", "tip_angle_deg = 12.1\ntip_angle_rad = 0.2\ngauge = 9"));
+  CHECK(found.size() == 2);
+  CHECK(found.contains("needle.tip_angle_rad"));
+  found = problems_of(with("friction = 0.2", "friction = 7"));
+  CHECK(found.size() == 1);
+  CHECK(found["membrane[0].friction"].find("K06 (7)") != std::string::npos);
+  found = problems_of(with("thickness_mm = 2", "thickness_mm = -2"));
+  CHECK(found.contains("membrane[0].thickness_mm"));
+  CHECK(std::string(punctura_last_error()).find("-0.002") != std::string::npos);
+  found = problems_of(with("\"skin\"\nbehind", "\"sky\"\nbehind"));
+  CHECK(found["membrane[0].look"].find("\"vein wall\"") != std::string::npos);
+  found = problems_of(with("[0, -0.1, 1.7]", "[0, 1]"));
+  CHECK(found["membrane[0].point_mm"] == "must be three numbers, [x, y, z]");
+  CHECK(problems_of("name = ").begin()->first.substr(0, 6) == "line 1");
+  CHECK(problems_of("x = 1\n[extra]\ny = 2").size() == 6);
+}
+
+TEST_CASE("C ABI: numbers and words of a scene by their path; every problem is reported") {
+  const SceneHandle scene(c99_scene());
+  punctura_field field;
+  field.struct_size = sizeof field;
+  const int count = punctura_scene_field_count(scene.get());
+  CHECK(count > 10);
+  for (int i = 0; i < count; ++i) {
+    REQUIRE(punctura_scene_field(scene.get(), i, &field) == PUNCTURA_OK);
+    double value = 0;
+    CHECK(punctura_scene_get(scene.get(), field.path, &value) == PUNCTURA_OK);
+    CHECK(value == field.value);
+    CHECK(value >= field.min);
+  }
+  CHECK(punctura_scene_field(scene.get(), count, &field) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(punctura_scene_set(scene.get(), "membrane[1].friction", 1) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(punctura_scene_set_word(scene.get(), "servo.solver", "fast") == PUNCTURA_BAD_SCENE);
+
+  CHECK(punctura_scene_set(scene.get(), "needle.diameter", 0) == PUNCTURA_OK);
+  CHECK(punctura_scene_set(scene.get(), "membrane[0].stiffness", -1) == PUNCTURA_OK);
+  CHECK(punctura_scene_check(scene.get()) == PUNCTURA_BAD_SCENE);
+  CHECK(punctura_problem_count() == 2);
+  punctura_insertion* none = nullptr;
+  CHECK(punctura_insertion_new(scene.get(), &none) == PUNCTURA_BAD_SCENE);
+  CHECK(none == nullptr);
+  CHECK(punctura_scene_set(scene.get(), "needle.diameter", 1e-3) == PUNCTURA_OK);
+  CHECK(punctura_scene_set(scene.get(), "membrane[0].stiffness", 500) == PUNCTURA_OK);
+
+  CHECK(punctura_scene_set_word(scene.get(), "display.force_scale", "automatic") == PUNCTURA_OK);
+  CHECK(punctura_scene_check(scene.get()) == PUNCTURA_OK);
+  CHECK(punctura_scene_set(scene.get(), "display.force_scale", 0.3) == PUNCTURA_OK);
+  const auto copy = made<SceneHandle>([&](auto** to) { return punctura_scene_copy(scene.get(), to); });
+  double scale = 0;
+  CHECK(punctura_scene_get(copy.get(), "display.force_scale", &scale) == PUNCTURA_OK);
+  CHECK(scale == 0.3);
+
+  punctura_limits limits;
+  REQUIRE(punctura_limits_init(&limits, sizeof limits) == PUNCTURA_OK);
+  limits.ramp_time = 0;
+  punctura_servo* servo = nullptr;
+  CHECK(punctura_servo_new(scene.get(), &limits, &servo) == PUNCTURA_BAD_SCENE);
+  CHECK(std::string(punctura_last_error()).find("limits.ramp_time") != std::string::npos);
+}
