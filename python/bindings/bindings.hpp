@@ -31,6 +31,7 @@ void bind_syringe(nb::module_&);
 void bind_scene(nb::module_&);
 void bind_insertion(nb::module_&);
 void bind_events(nb::module_&);
+void bind_trace(nb::module_&);
 void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
 void bind_limits(nb::module_&);

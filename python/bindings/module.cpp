@@ -18,6 +18,7 @@ NB_MODULE(_core, m) {
   bind_scene(m);
   bind_insertion(m);
   bind_events(m);
+  bind_trace(m);
   bind_plant(m);
   bind_experiment(m);
   bind_limits(m);

@@ -148,7 +148,7 @@ inline bool check_curve(const Needle& needle, const Membrane& membrane, const Ti
   if (tissue.grip != GripShape::exponential || profile_of(needle, membrane, tissue).follows) return true;
   problems.push_back({dot + "growth", tissue.growth,
                       "is too large for this needle: 28 chords miss the grip by more than 1e-4 of the largest force. "
-                      "Take 
+                      "Take "
                       "a growth nearer to 0, a thicker wall, or a grip_table of your own"});
   return false;
 }

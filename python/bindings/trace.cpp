@@ -1,0 +1,90 @@
+// core/punctura/trace: the force along a measured motion, with exact derivatives.
+#include "bindings.hpp"
+#include "punctura/trace/trace_model.hpp"
+#include "without_lock.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+/// A measured motion, and the needle that made it. It does not change, so that any number of threads can use it.
+class TraceModel {
+ public:
+  TraceModel(Needle needle, const nb::object& depth, const nb::object& time)
+      : needle_(needle), depth_(values(depth, "depth")) {
+    if (!time.is_none()) time_ = values(time, "time");
+    if (!time_.empty() && time_.size() != depth_.size())
+      throw nb::value_error("time and depth must have the same length");
+    for (std::size_t i = 1; i < time_.size(); ++i)
+      if (!(time_[i] > time_[i - 1])) throw nb::value_error("time must ascend");
+  }
+
+  nb::tuple forces(const nb::object& membranes, const nb::object& coupling, bool jacobian) const {
+    const Input given = input(membranes, "membranes"), shared = input(coupling, "coupling");
+    if (given.ndim() != 2 || given.shape(1) != trace_membrane_names.size())
+      throw nb::value_error("membranes must be (m, 11): see TraceModel.membrane_names");
+    if (shared.ndim() != 1 || shared.shape(0) != trace_coupling_names.size())
+      throw nb::value_error("coupling must be (6,): see TraceModel.coupling_names");
+    std::vector<TraceMembrane> m(given.shape(0));
+    for (std::size_t i = 0; i < m.size(); ++i) std::copy_n(given.data() + i * m[i].size(), m[i].size(), m[i].begin());
+    TraceCoupling c;
+    std::copy_n(shared.data(), c.size(), c.begin());
+    raise_if(problems_of_trace(needle_, m, c));
+
+    const std::size_t n = depth_.size(), columns = jacobian ? trace_parameters(m.size()) : 0;
+    std::vector<double> force(n), rows(n * columns);
+    {
+      const WithoutLock without;
+      trace_forces({needle_, depth_, time_}, m, c, force, rows);
+    }
+    return nb::make_tuple(to_numpy(std::move(force), {n}), to_numpy(std::move(rows), {n, columns}));
+  }
+
+ private:
+  static std::vector<double> values(const nb::object& given, const char* name) {
+    const Input array = input(given, name);
+    if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must be (n,)").c_str());
+    for (std::size_t i = 0; i < array.size(); ++i)
+      if (!std::isfinite(array.data()[i])) throw nb::value_error((std::string(name) + " must be finite").c_str());
+    return {array.data(), array.data() + array.size()};
+  }
+
+  Needle needle_;
+  std::vector<double> depth_, time_;
+};
+
+template <typename Names>
+nb::tuple as_tuple(const Names& names) {
+  nb::list words;
+  for (const auto name : names) words.append(nb::str(name.data(), name.size()));
+  return nb::tuple(words);
+}
+
+}  // namespace
+
+void bind_trace(nb::module_& m) {
+  nb::class_<TraceModel> model(m, "TraceModel",
+                               "The model's force along a measured motion, with exact derivatives. It never changes: "
+                               "threads may share it.");
+  model.def(nb::init<Needle, const nb::object&, const nb::object&>(), nb::arg("needle"), nb::arg("depth"),
+            nb::arg("time").none() = nb::none(),
+            nb::sig("def __init__(self, needle: Needle, depth: numpy.typing.ArrayLike, "
+                    "time: numpy.typing.ArrayLike | None = None) -> None"),
+            "depth: of the tip, (n,), m. time: (n,), s, ascending; None if nothing depends on time.");
+  model.def("forces", &TraceModel::forces, nb::arg("membranes"), nb::arg("coupling"), nb::arg("jacobian") = true,
+            nb::sig("def forces(self, membranes: numpy.typing.ArrayLike, coupling: numpy.typing.ArrayLike, "
+                    "jacobian: bool = True) -> tuple[numpy.typing.NDArray[numpy.float64], "
+                    "numpy.typing.NDArray[numpy.float64]]"),
+            "The force that resists insertion (n,), N, and its derivatives (n, 6 + 11 m): by the coupling, then by "
+            "each membrane.\n\nmembranes: (m, 11), coupling: (6,), SI, in the order of membrane_names and "
+            "coupling_names. Raises ConfigurationError.");
+  model.def_prop_ro_static(
+      "membrane_names", [](nb::handle) { return as_tuple(trace_membrane_names); },
+      nb::sig("def membrane_names(cls, /) -> tuple[str, ...]"),
+      "The parameters of a membrane, in the order of the columns of `membranes`.");
+  model.def_prop_ro_static(
+      "coupling_names", [](nb::handle) { return as_tuple(trace_coupling_names); },
+      nb::sig("def coupling_names(cls, /) -> tuple[str, ...]"),
+      "The parameters of the coupling, in the order of `coupling`.");
+}
+
+}  // namespace punctura::bindings

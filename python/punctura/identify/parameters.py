@@ -1,0 +1,153 @@
+"""The parameters of a trace's model: which are free, what they share, in which range they lie."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura import Needle
+from punctura._core import TraceModel
+
+Array = NDArray[np.float64]
+
+MEMBRANE = TraceModel.membrane_names
+COUPLING = TraceModel.coupling_names
+NUISANCE = ("offset", "drift")  # N and N/s: of the sensor
+UNITS = {
+    "surface": "m", "stiffness": "N/m", "precompression": "N", "friction": "-", "thickness": "m", "tip_length": "m",
+    "growth": "1/m", "tail_length": "m", "tail_floor": "-", "cutting": "N", "set": "-", "coupling_stiffness": "N/m",
+    "coupling_damping": "N s/m", "relaxation_1_stiffness": "N/m", "relaxation_1_time": "s",
+    "relaxation_2_stiffness": "N/m", "relaxation_2_time": "s", "offset": "N", "drift": "N/s",
+}  # fmt: skip
+_LOGARITHMIC = {
+    "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
+    "relaxation_2_time",
+}  # fmt: skip
+_RANGES = {
+    "stiffness": (1e-1, 1e6), "precompression": (0.0, 1e2), "friction": (1e-4, 1e2), "thickness": (1e-6, 0.3),
+    "tip_length": (1e-5, 0.1), "growth": (-5e4, 5e4), "tail_length": (1e-5, 0.1), "tail_floor": (0.0, 1.0),
+    "cutting": (0.0, 1e2), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e6), "coupling_damping": (0.0, 1e3),
+    "relaxation_1_stiffness": (0.0, 1e6), "relaxation_1_time": (1e-3, 1e3),
+    "relaxation_2_stiffness": (0.0, 1e6), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """The values of all parameters, SI. membranes: (m, 11); coupling: (6,); nuisance: offset N, drift N/s."""
+
+    needle: Needle
+    membranes: Array
+    coupling: Array
+    nuisance: Array = field(default_factory=lambda: np.zeros(2))
+
+    def get(self, name: str) -> float:
+        """The value of `membrane[0].friction`, `tissue.friction` (the first membrane's), `coupling_stiffness` ..."""
+        return float(self.vector()[indices(name, len(self.membranes))[0]])
+
+    def vector(self) -> Array:
+        """All values in one vector: coupling, membranes, nuisance."""
+        return np.concatenate((self.coupling, self.membranes.ravel(), self.nuisance))
+
+    def with_vector(self, vector: Array) -> Parameters:
+        """The same needle with other values."""
+        m = len(self.membranes)
+        first, last = len(COUPLING), len(COUPLING) + m * len(MEMBRANE)
+        return replace(
+            self,
+            coupling=vector[:first].copy(),
+            membranes=vector[first:last].reshape(m, len(MEMBRANE)).copy(),
+            nuisance=vector[last:].copy(),
+        )
+
+    def with_values(self, values: Mapping[str, float]) -> Parameters:
+        """Some values changed, by name."""
+        vector = self.vector()
+        for name, value in values.items():
+            vector[list(indices(name, len(self.membranes)))] = value
+        return self.with_vector(vector)
+
+
+def default_membrane() -> Array:
+    """A membrane of K06 without values: every extension is off."""
+    row = np.zeros(len(MEMBRANE))
+    row[MEMBRANE.index("tail_floor")] = 1.0
+    return row
+
+
+def default_coupling(stiffness: float) -> Array:
+    """A spring alone; the time constants of the relaxation are those of an absent branch."""
+    values = dict.fromkeys(COUPLING, 0.0)
+    values |= {"coupling_stiffness": stiffness, "relaxation_1_time": 1.0, "relaxation_2_time": 10.0}
+    return np.array([values[name] for name in COUPLING])
+
+
+def indices(name: str, membranes: int) -> tuple[int, ...]:
+    """Where a parameter stands in the vector. `tissue.friction` stands in every membrane. Raises KeyError."""
+    if name in COUPLING:
+        return (COUPLING.index(name),)
+    if name in NUISANCE:
+        return (len(COUPLING) + membranes * len(MEMBRANE) + NUISANCE.index(name),)
+    owner, _, kind = name.partition(".")
+    if kind in MEMBRANE:
+        at = [len(COUPLING) + i * len(MEMBRANE) + MEMBRANE.index(kind) for i in range(membranes)]
+        if owner == "tissue":
+            return tuple(at)
+        if owner.startswith("membrane[") and owner[9:-1].isdigit() and int(owner[9:-1]) < membranes:
+            return (at[int(owner[9:-1])],)
+    raise KeyError(f"no parameter {name}")
+
+
+def kind_of(name: str) -> str:
+    """`friction` of `membrane[0].friction` and of `tissue.friction`."""
+    return name.rpartition(".")[2]
+
+
+class Free:
+    """The free parameters of a fit. Their coordinates u are logarithms where a parameter is positive by nature."""
+
+    def __init__(self, names: Sequence[str], base: Parameters) -> None:
+        self.names = tuple(names)
+        self.base = base
+        m = len(base.membranes)
+        self._at = [np.array(indices(name, m)) for name in self.names]
+        self._log = np.array([kind_of(name) in _LOGARITHMIC for name in self.names])
+        low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
+        self.low, self.high = self._coordinates(low), self._coordinates(high)
+
+    def _range(self, name: str) -> tuple[float, float]:
+        kind = kind_of(name)
+        if kind == "friction":  # insertion needs mu tan(theta) < 1, K06 (7)
+            return 1e-4, 0.98 / float(np.tan(self.base.needle.tip_angle))
+        return _RANGES.get(kind, (-np.inf, np.inf))
+
+    def _coordinates(self, values: Array) -> Array:
+        return np.where(self._log, np.log(np.where(self._log, values, 1.0)), values)
+
+    def coordinates(self, parameters: Parameters) -> Array:
+        """The coordinates of the free parameters, moved into their ranges."""
+        vector = parameters.vector()
+        values = np.array([vector[at[0]] for at in self._at])
+        small = np.array([_RANGES.get(kind_of(name), (0.0, 0.0))[0] for name in self.names])
+        values = np.where(self._log, np.maximum(values, np.maximum(small, 1e-12)), values)
+        return np.clip(self._coordinates(values), self.low, self.high)
+
+    def values(self, u: Array) -> Array:
+        """The values of the free parameters, SI."""
+        return np.where(self._log, np.exp(np.where(self._log, u, 0.0)), u)
+
+    def parameters(self, u: Array) -> Parameters:
+        """All parameters for these coordinates."""
+        vector = self.base.vector()
+        for at, value in zip(self._at, self.values(u), strict=True):
+            vector[at] = value
+        return self.base.with_vector(vector)
+
+    def chain(self, jacobian: Array, u: Array) -> Array:
+        """From derivatives by all parameters (n, p) to those by the coordinates (n, free)."""
+        scale = np.where(self._log, self.values(u), 1.0)
+        columns = [jacobian[:, at[0]] if len(at) == 1 else jacobian[:, at].sum(axis=1) for at in self._at]
+        return np.column_stack(columns) * scale if columns else np.empty((len(jacobian), 0))

@@ -1,0 +1,71 @@
+"""The core's force along a trace against its own proxies, and its derivatives against central differences."""
+
+import threading
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura import ConfigurationError
+from punctura._core import TraceModel
+from traces import MEMBRANE, NEEDLE, force_of, motion
+
+K06 = [5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness, 0, 0, 0, 1, 0, 0]
+TISSUE = [8e-3, 300, 0.1, 0.3, 1e-3, 2e-3, 400.0, 0.8e-3, 0.6, 0.3, 0.2]
+COUPLING = [1500, 0.5, 0, 1, 0, 1]
+
+
+def test_it_gives_the_forces_of_the_proxies():
+    time, depth = motion(times=2)
+    force, jacobian = TraceModel(NEEDLE, depth, time).forces([K06], [4000, 1, 0, 1, 0, 1])
+    np.testing.assert_allclose(force, force_of(depth), atol=1e-12)
+    assert jacobian.shape == (len(depth), 17)
+
+
+@pytest.mark.parametrize("membranes", [[K06], [TISSUE], [K06, TISSUE]], ids=["K06", "tissue", "both"])
+def test_derivatives_are_exact(membranes):
+    time, depth = motion(times=2, hold=0.2)
+    model = TraceModel(NEEDLE, depth, time)
+    coupling = np.array(COUPLING, float)
+    given = np.concatenate((coupling, np.ravel(membranes)))
+    _, jacobian = model.forces(membranes, coupling)
+
+    def force(values):
+        return model.forces(values[6:].reshape(-1, 11), values[:6], False)[0]
+
+    for i, value in enumerate(given):
+        if value == 0 or i in (3, 5) or (value == 1 and i >= 6):  # relaxation and tail are off
+            continue
+        step = 1e-6 * value
+        ahead, behind = given.copy(), given.copy()
+        ahead[i] += step
+        behind[i] -= step
+        difference = (force(ahead) - force(behind)) / (2 * step)
+        error = np.abs(difference - jacobian[:, i]) / np.abs(difference).max()
+        # A sample at a corner of the force, such as the pop, has two derivatives.
+        assert np.quantile(error, 0.97) < 2e-6, i
+
+
+def test_many_threads_may_use_one_model():
+    time, depth = motion()
+    model = TraceModel(NEEDLE, depth, time)
+    alone, _ = model.forces([TISSUE], COUPLING)
+    found = []
+    threads = [threading.Thread(target=lambda: found.append(model.forces([TISSUE], COUPLING)[0])) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 4 and all((force == alone).all() for force in found)
+
+
+def test_parameters_out_of_range_are_refused_with_their_place():
+    time, depth = motion()
+    model = TraceModel(NEEDLE, depth, time)
+    with pytest.raises(ConfigurationError, match=r"membrane\[1\].friction"):
+        model.forces([K06, [0, 1, 0, 50, *K06[4:]]], COUPLING)
+    with pytest.raises(ConfigurationError, match="coupling_stiffness"):
+        model.forces([K06], [0, *COUPLING[1:]])
+    with pytest.raises(ValueError, match="membranes must be"):
+        model.forces([K06[:4]], COUPLING)
+    with pytest.raises(ValueError, match="time must ascend"):
+        TraceModel(pn.Needle(1e-3, 0.3), [0, 1, 2], [0, 1, 1])
