@@ -6,7 +6,6 @@
 #include "punctura/insertion/insertion.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/model/profile_law.hpp"
-#include "punctura/model/table_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/tissue_law.hpp"

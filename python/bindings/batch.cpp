@@ -50,7 +50,7 @@ void check_coupling_and_period(const Coupling& coupling, double period) {
 
 /// The laws of the trials. They stay alive with the batch.
 struct Laws {
-  std::vector<std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>> laws;
+  std::vector<std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>> laws;
 };
 
 LawBatch* make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period,
@@ -67,7 +67,7 @@ LawBatch* make(LawBatch* self, const nb::object& law, const nb::object& coupling
   raise_if(problems);
   auto kept = std::make_shared<Laws>();
   kept->laws.reserve(laws == 0 ? 1 : laws);
-  using One = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;
+  using One = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>;
   if (laws == 0) kept->laws.push_back(nb::cast<One>(law));
   for (std::size_t i = 0; i < laws; ++i) kept->laws.push_back(nb::cast<One>(law[i]));
   new (self) LawBatch(period, solver_from(solver));
@@ -155,9 +155,10 @@ void bind_batch(nb::module_& m) {
   def_repr(line, "<LineBatch of {0.trials} trials>");
   line.def("__init__", &make, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
            nb::arg("trials") = nb::none(),
-           nb::sig("def __init__(self, law: ThinLaw | ThickLaw | TableLaw | Sequence[ThinLaw | ThickLaw | TableLaw], "
-                   "coupling: Coupling | Sequence[Coupling], period: float, solver: typing.Literal['exact', 'paper'] "
-                   "= 'exact', trials: int | None = None) -> None"),
+           nb::sig(
+               "def __init__(self, law: ThinLaw | ThickLaw | ProfileLaw | Sequence[ThinLaw | ThickLaw | ProfileLaw], "
+               "coupling: Coupling | Sequence[Coupling], period: float, solver: typing.Literal['exact', 'paper'] "
+               "= 'exact', trials: int | None = None) -> None"),
            "law, coupling: one for each trial, or a single one for all. period: T, s. trials: how many, if both are\n"
            "single. Raises ConfigurationError, ValueError.")
       .def(

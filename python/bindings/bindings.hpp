@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "punctura/model/table_law.hpp"
+#include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/validity.hpp"
@@ -26,6 +26,7 @@ namespace nb = nanobind;
 namespace punctura::bindings {
 
 void bind_model(nb::module_&);
+void bind_profile_law(nb::module_&);
 void bind_proxy(nb::module_&);
 void bind_syringe(nb::module_&);
 void bind_scene(nb::module_&);
@@ -89,8 +90,9 @@ struct GivenThickLaw : ThickLaw {
   double obliquity;
 };
 
-struct GivenTableLaw : TableLaw {
+struct GivenProfileLaw : ProfileLaw {
   std::vector<double> depth, lower, upper;
+  double obliquity;
 };
 
 /// format: of Python's str.format, with the object as {0}: "<{0.__class__.__name__} of {0.scene.name!r}>".

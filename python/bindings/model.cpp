@@ -1,28 +1,11 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
 #include "arguments.hpp"
 #include "bindings.hpp"
+#include "law_bounds.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
-
-/// Lower and upper edge of the band for an array of depths of any shape.
-template <typename L>
-nb::tuple bounds(const L& law, const nb::object& depths) {
-  const Input depth = input(depths, "depth");
-  const std::size_t n = depth.size();
-  std::vector<double> lower(n), upper(n);
-  {
-    nb::gil_scoped_release release;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto band = law.band(depth.data()[i]);
-      lower[i] = band.lower;
-      upper[i] = band.upper;
-    }
-  }
-  const std::vector<std::size_t> shape(depth.shape_ptr(), depth.shape_ptr() + depth.ndim());
-  return nb::make_tuple(to_numpy(std::move(lower), shape), to_numpy(std::move(upper), shape));
-}
 
 Needle make_needle(double diameter, double tip_angle) {
   const Needle made{diameter, tip_angle};
@@ -54,37 +37,6 @@ GivenThickLaw make_thick_law(Needle needle, Membrane membrane, double obliquity)
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);
   return {{needle, membrane, obliquity}, needle, membrane, obliquity};
-}
-
-GivenTableLaw make_table_law(std::vector<double> depth, std::vector<double> lower, std::vector<double> upper) {
-  std::vector<Problem> problems;
-  check_table(depth, lower, upper, problems);
-  raise_if(problems);
-  return {TableLaw(depth, lower, upper), depth, lower, upper};
-}
-
-/// Python's numbers, NumPy's, and arrays without a dimension.
-bool is_one_number(const nb::object& value) {
-  if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) return true;
-  return nb::hasattr(value, "ndim") && nb::cast<int>(value.attr("ndim")) == 0;
-}
-
-template <typename L>
-void def_bounds(nb::class_<L>& law) {
-  law.def(
-         "bounds",
-         [](const L& l, const nb::object& q) {
-           if (!is_one_number(q)) throw nb::next_overload();
-           const auto b = l.band(nb::cast<double>(nb::float_(q)));
-           return nb::make_tuple(b.lower, b.upper);
-         },
-         nb::arg("depth"),
-         nb::sig("def bounds(self, depth: float | numpy.floating | numpy.integer) -> tuple[float, float]"),
-         "The band of static friction at one depth (m, along the needle): (lower, upper), N.")
-      .def("bounds", &bounds<L>, nb::arg("depth"),
-           nb::sig("def bounds(self, depth: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
-                   "numpy.typing.NDArray[numpy.float64]]"),
-           "The same for an array of depths of any shape. Returns (lower, upper) of that shape, N.");
 }
 
 template <typename L>
@@ -148,26 +100,6 @@ void bind_model(nb::module_& m) {
   def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
            &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with all problems.");
   def_value(thick, {"needle", "membrane", "obliquity"});
-  auto table = nb::class_<GivenTableLaw>(
-      m, "TableLaw",
-      "A law from a table: straight lines between at most 32 knots. For Proxy1d.\n\n"
-      "No friction before the first knot; constant edges behind the last one; the edges may jump at the first knot.");
-  def_bounds(table);
-  def_init(table, {{"depth", "Sequence[float]"}, {"lower", "Sequence[float]"}, {"upper", "Sequence[float]"}},
-           &make_table_law,
-           "depth: of the knots, m, ascending. lower: Phi_I there, N, 0 or less. upper: Phi_O, N.\n"
-           "Raises ConfigurationError.");
-  def_value(table, {"depth", "lower", "upper"});
-  const auto knots = [&table](const char* name, auto member, const char* doc) {
-    const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";
-    table.def_prop_ro(
-        name, [member](const GivenTableLaw& l) { return nb::tuple(nb::cast(l.*member)); }, nb::sig(signature.c_str()),
-        doc);
-  };
-  knots("depth", &GivenTableLaw::depth, "Of the knots, m");
-  knots("lower", &GivenTableLaw::lower, "Phi_I at the knots, N");
-  knots("upper", &GivenTableLaw::upper, "Phi_O at the knots, N");
-
   thick.def_ro("obliquity", &GivenThickLaw::obliquity, "beta, rad")
       .def_prop_ro("H", &GivenThickLaw::thickness, "Thickness, m")
       .def_prop_ro("U", &GivenThickLaw::path_length, "Length of the needle's path through the membrane, m. K06 (17)");

@@ -13,6 +13,7 @@ NB_MODULE(_core, m) {
       base.c_str(), "Base class of all exceptions of Punctura. An argument of a wrong type raises TypeError.", nullptr,
       nullptr));
   bind_model(m);
+  bind_profile_law(m);
   bind_proxy(m);
   bind_syringe(m);
   bind_scene(m);

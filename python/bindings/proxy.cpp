@@ -21,7 +21,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
   check_period(period, problems);
 }
 
-using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenTableLaw>;
+using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>;
 
 /// One Python class for proxies with either law. It keeps its constructor arguments.
 class LineProxy : public OneThread {
@@ -77,12 +77,12 @@ class LineProxy : public OneThread {
   nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
 
  private:
-  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<TableLaw>>;
+  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<ProfileLaw>>;
   Proxies made() const {
     if (const auto* thin = std::get_if<GivenThinLaw>(&law_))
       return Proxy1d<ThinLaw>(*thin, coupling_, period_, solver_);
-    if (const auto* table = std::get_if<GivenTableLaw>(&law_))
-      return Proxy1d<TableLaw>(*table, coupling_, period_, solver_);
+    if (const auto* profile = std::get_if<GivenProfileLaw>(&law_))
+      return Proxy1d<ProfileLaw>(*profile, coupling_, period_, solver_);
     return Proxy1d<ThickLaw>(std::get<GivenThickLaw>(law_), coupling_, period_, solver_);
   }
 
@@ -191,7 +191,7 @@ void bind_proxy(nb::module_& m) {
   auto line =
       nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line,
-           {{"law", "ThinLaw | ThickLaw | TableLaw"},
+           {{"law", "ThinLaw | ThickLaw | ProfileLaw"},
             {"coupling", "Coupling"},
             {"period", "float"},
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},

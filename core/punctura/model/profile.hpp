@@ -48,14 +48,18 @@ struct BasicProfile {
 using Profile = BasicProfile<double>;
 
 /// Adds every reason why these knots are no profile. Returns true if there is none.
-inline bool check_profile(std::span<const Knot> knots, const std::string& path, std::vector<Problem>& problems) {
+///
+/// path: of the profile. path_of(i, field): of one number of knot i.
+template <typename PathOf>
+bool check_profile(std::span<const Knot> knots, const std::string& path, PathOf&& path_of,
+                   std::vector<Problem>& problems) {
   const std::size_t before = problems.size(), n = knots.size();
   static_assert(max_knots == 32);
   if (n == 0 || n > max_knots) problems.push_back({path, static_cast<double>(n), "must have 1 to 32 knots"});
   for (std::size_t i = 0; i < n; ++i) {
     const auto& [depth, lower, upper] = knots[i];
     const auto add = [&](const char* field, double value, const char* reason) {
-      problems.push_back({path + "[" + std::to_string(i) + "]." + field, value, reason});
+      problems.push_back({path_of(i, field), value, reason});
     };
     if (!(depth >= 0 && depth <= 1e6)) add("depth", depth, "must be a number from 0 to 1e6 m");
     if (i == 1 && depth == knots[0].depth) add("depth", depth, "must be greater than the depth of the first knot");
@@ -69,6 +73,11 @@ inline bool check_profile(std::span<const Knot> knots, const std::string& path, 
     if (lower > upper) add("lower", lower, "must not be greater than upper at the same knot");
   }
   return problems.size() == before;
+}
+/// The same for a list of knots: the paths are path[i].depth, path[i].lower and path[i].upper.
+inline bool check_profile(std::span<const Knot> knots, const std::string& path, std::vector<Problem>& problems) {
+  const auto path_of = [&](std::size_t i, const char* field) { return path + "[" + std::to_string(i) + "]." + field; };
+  return check_profile(knots, path, path_of, problems);
 }
 
 }  // namespace punctura

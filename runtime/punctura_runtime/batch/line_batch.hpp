@@ -46,8 +46,10 @@ class LineBatch {
   LineBatch(double period, Solver solver) noexcept : period_(period), solver_(solver) {}
 
   /// Adds a trial. The band must stay where it is as long as the batch exists: see keep().
-  template <std::size_t n>
-  void add(const PiecewiseBand<double, n>& band, const Coupling& coupling) {
+  ///
+  /// Pieces: a PiecewiseBand or ManyPieces.
+  template <typename Pieces>
+  void add(const Pieces& band, const Coupling& coupling) {
     add(table_of(band), SampledCoupling<double>(coupling, period_));
   }
   /// Owns something that a trial uses.

@@ -10,17 +10,18 @@
 namespace punctura::batch {
 
 /// The BandTable of a band. The table points to the band.
-template <std::size_t n>
-BandTable table_of(const PiecewiseBand<double, n>& band) noexcept {
-  using Pieces = PiecewiseBand<double, n>;
+template <typename Pieces>
+BandTable table_of(const Pieces& band) noexcept {
   const auto load = [](const void* pieces, LineBlock& block, std::size_t lane, double q) noexcept {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Pieces& all = *static_cast<const Pieces*>(pieces);
     const std::size_t i = all.index(q);
     // A closed interval of doubles: the first break belongs to the piece behind it, the others to the piece in front.
     block.first.of[lane] = i == 0 ? -infinity : i == 1 ? all.breaks[0] : std::nextafter(all.breaks[i - 1], infinity);
-    block.last.of[lane] = i == 0 ? std::nextafter(all.breaks[0], -infinity) : i == n - 1 ? infinity : all.breaks[i];
-    const auto& piece = all.pieces[i];
+    block.last.of[lane] = i == 0            ? std::nextafter(all.breaks[0], -infinity)
+                          : i == all.last() ? infinity
+                                            : all.breaks[i];
+    const auto& piece = all.piece(i);
     block.origin.of[lane] = piece.origin;
     const auto store = [lane](LaneNumbers(&to)[3], const Quadratic<double>& edge) {
       to[0].of[lane] = edge.c0;

@@ -10,15 +10,15 @@ from typing import Literal
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from punctura import Coupling, LineBatch, Membrane, Needle, Proxy1d, TableLaw, ThickLaw, ThinLaw
+from punctura import Coupling, LineBatch, Membrane, Needle, ProfileLaw, Proxy1d, ThickLaw, ThinLaw
 from punctura._core import simd_instructions
 
 PERIOD = 1 / 1600
 NEEDLE = Needle(diameter=1.08e-3, tip_angle=0.28)
-LAWS: list[ThinLaw | ThickLaw | TableLaw] = [
+LAWS: list[ThinLaw | ThickLaw | ProfileLaw] = [
     ThickLaw(NEEDLE, Membrane(stiffness=570, precompression=0.41, friction=0.2, thickness=1e-3)),
     ThinLaw(NEEDLE, Membrane(stiffness=300, precompression=0.1, friction=0.3, thickness=0)),
-    TableLaw([0, 1e-3, 2e-3], [-0.1, -1, -0.3], [0, 0.2, 0.3]),
+    ProfileLaw([0, 1e-3, 2e-3], [-0.1, -1, -0.3], [0, 0.2, 0.3]),
 ]
 COUPLINGS = [Coupling(stiffness=k, damping=b) for k, b in ((400, 1), (700, 0.2), (90, 0))]
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/support/random_motion.hpp"
-#include "punctura/model/table_law.hpp"
+#include "punctura/model/profile_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura_runtime/batch/blocks.hpp"
@@ -23,7 +23,7 @@ struct LineBatchCase {
   std::size_t trials, ticks;
   std::vector<ThickLaw> thick;
   std::vector<ThinLaw> thin;
-  std::vector<TableLaw> tables;
+  std::vector<ProfileLaw> profiles;
   std::vector<Coupling> couplings;
   std::vector<double> depth, force;  ///< (ticks, trials)
 
@@ -35,9 +35,8 @@ struct LineBatchCase {
       if (noise.uniform() < 0.2) c.membrane.thickness = 0;
       thick.emplace_back(c.needle, c.membrane, c.obliquity);
       thin.emplace_back(c.needle, c.membrane);
-      const double at[] = {1e-3 * noise.uniform(), 2e-3, 3e-3}, lower[] = {-0.1, -1 - noise.uniform(), -0.5},
-                   upper[] = {0, 0.3, 0.5};
-      tables.emplace_back(at, lower, upper);
+      const Knot knots[] = {{1e-3 * noise.uniform(), -0.1, 0}, {2e-3, -1 - noise.uniform(), 0.3}, {3e-3, -0.5, 0.5}};
+      profiles.emplace_back(Profile(knots), noise.uniform() < 0.5 ? 0 : 0.5e-3);
       couplings.push_back(test::random_coupling(noise));
       const auto motion =
           test::random_motion(noise, k, thick[i].constants().X + 2 * c.membrane.thickness + 2e-3, line_batch_period);
@@ -54,7 +53,7 @@ struct LineBatchCase {
     if (i % 4 == 2)
       function(thin[i]);
     else if (i % 4 == 3)
-      function(tables[i]);
+      function(profiles[i]);
     else
       function(thick[i]);
   }

@@ -1,0 +1,90 @@
+// core/punctura/model: the law of a profile.
+#include "punctura/model/profile_law.hpp"
+
+#include <cmath>
+
+#include "arguments.hpp"
+#include "bindings.hpp"
+#include "law_bounds.hpp"
+#include "punctura/model/validity.hpp"
+#include "value.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> lower, std::vector<double> upper,
+                                 double thickness, double obliquity) {
+  std::vector<Problem> problems;
+  const std::size_t n = depth.size();
+  for (const auto& [name, values] : {std::pair{"lower", &lower}, std::pair{"upper", &upper}})
+    if (values->size() != n)
+      problems.push_back({name, static_cast<double>(values->size()), "must have one number a knot"});
+  const Field& H = membrane_fields[3];
+  check_field(H, thickness, "", problems);
+  check_field(obliquity_field, obliquity, "", problems);
+  raise_if(problems);
+  std::vector<Knot> knots;
+  for (std::size_t i = 0; i < n; ++i) knots.push_back({depth[i], lower[i], upper[i]});
+  const auto path_of = [](std::size_t i, const char* field) {
+    return std::string(field) + "[" + std::to_string(i) + "]";
+  };
+  check_profile(knots, "depth", path_of, problems);
+  raise_if(problems);
+  return {ProfileLaw(Profile(knots), thickness, std::cos(obliquity)), depth, lower, upper, obliquity};
+}
+
+/// The weights of the knots at all depths, of shape depths.shape + (knots,).
+nb::object weights(const GivenProfileLaw& law, const nb::object& depths) {
+  const Input depth = input(depths, "depth");
+  const std::size_t n = depth.size(), knots = law.depth.size();
+  std::vector<double> all(n * knots);
+  {
+    nb::gil_scoped_release release;
+    const double cos_beta = std::cos(law.obliquity);
+    for (std::size_t i = 0; i < n; ++i)
+      profile_weights<double>(law.depth, law.thickness(), cos_beta, depth.data()[i],
+                              std::span(all).subspan(i * knots, knots));
+  }
+  std::vector<std::size_t> shape;
+  if (!is_one_number(depths)) shape.assign(depth.shape_ptr(), depth.shape_ptr() + depth.ndim());
+  shape.push_back(knots);
+  return to_numpy(std::move(all), shape);
+}
+
+}  // namespace
+
+void bind_profile_law(nb::module_& m) {
+  auto law = nb::class_<GivenProfileLaw>(
+      m, "ProfileLaw",
+      "A law from a profile: straight lines between at most 32 knots, averaged over the path through the wall.\n\n"
+      "No friction before the first knot; constant edges behind the last one. The edges may jump at the first knot,\n"
+      "and at two knots of one depth. K06 (16)");
+  def_bounds(law);
+  def_init(law,
+           {{"depth", "Sequence[float]"},
+            {"lower", "Sequence[float]"},
+            {"upper", "Sequence[float]"},
+            {"thickness", "float", nb::float_(0.0)},
+            {"obliquity", "float", nb::float_(0.0)}},
+           &make_profile_law,
+           "depth: of the knots, m, ascending. lower: phi_I there, N, 0 or less. upper: phi_O, N. thickness: H, m.\n"
+           "obliquity: beta, rad. Raises ConfigurationError.");
+  def_value(law, {"depth", "lower", "upper", "thickness", "obliquity"});
+  const auto knots = [&law](const char* name, auto member, const char* doc) {
+    const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";
+    law.def_prop_ro(
+        name, [member](const GivenProfileLaw& l) { return nb::tuple(nb::cast(l.*member)); }, nb::sig(signature.c_str()),
+        doc);
+  };
+  knots("depth", &GivenProfileLaw::depth, "Of the knots, m");
+  knots("lower", &GivenProfileLaw::lower, "phi_I at the knots, N");
+  knots("upper", &GivenProfileLaw::upper, "phi_O at the knots, N");
+  law.def_prop_ro("thickness", &GivenProfileLaw::thickness, "H, m; 0 gives the profile itself")
+      .def_ro("obliquity", &GivenProfileLaw::obliquity, "beta, rad")
+      .def("weights", &weights, nb::arg("depth"),
+           nb::sig("def weights(self, depth: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
+           "The weights of the knots at depths (m) of any shape: bounds(depth)[0] is weights(depth) @ lower.\n\n"
+           "Returns an array of shape depth.shape + (knots,). K06 (16)");
+}
+
+}  // namespace punctura::bindings
