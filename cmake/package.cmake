@@ -1,5 +1,5 @@
 # A Debian package of what is installed: `cpack -G DEB` in the build folder. docs/c-abi.md
-if(NOT TARGET punctura_c)
+if(NOT TARGET punctura_c OR PUNCTURA_PYTHON)
   return()
 endif()
 set(CPACK_PACKAGE_NAME libpunctura-dev)

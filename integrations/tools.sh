@@ -28,3 +28,10 @@ build_library() {
   library=$build/capi header=$root/capi/include
   export LD_LIBRARY_PATH="$library${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 }
+
+# The motion and the forces of the core with which all integrations compare theirs. Sets: reference, its folder.
+make_reference() {
+  need_module punctura "'.[test]'   (in the root of the project)"
+  reference=$root/build/integrations/reference
+  python3 "$root/integrations/reference.py" "$reference"
+}

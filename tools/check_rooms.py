@@ -38,6 +38,7 @@ ROOMS = (
     "python/punctura/scene",
     "python/punctura/simulation",
     "python/punctura/__init__.py",
+    "python/punctura/fmu",
     "python/punctura/record",
     "python/punctura/events",
     "python/punctura/trace",

@@ -75,6 +75,10 @@ typedef struct punctura_scene punctura_scene;
 /* From the text of a scene file. docs/scenes.md. */
 PUNCTURA_API punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene);
 
+/* From lines PATH = NUMBER and PATH = "WORD", in SI units, with the paths of punctura_scene_set() and
+ * punctura_scene_set_word(). Needs no TOML reader. A membrane and the syringe appear with their first line. */
+PUNCTURA_API punctura_status punctura_scene_from_values(const char* text, size_t size, punctura_scene** scene);
+
 /* From structs. The _init functions set the numbers without default to NaN and all others to their default. Call them
  * as punctura_setup_init(&setup, sizeof setup). */
 typedef struct punctura_setup {

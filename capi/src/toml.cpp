@@ -127,7 +127,7 @@ const toml::table* table_at(const toml::table& file, std::string_view name, bool
   return node ? node->as_table() : nullptr;
 }
 
-void read(const toml::table& file, Scene& scene, std::vector<Problem>& problems) {
+void read_file(const toml::table& file, Scene& scene, std::vector<Problem>& problems) {
   const toml::array* membranes = file.get("membrane") ? file.get("membrane")->as_array() : nullptr;
   for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.push_back(empty_membrane());
   scene.syringe = empty_syringe();  // so that for_each_value() visits all numbers
@@ -175,7 +175,7 @@ punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura
     }
     auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
     std::vector<punctura::Problem> problems;
-    read(file.table(), made->scene, problems);
+    read_file(file.table(), made->scene, problems);
     if (!problems.empty()) return fail(std::move(problems));
     *scene = made.release();
     return ok;

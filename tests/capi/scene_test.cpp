@@ -1,5 +1,6 @@
 // The C ABI: scenes by path and from the text of a scene file, and their problems.
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
@@ -167,4 +168,37 @@ TEST_CASE("C ABI: numbers and words of a scene by their path; every problem is r
   punctura_servo* servo = nullptr;
   CHECK(punctura_servo_new(scene.get(), &limits, &servo) == PUNCTURA_BAD_SCENE);
   CHECK(std::string(punctura_last_error()).find("limits.ramp_time") != std::string::npos);
+}
+
+TEST_CASE("C ABI: a scene from lines is the scene from a file; wrong lines are named") {
+  const auto file = parsed(capi_text);
+  std::string lines = "# a comment\nname = \"two\"\nneedle.direction = \"motion\"\r\n\nservo.solver = \"paper\"\n";
+  for (int i = 0; i < punctura_scene_field_count(file.get()); ++i) {
+    punctura_field field;
+    field.struct_size = sizeof field;
+    REQUIRE(punctura_scene_field(file.get(), i, &field) == PUNCTURA_OK);
+    char value[40];
+    std::snprintf(value, sizeof value, "%.17g", field.value);
+    lines += std::string(field.path) + " = " + value + "\n";
+  }
+  const auto from_lines = [](const std::string& text, punctura_scene** to) {
+    return punctura_scene_from_values(text.data(), text.size(), to);
+  };
+  const auto scene = made<SceneHandle>([&](auto** to) { return from_lines(lines, to); });
+  CHECK(punctura_scene_field_count(scene.get()) == punctura_scene_field_count(file.get()));
+  for (int i = 0; i < punctura_scene_field_count(file.get()); ++i) {
+    punctura_field a, b;
+    a.struct_size = b.struct_size = sizeof a;
+    REQUIRE(punctura_scene_field(file.get(), i, &a) == PUNCTURA_OK);
+    REQUIRE(punctura_scene_field(scene.get(), i, &b) == PUNCTURA_OK);
+    CHECK(std::string(a.path) == b.path);
+    CHECK(a.value == b.value);
+  }
+  punctura_scene* none = nullptr;
+  CHECK(from_lines(lines + "membrane[0].frictoin = 1\n", &none) == PUNCTURA_BAD_SCENE);
+  CHECK(std::string(punctura_last_error()).find("frictoin") != std::string::npos);
+  CHECK(from_lines(lines + "membrane[99999999999].friction = 1\nname\nx = 1e\n", &none) == PUNCTURA_BAD_SCENE);
+  CHECK(punctura_problem_count() == 3);
+  CHECK(from_lines("", &none) == PUNCTURA_BAD_SCENE);
+  CHECK(none == nullptr);
 }

@@ -1,0 +1,121 @@
+"""An FMU has the variables of its scene, and its binary gives the forces of the core."""
+
+import ctypes
+import re
+import sys
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.cli import main
+from punctura.fmu import export_fmu
+from punctura.fmu.units import base_units
+from punctura.fmu.variables import variables
+
+SCENE = "k06-fig12"
+
+
+def names_of(version, tree):
+    listed = tree.find("ModelVariables")
+    return {variable.get("name"): variable for variable in listed}
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_the_description_has_every_variable_of_the_scene_with_its_value_and_unit(tmp_path, version):
+    file = export_fmu(SCENE, tmp_path / "a needle.fmu", version=version)
+    scene = pn.load_scene(SCENE)
+    with zipfile.ZipFile(file) as archive:
+        tree = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        names = archive.namelist()
+    assert tree.get("fmiVersion") == f"{version}.0"
+    identifier = tree.find("CoSimulation").get("modelIdentifier")
+    assert identifier == "a_needle"
+    assert any(re.fullmatch(rf"binaries/[^/]+/{identifier}\.(so|dylib|dll)", name) for name in names)
+    listed = names_of(version, tree)
+    references = [variable.get("valueReference") for variable in listed.values()]
+    assert len(set(references)) == len(references)
+    units = {unit.get("name") for unit in tree.find("UnitDefinitions")}
+    for field in scene.fields():
+        if field.path.startswith("display"):
+            continue
+        variable = listed[field.path]
+        start = variable if version == 3 else variable[0]
+        assert float(start.get("start")) == field.value
+        assert start.get("unit", "-") == field.unit and (field.unit == "-" or field.unit in units)
+
+
+def instance(folder: Path, file: Path):
+    """An instance of FMI 3.0 by hand, in step mode, and its library."""
+    with zipfile.ZipFile(file) as archive:
+        archive.extractall(folder)
+    (binary,) = (folder / "binaries").rglob("*.*")
+    library = ctypes.CDLL(str(binary))
+    made = library.fmi3InstantiateCoSimulation
+    made.restype = ctypes.c_void_p
+    no = ctypes.c_bool(False)
+    resources = str(folder / "resources").encode()
+    instance = ctypes.c_void_p(made(b"", b"", resources, no, no, no, no, None, ctypes.c_size_t(0), None, None, None))
+    assert instance.value
+    return library, instance
+
+
+def test_the_binary_gives_the_forces_of_the_core(tmp_path):
+    scene = pn.load_scene(SCENE)
+    library, needle = instance(tmp_path, export_fmu(scene, tmp_path / "needle.fmu"))
+    period = ctypes.c_double(1 / scene.servo.rate)
+    no, zero, six = ctypes.c_bool(False), ctypes.c_double(0), ctypes.c_size_t(6)
+    assert library.fmi3EnterInitializationMode(needle, no, zero, zero, no, zero) == 0
+    assert library.fmi3ExitInitializationMode(needle) == 0
+    depth = np.linspace(-1e-3, 9e-3, 400)
+    axis = np.array([0.1, -1.0, 0.0])
+    positions = depth[:, None] * axis
+    forces = np.empty((400, 3))
+    inputs, outputs = (ctypes.c_uint32 * 6)(*range(1, 7)), (ctypes.c_uint32 * 3)(7, 8, 9)
+    out = [ctypes.byref(ctypes.c_bool()) for _ in range(3)]
+    last = ctypes.c_double()
+    for k, p in enumerate(positions):
+        values = (ctypes.c_double * 6)(*p, *axis)
+        assert library.fmi3SetFloat64(needle, inputs, six, values, six) == 0
+        time = ctypes.c_double(k / scene.servo.rate)
+        assert library.fmi3DoStep(needle, time, period, no, *out, ctypes.byref(last)) == 0
+        row = (ctypes.c_double * 3)()
+        assert library.fmi3GetFloat64(needle, outputs, ctypes.c_size_t(3), row, ctypes.c_size_t(3)) == 0
+        forces[k] = row
+    library.fmi3FreeInstance(needle)
+    assert np.array_equal(forces, pn.Insertion(scene).run(positions, axis).force)
+    assert np.abs(forces).max() > 0.5
+
+
+def test_the_verb_writes_an_fmu_and_says_what_is_wrong(tmp_path, capsys):
+    file = tmp_path / "x.fmu"
+    main_status(["export-fmu", SCENE, "-o", str(file), "--fmi", "2"], 0)
+    assert file.is_file() and "FMI 2.0" in capsys.readouterr().out
+    main_status(["export-fmu", SCENE, "-o", str(tmp_path / "x.zip")], 1)
+    assert "must end in .fmu" in capsys.readouterr().err
+
+
+def main_status(arguments, status):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+        sys.exit(0)
+    assert (end.value.code or 0) == status
+
+
+def test_the_same_scene_gives_the_same_file(tmp_path):
+    a, b = (export_fmu(SCENE, tmp_path / folder / "n.fmu").read_bytes() for folder in made_folders(tmp_path))
+    assert a == b
+
+
+def made_folders(folder):
+    for name in ("a", "b"):
+        (folder / name).mkdir()
+        yield name
+
+
+@pytest.mark.parametrize("name", pn.scene_names())
+def test_every_unit_of_a_ready_scene_is_known(name):
+    assert all(base_units(variable.unit) for variable in variables(pn.load_scene(name)) if variable.unit)
+    assert base_units("Pa s/m^3") == {"kg": 1, "m": -4, "s": -1}
