@@ -3,6 +3,7 @@
 
 all_steps="tree format types web cpp asan tsan consumer examples python docs page"
 fast_steps="tree format types web cpp python"
+named_steps="tidy statistics integrations"  # they run only by name
 
 choose_steps() {
   local name
@@ -10,14 +11,14 @@ choose_steps() {
   case ${1:-} in
     "") return 0 ;;
     --fast) steps=$fast_steps ;;
-    --list) echo "$all_steps tidy"; exit 0 ;;
+    --list) echo "$all_steps $named_steps"; exit 0 ;;
     -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$root/test"; exit 0 ;;
     *)
       steps=$*
       for name in "$@"; do
-        case " $all_steps tidy " in
+        case " $all_steps $named_steps " in
           *" $name "*) ;;
-          *) fail "No step is called '$name'. The steps: $all_steps tidy" ;;
+          *) fail "No step is called '$name'. The steps: $all_steps $named_steps" ;;
         esac
       done
       ;;
@@ -29,13 +30,13 @@ run_steps() {
   cd "$root"
   for name in $steps; do
     log=build/log/test-$name.log start=$SECONDS
-    printf '  %-9s ' "$name"
+    printf '  %-12s ' "$name"
     code=0
     ("step_$name") >"$log" 2>&1 </dev/null || code=$?
     if [ $code -eq 0 ]; then
       passed=$((passed + 1))
       printf 'passed %4d s   %s\n' $((SECONDS - start)) "$(closing_line "$log")"
-      sed -n 's/^note: /            /p' "$log"
+      sed -n 's/^note: /               /p' "$log"
     else
       failed="$failed $name" count=$((count + 1))
       printf 'FAILED %4d s   the end of %s:\n' $((SECONDS - start)) "$log"
@@ -111,19 +112,22 @@ step_cpp() {
 # random cases, which reach the same code, because sanitizers are slow.
 step_asan() {
   compile asan all punctura_headers || return
-  export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
+  export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan
 }
 step_tsan() {
-  local run=build/tsan/tests/runtime/runtime_tests said
   compile tsan runtime_tests || return
-  export PUNCTURA_CASES="${PUNCTURA_CASES:-20}"
+  tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests")
+  export PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.
-  said=$($run --list-test-cases 2>&1) || case $said in
-    *"unexpected memory mapping"*) run="setarch $(uname -m) -R $run" ;;
+  local said
+  said=$("${tsan_tests[@]}" --list-test-cases 2>&1) || case $said in
+    *"unexpected memory mapping"*) tsan_tests=(setarch "$(uname -m)" -R "${tsan_tests[@]}") ;;
   esac
-  $run
+  side_by_side tsan_makers tsan_others
 }
+tsan_makers() { "${tsan_tests[@]}" --source-file='*force_dimension*,*haply*'; }
+tsan_others() { "${tsan_tests[@]}" --source-file-exclude='*force_dimension*,*haply*'; }
 
 # An external project: with the core installed, with core, runtime and C library installed, with the Python package,
 # and with Punctura as a subfolder.
@@ -204,5 +208,15 @@ step_examples() {
   done
 }
 
-# Runs only by name: it is slow, and its findings are a matter of taste.
+# The steps below run only by name.
+
+# Slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
+
+# Statistical checks with many seeds, which are too slow for every run.
+step_statistics() { python -m pytest -n 2 --durations=15 -m statistics; }
+
+# Each environment that Punctura plugs into, with its own tool chain: integrations/README.md.
+step_integrations() {
+  if [ -f integrations/run.sh ]; then bash integrations/run.sh; else echo "note: there is no integrations/run.sh"; fi
+}

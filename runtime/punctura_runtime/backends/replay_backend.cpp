@@ -5,7 +5,7 @@ namespace punctura {
 
 namespace {
 
-BackendStatus status() {
+BackendStatus replay_status() {
   return {"replay",
           BackendStatus::State::no_device,
           "A recorded motion in place of a hand. It needs a recording: punctura run SCENE --headless --device "
@@ -14,7 +14,7 @@ BackendStatus status() {
 }
 
 /// Recordings are Parquet and Arrow files, which only Python reads.
-std::shared_ptr<Device> open(const OpenOptions&) {
+std::shared_ptr<Device> open_replay(const OpenOptions&) {
   throw DeviceError(
       "a recording is opened by `--device replay:FILE.parquet` or punctura.record.replay_device(FILE) in Python; "
       "in C++, give its samples to ReplayDevice");
@@ -22,6 +22,6 @@ std::shared_ptr<Device> open(const OpenOptions&) {
 
 }  // namespace
 
-const Backend backends::replay{"replay", &status, &open};
+const Backend backends::replay{"replay", &replay_status, &open_replay};
 
 }  // namespace punctura

@@ -6,11 +6,11 @@ namespace punctura {
 
 namespace {
 
-BackendStatus status() {
+BackendStatus simulated_status() {
   return {"simulated", BackendStatus::State::available, "A simulated PHANTOM Omni: no hardware.", {"PHANTOM Omni"}};
 }
 
-std::shared_ptr<Device> open(const OpenOptions& how) {
+std::shared_ptr<Device> open_simulated(const OpenOptions& how) {
   SimulatedOptions options;
   options.rate = how.rate;
   options.realtime = how.realtime;
@@ -19,6 +19,6 @@ std::shared_ptr<Device> open(const OpenOptions& how) {
 
 }  // namespace
 
-const Backend backends::simulated{"simulated", &status, &open};
+const Backend backends::simulated{"simulated", &simulated_status, &open_simulated};
 
 }  // namespace punctura

@@ -3,13 +3,13 @@
 #include <doctest/doctest.h>
 
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/scene/build.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-const Vector3d down(0, -1, 0);
 PlacedMembrane at_depth(double depth, double thickness) {
   return {"wall", paper_membrane(thickness), {0, -depth, 0}, {0, -1, 0}};
 }

@@ -10,6 +10,7 @@
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/insertion/insertion.hpp"
 #include "punctura/state/archive.hpp"
 
@@ -22,7 +23,6 @@ using Site = SiteOf<ThickLaw>;
 using Fixed = InsertionOf<ThickLaw, SampledCoupling<double>, FixedStorage<3>>;
 static_assert(std::is_trivially_copyable_v<FixedVector<Fixed::Proxy, 3>>);
 
-constexpr double T = 1 / 1600.0;
 const SampledCoupling<double> coupling({400, 1}, T);
 
 std::vector<Site> walls(std::size_t n) {

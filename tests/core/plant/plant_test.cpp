@@ -2,12 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include "../support/tick.hpp"
 #include "punctura/plant/motion.hpp"
 
 using namespace punctura;
+using namespace punctura::test;
 
 namespace {
-constexpr double T = 1 / 1600.0;
 const Desired origin{Vector3d::Zero(), Vector3d::Zero()};
 const DeviceDynamics frictionless{0.045, 0, 0, 3.3};
 const Hand steady{0.05, 4, 500, 0, 9};

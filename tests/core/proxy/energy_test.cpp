@@ -8,6 +8,7 @@
 
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/insertion/insertion.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 
@@ -15,11 +16,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-constexpr double T = 1 / 1600.0;
-
-Vector3d random_direction(Noise& noise) {
-  return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized();
-}
 
 struct Cycle {
   double given = 0;      ///< sum f.dp, J: the work on the hand

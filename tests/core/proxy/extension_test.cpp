@@ -6,6 +6,7 @@
 #include "../support/given_law.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/proxy/mixed_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
@@ -14,8 +15,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-constexpr double T = 1 / 1600.0;
 
 static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<ThickLaw>);
 

@@ -7,6 +7,7 @@
 #include "../support/cases.hpp"
 #include "../support/four_lanes.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/paper.hpp"
@@ -16,7 +17,6 @@ using namespace punctura::test;
 
 namespace {
 
-constexpr double T = 1 / 1600.0;
 constexpr std::size_t ticks = 1500;
 
 template <typename Mask>

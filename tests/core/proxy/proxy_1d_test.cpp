@@ -4,13 +4,10 @@
 
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
-
-namespace {
-constexpr double T = 1 / 1600.0;
-}
 
 TEST_CASE("the forces of K06 Fig. 10 are correct: peak, plateau after the pop, withdrawal") {
   const ThickLaw law(paper_needle, paper_membrane(1e-4));

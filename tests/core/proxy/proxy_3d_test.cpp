@@ -4,22 +4,17 @@
 
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-constexpr double T = 1 / 1600.0;
-const Vector3d down(0, -1, 0);
 const BasicCoupling<double> coupling{400, 1};
 
 Proxy3d<ThickLaw> proxy_at_origin(Solver solver, double thickness = 1e-3) {
   return {ThickLaw(paper_needle, paper_membrane(thickness)), Vector3d::Zero(), down, coupling, T, solver};
-}
-
-Vector3d random_direction(Noise& noise) {
-  return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized();
 }
 }  // namespace
 

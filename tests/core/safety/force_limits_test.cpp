@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "../support/cases.hpp"
+#include "../support/tick.hpp"
 
 using namespace punctura;
+using namespace punctura::test;
 using punctura::test::cases;
 
 namespace {
-constexpr double T = 1 / 1600.0;
 ForceLimiter ramped(const ForceLimits& limits = {}) {
   ForceLimiter limiter(limits, T);
   for (int k = 0; k < 1600; ++k) limiter.step(Vector3d::Zero());

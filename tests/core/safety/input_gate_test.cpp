@@ -5,10 +5,12 @@
 #include <limits>
 #include <string>
 
+#include "../support/tick.hpp"
+
 using namespace punctura;
+using namespace punctura::test;
 
 namespace {
-constexpr double T = 1 / 1600.0;
 DeviceSample sample(std::uint64_t k) { return {k, static_cast<double>(k) * T, {0, 1e-3, 0}, {0, -1, 0}, 0, true}; }
 
 /// The result of a gate for a second sample, after a valid first sample.

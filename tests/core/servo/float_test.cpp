@@ -3,6 +3,7 @@
 
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
 
@@ -10,8 +11,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-constexpr double T = 1 / 1600.0;
 
 static_assert(std::same_as<decltype(build<float>(Scene{})), ServoStepF>);
 static_assert(std::same_as<decltype(build(Scene{})), ServoStep> && std::same_as<ServoStep::Scalar, double>);

@@ -9,6 +9,7 @@
 
 #include "../support/cases.hpp"
 #include "../support/paper_scene.hpp"
+#include "../support/tick.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/state/archive.hpp"
 
@@ -16,16 +17,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-constexpr double T = 1 / 1600.0;
-
-/// Three walls, 4 mm apart, with 1.5 N at most.
-Scene three_walls(double force_scale = 1, bool automatic = false) {
-  Scene scene = paper_scene();
-  scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -4e-3, 0}, {0, -1, 0}});
-  scene.membranes.push_back({"third", paper_membrane(0.2e-3), {0, -8e-3, 0}, {0, -1, 0}});
-  scene.display = {force_scale, automatic};
-  return scene;
-}
 
 /// A tip that waits in front until the ramp is over, and then moves in and out, deep through all walls.
 double strokes(std::uint64_t k) {

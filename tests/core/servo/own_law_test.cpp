@@ -37,7 +37,7 @@ double cut_of(const OwnStep& step) {
 }
 
 /// Moves the tip along y at 20 mm/s, one healthy sample per tick. It checks that no tick allocates memory.
-struct Driver {
+struct CutDriver {
   double y = 2e-3;
   std::uint64_t k = 0;
 
@@ -64,7 +64,7 @@ struct Driver {
 TEST_CASE("gate, ramp, fault, reset and a new scene work with a law with memory") {
   OwnStep step = build<double>(wall_and_cut(), own_law);
   auto model = build_insertion<double>(wall_and_cut(), own_law);
-  Driver hand;
+  CutDriver hand;
 
   // disarmed: the model runs, and the device gets no force
   hand.move_to(step, 1e-3, [&](const Snapshot& s) {
@@ -126,7 +126,7 @@ TEST_CASE("the peak limit acts on the force of a custom law") {
   limits.max_force = 0.5;
   OwnStep step = build<double>(wall_and_cut(), own_law, {}, limits);
   step.arm();
-  Driver hand;
+  CutDriver hand;
   const Snapshot last = hand.move_to(step, -10e-3);
   CHECK(last.model_force[1] > 1);
   CHECK(std::hypot(last.force[0], last.force[1], last.force[2]) == doctest::Approx(0.5));

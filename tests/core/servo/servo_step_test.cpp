@@ -9,6 +9,7 @@
 #include "../support/allocations.hpp"
 #include "../support/cases.hpp"
 #include "../support/paper_scene.hpp"
+#include "../support/tick.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
@@ -29,7 +30,6 @@ static_assert(noexcept(std::declval<ForceLimiter&>().step(std::declval<const Vec
 static_assert(noexcept(std::declval<InputGate&>().step(std::declval<const DeviceSample&>())));
 
 namespace {
-const std::array<double, 3> zero{0, 0, 0};
 
 /// Moves the tip of a servo step along y, one reading per tick.
 class Driver {
@@ -182,13 +182,6 @@ TEST_CASE("the snapshot contains the whole tick") {
 }
 
 namespace {
-/// Three walls, 4 mm apart.
-Scene three_walls() {
-  auto scene = paper_scene();
-  scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -4e-3, 0}, {0, -1, 0}});
-  scene.membranes.push_back({"third", paper_membrane(0.2e-3), {0, -8e-3, 0}, {0, -1, 0}});
-  return scene;
-}
 Scene without(Scene scene, std::ptrdiff_t i) {
   scene.membranes.erase(scene.membranes.begin() + i);
   return scene;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../support/paper_scene.hpp"
+#include "../support/tick.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/state/archive.hpp"
 #include "punctura/syringe/thumb.hpp"
@@ -15,7 +16,7 @@ using namespace punctura::test;
 
 namespace {
 
-constexpr double T = 1 / 1600.0, wall = 6e-3;
+constexpr double wall = 6e-3;
 
 /// A wall that takes no liquid, thicker than the opening is long, and an open space behind it.
 Scene with_syringe() {

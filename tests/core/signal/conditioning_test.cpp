@@ -6,13 +6,12 @@
 
 #include "../support/allocations.hpp"
 #include "../support/encoder.hpp"
+#include "../support/tick.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-constexpr double T = 1 / 1600.0;
 
 /// The conditioned position of a motion along y.
 class Conditioned {

@@ -7,6 +7,7 @@
 
 #include "../support/encoder.hpp"
 #include "../support/paper_scene.hpp"
+#include "../support/tick.hpp"
 #include "punctura/plant/experiment.hpp"
 
 using namespace punctura;
@@ -14,9 +15,7 @@ using namespace punctura::test;
 
 namespace {
 
-constexpr double T = 1 / 1600.0;
 constexpr double allowed = 0.016;  // N rms from tick to tick
-const Vector3d down(0, -1, 0);
 
 Scene scene_with(Conditioning how, Solver solver, double low_pass = 300, double thickness = 1e-3) {
   Scene scene = paper_scene(thickness, solver);

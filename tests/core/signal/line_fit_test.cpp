@@ -5,12 +5,14 @@
 #include <random>
 
 #include "../support/encoder.hpp"
+#include "../support/tick.hpp"
 
 using namespace punctura;
+using namespace punctura::test;
 using test::count, test::encoder;
 
 namespace {
-constexpr double T = 1 / 1600.0, window = 0.010;
+constexpr double window = 0.010;
 }
 
 TEST_CASE("the line fit follows a steady motion of any speed without lag") {

@@ -9,6 +9,7 @@
 
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/proxy/mixed_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
@@ -17,8 +18,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-constexpr double T = 1 / 1600.0;
 
 Scene two_membranes() {
   Scene scene = paper_scene();

@@ -4,12 +4,17 @@
 #include <cmath>
 
 #include "punctura/model/thick_law.hpp"
+#include "punctura/model/vector3.hpp"
 #include "punctura/plant/noise.hpp"
 
 namespace punctura::test {
 
 inline double between(Noise& noise, double low, double high) { return low + (high - low) * noise.uniform(); }
 inline double between_log(Noise& noise, double low, double high) { return low * std::pow(high / low, noise.uniform()); }
+
+inline Vector3d random_direction(Noise& noise) {
+  return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized();
+}
 
 struct LawCase {
   Needle needle;

@@ -8,6 +8,7 @@
 
 #include "../support/cases.hpp"
 #include "../support/random_motion.hpp"
+#include "../support/tick.hpp"
 #include "punctura/state/archive.hpp"
 
 using namespace punctura;
@@ -15,7 +16,6 @@ using namespace punctura::test;
 
 namespace {
 
-constexpr double T = 1 / 1600.0;
 constexpr double mL = 1e-6, kPa = 1e3;
 constexpr Outlet closed{1e18, 0}, open{0, 0};
 

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/support/allocations.hpp"
+#include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
 
@@ -13,7 +14,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-const Tick::Force zero{0, 0, 0};
 
 DeviceInfo at(double rate) {
   DeviceInfo info;

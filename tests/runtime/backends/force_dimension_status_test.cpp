@@ -13,7 +13,7 @@ using namespace punctura::test;
 
 namespace {
 
-using State = BackendStatus::State;
+using BackendState = BackendStatus::State;
 
 struct Override : Environment {
   explicit Override(const char* library) : Environment("PUNCTURA_DRD_LIBRARY", library) {}
@@ -41,7 +41,7 @@ bool says(const BackendStatus& status, const std::string& words) {
 TEST_CASE("a library that is not there: where it was looked for, and what to do") {
   const Override library("/nowhere/libdrd.so.3");
   const auto missing = status();
-  CHECK(missing.state == State::library_not_found);
+  CHECK(missing.state == BackendState::library_not_found);
   CHECK(says(missing, "/nowhere/libdrd.so.3"));
   CHECK(says(missing, "PUNCTURA_DRD_LIBRARY"));
 }
@@ -60,7 +60,7 @@ TEST_CASE("without an override the library is looked for in the SDK, then elsewh
 TEST_CASE("a library that lacks functions: which") {
   const Override library(PUNCTURA_FAKE_DRD_OLD);
   const auto old = status();
-  CHECK(old.state == State::symbol_missing);
+  CHECK(old.state == BackendState::symbol_missing);
   CHECK(says(old, "dhdGetButtonMask, dhdSetForceAndTorqueAndGripperForce"));
   CHECK(says(old, PUNCTURA_FAKE_DRD_OLD));
   CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("dhdGetButtonMask"), DeviceError);
@@ -70,25 +70,25 @@ TEST_CASE("no device, one that somebody else has, one that needs calibration, an
   fake_drd::Settings settings;
   settings.devices = 0;
   const auto none = status_with(settings);
-  CHECK(none.state == State::no_device);
+  CHECK(none.state == BackendState::no_device);
   CHECK(says(none, "udev"));
 
   settings.devices = 1;
   settings.in_use = 1;
   const auto taken = status_with(settings);
-  CHECK(taken.state == State::in_use);
+  CHECK(taken.state == BackendState::in_use);
   CHECK(says(taken, "Another program"));
 
   settings.in_use = 0;
   settings.calibrated = 0;
   const auto lost = status_with(settings);
-  CHECK(lost.state == State::needs_calibration);
+  CHECK(lost.state == BackendState::needs_calibration);
   CHECK(says(lost, "calibration pit"));
   CHECK(lost.devices == std::vector<std::string>{"omega.3 12345"});
 
   settings.calibrated = 1;
   const auto there = status_with(settings);
-  CHECK(there.state == State::available);
+  CHECK(there.state == BackendState::available);
   CHECK(there.devices == std::vector<std::string>{"omega.3 12345"});
   CHECK(says(there, PUNCTURA_FAKE_DRD));
   CHECK(fake().state().open == 0);
@@ -103,7 +103,7 @@ TEST_CASE("a device that this program has open is told as that, and is not close
   const auto device = open_device("force_dimension", {2000, "omega.3 12345", ""});
   CHECK(device->info().rate == 2000);
   const auto taken = status();
-  CHECK(taken.state == State::in_use);
+  CHECK(taken.state == BackendState::in_use);
   CHECK(says(taken, "This program"));
   CHECK(fake().state().open == 1);
   CHECK_THROWS_AS(open_device("force_dimension"), DeviceError);
@@ -115,7 +115,7 @@ TEST_CASE("beside a device that this program has open another can be looked for,
   settings.devices = 2;
   fake().reset(&settings);
   const auto device = open_device("force_dimension");
-  CHECK(status().state == State::in_use);
+  CHECK(status().state == BackendState::in_use);
   CHECK(fake().state().open == 1);
   CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("open in this program"), DeviceError);
   CHECK(fake().state().open == 1);

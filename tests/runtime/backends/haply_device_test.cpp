@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/support/paper_scene.hpp"
+#include "core/support/tick.hpp"
 #include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/haply_fake.hpp"
@@ -13,8 +14,6 @@ using haply::HaplyDevice;
 using haply::HaplyOptions;
 
 namespace {
-
-const std::array<double, 3> zero{0, 0, 0};
 
 /// As fast as answers come; patient, since a busy machine is no fault of the service's.
 HaplyOptions unhurried(const HaplyFake& fake) {

@@ -77,7 +77,7 @@ TEST_CASE("numbers are read to the last bit, whatever the locale; outside the ra
 }
 
 TEST_CASE("a state is read whatever the order of its fields, and whatever else there is") {
-  State state;
+  haply::State state;
   CHECK(read_state(R"({"new":{"x":[1,2]},"session_id":7,"inverse3":[
     {"state":{"mode":"x","cursor_position":{"z":0.15,"x":0.01,"y":-0.12,"w":9},)"
                    R"("current_cursor_force":{"x":0,"y":0,"z":1.5}},
@@ -111,7 +111,7 @@ TEST_CASE("a state is read whatever the order of its fields, and whatever else t
 }
 
 TEST_CASE("what is missing or of another kind is missing; what is not JSON is refused whole") {
-  State state;
+  haply::State state;
   for (const char* text : {"{}", R"({"inverse3":null})", R"({"inverse3":{}})", R"({"inverse3":[]})"}) {
     CHECK(read_state(text, state));
     CHECK(state.find("") == nullptr);

@@ -5,11 +5,11 @@
 #include "runtime/support/environment.hpp"
 
 using namespace punctura;
-using State = BackendStatus::State;
+using BackendState = BackendStatus::State;
 
 namespace {
 
-const char* const fake = FAKE_HD;
+const char* const fake_library = FAKE_HD;
 
 LibrarySearch search(std::vector<std::string> places) {
   return {"The library", "PUNCTURA_TEST_LIBRARY", std::move(places), "", "Install it", "Install a newer one"};
@@ -22,10 +22,10 @@ bool says(const LoadedLibrary& loaded, const char* words) { return loaded.detail
 TEST_CASE("the first library that loads is taken, with its functions; an optional one may be missing") {
   void (*present)() = nullptr;
   void (*absent)() = present;
-  const auto loaded = load_makers_library(search({"/nowhere/a.so", fake}), "",
+  const auto loaded = load_makers_library(search({"/nowhere/a.so", fake_library}), "",
                                           {{"hdBeginFrame", present}, {"hdNothing", absent, Symbol::optional}});
-  CHECK(loaded.state == State::available);
-  CHECK(loaded.path == fake);
+  CHECK(loaded.state == BackendState::available);
+  CHECK(loaded.path == fake_library);
   CHECK(loaded.detail == "");
   CHECK(bool(present));
   CHECK_FALSE(bool(absent));
@@ -33,8 +33,8 @@ TEST_CASE("the first library that loads is taken, with its functions; an optiona
 
 TEST_CASE("a library that lacks functions is refused, with their names and what to do") {
   void (*absent)() = nullptr;
-  const auto loaded = load_makers_library(search({fake}), "", {{"hdNothing", absent}, {"hdNeither", absent}});
-  CHECK(loaded.state == State::symbol_missing);
+  const auto loaded = load_makers_library(search({fake_library}), "", {{"hdNothing", absent}, {"hdNeither", absent}});
+  CHECK(loaded.state == BackendState::symbol_missing);
   CHECK(says(loaded,
              "lacks hdNothing, hdNeither: it is too old, or another library. Install a newer one, or name the "
              "library in PUNCTURA_TEST_LIBRARY."));
@@ -42,17 +42,17 @@ TEST_CASE("a library that lacks functions is refused, with their names and what 
 
 TEST_CASE("without a library the message lists all places and what to do") {
   const auto loaded = load_makers_library(search({"/nowhere/a.so", "/nowhere/b.so"}), "", {});
-  CHECK(loaded.state == State::library_not_found);
+  CHECK(loaded.state == BackendState::library_not_found);
   CHECK(loaded.detail ==
         "The library was not found: looked for /nowhere/a.so, /nowhere/b.so. Install it, or name the library in "
         "PUNCTURA_TEST_LIBRARY.");
 }
 
 TEST_CASE("a library that is named is the only one tried: by the caller before the variable") {
-  CHECK(load_makers_library(search({fake}), "/nowhere/c.so", {}).state == State::library_not_found);
+  CHECK(load_makers_library(search({fake_library}), "/nowhere/c.so", {}).state == BackendState::library_not_found);
   const test::Environment named("PUNCTURA_TEST_LIBRARY", "/nowhere/d.so");
-  const auto missing = load_makers_library(search({fake}), "", {});
-  CHECK(missing.state == State::library_not_found);
+  const auto missing = load_makers_library(search({fake_library}), "", {});
+  CHECK(missing.state == BackendState::library_not_found);
   CHECK(says(missing, "/nowhere/d.so does not load: "));
-  CHECK(load_makers_library(search({}), fake, {}).state == State::available);
+  CHECK(load_makers_library(search({}), fake_library, {}).state == BackendState::available);
 }

@@ -1,5 +1,6 @@
 // What goes wrong on the HD device, and what the motors do then.
 #include "core/support/paper_scene.hpp"
+#include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/fake_hd.hpp"
 
@@ -8,7 +9,6 @@ using namespace punctura::test;
 
 namespace {
 
-const std::array<double, 3> zero{0, 0, 0};
 constexpr unsigned long long moment = 1800, for_ever = ~0ull, ten_ms = 16;
 
 /// In the tissue at tick `moment`, with force on.

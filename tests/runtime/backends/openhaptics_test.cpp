@@ -15,7 +15,7 @@
 
 using namespace punctura;
 using namespace punctura::test;
-using State = BackendStatus::State;
+using BackendState = BackendStatus::State;
 
 namespace {
 
@@ -59,7 +59,7 @@ std::string all_statements(const Device& device) {
 
 TEST_CASE("each state of the back-end is told in words") {
   const auto available = status_with([](auto&) {});
-  CHECK(available.state == State::available);
+  CHECK(available.state == BackendState::available);
   CHECK(says(available.detail, "Simulated Omni, serial number F-0001"));
   CHECK(available.devices == std::vector<std::string>{"Default Device"});
 
@@ -67,44 +67,44 @@ TEST_CASE("each state of the back-end is told in words") {
     s.name = "Left";
     s.null_opens = 0;
   });
-  CHECK(none.state == State::no_device);
+  CHECK(none.state == BackendState::no_device);
   CHECK(says(none.detail, "\"Default PHANToM\""));
 
   const auto used = status_with([](auto& s) { s.init_error = 0x301; });
-  CHECK(used.state == State::in_use);
+  CHECK(used.state == BackendState::in_use);
   CHECK(says(used.detail, "other program"));
 
   const auto licence = status_with([](auto& s) { s.init_error = 0x600; });
-  CHECK(licence.state == State::fault);
+  CHECK(licence.state == BackendState::fault);
   CHECK(says(licence.detail, "licence"));
 
   const auto uncalibrated = status_with([](auto& s) { s.calibration = 0x5002; });
-  CHECK(uncalibrated.state == State::needs_calibration);
+  CHECK(uncalibrated.state == BackendState::needs_calibration);
   CHECK(says(uncalibrated.detail, "inkwell"));
 }
 
 TEST_CASE("a library that is not there is told with all the places where it was looked for") {
   const auto status = backends::openhaptics.status();
-  if (status.state == State::library_not_found)  // on a machine with OpenHaptics it is something else
+  if (status.state == BackendState::library_not_found)  // on a machine with OpenHaptics it is something else
     for (const auto& place : hd::usual_places()) CHECK(says(status.detail, place.c_str()));
 
   const Environment named("PUNCTURA_HD_LIBRARY", "/nowhere/libHD.so");
   const auto nowhere = backends::openhaptics.status();
-  CHECK(nowhere.state == State::library_not_found);
+  CHECK(nowhere.state == BackendState::library_not_found);
   CHECK(says(nowhere.detail, "/nowhere/libHD.so"));
 }
 
 TEST_CASE("a file that is there but is no library is told with the reason") {
   const NoLibrary file;
   const auto loaded = hd::load(file.path.string().c_str());
-  CHECK(loaded.state == State::library_not_found);
+  CHECK(loaded.state == BackendState::library_not_found);
   CHECK(says(loaded.detail, "does not load"));
 }
 
 TEST_CASE("functions that the library lacks are named, all of them") {
   const Environment library("PUNCTURA_HD_LIBRARY", FAKE_HD_INCOMPLETE);
   const auto status = backends::openhaptics.status();
-  CHECK(status.state == State::symbol_missing);
+  CHECK(status.state == BackendState::symbol_missing);
   CHECK(says(status.detail, "hdGetString, hdUpdateCalibration"));
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("one device at a time is open in a process") {
   const OpenHapticsDevice first(with_fake_hd());
   CHECK(says(refusal(with_fake_hd()), "already open in this process"));
   const Environment library("PUNCTURA_HD_LIBRARY", FAKE_HD);
-  CHECK(backends::openhaptics.status().state == State::in_use);
+  CHECK(backends::openhaptics.status().state == BackendState::in_use);
 }
 
 TEST_CASE("a device that must not be closed is handed on to the next that opens it") {

@@ -25,7 +25,7 @@ DeviceInfo recorded(double rate = 1600) {
 }
 
 /// So many readings on the way from 2 mm above the membrane to 3 mm below.
-std::vector<DeviceSample> stroke(std::size_t n) {
+std::vector<DeviceSample> readings_of_a_stroke(std::size_t n) {
   std::vector<DeviceSample> all;
   for (std::size_t k = 0; k < n; ++k)
     all.push_back(reading(k, 2e-3 - 5e-3 * static_cast<double>(k) / static_cast<double>(n)));
@@ -75,7 +75,7 @@ TEST_CASE("a run that is replayed through its own scene gives its forces again, 
 }
 
 TEST_CASE("in real time no sample is left out, and none keeps another time than it was recorded at") {
-  const auto samples = stroke(200);
+  const auto samples = readings_of_a_stroke(200);
   auto device = std::make_shared<ReplayDevice>(samples, recorded(8000), in_real_time);
   const std::int64_t begin = os::now_ns();
   const auto all = snapshots(device, paper_scene());
@@ -89,7 +89,7 @@ TEST_CASE("in real time no sample is left out, and none keeps another time than 
 }
 
 TEST_CASE("a replay that is stopped has not ended, and begins anew when it is started again") {
-  auto device = std::make_shared<ReplayDevice>(stroke(100'000), recorded(), in_real_time);
+  auto device = std::make_shared<ReplayDevice>(readings_of_a_stroke(100'000), recorded(), in_real_time);
   ServoLoop loop(device, paper_scene());
   loop.start();
   while (loop.report().ticks < 5) std::this_thread::yield();
@@ -107,7 +107,7 @@ TEST_CASE("a replay that is stopped has not ended, and begins anew when it is st
 }
 
 TEST_CASE("what the recorded device reported is judged again: its fault, a gap in its time") {
-  auto samples = stroke(100);
+  auto samples = readings_of_a_stroke(100);
   samples[50].healthy = false;
   auto device = std::make_shared<ReplayDevice>(samples, recorded(), fast);
   CHECK(device->trouble().empty());
@@ -116,7 +116,7 @@ TEST_CASE("what the recorded device reported is judged again: its fault, a gap i
   CHECK(all[50].fault == Fault::device);
   CHECK(device->trouble() == "the recorded device reported a fault of its own here");
 
-  samples = stroke(100);
+  samples = readings_of_a_stroke(100);
   for (std::size_t k = 50; k < samples.size(); ++k) samples[k].time += 0.1;
   CHECK(snapshots(std::make_shared<ReplayDevice>(samples, recorded(), fast), paper_scene())[50].fault ==
         Fault::missed_deadline);
@@ -127,7 +127,7 @@ TEST_CASE("a replay passes for the recorded device, by another name") {
   info.max_force = 1.5;
   info.encoder_step = 2e-5;
   info.has_orientation = true;
-  const ReplayDevice device(stroke(1), info, fast);
+  const ReplayDevice device(readings_of_a_stroke(1), info, fast);
   CHECK(device.info().backend == "replay");
   CHECK(device.info().model == "Some 1, recorded");
   CHECK(device.info().max_force == 1.5);

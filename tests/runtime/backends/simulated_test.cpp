@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/support/paper_scene.hpp"
+#include "core/support/tick.hpp"
 #include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 
@@ -13,7 +14,6 @@ using namespace punctura::test;
 
 namespace {
 const Strokes strokes{{0, 5e-3, 0}, {0, -10e-3, 0}, 1, 1.0, 0.6, 0.0};
-const std::array<double, 3> zero{0, 0, 0};
 
 void until_finished(SimulatedDevice& device) {
   while (!device.finished()) std::this_thread::yield();

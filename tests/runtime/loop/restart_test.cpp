@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/support/tick.hpp"
 #include "punctura_runtime/backends/fed.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
@@ -14,8 +15,6 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-
-const std::array<double, 3> zero{0, 0, 0};
 
 /// A hand-cranked device whose clock begins anew with each start, as that of every back-end may.
 struct Restarted {

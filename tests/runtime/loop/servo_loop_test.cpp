@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/support/allocations.hpp"
+#include "core/support/tick.hpp"
 #include "runtime/support/hand_cranked.hpp"
 
 using namespace punctura;
@@ -29,7 +30,6 @@ struct Cranked {
   HandCranked* device;
   std::unique_ptr<ServoLoop> loop;
 };
-const std::array<double, 3> zero{0, 0, 0};
 }  // namespace
 
 TEST_CASE("a loop gives the force of its scene, tick by tick, after start and arm") {

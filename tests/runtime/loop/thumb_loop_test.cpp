@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/support/allocations.hpp"
+#include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
 
@@ -17,13 +18,13 @@ using namespace punctura::test;
 
 namespace {
 
-std::int64_t clock_ns = 0;
-std::int64_t now() noexcept { return clock_ns; }
+std::int64_t two_hands_ns = 0;
+std::int64_t now() noexcept { return two_hands_ns; }
 
 /// Both devices tick in turn, 1600 times a second of the test's own clock. The thumb moves along -y.
 struct TwoHands {
   TwoHands() {
-    clock_ns = 1'000'000'000;
+    two_hands_ns = 1'000'000'000;
     Scene scene = paper_scene(12e-3);
     scene.membranes[0].outflow_behind = {5e8, 1000};
     scene.syringe = SyringeSettings{{15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9}, {2000, 2}};
@@ -34,7 +35,7 @@ struct TwoHands {
     loop = std::make_unique<ServoLoop>(needle, scene, settings);
   }
   void tick(double needle_y, double thumb_depth, bool needle_ticks = true, bool thumb_ticks = true) {
-    clock_ns += 625'000;
+    two_hands_ns += 625'000;
     if (thumb_ticks) felt = thumb->tick(-thumb_depth)[1];
     if (needle_ticks) force = needle->tick(needle_y);
   }
@@ -57,7 +58,6 @@ struct TwoHands {
   Tick::Force force{};
   double felt = 0;  ///< N, along y: positive pushes the thumb out
 };
-const std::array<double, 3> zero{0, 0, 0};
 
 }  // namespace
 
