@@ -23,6 +23,7 @@ ROOMS = (
     "core/punctura/scene",
     "core/punctura/events",
     "core/punctura/trace",
+    "core/punctura/rivals",
     "core/punctura/plant",
     "core/punctura/punctura.hpp",  # includes all of core
     "runtime/punctura_runtime",
@@ -46,6 +47,7 @@ ROOMS = (
     "python/punctura/live",
     "python/punctura/exercise",
     "python/punctura/reproduce",
+    "python/punctura/rivals",
     "python/punctura/compare",
     "python/punctura/studio/wire",
     "python/punctura/studio",

@@ -12,6 +12,7 @@
 #include "punctura/model/validity.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
+#include "punctura/rivals/rival_insertion.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/servo_step.hpp"

@@ -11,6 +11,7 @@ from text import heading
 PACKAGES = [
     "punctura", "punctura.scene", "punctura.simulation", "punctura.live", "punctura.record", "punctura.events",
     "punctura.exercise", "punctura.reproduce",
+    "punctura.rivals",
 ]  # fmt: skip
 
 

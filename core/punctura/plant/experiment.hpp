@@ -14,17 +14,23 @@ namespace punctura {
 /// A simulated operator with a simulated device. It uses the same servo step as a real device.
 ///
 /// Motion: StrokesMotion, RecordedMotion, Target, or anything with `Desired at(double time)`, time from 0.
-template <typename Motion>
+/// Servo: a servo step, with K06's law or another model.
+template <typename Motion, typename Servo = ServoStep>
 class Experiment {
  public:
   /// axis: the constant direction of the stylus. Throws SceneError.
   Experiment(const Scene& scene, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {},
              const Hand& hand = {}, std::uint64_t seed = 0)
-      : servo_(build(scene)),
-        plant_(device, hand, 1 / scene.servo.rate, seed),
+      : Experiment(build(scene), 1 / scene.servo.rate, std::move(motion), axis, device, hand, seed) {}
+
+  /// servo: before its first tick, with the period (s).
+  Experiment(Servo servo, double period, Motion motion, const Vector3d& axis, const DeviceDynamics& device = {},
+             const Hand& hand = {}, std::uint64_t seed = 0)
+      : servo_(std::move(servo)),
+        plant_(device, hand, period, seed),
         motion_(std::move(motion)),
         axis_(to_array(axis.stableNormalized())),
-        period_(1 / scene.servo.rate) {
+        period_(period) {
     plant_.place(motion_.at(0).position);
     servo_.arm();
   }
@@ -45,13 +51,13 @@ class Experiment {
   const Desired& desired() const noexcept { return desired_; }  ///< desired motion of the last step
   const Vector3d& tip() const noexcept { return tip_; }         ///< true position of the tip in the last step, m
   Motion& motion() noexcept { return motion_; }
-  ServoStep& servo() noexcept { return servo_; }
+  Servo& servo() noexcept { return servo_; }
   std::uint64_t ticks() const noexcept { return tick_; }  ///< number of ticks so far
 
   /// For save_state() and load_state() (state/archive.hpp). Motion also needs `archive` and `describe`. The results of
   /// the last step are not loaded.
   static void archive(auto& self, auto& state) {
-    ServoStep::archive(self.servo_, state);
+    Servo::archive(self.servo_, state);
     Plant::archive(self.plant_, state);
     Motion::archive(self.motion_, state);
     state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
@@ -64,7 +70,7 @@ class Experiment {
   }
 
  private:
-  ServoStep servo_;
+  Servo servo_;
   Plant plant_;
   Motion motion_;
   std::array<double, 3> axis_;

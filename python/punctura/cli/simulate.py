@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from punctura._core import Rival
 from punctura.progress import progress_bar
 from punctura.simulation import SimulationSummary, simulate
 
@@ -19,14 +20,29 @@ def command(
         Path, typer.Option("--motion", help="CSV file: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
     ],
     out: Annotated[Path, typer.Option("--out", help="Result file to write.", metavar="OUT.csv|.parquet")],
+    rival: Annotated[
+        str | None,
+        typer.Option("--rival", help="A rival's name or a file of punctura compare --out.", metavar="NAME|FILE"),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Computes the model's force for a motion from a file, without safety limits."""
+    """Computes the model's force for a motion from a file, without safety limits.
+
+    With --rival, a force model of another author takes the place of the scene's law, at the places of its membranes.
+    """
     with progress_bar("simulate") as tell:
-        summary = simulate(scene, motion, out, tell)
+        summary = simulate(scene, motion, out, tell, rivals=None if rival is None else _rivals(rival))
     for note in summary.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))
+
+
+def _rivals(given: str) -> list[Rival]:
+    from punctura.rivals import kinds, load_layers
+
+    if given in kinds() or not Path(given).exists():
+        return [Rival(given)]
+    return [layer.rival for layer in load_layers(given)]
 
 
 def _in_words(summary: SimulationSummary) -> str:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from punctura._core import Insertion, Scene
+from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.progress import Progress
 from punctura.simulation.even import Evenness
 from punctura.simulation.motion_error import MotionError
@@ -25,6 +26,7 @@ def simulate_arrays(
     time: npt.ArrayLike | None,
     axis: npt.ArrayLike | None,
     progress: Progress = None,
+    rivals: Sequence[Rival] | None = None,
 ) -> Ticks:
     """See simulate."""
     normal = np.asarray(scene.membranes[0].inward_normal, dtype=np.float64)
@@ -48,7 +50,8 @@ def simulate_arrays(
     if time is not None:
         stamps, p, b = _resampled(scene, np.asarray(time, dtype=np.float64), p, b)
     names = [placed.name for placed in scene.membranes]
-    ticks = Insertion(scene).run(p, b, progress=progress)
+    insertion = Insertion(scene) if rivals is None else RivalInsertion(scene, rivals)
+    ticks = insertion.run(p, b, progress=progress)
     return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
 
 

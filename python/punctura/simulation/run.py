@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.typing import NDArray
 
-from punctura._core import Insertion, Scene
+from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.progress import Progress, Tell, reporting
 from punctura.scene import load_scene, scene_text
@@ -39,6 +39,8 @@ def simulate(
     motion: str | os.PathLike[str],
     out_path: str | os.PathLike[str],
     progress: Progress = None,
+    *,
+    rivals: Sequence[Rival] | None = None,
 ) -> SimulationSummary: ...
 @overload
 def simulate(
@@ -48,6 +50,7 @@ def simulate(
     progress: Progress = None,
     time: npt.ArrayLike | None = None,
     axis: npt.ArrayLike | None = None,
+    rivals: Sequence[Rival] | None = None,
 ) -> Ticks: ...
 def simulate(
     scene: Scene | str | os.PathLike[str],
@@ -57,6 +60,7 @@ def simulate(
     *,
     time: npt.ArrayLike | None = None,
     axis: npt.ArrayLike | None = None,
+    rivals: Sequence[Rival] | None = None,
 ) -> SimulationSummary | Ticks:
     """Computes the model's force for a motion, without safety limits.
 
@@ -71,21 +75,26 @@ def simulate(
     Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
     inward normal. Raises ConfigurationError or ValueError.
 
-    progress: a function of the finished share, 0 to 1, or True for a bar on a terminal.
+    progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. rivals: force models of other
+    authors instead of the scene's law (punctura.rivals), one, or one for each membrane.
     """
     if not isinstance(motion, (str, os.PathLike)):
         if out_path is not None:
             raise TypeError("out_path is for motion files; save a result in memory with its save()")
-        return simulate_arrays(scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis, progress)
+        return simulate_arrays(
+            scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis, progress, rivals
+        )
     if time is not None or axis is not None:
         raise TypeError("time and axis are for a motion in memory only; a motion file has columns for them")
     if out_path is None:
         raise TypeError("a motion file needs out_path, a .csv or .parquet file for the result")
     with reporting(progress, "simulate") as tell:
-        return _simulate_file(scene, Path(motion), Path(out_path), tell)
+        return _simulate_file(scene, Path(motion), Path(out_path), tell, rivals)
 
 
-def _simulate_file(scene: Scene | str | os.PathLike[str], source: Path, target: Path, tell: Tell) -> SimulationSummary:
+def _simulate_file(
+    scene: Scene | str | os.PathLike[str], source: Path, target: Path, tell: Tell, rivals: Sequence[Rival] | None
+) -> SimulationSummary:
     began = perf_counter()
     name = scene.name if isinstance(scene, Scene) else str(os.fspath(scene))
     scene = scene if isinstance(scene, Scene) else load_scene(scene)
@@ -98,7 +107,7 @@ def _simulate_file(scene: Scene | str | os.PathLike[str], source: Path, target: 
     summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
     resampler = _resampler(even, scene, summary)
 
-    insertion = Insertion(scene)
+    insertion = Insertion(scene) if rivals is None else RivalInsertion(scene, rivals)
     metadata = {"punctura.scene": scene_text(scene)}
     schema = output_schema(motion.has_axis, len(scene.membranes), metadata)
     default_axis = np.array(scene.membranes[0].inward_normal)

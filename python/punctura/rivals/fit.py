@@ -1,0 +1,174 @@
+"""Fits a rival to a trace: bounded least squares from several starts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.rivals.kinds import RivalKind
+from punctura.rivals.layers import Layer
+from punctura.rivals.path import Path, path_of
+from punctura.rivals.problem import Problem, Wall
+from punctura.rivals.walls import walls_of
+from punctura.trace import Segments, Trace, segment
+
+Array = NDArray[np.float64]
+STARTS = 6
+SEARCHED = 600  # samples while the fit searches; the last step uses all
+BLOCKS, FOLDS = 40, 5
+
+
+@dataclass(frozen=True)
+class RivalFit:
+    """A rival fitted to a trace. SI."""
+
+    kind: RivalKind
+    layers: tuple[Layer, ...]
+    parameters: int  # fitted, with the punctures
+    force: Array = field(repr=False)  # (n,), N, against the insertion
+    residuals: Array = field(repr=False)  # (n,), N, measured less computed
+    converged: bool  # the solver ended at an optimum
+    agreeing: int  # of the starts, how many ended within 1 % of the least error
+    starts: int
+    held_out_rmse: float  # N, of blocks of samples that the fit did not see
+
+    @property
+    def measured(self) -> Array:
+        """(n,), N, against the insertion."""
+        return self.force + self.residuals
+
+    @property
+    def rmse(self) -> float:
+        """N"""
+        return float(np.sqrt(np.mean(self.residuals**2)))
+
+
+def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *, seed: int = 0) -> RivalFit:
+    """Fits one rival for each pop of the first insertion. A rival without a puncture is fitted once. Needs SciPy.
+
+    Raises TraceError if the trace has no insertion.
+    """
+    segments = segments or segment(trace)
+    walls = walls_of(trace, segments, one=not kind.punctures)
+    path = path_of(trace, segments)
+    rows = _searched(trace, walls)
+    few = Problem(kind, _thin(path, rows), [_moved(wall, rows) for wall in walls])
+    x, punctured, converged, costs = _search(few, trace.force[rows], seed)
+    every = Problem(kind, path, walls)
+    at = [None if i is None else int(rows[i]) for i in punctured]
+    x = every.inside(x * few.scale / every.scale) if len(every.first) == len(few.first) else every.first
+    x, converged = _solve(every, trace.force, x, at, 30)
+    at = _best_punctures(every, trace.force, x, at)
+    x, converged = _solve(every, trace.force, x, at, 60)
+    force = every.force(x, at)
+    best = min(costs)
+    return RivalFit(
+        kind=kind,
+        layers=every.layers(x, at),
+        parameters=every.parameters,
+        force=force,
+        residuals=trace.force - force,
+        converged=converged,
+        agreeing=sum(cost <= 1.01 * best + 1e-12 for cost in costs),
+        starts=len(costs),
+        held_out_rmse=_held_out(few, trace.force[rows], few.inside(x * every.scale / few.scale), punctured),
+    )
+
+
+Punctures = list[int | None]
+
+
+def _search(problem: Problem, force: Array, seed: int) -> tuple[Array, Punctures, bool, list[float]]:
+    """The best of several starts, with its punctures; and the sum of squares of each start, N^2."""
+    rng = np.random.default_rng(seed)
+    best, costs = None, []
+    for i in range(STARTS if len(problem.walls) < 3 else 3):
+        x = problem.first if i == 0 else problem.other_start(rng)
+        at: Punctures = [wall.punctured for wall in problem.walls]
+        x, _ = _solve(problem, force, x, at, 12)
+        at = _best_punctures(problem, force, x, at)
+        x, converged = _solve(problem, force, x, at, 30)
+        cost = float(np.sum((problem.force(x, at) - force) ** 2))
+        costs.append(cost)
+        if best is None or cost < best[3]:
+            best = (x, at, converged, cost)
+    assert best is not None
+    return best[0], best[1], best[2], costs
+
+
+def _solve(
+    problem: Problem,
+    force: Array,
+    x: Array,
+    at: Sequence[int | None],
+    calls: int,
+    seen: NDArray[np.bool_] | None = None,
+) -> tuple[Array, bool]:
+    """Bounded least squares from x. seen (n,): the samples that count. Returns x, and whether it is an optimum."""
+    try:
+        from scipy.optimize import least_squares
+    except ImportError as error:
+        raise ImportError("fitting a rival needs SciPy: pip install punctura[identify]") from error
+    use = slice(None) if seen is None else seen
+    size = max(float(np.max(np.abs(force))), 1e-9)
+
+    def errors(values: Array) -> Array:
+        return np.asarray((problem.force(values, at)[use] - force[use]) / size)
+
+    def slopes(values: Array) -> Array:
+        return np.asarray(problem.slopes(values, at)[use] / size)
+
+    found = least_squares(
+        errors, x, slopes, bounds=(problem.low, problem.high), max_nfev=calls, x_scale="jac", ftol=1e-7, xtol=1e-7
+    )
+    return np.asarray(found.x), bool(found.success)
+
+
+def _best_punctures(problem: Problem, force: Array, x: Array, at: Sequence[int | None]) -> Punctures:
+    """Moves each puncture over the samples of its drop to the one with the least error."""
+    best = list(at)
+    if not problem.kind.punctures:
+        return best
+    for i, wall in enumerate(problem.walls):
+        if wall.punctured is None:
+            continue
+        first, last = max(1, wall.punctured - 4), min(len(force) - 1, wall.punctured + 8)
+        errors = {}
+        for sample in range(first, last + 1):
+            tried = [*best[:i], sample, *best[i + 1 :]]
+            errors[sample] = float(np.sum((problem.force(x, tried) - force) ** 2))
+        best[i] = min(errors, key=errors.__getitem__)
+    return best
+
+
+def _held_out(problem: Problem, force: Array, x: Array, at: Sequence[int | None]) -> float:
+    """Root mean square error of blocks of samples that the fit did not see, N: five fits without eight blocks each."""
+    block = np.minimum(np.arange(len(force)) * BLOCKS // len(force), BLOCKS - 1)
+    squares = 0.0
+    for fold in range(FOLDS):
+        seen = block % FOLDS != fold
+        found, _ = _solve(problem, force, x, at, 10, seen)
+        squares += float(np.sum((problem.force(found, at) - force)[~seen] ** 2))
+    return float(np.sqrt(squares / len(force)))
+
+
+def _searched(trace: Trace, walls: Sequence[Wall]) -> NDArray[np.int64]:
+    """The samples that a search uses: evenly over the trace, and all near a puncture."""
+    n = len(trace)
+    if n <= SEARCHED:
+        return np.arange(n)
+    near = [np.arange(max(0, w.punctured - 5), min(n, w.punctured + 10)) for w in walls if w.punctured is not None]
+    return np.unique(np.concatenate([np.linspace(0, n - 1, SEARCHED).astype(np.int64), *near]))
+
+
+def _thin(path: Path, rows: NDArray[np.int64]) -> Path:
+    time = np.cumsum(path.period)[rows]
+    period = np.diff(time, prepend=time[0] - path.period[0])
+    return replace(path, depth=path.depth[rows], velocity=path.velocity[rows], period=period)
+
+
+def _moved(wall: Wall, rows: NDArray[np.int64]) -> Wall:
+    return wall if wall.punctured is None else replace(wall, punctured=int(np.searchsorted(rows, wall.punctured)))

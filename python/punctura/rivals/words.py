@@ -1,0 +1,93 @@
+"""A comparison as a table, as sentences, and as JSON."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from punctura.rivals.comparison import Row, TraceComparison
+
+HEAD = ("model", "numbers", "rmse N", "% of peak", "AIC", "BIC", "held out N", "to 1st pop %", "rest mN", "hand mN")
+
+
+def table(comparison: TraceComparison) -> str:
+    """One line a model, the one with the least AIC first."""
+    rows = [HEAD, *(_cells(row) for row in comparison.rows)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(HEAD))]
+    lines = []
+    for name, *numbers in rows:
+        cells = [name.ljust(widths[0]), *(n.rjust(w) for n, w in zip(numbers, widths[1:], strict=True))]
+        lines.append("  ".join(cells).rstrip())
+    return "\n".join(lines)
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    shake = row.chatter
+    return (
+        row.title + ("" if row.converged else " *"),
+        str(row.parameters),
+        f"{row.rmse:.4f}",
+        f"{100 * row.rmse_share:.2f}",
+        _number(row.aic, ".1f"),
+        _number(row.bic, ".1f"),
+        f"{row.held_out_rmse:.4f}",
+        _number(100 * row.first_rmse_share, ".2f"),
+        "-" if shake is None else f"{1e3 * shake.rest:.1f}",
+        "-" if shake is None else f"{1e3 * shake.hand:.1f}",
+    )
+
+
+def _number(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else "-"
+
+
+def notes(comparison: TraceComparison) -> list[str]:
+    """What the reader of the table must know."""
+    found = [
+        f"{len(comparison.trace)} samples, peak {comparison.peak:.3g} N. Neighbouring residuals are alike: AIC and BIC "
+        f"count {comparison.effective_samples:.0f} independent samples."
+    ]
+    if any(not math.isfinite(row.aic) for row in comparison.rows):
+        found.append("AIC -: the model has more numbers than the trace has independent samples.")
+    if any(not row.converged for row in comparison.rows):
+        found.append("*: the fit ended at its limit of steps, not at an optimum.")
+    alone = [row.title for row in comparison.rows if row.starts > 1 and row.agreeing == 1]
+    if alone:
+        found.append(f"Only one start led to the best fit, so there may be a better one: {', '.join(alone)}.")
+    return found
+
+
+def as_json(comparison: TraceComparison) -> dict[str, Any]:
+    """The numbers of the table in SI, for programs; None for what has no value."""
+    return {
+        "trace": comparison.trace.source,
+        "samples": len(comparison.trace),
+        "peak_N": comparison.peak,
+        "effective_samples": comparison.effective_samples,
+        "models": [_entry(row) for row in comparison.rows],
+        "notes": notes(comparison),
+    }
+
+
+def _entry(row: Row) -> dict[str, Any]:
+    return {
+        "name": row.name,
+        "title": row.title,
+        "parameters": row.parameters,
+        "rmse_N": row.rmse,
+        "rmse_share_of_peak": row.rmse_share,
+        "aic": _finite(row.aic),
+        "bic": _finite(row.bic),
+        "held_out_rmse_N": row.held_out_rmse,
+        "first_stretch_rmse_share": _finite(row.first_rmse_share),
+        "chatter_rest_N": None if row.chatter is None else row.chatter.rest,
+        "chatter_hand_N": None if row.chatter is None else row.chatter.hand,
+        "converged": row.converged,
+        "starts": row.starts,
+        "starts_that_agree": row.agreeing,
+        "layers": [{"surface_m": one.surface, "numbers": one.rival.numbers} for one in row.layers],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,153 @@
+"""Rivals: fitted to traces of their own, compared, felt in a simulated hand."""
+
+import json
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, fit_rival, kinds, load_layers, save_layers
+from punctura.rivals.chatter import places_of, rival_chatter
+from punctura.rivals.words import table
+from punctura.trace import Trace
+from punctura.trace.information import effective_samples, information
+
+NOISE = 2e-3  # N
+TRUE = {
+    "okamura": {"linear": 30.0, "quadratic": 9e3, "puncture": 8e-3, "cutting": 0.1, "friction_slope": 20.0},
+    "gordon": {"scale": 0.06, "growth": 330.0, "puncture": 8e-3, "friction": 0.2, "friction_slope": 12.0, "fall": 1e-3},
+    "exponential": {"scale": 0.06, "growth": 330.0, "puncture": 8e-3, "friction": 0.2, "friction_slope": 12.0},
+    "hunt_crossley": {"peak": 0.8, "exponent": 2.2, "puncture": 8e-3, "friction": 0.2, "friction_slope": 12.0},
+    "kelvin_voigt": {"stiffness": 100.0, "puncture": 8e-3, "friction": 0.2, "friction_slope": 12.0},
+    "mahvash_dupont": {"at_1_mm": 0.02, "exponent": 1.8, "ratio": 0.0, "puncture": 2.41e-3, "friction": 0.2},
+}
+
+
+def trace_of(name, numbers, seed=1, withdrawal=False, surface=2e-3):
+    time = np.arange(0, 4.0, 0.01)
+    depth = 4e-3 * time
+    if withdrawal:
+        depth = np.where(time < 2.5, 6.4e-3 * time, 16e-3 - 10e-3 * (time - 2.5))
+    velocity = np.gradient(depth, time)
+    force = Rival(name, numbers).resistance(depth - surface, velocity, 0.01)
+    return Trace(depth, force + NOISE * np.random.default_rng(seed).standard_normal(len(time)), time, name)
+
+
+@pytest.mark.parametrize("name", TRUE)
+def test_a_fit_finds_the_rival_that_made_a_trace(name):
+    fit = fit_rival(kinds()[name], trace_of(name, TRUE[name]))
+    assert fit.rmse == pytest.approx(NOISE, rel=0.15)
+    assert fit.converged
+    numbers = fit.layers[0].rival.numbers
+    for number, value in TRUE[name].items():
+        if number == "puncture" and name != "mahvash_dupont":
+            surface = fit.layers[0].surface
+            assert numbers[number] + surface == pytest.approx(value + 2e-3, abs=0.05e-3)  # between two samples
+    for number in ("friction_slope", "growth", "exponent"):
+        if number in TRUE[name]:
+            assert numbers[number] == pytest.approx(TRUE[name][number], rel=0.3)
+
+
+def test_friction_outwards_is_fitted_only_with_a_withdrawal():
+    with_out = TRUE["exponential"] | {"out_ratio": 0.6}
+    both = fit_rival(kinds()["exponential"], trace_of("exponential", with_out, withdrawal=True))
+    inwards = fit_rival(kinds()["exponential"], trace_of("exponential", with_out))
+    assert both.parameters == inwards.parameters + 1
+    assert both.layers[0].rival.numbers["out_ratio"] == pytest.approx(0.6, rel=0.05)
+
+
+def test_the_comparison_puts_the_true_model_first():
+    found = compare_trace(
+        trace_of("exponential", TRUE["exponential"]), ["kelvin_voigt", "exponential", "sign_of_velocity"]
+    )
+    assert [row.name for row in found.rows] == ["exponential", "kelvin_voigt", "sign_of_velocity"]
+    best, _, worst = found.rows
+    assert best.held_out_rmse == pytest.approx(NOISE, rel=0.3)
+    assert best.first_rmse_share < 0.01 < worst.first_rmse_share
+    assert worst.chatter.rest > 0.1
+    assert "exponential to puncture" in table(found).splitlines()[1]
+
+
+def test_two_pops_get_two_layers():
+    depth = np.linspace(0, 16e-3, 500)
+    time = depth / 4e-3
+    layers = [(1e-3, 0.8, 5e-3), (8e-3, 0.5, 4e-3)]
+    force = NOISE * np.random.default_rng(2).standard_normal(500)
+    for surface, peak, reach in layers:
+        numbers = {"peak": peak, "exponent": 2, "puncture": reach, "friction": 0.15, "friction_slope": 0}
+        force += Rival("hunt_crossley", numbers).resistance(depth - surface, np.full(500, 4e-3), np.gradient(time))
+    fit = fit_rival(kinds()["hunt_crossley"], Trace(depth, force, time))
+    assert len(fit.layers) == 2
+    assert fit.rmse == pytest.approx(NOISE, rel=0.2)
+    assert fit.layers[1].surface == pytest.approx(8e-3, abs=0.5e-3)
+
+
+def test_information_counts_independent_samples():
+    rng = np.random.default_rng(5)
+    white = rng.standard_normal(4000)
+    assert effective_samples(white) > 3600
+    smooth = np.convolve(white, np.ones(20) / 20, "same")
+    assert effective_samples(smooth) < 400
+    few, many = information(white, 3, 100), information(white, 8, 100)
+    assert many.bic - few.bic == pytest.approx(5 * np.log(100))
+    assert many.aic - few.aic == pytest.approx(10 + 2 * 9 * 10 / 90 - 2 * 4 * 5 / 95)
+    assert information(white, 100, 50).aic == np.inf
+    with pytest.raises(ValueError, match="at least three"):
+        information([1.0, np.nan, 2.0], 1, 3)
+
+
+def test_a_rival_is_a_value_and_names_what_is_wrong():
+    rival = Rival("dahl", {"friction": 0.7})
+    assert pickle.loads(pickle.dumps(rival)) == rival
+    assert hash(rival) == hash(Rival("dahl", {"friction": 0.7}))
+    assert rival != Rival("dahl")
+    with pytest.raises(pn.ConfigurationError, match=r"dahl.friction = -1.*between"):
+        Rival("dahl", {"friction": -1})
+    with pytest.raises(pn.ConfigurationError, match="no number of this rival"):
+        Rival("dahl", {"frictions": 1})
+    with pytest.raises(pn.ConfigurationError, match="must be one of okamura"):
+        Rival("okamura2004")
+    with pytest.raises(ValueError, match="one for each of the 3 membranes"):
+        RivalInsertion(pn.load_scene("venipuncture"), [rival, rival])
+
+
+def test_the_sign_of_the_velocity_shakes_more_than_a_bristle():
+    def shake(name):
+        return rival_chatter((Layer(0.0, Rival(name)),), places_of(0.0, None, 10e-3))
+
+    assert shake("sign_of_velocity").rest > 0.3
+    assert shake("dahl").rest < 0.02
+    assert shake("dahl").hand < shake("sign_of_velocity").hand
+
+
+def test_the_command_line_compares_and_feels(tmp_path):
+    trace = trace_of("exponential", TRUE["exponential"])
+    csv = tmp_path / "trace.csv"
+    rows = np.column_stack([trace.time, trace.depth * 1e3, trace.force])
+    np.savetxt(csv, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    out = tmp_path / "fits"
+    call = [sys.executable, "-m", "punctura.cli", "compare", csv, "--models", "exponential,dahl", "--json"]
+    call += ["--plot", tmp_path / "plot.svg", "--out", out]
+    told = json.loads(subprocess.run(call, capture_output=True, text=True, check=True).stdout)
+    assert [model["name"] for model in told["models"]] == ["exponential", "dahl"]
+    assert told["models"][0]["rmse_N"] == pytest.approx(NOISE, rel=0.15)
+    assert (tmp_path / "plot.svg").read_text().startswith("<?xml")
+
+    layers = load_layers(out / "exponential.json")
+    depth = np.arange(-5e-3, 12e-3, 5e-6)
+    ticks = pn.simulate("k06-fig10", depth, rivals=[layers[0].rival])
+    numbers = layers[0].rival.numbers
+    peak = numbers["scale"] * np.expm1(numbers["growth"] * numbers["puncture"])
+    assert np.linalg.norm(ticks.force, axis=1).max() == pytest.approx(peak, rel=0.02)
+
+
+def test_files_of_layers_are_checked(tmp_path):
+    file = tmp_path / "one.json"
+    layers = (Layer(1e-3, Rival("dahl")), Layer(3e-3, Rival("okamura", {"linear": 20.0})))
+    save_layers(file, layers)
+    assert load_layers(file) == layers
+    file.write_text('{"format": "other"}')
+    with pytest.raises(pn.PuncturaError, match="no file of rivals"):
+        load_layers(file)
