@@ -23,11 +23,12 @@ struct Friction {
 template <typename Scalar>
 Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
   using namespace lane;
-  if constexpr (OneNumber<Scalar>)
-    if (a == 0) return -c / b;  // most pieces are straight: this skips the square root
+  const auto straight = a == 0;
+  if (all(straight)) return -c / b;  // most pieces are straight: this skips the square root
   const Scalar root = sqrt(b * b - 4 * a * c);
-  const Scalar curved = select(b <= 0, 2 * c / (root - b), -(root + b) / (2 * a));
-  return select(a == 0, -c / b, curved);
+  const auto falls = b <= 0;
+  const Scalar numerator = select(falls, 2 * c, -(root + b)), denominator = select(falls, root - b, 2 * a);
+  return select(straight, -c, numerator) / select(straight, b, denominator);
 }
 
 /// Slides the proxy from q_prev (m) in one direction: +1 in, -1 out. Returns the friction force, N. Piece i contains

@@ -1,6 +1,8 @@
 // The ticks of a block with the solvers of core. It is compiled once for each instruction set.
 #pragma once
 
+#include <utility>
+
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/paper.hpp"
 #include "punctura_runtime/batch/isa.hpp"
@@ -9,73 +11,84 @@
 
 namespace punctura::batch {
 
-/// Some vectors of a block, so that the processor computes one while another waits for a result.
-template <typename V, typename Solver, std::size_t vectors>
-class LineLanes {
+/// One vector of a block: its state, in registers while run_vectors() is at work.
+template <typename V, typename Solver>
+class LineVector {
  public:
-  static constexpr std::size_t width = vectors * V::lanes;
-
-  LineLanes(LineBlock& block, std::size_t start, const LineSpan& span) noexcept : block_(block), start_(start) {
-    for (std::size_t j = 0; j < vectors; ++j) {
-      State& s = state_[j];
-      s.started = typename V::Mask(true);
-      // Before the first tick, p(k-1) is p(k).
-      s.p = block.started ? at(block.p, j) : depth(span, 0, j);
-      s.e = at(block.e, j);
-      s.f = at(block.f, j);
-      PresentPieces<V>(block, first_lane(j)).band(s.p + s.e);  // loads the pieces
-    }
+  LineVector(LineBlock& block, std::size_t lane, const LineSpan& span) noexcept {
+    state_.p = block.started ? at(block.p, lane) : depth(span, 0, lane);  // before the first tick, p(k-1) is p(k)
+    state_.e = at(block.e, lane);
+    state_.f = at(block.f, lane);
+    PresentPieces<V>(block, lane).band(state_.p + state_.e);  // loads the pieces
   }
 
-  bool run(const LineSpan& span) noexcept {
-    typename V::Mask good(true);
-    for (std::size_t k = 0; k < span.ticks; ++k) {
-#pragma GCC unroll 4
-      for (std::size_t j = 0; j < vectors; ++j) {
-        const V p = depth(span, k, j);
-        good = good && V(-1e6) <= p && p <= V(1e6);
-        const auto tick = Solver::step(params(j), state_[j], p);
-        if (span.force)
-          tick.force.store(span.force + static_cast<std::ptrdiff_t>(k) * span.force_stride + first_lane(j));
-      }
-    }
-    for (std::size_t j = 0; j < vectors; ++j) {
-      state_[j].p.store(block_.p.of + first_lane(j));
-      state_[j].e.store(block_.e.of + first_lane(j));
-      state_[j].f.store(block_.f.of + first_lane(j));
-    }
-    return all(good);
+  /// One tick. p: depth of the device, m. Returns the force, N.
+  V step(LineBlock& block, std::size_t lane, V p) noexcept {
+    SampledCoupling<V> coupling({at(block.K, lane), V(0)}, V(1));
+    coupling.g = at(block.g, lane);
+    coupling.inv_g = at(block.inv_g, lane);
+    coupling.B_over_D = at(block.B_over_D, lane);
+    state_.started = typename V::Mask(true);
+    return Solver::step(LineParams<PresentLaw<V>>{PresentLaw<V>(block, lane), coupling}, state_, p).force;
+  }
+
+  void store(LineBlock& block, std::size_t lane) const noexcept {
+    state_.p.store(block.p.of + lane);
+    state_.e.store(block.e.of + lane);
+    state_.f.store(block.f.of + lane);
+  }
+
+  static V depth(const LineSpan& span, std::size_t tick, std::size_t lane) noexcept {
+    const double* row = span.p + static_cast<std::ptrdiff_t>(tick) * span.p_stride;
+    return span.shared ? V(*row) : V::load(row + lane);
   }
 
  private:
-  using Law = PresentLaw<V>;
-  using State = LineState<Law>;
+  static V at(const LaneNumbers& numbers, std::size_t lane) noexcept { return V::load(numbers.of + lane); }
 
-  std::size_t first_lane(std::size_t j) const noexcept { return start_ + j * V::lanes; }
-  V at(const LaneNumbers& numbers, std::size_t j) const noexcept { return V::load(numbers.of + first_lane(j)); }
-  V depth(const LineSpan& span, std::size_t k, std::size_t j) const noexcept {
-    const double* row = span.p + static_cast<std::ptrdiff_t>(k) * span.p_stride;
-    return span.shared ? V(*row) : V::load(row + first_lane(j));
-  }
-  LineParams<Law> params(std::size_t j) const noexcept {
-    SampledCoupling<V> coupling({at(block_.K, j), V(0)}, V(1));
-    coupling.g = at(block_.g, j);
-    coupling.inv_g = at(block_.inv_g, j);
-    coupling.B_over_D = at(block_.B_over_D, j);
-    return {Law(block_, first_lane(j)), coupling};
-  }
-
-  LineBlock& block_;
-  std::size_t start_;
-  State state_[vectors];
+  LineState<PresentLaw<V>> state_{};
 };
+
+/// The ticks of several vectors. They take turns, so that the processor computes one while another waits for a result.
+template <typename V, typename Solver, bool shared, bool stores, std::size_t... j>
+[[gnu::flatten]] bool run_vectors(LineBlock& block, std::size_t start, const LineSpan& span,
+                                  std::index_sequence<j...>) noexcept {
+  using Vector = LineVector<V, Solver>;
+  Vector vectors[] = {Vector(block, start + j * V::lanes, span)...};
+  typename V::Mask good(true);
+  const double* p = span.p;
+  double* force = span.force;
+  const std::ptrdiff_t p_stride = span.p_stride, force_stride = span.force_stride;
+  for (std::size_t k = span.ticks; k > 0; --k, p += p_stride) {
+    const auto tick = [&](Vector& vector, std::size_t lane) {
+      const V depth = shared ? V(*p) : V::load(p + lane);
+      good = good && V(-1e6) <= depth && depth <= V(1e6);
+      const V f = vector.step(block, lane, depth);
+      if constexpr (stores) f.store(force + lane);
+    };
+    (tick(vectors[j], start + j * V::lanes), ...);
+    if constexpr (stores) force += force_stride;
+  }
+  (vectors[j].store(block, start + j * V::lanes), ...);
+  return all(good);
+}
 
 template <typename Isa, typename Solver>
 bool run_line(LineBlock& block, const LineSpan& span) noexcept {
-  using Lanes = LineLanes<Simd<Isa>, Solver, 4>;
-  bool good = true;
-  for (std::size_t start = 0; start < block_lanes; start += Lanes::width)
-    good = Lanes(block, start, span).run(span) && good;
+  using V = Simd<Isa>;
+  constexpr auto run = [](auto shared, auto stores, LineBlock& b, const LineSpan& s) noexcept {
+    constexpr std::size_t together = 4, width = together * V::lanes;
+    bool good = true;
+    for (std::size_t start = 0; start < block_lanes; start += width)
+      good =
+          run_vectors<V, Solver, shared.value, stores.value>(b, start, s, std::make_index_sequence<together>()) && good;
+    return good;
+  };
+  constexpr std::true_type yes;
+  constexpr std::false_type no;
+  const bool good = span.shared  ? span.force ? run(yes, yes, block, span) : run(yes, no, block, span)
+                    : span.force ? run(no, yes, block, span)
+                                 : run(no, no, block, span);
   block.started = true;
   return good;
 }

@@ -20,7 +20,7 @@ class PresentPieces {
   Band<V> band(const V& q) const noexcept {
     const auto within = at(block_->first) <= q && q <= at(block_->last);
     if (!all(within)) [[unlikely]]
-      load(q, within);
+      load(*block_, start_, q, !within);
     return band_here(q);
   }
 
@@ -36,24 +36,30 @@ class PresentPieces {
   Quadratic<V> lower() const noexcept { return edge(block_->lower); }
   Quadratic<V> upper() const noexcept { return edge(block_->upper); }
 
-  /// Solves the lanes of `mask` one by one, and returns `force` with their forces, N.
-  V exact_forces(const typename V::Mask& mask, const V& q_prev, const V& f_star, const V& force) const noexcept {
-    alignas(64) double q[V::lanes], f[V::lanes], result[V::lanes];
-    q_prev.store(q);
-    f_star.store(f);
-    force.store(result);
-    batch::exact_forces(*block_, start_, mask.bits(), q, f, result);
-    return V::load(result);
+  /// Solves the lanes of `lanes` one by one. Returns `force` with their forces, N.
+  V solve_alone(const typename V::Mask& lanes, const V& q_prev, const V& f_star, const V& force) const noexcept {
+    return exact_forces(*block_, start_, lanes, q_prev, f_star, force);
   }
 
  private:
   V at(const LaneNumbers& numbers) const noexcept { return V::load(numbers.of + start_); }
   Quadratic<V> edge(const LaneNumbers (&c)[3]) const noexcept { return {at(c[0]), at(c[1]), at(c[2])}; }
 
-  [[gnu::noinline]] void load(const V& q, const typename V::Mask& within) const noexcept {
+  // Static, so that the present pieces can stay in registers.
+  [[gnu::noinline, gnu::cold]] static void load(LineBlock& block, std::size_t start, V q,
+                                                typename V::Mask lanes) noexcept {
     alignas(64) double depth[V::lanes];
     q.store(depth);
-    load_pieces(*block_, start_, (!within).bits(), depth);
+    load_pieces(block, start, lanes.bits(), depth);
+  }
+  [[gnu::noinline, gnu::cold]] static V exact_forces(const LineBlock& block, std::size_t start, typename V::Mask lanes,
+                                                     V q_prev, V f_star, V force) noexcept {
+    alignas(64) double q[V::lanes], f[V::lanes], result[V::lanes];
+    q_prev.store(q);
+    f_star.store(f);
+    force.store(result);
+    batch::exact_forces(block, start, lanes.bits(), q, f, result);
+    return V::load(result);
   }
 
   LineBlock* block_;
@@ -77,7 +83,7 @@ Friction<V> exact_friction(const PresentPieces<V>& now, V q_prev, V f_star, V g)
   const V force = select(slides, edge.value(y + direction * x), f_star);
   const auto leaves = slides && !stays;
   if (!any(leaves)) return {force, {}};
-  return {now.exact_forces(leaves, q_prev, f_star, force), {}};
+  return {now.solve_alone(leaves, q_prev, f_star, force), {}};
 }
 
 /// A law for the solvers of core.
