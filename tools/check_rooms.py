@@ -38,6 +38,7 @@ ROOMS = (
     "python/punctura/ticks",
     "python/punctura/scene",
     "python/punctura/simulation",
+    "python/punctura/batches",
     "python/punctura/__init__.py",
     "python/punctura/fmu",
     "python/punctura/record",

@@ -20,5 +20,6 @@
 #include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
 #if defined(__cpp_exceptions)
+#include "punctura/plant/check.hpp"
 #include "punctura/plant/experiment.hpp"
 #endif

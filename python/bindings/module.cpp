@@ -31,4 +31,5 @@ NB_MODULE(_core, m) {
   bind_devices(m);
   bind_replay(m);
   bind_batch(m);
+  bind_scene_batch(m);
 }

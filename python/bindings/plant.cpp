@@ -2,7 +2,7 @@
 #include "punctura/plant/plant.hpp"
 
 #include "bindings.hpp"
-#include "punctura/plant/motion.hpp"
+#include "punctura/plant/check.hpp"
 #include "state.hpp"
 #include "value.hpp"
 
@@ -36,14 +36,10 @@ void bind_plant(nb::module_& m) {
               "__init__",
               [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
                 std::vector<Problem> problems;
-                const Range above{0, no_bound, true, true, "must be greater than 0"},
-                    from{0, no_bound, false, true, "must be 0 or more"};
-                check_field({"mass", "", "kg", above}, mass, "plant", problems);
-                check_field({"friction", "", "N", from}, friction, "plant", problems);
-                check_field({"encoder_step", "", "m", from}, encoder_step, "plant", problems);
-                check_field({"max_force", "", "N", from}, max_force, "plant", problems);
+                const DeviceDynamics made{mass, friction, encoder_step, max_force};
+                check_fields(plant_fields, made, "plant", problems);
                 raise_if(problems);
-                new (self) DeviceDynamics{mass, friction, encoder_step, max_force};
+                new (self) DeviceDynamics(made);
               },
               nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
               nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
@@ -65,15 +61,10 @@ void bind_plant(nb::module_& m) {
               "__init__",
               [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
                 std::vector<Problem> problems;
-                const Range above{0, no_bound, true, true, "must be greater than 0"},
-                    from{0, no_bound, false, true, "must be 0 or more"};
-                check_field({"mass", "", "kg", from}, mass, "hand", problems);
-                check_field({"damping", "", "N s/m", from}, damping, "hand", problems);
-                check_field({"stiffness", "", "N/m", from}, stiffness, "hand", problems);
-                check_field({"tremor_rms", "", "m", from}, tremor_rms, "hand", problems);
-                check_field({"tremor_hz", "", "Hz", above}, tremor_hz, "hand", problems);
+                const Hand made{mass, damping, stiffness, tremor_rms, tremor_hz};
+                check_fields(hand_fields, made, "hand", problems);
                 raise_if(problems);
-                new (self) Hand{mass, damping, stiffness, tremor_rms, tremor_hz};
+                new (self) Hand(made);
               },
               nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
               nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
@@ -95,17 +86,14 @@ void bind_plant(nb::module_& m) {
           [](Strokes* self, const Triple& start, const Triple& end, std::size_t count, double duration, double rest,
              double variation) {
             std::vector<Problem> problems;
-            const Range above{0, no_bound, true, true, "must be greater than 0"},
-                from{0, no_bound, false, true, "must be 0 or more"};
+            const Strokes made{to_vector(start), to_vector(end), count, duration, rest, variation};
             if (!to_vector(start).allFinite())
               problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
             if (!to_vector(end).allFinite())
               problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
-            check_field({"duration", "", "s", above}, duration, "strokes", problems);
-            check_field({"rest", "", "s", from}, rest, "strokes", problems);
-            check_field({"variation", "", "-", from}, variation, "strokes", problems);
+            check_fields(strokes_fields, made, "strokes", problems);
             raise_if(problems);
-            new (self) Strokes{to_vector(start), to_vector(end), count, duration, rest, variation};
+            new (self) Strokes(made);
           },
           nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
           nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,

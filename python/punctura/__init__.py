@@ -38,6 +38,7 @@ from punctura._core import (
 from punctura._core import (
     version as _version,
 )
+from punctura.batches import BatchResult, batch, grid
 from punctura.errors import ConfigurationError, Problem
 from punctura.paths import cmake_dir, include_dir
 from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
@@ -47,6 +48,7 @@ from punctura.ticks import Ticks
 __version__ = _version()
 
 __all__ = [
+    "BatchResult",
     "ConfigurationError",
     "Coupling",
     "DeviceError",
@@ -84,7 +86,9 @@ __all__ = [
     "ThinLaw",
     "Ticks",
     "__version__",
+    "batch",
     "cmake_dir",
+    "grid",
     "include_dir",
     "load_scene",
     "outlet_at",

@@ -10,6 +10,7 @@
 #include "punctura/proxy/coupling.hpp"
 #include "punctura_runtime/batch/line_tables.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
+#include "punctura_runtime/batch/run_options.hpp"
 
 namespace punctura::batch {
 
@@ -27,15 +28,6 @@ struct Grid {
 /// A depth that is no place.
 struct BadDepth {
   std::size_t tick, trial;
-};
-
-/// How to run a batch. The results do not depend on it.
-struct RunOptions {
-  std::size_t threads = 0;  ///< 0: one for each processor
-  std::size_t block = 256;  ///< trials that one thread computes together; rounded up to a multiple of block_lanes
-  const LineCode* code = nullptr;  ///< null: the fastest instruction set
-  /// Called 20 times a second with the finished part of all work. The run stops if it returns false.
-  std::function<bool(std::size_t, std::size_t)> watch = [](std::size_t, std::size_t) { return true; };
 };
 
 /// Independent proxies on a line (K06 section 3.1), each with its own law and coupling.

@@ -1,0 +1,145 @@
+// runtime/punctura_runtime/batch/scene_batch.hpp: many runs of a scene on several threads.
+#include "punctura_runtime/batch/scene_batch.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/variant.h>
+
+#include <stdexcept>
+
+#include "bindings.hpp"
+#include "ticks.hpp"
+#include "without_lock.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+using batch::SceneBatch;
+
+/// The column of a member of a struct, as a NumPy array.
+template <typename Struct, typename Member>
+nb::object column(const std::vector<Struct>& all, Member Struct::* member, const std::vector<std::size_t>& shape) {
+  std::vector<Member> numbers(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) numbers[i] = all[i].*member;
+  return to_numpy(std::move(numbers), shape);
+}
+
+nb::object fault_column(const std::vector<batch::RunNumbers>& runs) {
+  std::vector<std::uint8_t> codes(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) codes[i] = static_cast<std::uint8_t>(runs[i].fault);
+  return to_numpy(std::move(codes), {runs.size()});
+}
+
+/// Takes over the motion. `kept` holds the arrays of positions.
+SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, std::size_t trials,
+                             std::vector<Input>& kept) {
+  if (nb::isinstance<Strokes>(given)) return nb::cast<Strokes>(given);
+  if (nb::isinstance<RecordedMotion>(given)) return nb::cast<RecordedMotion>(given);
+  const Input p = input(given, "motion");
+  const bool each = p.ndim() == 3 && p.shape(0) == trials && p.shape(2) == 3;
+  if (!each && !(p.ndim() == 2 && p.shape(1) == 3))
+    throw nb::value_error(("motion must be Strokes, a RecordedMotion, or positions of shape (ticks, 3) or (" +
+                           std::to_string(trials) + ", ticks, 3)")
+                              .c_str());
+  const std::size_t ticks = p.shape(each ? 1 : 0);
+  check_places(p.data(), p.size(), "motion", 3);
+  const Input a = input(axis, "axis");
+  Rows(a, ticks, "axis").check("axis");
+  kept = {p, a};
+  return batch::Positions{p.data(), each ? static_cast<std::ptrdiff_t>(3 * ticks) : 0, a.data(), a.ndim() == 1 ? 0 : 3,
+                          ticks};
+}
+
+nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict& vary, std::size_t trials,
+                    const nb::object& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& seeds,
+                    double duration, bool keep_force, std::size_t threads, const nb::object& progress) {
+  std::vector<Input> kept;
+  SceneBatch all{.scene = scene,
+                 .motion = motion_of(motion, axis, trials, kept),
+                 .trials = trials,
+                 .plant = plant,
+                 .hand = hand,
+                 .duration = duration};
+  const auto* positions = std::get_if<batch::Positions>(&all.motion);
+  if (!positions) all.axis = unit(nb::cast<Triple>(axis), "axis");
+  const auto given = nb::cast<nb::ndarray<const std::uint64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(seeds);
+  all.seeds.assign(given.data(), given.data() + given.size());
+  for (nb::handle item : vary.items()) {
+    const auto path = nb::cast<std::string>(item[0]);
+    const Input values = input_1d(nb::borrow(item[1]), path.c_str());
+    all.varied.push_back({path, {values.data(), values.data() + values.size()}});
+    if (values.size() != trials) throw nb::value_error((path + ": one value for each trial is needed").c_str());
+  }
+  if (all.seeds.size() != trials) throw nb::value_error("seeds: one for each trial is needed");
+
+  const Progress told(progress);
+  batch::RunOptions options;
+  options.threads = threads;
+  options.watch = [&](std::size_t done, std::size_t of) {
+    const nb::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    told.tell(done, of);
+    return true;
+  };
+  batch::SceneResults results;
+  std::optional<batch::TrialProblems> wrong;
+  std::string unknown;
+  std::vector<double> force;
+  std::size_t ticks = 0;
+  if (keep_force) {
+    ticks = positions ? positions->ticks : static_cast<std::size_t>(std::llround(duration * scene.servo.rate));
+    force.resize(3 * trials * ticks);
+    results.force = force.data();
+  }
+  {
+    const WithoutLock without;
+    try {
+      wrong = batch::check(all, options);
+      if (!wrong) batch::run(all, results, options);
+    } catch (const std::out_of_range& path) {
+      unknown = path.what();
+    }
+  }
+  if (!unknown.empty())
+    raise_if({{unknown, nothing,
+               "is not a number of this batch: scene.fields() lists those of the scene; plant, hand and strokes have "
+               "theirs, as in \"hand.stiffness\""}});
+  if (wrong) {
+    for (Problem& problem : wrong->problems)
+      problem.path = "trial " + std::to_string(wrong->trial) + ": " + problem.path;
+    raise_if(wrong->problems);
+  }
+  told.tell(1, 1);
+  const std::vector<std::size_t> of_trial{trials}, of_membrane{trials, scene.membranes.size()};
+  using R = batch::RunNumbers;
+  using M = batch::MembraneNumbers;
+  nb::dict d;
+  d["peak"] = column(results.runs, &R::peak, of_trial);
+  d["felt_peak"] = column(results.runs, &R::felt_peak, of_trial);
+  d["depth"] = column(results.runs, &R::depth, of_trial);
+  d["work"] = column(results.runs, &R::work, of_trial);
+  d["dwell"] = column(results.runs, &R::dwell, of_trial);
+  d["limited"] = column(results.runs, &R::limited, of_trial);
+  d["fault"] = fault_column(results.runs);
+  d["pops"] = column(results.membranes, &M::pops, of_membrane);
+  d["first_pop"] = column(results.membranes, &M::first_pop, of_membrane);
+  d["drop"] = column(results.membranes, &M::drop, of_membrane);
+  d["overshoot"] = column(results.membranes, &M::overshoot, of_membrane);
+  if (keep_force) d["force"] = to_numpy(std::move(force), {trials, ticks, 3});
+  return d;
+}
+
+}  // namespace
+
+void bind_scene_batch(nb::module_& m) {
+  m.def(
+      "run_scenes", &run_scenes, nb::arg("scene"), nb::arg("motion"), nb::arg("vary"), nb::arg("trials"),
+      nb::arg("axis"), nb::arg("plant"), nb::arg("hand"), nb::arg("seeds"), nb::arg("duration"), nb::arg("keep_force"),
+      nb::arg("threads"), nb::arg("progress").none(),
+      nb::sig("def run_scenes(scene: Scene, motion: typing.Any, vary: dict[str, numpy.typing.NDArray[numpy.float64]], "
+              "trials: int, axis: typing.Any, plant: Plant, hand: Hand, "
+              "seeds: numpy.typing.NDArray[numpy.uint64], duration: float, keep_force: bool, threads: int, "
+              "progress: Progress) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
+      "The runs of punctura.batch(). Raises ConfigurationError, ValueError.");
+}
+
+}  // namespace punctura::bindings

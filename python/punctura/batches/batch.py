@@ -1,0 +1,117 @@
+"""Runs many trials of a scene on all processors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, run_scenes
+from punctura.batches.result import BatchResult, is_duration
+from punctura.progress import Progress
+
+
+def batch(
+    scene: Scene | Sequence[Scene],
+    motion: Strokes | RecordedMotion | npt.ArrayLike,
+    *,
+    vary: Mapping[str, npt.ArrayLike] | None = None,
+    trials: int | None = None,
+    seeds: int | npt.ArrayLike = 0,
+    duration: float | None = None,
+    axis: npt.ArrayLike | None = None,
+    plant: Plant | None = None,
+    hand: Hand | None = None,
+    keep_force: bool = False,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> BatchResult:
+    """Runs many trials and returns the numbers of each.
+
+    scene: one, or one for each trial; these may differ only in their numbers. motion: Strokes or a RecordedMotion of
+    a hand that holds a simulated device, as in Experiment; or positions, m, (ticks, 3) for all trials or
+    (trials, ticks, 3), as in Insertion.run. vary: values by path, SI, one for each trial (`grid` combines some):
+    "membrane[0].friction", "hand.stiffness", "plant.mass", "strokes.duration". seeds: of each trial, or of the first
+    one; then they count up. duration: s; default: as long as the motion. axis: direction of the needle; default: the
+    first membrane's inward normal. keep_force: also returns the model's force of each tick. threads: default: one for
+    each processor. Each trial has the numbers of the same trial alone. Raises ConfigurationError, ValueError.
+    """
+    base, values = _numbers(scene)
+    for path, column in (vary or {}).items():
+        if path in values:
+            raise ValueError(f"vary has {path}, in which the scenes differ, too: give it in one of them")
+        values[path] = np.ascontiguousarray(np.atleast_1d(np.asarray(column, np.float64)))
+    count = trials if isinstance(scene, Scene) else len(scene)
+    n = _trials(values, seeds, count, motion)
+    for path, column in values.items():
+        if column.shape not in ((n,), (1,)):
+            raise ValueError(f"vary: {path} has shape {column.shape}; there are {n} trials")
+        values[path] = np.ascontiguousarray(np.broadcast_to(column, (n,)))
+    if not is_duration(duration):
+        raise ValueError(f"duration must be 0 s or more, not {duration}")
+    if keep_force and isinstance(motion, Strokes | RecordedMotion) and (duration is None or "servo.rate" in values):
+        raise ValueError("keep_force needs a duration and one servo.rate, so that all trials have as many ticks")
+    own = np.asarray(seeds, np.uint64)
+    own = np.ascontiguousarray(own + np.arange(n, dtype=np.uint64) if own.ndim == 0 else own)
+    plant, hand = plant or Plant(), hand or Hand()
+    direction = base.membranes[0].inward_normal if axis is None else np.asarray(axis, np.float64)
+    if not isinstance(motion, Strokes | RecordedMotion):
+        motion = np.asarray(motion, np.float64)
+    found = run_scenes(
+        base,
+        motion,
+        values,
+        n,
+        direction,
+        plant,
+        hand,
+        own,
+        math.nan if duration is None else duration,
+        keep_force,
+        threads or 0,
+        progress,
+    )
+    kept = tuple(float(x) for x in np.ravel(direction)[:3])
+    return BatchResult(**found, vary=values, seeds=own, base=base, motion=motion, plant=plant, hand=hand, axis=kept)
+
+
+def _numbers(scene: Scene | Sequence[Scene]) -> tuple[Scene, dict[str, npt.NDArray[np.float64]]]:
+    """The first scene, and the numbers in which the others differ from it."""
+    if isinstance(scene, Scene):
+        return scene, {}
+    scenes = list(scene)
+    if not scenes:
+        raise ValueError("scene: give at least one")
+    base = scenes[0]
+    numbers = [{one.path: one.value for one in each.fields()} for each in scenes]
+    for i, each in enumerate(scenes):
+        same = numbers[i].keys() == numbers[0].keys()
+        if not same or base.replace(name=each.name).with_values(numbers[i]) != each:
+            raise ValueError(
+                f"scene[{i}] differs from scene[0] in more than its numbers (scene.fields()): run it in another batch"
+            )
+    columns = {path: np.array([each[path] for each in numbers]) for path in numbers[0]}
+    return base, {path: column for path, column in columns.items() if np.ptp(column) > 0}
+
+
+def _trials(
+    values: Mapping[str, npt.NDArray[np.float64]],
+    seeds: int | npt.ArrayLike,
+    trials: int | None,
+    motion: Strokes | RecordedMotion | npt.ArrayLike,
+) -> int:
+    """The number of trials that the arguments ask for. Raises ValueError."""
+    if trials is not None and trials < 1:
+        raise ValueError(f"trials must be 1 or more, not {trials}")
+    counts = {"trials": trials} if trials is not None else {}
+    counts |= {path: len(column) for path, column in values.items() if len(column) > 1}
+    if np.ndim(seeds) == 1:
+        counts["seeds"] = len(np.asarray(seeds))
+    if not isinstance(motion, Strokes | RecordedMotion) and np.ndim(motion) == 3:
+        counts["motion"] = len(np.asarray(motion))
+    if len(set(counts.values())) > 1:
+        told = ", ".join(f"{name}: {count}" for name, count in counts.items())
+        raise ValueError(f"the arguments ask for different numbers of trials ({told})")
+    return next((count for count in counts.values() if count is not None), 1)

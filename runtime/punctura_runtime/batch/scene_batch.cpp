@@ -1,0 +1,175 @@
+#include "punctura_runtime/batch/scene_batch.hpp"
+
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include "punctura/plant/check.hpp"
+#include "punctura/scene/values.hpp"
+#include "punctura/servo/record.hpp"
+#include "punctura_runtime/batch/blocks.hpp"
+
+namespace punctura::batch {
+namespace {
+
+/// One thread's own scene, plant, hand and strokes, in which it sets the numbers of a trial.
+class Trial {
+ public:
+  explicit Trial(const SceneBatch& all) : scene(all.scene), plant(all.plant), hand(all.hand), all_(all) {
+    if (const auto* given = std::get_if<Strokes>(&all.motion)) strokes = *given;
+    std::map<std::string, double*> known;
+    for_each_value(scene, [&](const std::string& path, const Field&, double& number) { known[path] = &number; });
+    const auto add = [&](const std::string& owner, const auto& fields, auto& values) {
+      for (const auto& field : fields) known[owner + "." + std::string(field.name)] = &(values.*field.member);
+    };
+    const bool device = !std::holds_alternative<Positions>(all.motion);
+    if (device) add("plant", plant_fields, plant);
+    if (device) add("hand", hand_fields, hand);
+    if (std::holds_alternative<Strokes>(all.motion)) add("strokes", strokes_fields, strokes);
+    for (const Varied& one : all.varied) {
+      const auto place = known.find(one.path);
+      if (place == known.end()) throw std::out_of_range(one.path);
+      places_.push_back(place->second);
+    }
+  }
+  Trial(const Trial&) = delete;
+
+  void set(std::size_t i) noexcept {
+    for (std::size_t k = 0; k < places_.size(); ++k) *places_[k] = all_.varied[k].values[i];
+  }
+
+  std::vector<Problem> problems() const {
+    std::vector<Problem> found = punctura::check(scene);
+    check_fields(plant_fields, plant, "plant", found);
+    check_fields(hand_fields, hand, "hand", found);
+    check_fields(strokes_fields, strokes, "strokes", found);
+    return found;
+  }
+
+  Scene scene;
+  DeviceDynamics plant;
+  Hand hand;
+  Strokes strokes{};
+
+ private:
+  const SceneBatch& all_;
+  std::vector<double*> places_;
+};
+
+class Runner {
+ public:
+  Runner(const SceneBatch& all, SceneResults& results, Work& work)
+      : all_(all), results_(results), work_(work), trial_(all) {}
+
+  void run(std::size_t i) {
+    trial_.set(i);
+    RunSummary summary(trial_.scene, !std::holds_alternative<Positions>(all_.motion));
+    if (std::holds_alternative<Strokes>(all_.motion)) {
+      StrokesMotion motion(trial_.strokes, all_.seeds[i]);
+      const double duration = motion.duration();
+      experiment(i, std::move(motion), duration, summary);
+    } else if (const auto* recorded = std::get_if<RecordedMotion>(&all_.motion)) {
+      experiment(i, *recorded, recorded->duration(), summary);
+    } else {
+      along(i, std::get<Positions>(all_.motion), summary);
+    }
+    results_.runs[i] = summary.numbers();
+    const std::size_t m = trial_.scene.membranes.size();
+    for (std::size_t j = 0; j < m; ++j) results_.membranes[i * m + j] = summary.membrane(j);
+  }
+
+ private:
+  template <typename Motion>
+  void experiment(std::size_t i, Motion motion, double whole, RunSummary& summary) {
+    Experiment<Motion> one(trial_.scene, std::move(motion), all_.axis, trial_.plant, trial_.hand, all_.seeds[i]);
+    const double duration = std::isnan(all_.duration) ? whole : all_.duration;
+    const auto ticks = static_cast<std::size_t>(std::llround(duration * trial_.scene.servo.rate));
+    for (std::size_t k = 0; k < ticks && !work_.stop; ++k) {
+      const Snapshot& s = one.step();
+      summary.add(s);
+      keep(i * ticks + k, s.model_force);
+    }
+  }
+
+  void along(std::size_t i, const Positions& given, RunSummary& summary) {
+    Insertion insertion = build_insertion(trial_.scene);
+    const double* p = given.position + static_cast<std::ptrdiff_t>(i) * given.trial_stride;
+    Snapshot s{};
+    s.membrane_count = static_cast<std::uint32_t>(insertion.proxies().size());
+    for (std::size_t k = 0; k < given.ticks && !work_.stop; ++k) {
+      const Vector3d axis(given.axis + static_cast<std::ptrdiff_t>(k) * given.axis_stride);
+      s.tick = k;
+      s.sample.time = static_cast<double>(k) / trial_.scene.servo.rate;
+      s.sample.position = {p[3 * k], p[3 * k + 1], p[3 * k + 2]};
+      s.sample.axis = to_array(axis.stableNormalized());
+      s.model_force = to_array(insertion.step(to_vector(s.sample.position), to_vector(s.sample.axis)));
+      s.tip = to_array(insertion.tip());
+      for (std::size_t j = 0; j < s.membrane_count; ++j) s.membranes[j] = record_of(insertion.proxies()[j].tick());
+      summary.add(s);
+      keep(i * given.ticks + k, s.model_force);
+    }
+  }
+
+  void keep(std::size_t row, const std::array<double, 3>& force) noexcept {
+    if (results_.force) std::copy(force.begin(), force.end(), results_.force + 3 * row);
+  }
+
+  const SceneBatch& all_;
+  SceneResults& results_;
+  Work& work_;
+  Trial trial_;
+};
+
+/// Calls each(own, i) for all trials, in blocks on threads; `make` makes what a block owns.
+template <typename Make, typename Each>
+bool for_each_trial(const SceneBatch& all, const RunOptions& options, std::size_t block, Work& work, Make&& make,
+                    Each&& each) {
+  bool stopped = false;
+  for_each_block((all.trials + block - 1) / block, usable_threads(options.threads), work,
+                 [&](std::size_t index) {
+                   auto own = make();
+                   const std::size_t end = std::min(all.trials, (index + 1) * block);
+                   for (std::size_t i = index * block; i < end && !work.stop; ++i) {
+                     each(*own, i);
+                     ++work.done;
+                   }
+                 },
+                 [&] {
+                   stopped = !options.watch(work.done, all.trials);
+                   return !stopped;
+                 });
+  return !stopped;
+}
+
+}  // namespace
+
+std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& options) {
+  Trial first(all);  // throws for an unknown path
+  std::optional<TrialProblems> worst;
+  std::mutex lock;
+  Work work;
+  RunOptions quiet = options;
+  quiet.watch = [&](std::size_t, std::size_t) { return options.watch(0, all.trials); };
+  for_each_trial(
+      all, quiet, 1024, work, [&] { return std::make_unique<Trial>(all); },
+      [&](Trial& trial, std::size_t i) {
+        trial.set(i);
+        std::vector<Problem> problems = trial.problems();
+        if (problems.empty()) return;
+        const std::lock_guard guard(lock);
+        if (!worst || i < worst->trial) worst = {i, std::move(problems)};
+      });
+  return worst;
+}
+
+bool run(const SceneBatch& all, SceneResults& results, const RunOptions& options) {
+  results.runs.assign(all.trials, {});
+  results.membranes.assign(all.trials * all.scene.membranes.size(), {});
+  Work work;
+  return for_each_trial(
+      all, options, std::max<std::size_t>(1, std::min<std::size_t>(options.block, 64)), work,
+      [&] { return std::make_unique<Runner>(all, results, work); },
+      [](Runner& runner, std::size_t i) { runner.run(i); });
+}
+
+}  // namespace punctura::batch

@@ -1,0 +1,93 @@
+"""punctura.batch: each trial has the numbers of the same trial alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from numpy.typing import NDArray
+from punctura import ConfigurationError, Hand, Insertion, Plant, RecordedMotion, Strokes, batch, grid, load_scene
+from punctura.compare.run import Run
+from punctura.compare.statistics import statistics
+
+SCENE = load_scene("k06-fig12")
+NORMAL = np.array(SCENE.membranes[0].inward_normal)
+FRONT = np.array(SCENE.membranes[0].point) - 3e-3 * NORMAL
+STROKES = Strokes(list(FRONT), list(FRONT + 12e-3 * NORMAL), count=1, duration=0.3, rest=0.05)
+VARY = grid({"membrane[0].friction": [0.1, 0.2], "hand.stiffness": [300, 700], "strokes.duration": [0.25, 0.4]})
+
+
+def test_a_hand_gives_the_statistics_of_the_run_alone() -> None:
+    result = batch(SCENE, STROKES, vary=VARY, seeds=5, duration=0.8, keep_force=True, threads=2)
+    assert len(result) == 8 and result.seeds.tolist() == list(range(5, 13))
+    assert result.force is not None and result.force.shape == (8, 1280, 3)
+    for i in (0, 3, 7):
+        ticks = result.experiment(i).run(0.8)
+        alone = statistics(Run.of_ticks("alone", result.scene(i), ticks))
+        assert np.array_equal(result.force[i], ticks.model_force)
+        assert result.peak[i] == pytest.approx(alone.peak, rel=1e-12)
+        assert result.felt_peak[i] == pytest.approx(alone.felt_peak, rel=1e-12)
+        assert result.depth[i] == pytest.approx(alone.depth, rel=1e-12)
+        assert result.work[i] == pytest.approx(alone.work, rel=1e-9)
+        assert result.dwell[i] == pytest.approx(np.isin(ticks.phase, (1, 2, 3)).any(axis=1).sum() / 1600)
+        assert result.pops[i].sum() == len(alone.pops) > 0
+        for pop in alone.pops:
+            assert result.drop[i, pop.membrane] == pytest.approx(pop.drop, rel=1e-12)
+            assert result.overshoot[i, pop.membrane] == pytest.approx(pop.overshoot, rel=1e-9)
+    assert np.ptp(result.peak) > 0
+
+
+def test_threads_do_not_change_a_bit() -> None:
+    one, many = (batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=n) for n in (1, 7))
+    for name in ("peak", "felt_peak", "depth", "work", "dwell", "limited", "pops", "first_pop", "drop", "overshoot"):
+        assert getattr(one, name).tobytes() == getattr(many, name).tobytes()
+
+
+def positions(ticks: int = 900) -> NDArray[np.float64]:
+    depth = 13e-3 * np.sin(np.pi * np.arange(ticks) / ticks) ** 2
+    return np.asarray(FRONT + depth[:, None] * NORMAL)
+
+
+def test_positions_give_the_forces_of_an_insertion() -> None:
+    p = positions()
+    scenes = [SCENE.with_values({"membrane[0].friction": mu}) for mu in (0.1, 0.15, 0.3)]
+    result = batch(scenes, p, keep_force=True)
+    assert result.force is not None and np.isnan(result.felt_peak).all()
+    for scene, force in zip(scenes, result.force, strict=True):
+        assert np.array_equal(force, Insertion(scene).run(p, NORMAL).force)
+    own = batch(scenes, np.array([p, p[::-1], p + 1e-4]), keep_force=True)
+    assert own.force is not None
+    assert np.array_equal(own.force[1], Insertion(scenes[1]).run(p[::-1], NORMAL).force)
+    with pytest.raises(ValueError, match="simulate"):
+        own.experiment(0)
+
+
+def test_recorded_motion_other_hands_and_a_table() -> None:
+    p = positions()
+    motion = RecordedMotion(np.arange(len(p)) / 1600, p)
+    given = batch(SCENE, motion, trials=4, plant=Plant(friction=0), hand=Hand(tremor_rms=0), seeds=[1, 2, 3, 4])
+    assert np.ptp(given.peak) > 0  # the seed moves the steps of the encoders
+    table = given.to_arrow()
+    assert isinstance(table, pa.Table) and table.num_rows == 4
+    assert table["seed"].to_pylist() == [1, 2, 3, 4] and table["fault"].to_pylist() == ["none"] * 4
+    assert table["drop[0]"].to_pylist() == given.drop[:, 0].tolist()
+    never = batch(SCENE, p - 0.05 * NORMAL)  # in front of all membranes
+    assert never.pops.sum() == 0 and never.to_arrow()["drop[0]"].to_pylist() == [None]
+    assert repr(given) == "<BatchResult of 4 runs>"
+
+
+def test_wrong_arguments() -> None:
+    with pytest.raises(ConfigurationError, match=r"trial 2: membrane\[0\]\.friction"):
+        batch(SCENE, STROKES, vary={"membrane[0].friction": [0.2, 0.3, -1]})
+    with pytest.raises(ConfigurationError, match=r"hand\.grip"):
+        batch(SCENE, STROKES, vary={"hand.grip": [1, 2]})
+    with pytest.raises(ValueError, match="different numbers of trials"):
+        batch(SCENE, STROKES, vary={"hand.mass": [0.1, 0.2]}, trials=3)
+    with pytest.raises(ValueError, match="keep_force needs a duration"):
+        batch(SCENE, STROKES, trials=2, keep_force=True)
+    with pytest.raises(ValueError, match=r"scene\[1\] differs"):
+        batch([SCENE, load_scene("k06-fig10")], STROKES)
+    bad = positions()
+    bad[3, 1] = np.nan
+    with pytest.raises(ValueError, match=r"motion\[3\]"):
+        batch(SCENE, bad)
