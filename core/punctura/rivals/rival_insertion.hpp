@@ -96,7 +96,9 @@ using RivalServoStep = ServoStepOf<RivalInsertion>;
 /// the scene has with K06. rivals: one for each membrane. The scene has passed check().
 inline RivalServoStep build_rivals(const Scene& scene, std::span<const AnyRival> rivals, const GateLimits& gate = {},
                                    const ForceLimits& limits = {}) {
-  const double scale = force_scale(scene, build_insertion(scene), limits);
+  std::vector<Problem> problems;
+  const auto k06 = try_build_insertion(scene, problems);
+  const double scale = force_scale(scene, *k06, limits);
   RivalServoStep step(RivalInsertion(scene, rivals), 1 / scene.servo.rate, gate, limits, scale);
   if (scene.syringe) detail::put_syringe(scene, step);
   return step;
