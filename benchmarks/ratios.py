@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 # Targets for one tick of one membrane in one dimension.
 MOST_OVER_FUSED = {"paper": 1.5, "exact": 2.5}
 LEAST_UNDER_NUMPY = 300.0
+# Target for one tick in a membrane of measured tissue with 8 knots, over K06's.
+MOST_OVER_K06 = 2.0
 # Target for the 99.9 % quantile of the wake-up latency.
 MOST_OVER_CYCLICTEST = 1.3
 
@@ -59,6 +61,16 @@ def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) 
     return ratios
 
 
+def over_k06(rows: list[dict[str, Any]]) -> list[Ratio]:
+    """A membrane of measured tissue / K06's membrane, with the same solver."""
+    ratios = []
+    for row in rows:
+        value, low, high = (row["over_k06"][key] for key in ("median", "lower_quartile", "upper_quartile"))
+        what = f"8 knots / K06, {row['solver']}, {row['form']}"
+        ratios.append(Ratio(what, value, low, high, f"at most {MOST_OVER_K06:g}", value <= MOST_OVER_K06))
+    return ratios
+
+
 def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
     """Servo loop / cyclictest over all slices, with quartiles of neighbouring slices. Fails if not measured."""
     ratios = []
@@ -79,4 +91,4 @@ def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
 
 def all_ratios(result: dict[str, Any]) -> list[Ratio]:
     """All ratios of tick times."""
-    return over_fused(result["rows"]) + under_numpy(result["rows"], result["loops"])
+    return over_fused(result["rows"]) + under_numpy(result["rows"], result["loops"]) + over_k06(result["tissue"])

@@ -48,6 +48,11 @@ def table(result: dict[str, Any]) -> Iterator[str]:
             + "".join(f"{time(timings.get(name)):>14}" for name in NAMES)
             + "".join(f"{over(timings[name]):>13}" for name in NAMES[1:])
         )
+    for row in result["tissue"]:
+        yield (
+            f"  {row['form']:11} {'double':7} {1:9} {'encoder':8}  {row['solver']}: K06 {row['k06_ns']:.1f}, "
+            f"tissue with 8 knots, cutting and a set {row['tissue_ns']:.1f}"
+        )
     for name, timing in result["loops"].items():  # with the work of the first row
         yield f"  {'1-D':11} {'double':7} {1:9} {'encoder':8}  {name} loop: {time(timing)}"
 
@@ -71,7 +76,7 @@ def wakeup_table(wakeups: dict[str, Any]) -> Iterator[str]:
         yield "  cyclictest is missing, so there is no comparison. On Debian and Ubuntu install the package rt-tests."
 
 
-def verdicts(ratios: list[Ratio], of: str = "One tick, one membrane, 1-D: median") -> Iterator[str]:
+def verdicts(ratios: list[Ratio], of: str = "One tick, one membrane: median") -> Iterator[str]:
     yield f"{of} [quartiles]"
     for r in ratios:
         digits = 2 if r.value < 100 else 0

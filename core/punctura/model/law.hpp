@@ -42,6 +42,10 @@ concept LawWithMemory =
       { law.pieces(memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;  // on a line
     };
 
+/// Pieces that find a depth sooner if they know where the proxy is.
+template <typename Pieces>
+concept LooksAhead = requires(Pieces pieces, typename Pieces::Scalar q) { pieces.look_at(q); };
+
 /// A law with memory that also hears when the tip has left the wall in front. Returns true if the pieces change.
 template <typename L>
 concept HearsLeaving = LawWithMemory<L> && requires(const L law, typename L::Memory& memory) {
@@ -51,12 +55,10 @@ concept HearsLeaving = LawWithMemory<L> && requires(const L law, typename L::Mem
 /// A law with memory that can bring its pieces up to date faster than pieces(). The memory has changed since
 /// pieces(), the angle has not.
 template <typename L>
-concept RefreshesPieces =
-    LawWithMemory<L> && requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta,
-                                 std::remove_cvref_t<decltype(law.pieces())>& pieces) {
-      { law.refresh(pieces, cos_beta, memory) } noexcept;
-      { law.refresh(pieces, memory) } noexcept;  // on a line
-    };
+concept RefreshesPieces = LawWithMemory<L> && requires(const L law, const typename L::Memory& memory,
+                                                       std::remove_cvref_t<decltype(law.pieces())>& pieces) {
+  { law.refresh(pieces, memory) } noexcept;
+};
 
 /// False for a law that has Memory or advance() but is not a LawWithMemory. Such a law would run without its memory.
 template <typename L>

@@ -19,9 +19,11 @@ struct ManyPieces {
   using Piece = BandPiece<Scalar>;
   static constexpr std::size_t size = N;
 
-  std::array<Scalar, N - 1> breaks{};  ///< m, ascending; infinite where unused
+  static constexpr std::size_t block = 8;      ///< index() compares with so many breaks at once
+  std::array<Scalar, N - 1 + block> breaks{};  ///< m, ascending; infinite where unused
   std::array<Piece, N> pieces{};
   std::size_t count = 1;  ///< pieces in use
+  std::size_t here = 0;   ///< index() looks here first
 
   ManyPieces() noexcept { breaks.fill(Scalar(std::numeric_limits<Lane<Scalar>>::infinity())); }
 
@@ -47,11 +49,12 @@ struct ManyPieces {
     ++count;
   }
 
-  /// Index of the piece that contains depth q (m), by bisection.
+  /// Index of the piece that contains depth q (m).
   std::size_t index(const Scalar& q) const noexcept {
     if (!(q >= breaks[0])) return 0;
+    if (here > 0 && (here == 1 || q > breaks[here - 1]) && !(q > breaks[here])) return here;
     std::size_t first = 1, left = count - 2;
-    while (left > 0) {
+    while (left > 0) {  // bisection
       const std::size_t half = left / 2;
       const bool behind = q > breaks[first + half];
       first = behind ? first + half + 1 : first;
@@ -59,6 +62,9 @@ struct ManyPieces {
     }
     return first;
   }
+  /// Tells that the next depth will probably be near q (m). This only saves time.
+  void look_at(const Scalar& q) noexcept { here = index(q); }
+
   Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
   Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept { return pieces[i].band(q); }
 

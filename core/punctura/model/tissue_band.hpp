@@ -37,10 +37,12 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   Scalar kept{1};
   Front made{}, cut{};
 
-  /// Moves the fronts to these depths (m). whole: the depth at which a hole is finished, m.
-  void set_fronts(const Scalar& made_to, const Scalar& cut_to, const Scalar& whole) noexcept {
-    move(made, made_to, whole);
-    move(cut, cut_to, whole);
+  Scalar whole{};  ///< the depth at which a hole is finished, m
+
+  /// Moves the fronts to these depths (m).
+  void set_fronts(const Scalar& made_to, const Scalar& cut_to) noexcept {
+    move(made, made_to);
+    move(cut, cut_to);
   }
 
   /// Index of the piece that contains depth q (m), for band(q, i), piece(i) and end(i).
@@ -49,10 +51,9 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   }
   Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
   Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
-    Band<Scalar> band = piece(i).band(q);
-    if (near(q, made)) band = hull(band, hull(piece(made.piece).band(q), piece(made.piece + 1).band(q)));
-    if (near(q, cut)) band = hull(band, hull(piece(cut.piece + 1).band(q), piece(cut.piece + 2).band(q)));
-    return band;
+    if (near(q, cut) || near(q, made)) return at_front(q);
+    return i > cut.piece + 1 ? First::pieces[i - 2].band(q)
+                             : piece(i).band(q);  // the untouched wall in the shortest way
   }
 
   Piece piece(std::size_t i) const noexcept {
@@ -87,9 +88,25 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   /// m: a proxy that rests on a front is within this distance of it, after rounding.
   static constexpr One rounding = std::max(One(1e-10), std::numeric_limits<One>::epsilon());
 
-  void move(Front& front, const Scalar& to, const Scalar& whole) noexcept {
-    const Scalar at = !(to > 0) ? Scalar(-infinity) : to < whole ? to : Scalar(infinity);
-    front = {at, !(to > 0) ? 0 : to < whole ? First::index(to) : First::count - 1};
+  void move(Front& front, const Scalar& to) noexcept {
+    if (!(to > 0)) {
+      front = {};
+    } else if (!(to < whole)) {
+      front = {Scalar(infinity), First::count - 1};
+    } else {
+      std::size_t piece = front.at < to ? front.piece : 0;  // a front goes on from its last place
+      if (piece == 0) piece = First::index(to);
+      while (piece + 1 < First::count && to > First::breaks[piece]) ++piece;
+      front = {to, piece};
+    }
+  }
+  /// The band between both sides of the fronts at depth q.
+  Band<Scalar> at_front(const Scalar& q) const noexcept {
+    const std::size_t first = near(q, made) ? made.piece : cut.piece + 1;
+    const std::size_t last = near(q, cut) ? cut.piece + 2 : made.piece + 1;
+    Band<Scalar> band = piece(first).band(q);
+    for (std::size_t i = first + 1; i <= last; ++i) band = hull(band, piece(i).band(q));
+    return band;
   }
   static bool near(const Scalar& q, const Front& front) noexcept {
     return q < front.at + rounding && q > front.at - rounding;

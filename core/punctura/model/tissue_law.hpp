@@ -62,11 +62,12 @@ class BasicTissueLaw {
       detail::average(profile_, H_, cos_beta, all);
     if (C_ > 0) add_cutting(cos_beta, all);
     all.kept = kept_;
+    all.whole = X_ + H_ / cos_beta;
     return all;
   }
   Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
     Pieces all = pieces(cos_beta);
-    refresh(all, cos_beta, memory);
+    refresh(all, memory);
     return all;
   }
   Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }
@@ -84,11 +85,8 @@ class BasicTissueLaw {
     memory.made = memory.cut;
     return true;
   }
-  /// Changes the pieces of pieces(cos_beta, ...) to this memory, in little time.
-  void refresh(Pieces& all, Scalar cos_beta, const Memory& memory) const noexcept {
-    all.set_fronts(memory.made, memory.cut, X_ + H_ / cos_beta);
-  }
-  void refresh(Pieces& all, const Memory& memory) const noexcept { refresh(all, cos_beta_, memory); }
+  /// Changes these pieces to this memory, in little time.
+  void refresh(Pieces& all, const Memory& memory) const noexcept { all.set_fronts(memory.made, memory.cut); }
 
   Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< of the untouched wall at q (m), N
   Scalar thickness() const noexcept { return H_; }                        ///< H, m

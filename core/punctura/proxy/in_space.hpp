@@ -143,11 +143,12 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
     const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
     if (now > 0 && params.law.advance(state.law, now)) {
       if constexpr (RefreshesPieces<L>)
-        params.law.refresh(state.pieces, state.cos_beta, state.law);
+        params.law.refresh(state.pieces, state.law);
       else
         lay_out(params, state);
     }
   }
+  if constexpr (LooksAhead<PiecesOf<L>>) state.pieces.look_at(depth);
   return {state.f, p + state.e, state.b, friction.force, depth, band, state.phase};
 }
 

@@ -91,11 +91,13 @@ void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scal
     changed = params.law.advance(state.law, q);
   else if constexpr (HearsLeaving<L>)
     changed = params.law.leave(state.law);
-  if (!changed) return;
-  if constexpr (RefreshesPieces<L>)
-    params.law.refresh(state.pieces, state.law);
-  else
-    lay_out(params, state);
+  if (changed) {
+    if constexpr (RefreshesPieces<L>)
+      params.law.refresh(state.pieces, state.law);
+    else
+      lay_out(params, state);
+  }
+  if constexpr (LooksAhead<PiecesOf<L>>) state.pieces.look_at(q);
 }
 
 /// Ends a tick: moves the proxy, from the friction force.
