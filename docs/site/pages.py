@@ -12,6 +12,7 @@ PACKAGES = [
     "punctura", "punctura.scene", "punctura.simulation", "punctura.live", "punctura.record", "punctura.events",
     "punctura.exercise", "punctura.reproduce",
     "punctura.rivals",
+    "punctura.mujoco",
 ]  # fmt: skip
 
 

@@ -104,6 +104,22 @@ void bind_insertion(nb::module_& m) {
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro(
+          "depths",
+          [](const SceneInsertion& i) {
+            std::vector<double> depths;
+            for (const auto& proxy : i.proxies()) depths.push_back(proxy.depth());
+            return nb::tuple(nb::cast(depths));
+          },
+          nb::sig("def depths(self) -> tuple[float, ...]"), "Depth of the proxy behind each membrane, last tick, m")
+      .def_prop_ro(
+          "phases",
+          [](const SceneInsertion& i) {
+            std::vector<Phase> phases;
+            for (const auto& proxy : i.proxies()) phases.push_back(proxy.phase());
+            return nb::tuple(nb::cast(phases));
+          },
+          nb::sig("def phases(self) -> tuple[Phase, ...]"), "Phase at each membrane in the last tick")
+      .def_prop_ro(
           "tip", [](const SceneInsertion& i) { return to_array(i.tip()); }, "The conditioned position, m")
       .def_prop_ro(
           "force", [](const SceneInsertion& i) { return to_array(i.force()); }, "The force of the last tick, N");

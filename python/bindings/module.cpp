@@ -23,6 +23,7 @@ NB_MODULE(_core, m) {
   bind_plant(m);
   bind_experiment(m);
   bind_rivals(m);
+  bind_fleet(m);
   bind_limits(m);
   bind_tick_table(m);
   bind_thumb(m);

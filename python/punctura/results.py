@@ -18,6 +18,19 @@ class Quantiles(TypedDict):
     counts: npt.NDArray[np.uint64]
 
 
+class FleetStep(TypedDict):
+    """The results of a step of a Fleet of n trials with at most m membranes each."""
+
+    force: npt.NDArray[np.float64]  # (n,) N in the last tick, against the needle's direction: positive holds it back
+    lowest_force: npt.NDArray[np.float64]  # (n,) N, the smallest of the step
+    highest_force: npt.NDArray[np.float64]  # (n,) N, the largest of the step
+    travel: npt.NDArray[np.float64]  # (n,) m along the needle since the start, as the encoders measure it
+    speed: npt.NDArray[np.float64]  # (n,) m/s along the needle, mean of the step
+    fault: npt.NDArray[np.uint8]  # (n,) the latched Fault of the servo step; 0 is none
+    depth: npt.NDArray[np.float64]  # (n, m) m behind each membrane's surface after the step; NaN if there is none
+    deepest: npt.NDArray[np.float64]  # (n, m) m, the largest depth of the step
+
+
 class LoopReport(TypedDict):
     """Timing statistics of a ServoLoop."""
 

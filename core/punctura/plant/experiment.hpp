@@ -13,7 +13,8 @@ namespace punctura {
 
 /// A simulated operator with a simulated device. It uses the same servo step as a real device.
 ///
-/// Motion: StrokesMotion, RecordedMotion, Target, or anything with `Desired at(double time)`, time from 0.
+/// Motion: StrokesMotion, RecordedMotion, Target, Steered, or anything with `Desired at(double time)`, time
+/// from 0.
 /// Servo: a servo step, with K06's law or another model.
 template <typename Motion, typename Servo = ServoStep>
 class Experiment {

@@ -1,4 +1,5 @@
-// Desired motions of a hand: repeated strokes, a recorded motion, a target that a user moves.
+// Desired motions of a hand: repeated strokes, a recorded motion, a target that a user moves, a velocity that a program
+// sets.
 #pragma once
 
 #include <algorithm>
@@ -129,6 +130,29 @@ class Target {
  private:
   double lag_, time_ = 0;
   Vector3d target_, first_, second_;
+};
+
+/// A motion with a velocity that a program sets, for example a policy that learns. It starts at rest.
+class Steered {
+ public:
+  explicit Steered(const Vector3d& position) noexcept : position_(position) {}
+
+  /// velocity: m/s, from the next call of at() on.
+  void steer(const Vector3d& velocity) noexcept { velocity_ = velocity; }
+
+  /// The desired motion at a time (s). Times must not decrease from call to call.
+  Desired at(double time) noexcept {
+    position_ += std::max(0.0, time - time_) * velocity_;
+    time_ = time;
+    return {position_, velocity_};
+  }
+
+  static void archive(auto& self, auto& state) { state.numbers(self.time_, self.position_, self.velocity_); }
+  void describe(auto&) const {}
+
+ private:
+  double time_ = 0;
+  Vector3d position_, velocity_ = Vector3d::Zero();
 };
 
 }  // namespace punctura

@@ -1,0 +1,301 @@
+"""punctura.mujoco with the real MuJoCo. Run by test.sh."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import punctura as pn
+import punctura.mujoco as pm
+import pytest
+
+mujoco = pytest.importorskip("mujoco", reason="test.sh installs it")
+
+LONG = os.environ.get("PUNCTURA_LONG") == "1"  # set by test.sh
+NEEDLE = pn.Needle(1.08e-3, 0.28)
+WALL = pn.Membrane(570, 0.41, 0.2, 1e-3)
+
+
+def scene(*heights: float, coupling: pn.Coupling | None = None) -> pn.Scene:
+    """Membranes across z, each at a height of its body's frame, m; the needle goes down."""
+    walls = [pn.PlacedMembrane(f"wall {i}", WALL, (0, 0, z), (0, 0, -1)) for i, z in enumerate(heights)]
+    return pn.Scene("walls", NEEDLE, coupling or pn.Coupling(400, 1), walls)
+
+
+def model(
+    mass: float = 1e-3, timestep: float = 2e-3, joint: str = "<freejoint/>", tissue: str = "", **option: str
+) -> mujoco.MjModel:
+    options = " ".join(f'{key}="{value}"' for key, value in option.items())
+    inertia = " ".join([f"{mass * 1e-4:g}"] * 3)
+    return mujoco.MjModel.from_xml_string(
+        f"""<mujoco><option timestep="{timestep}" gravity="0 0 0" {options}/><worldbody>
+        <body name="tissue">{tissue}</body>
+        <body name="needle" pos="0 0 0.002">{joint}<inertial mass="{mass}" pos="0 0 0" diaginertia="{inertia}"/>
+        <site name="tip" zaxis="0 0 -1"/></body></worldbody></mujoco>"""
+    )
+
+
+def push(attached: pm.Attachment, data: mujoco.MjData, force: float, seconds: float) -> np.ndarray:
+    """Steps with a constant force on the needle along z. Returns time, height and force of the needle, by steps."""
+    rows = []
+    needle = attached.model.body("needle").id
+    for _ in range(round(seconds / attached.model.opt.timestep)):
+        data.xfrc_applied[needle, 2] = force
+        attached.step(data)
+        rows.append((data.time, data.site_xpos[0, 2], attached.force(data)[0, 2]))
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
+@pytest.mark.parametrize("mass", [1e-4, 1e-3, 1e-2, 1e-1])
+def test_a_needle_is_held_at_2_ms_and_at_rest_its_force_is_steady(mass, integrator):
+    m = model(mass, integrator=integrator)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d.qvel[2] = -0.05
+    pushed = push(attached, d, -0.3, 2)
+    assert pushed[-100:, 2] == pytest.approx(0.3, abs=2e-3)
+    released = push(attached, d, 0, 2)
+    assert abs(released[-1, 2]) < 2e-3
+
+
+SLIDE = '<joint type="slide" axis="0 0 1"/>'
+
+
+def test_without_the_implicit_force_a_light_needle_oscillates_and_a_warning_names_mass_and_time_step():
+    m = model(1e-3, joint=SLIDE)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue", implicit=False)
+    d.qvel[0] = -0.05
+    with pytest.warns(pm.StabilityWarning, match=r"mass of 0.001 kg. With a time step of 0.002 s .* 0.0014 kg"):
+        pushed = push(attached, d, -0.3, 1)
+    assert np.ptp(pushed[-100:, 2]) > 0.1
+    heavy = model(1e-2, joint=SLIDE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        d = mujoco.MjData(heavy)
+        attached = pm.attach(heavy, scene(0), "tip", "tissue", implicit=False)
+        d.qvel[0] = -0.05
+        assert np.ptp(push(attached, d, -0.3, 2)[-100:, 2]) < 1e-6
+
+
+def test_without_the_implicit_force_it_is_that_of_the_core_bit_for_bit():
+    m = model(1e-2, joint=SLIDE)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0, -2e-3), "tip", "tissue", implicit=False)
+    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, pn.ServoSettings(500, 0)))
+    d.qvel[0] = -0.2
+    largest = 0.0
+    for _ in range(500):
+        mujoco.mj_kinematics(m, d)
+        core.step(d.site_xpos[0], d.site_xmat[0].reshape(3, 3)[:, 2])
+        attached.step(d)
+        assert (attached.force(d)[0] == core.force).all()
+        largest = max(largest, core.force[2])
+    assert largest > 0.2
+
+
+def test_held_by_static_friction_the_needle_does_not_drift():
+    m = model(1e-3)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d.qvel[2] = -0.05
+    push(attached, d, -0.55, 1.5)
+    held = push(attached, d, -0.01, 61 if LONG else 3)  # ten times its weight, a fortieth of the friction
+    settled = held[held[:, 0] > held[0, 0] + 1]
+    assert np.ptp(settled[:, 1]) < 1e-6
+    assert settled[-1, 2] == pytest.approx(0.01, abs=1e-6)
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+def test_step_and_acting_give_the_same_bits_however_often_mujoco_calls(integrator):
+    m = model(5e-3, integrator=integrator)
+    d, other = mujoco.MjData(m), mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d.qvel[2] = other.qvel[2] = -0.3
+    largest = 0.0
+    for _ in range(200):
+        attached.step(d)
+        largest = max(largest, attached.force(d)[0, 2])
+    assert largest > 0.1
+    with attached.acting():
+        for i in range(200):
+            if i % 7 == 0:
+                mujoco.mj_forward(m, other)
+                mujoco.mj_forward(m, other)
+            mujoco.mj_step(m, other)
+    assert (d.qpos == other.qpos).all() and (attached.force(d) == attached.force(other)).all()
+    assert not other.xfrc_applied.any()
+
+
+def test_needle_and_tissue_get_opposite_forces_in_a_tissue_that_moves_and_turns():
+    tissue = '<freejoint/><inertial mass="0.05" pos="0 0 0" diaginertia="2e-5 2e-5 2e-5"/>'
+    m = model(5e-3, tissue=tissue)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d.qvel[:6] = 0.02, 0.01, 0, 0.5, -0.5, 1.0
+    d.qvel[8] = -0.3
+    mujoco.mj_forward(m, d)
+
+    def momentum() -> np.ndarray:
+        mujoco.mj_forward(m, d)
+        mujoco.mj_subtreeVel(m, d)
+        bodies = [m.body("tissue").id, m.body("needle").id]
+        masses, centres = m.body_mass[bodies], d.xipos[bodies]
+        linear = d.subtree_linvel[bodies] * masses[:, None]
+        return np.concatenate([linear.sum(0), (d.subtree_angmom[bodies] + np.cross(centres, linear)).sum(0)])
+
+    before, largest = momentum(), 0.0
+    for _ in range(300):
+        attached.step(d)
+        largest = max(largest, np.linalg.norm(attached.force(d)))
+    assert largest > 0.1
+    assert momentum()[:3] == pytest.approx(before[:3], abs=1e-12)
+    # Euler's method keeps the angular momentum of two bodies only to the first order in the time step
+    assert momentum()[3:] == pytest.approx(before[3:], abs=1e-7)
+
+
+def test_the_frame_of_the_tissue_does_not_change_what_the_needle_feels():
+    results = []
+    for place in ("", 'pos="0.1 -0.2 0.3" euler="30 40 50"'):
+        m = mujoco.MjModel.from_xml_string(
+            f"""<mujoco><option timestep="0.002" gravity="0 0 0"/><worldbody><frame {place}><body name="tissue"/>
+            <body name="needle" pos="0 0 0.002"><joint type="slide" axis="0 0 1"/><geom size="0.01" mass="0.002"/>
+            <site name="tip" zaxis="0 0 -1"/></body></frame></worldbody></mujoco>"""
+        )
+        d = mujoco.MjData(m)
+        attached = pm.attach(m, scene(0), "tip", "tissue")
+        d.qvel[0] = -0.5
+        for _ in range(100):
+            attached.step(d)
+            results.append((d.qpos[0], np.linalg.norm(attached.force(d))))
+    assert max(force for _, force in results) > 0.1
+    assert np.allclose(results[:100], results[100:], rtol=0, atol=1e-9)
+
+
+def test_several_needles_and_membranes_on_several_bodies():
+    m = mujoco.MjModel.from_xml_string(
+        """<mujoco><option timestep="0.002" gravity="0 0 0"><flag contact="disable"/></option>
+        <worldbody><body name="skin"/>
+        <body name="vein" pos="0 0 -0.0005"><joint type="slide" axis="1 0 0" stiffness="200" damping="1"/>
+        <geom size="0.003" mass="0.01"/></body>
+        <body name="left" pos="0 0 0.002"><joint type="slide" axis="0 0 1" damping="1"/><geom size="0.01" mass="0.01"/>
+        <site name="left tip" zaxis="1 0 -2"/></body>
+        <body name="right" pos="1 0 0.002"><joint type="slide" axis="0 0 1" damping="1"/><geom size="0.01" mass="0.01"/>
+        <site name="right tip" zaxis="0 0 -1"/></body></worldbody></mujoco>"""
+    )
+    walls = scene(0, 0)
+    attached = pm.attach_needles(
+        m,
+        [
+            pm.NeedleInTissue(walls, "left tip", {"wall 0": "skin", "wall 1": "vein"}),
+            pm.NeedleInTissue(scene(0), "right tip", "skin"),
+        ],
+    )
+    d = mujoco.MjData(m)
+    for _ in range(1000):
+        d.qfrc_applied[1:] = -0.5, -0.3
+        attached.step(d)
+    depths = attached.depths(d)
+    assert [len(row) for row in depths] == [1, 1, 1]
+    assert [phase.name for row in attached.phases(d) for phase in row] == ["sticking"] * 3
+    assert depths[0][0] > depths[1][0] > 0
+    assert abs(d.qpos[0]) > 1e-6  # the slanting needle has moved the vein aside
+
+
+def test_a_force_sensor_between_robot_and_needle_feels_the_tissue():
+    m = mujoco.MjModel.from_xml_string(
+        """<mujoco><option timestep="0.002" gravity="0 0 0"/><worldbody><body name="tissue"/>
+        <body pos="0 0 0.002"><joint type="slide" axis="0 0 1" damping="10"/><geom size="0.01" mass="0.1"/>
+        <body name="needle"><geom size="0.001" mass="0.001"/><site name="tip" zaxis="0 0 -1"/></body></body>
+        </worldbody><sensor><force name="felt" site="tip"/></sensor></mujoco>"""
+    )
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    for _ in range(1000):
+        d.qfrc_applied[0] = -0.4
+        attached.step(d)
+    assert d.sensor("felt").data[2] == pytest.approx(0.4, abs=1e-4)
+
+
+def test_a_saved_state_continues_with_the_same_bits_and_foreign_ones_change_nothing():
+    m = model(5e-3)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d.qvel[2] = -0.3
+    push(attached, d, -0.2, 0.05)
+    state = attached.save(d)
+    first = push(attached, d, -0.2, 0.2)
+    attached.restore(d, state)
+    assert (push(attached, d, -0.2, 0.2) == first).all()
+
+    changed = model(5e-3, joint='<joint type="slide" axis="0 0 1"/>')
+    other = pm.attach(changed, scene(0), "tip", "tissue")
+    firmer = pm.attach(model(5e-3), scene(0, coupling=pn.Coupling(500, 1)), "tip", "tissue")
+    before = attached.save(d)
+    for attachment, data, bad in [
+        (attached, d, b"nonsense"), (attached, d, state[:-1]), (attached, d, b""),
+        (attached, d, state[:-9] + bytes([state[-9] ^ 1]) + state[-8:]),
+        (attached, d, other.save(mujoco.MjData(changed))), (attached, d, firmer.save(mujoco.MjData(firmer.model))),
+    ]:  # fmt: skip
+        with pytest.raises(ValueError, match="state"):
+            attachment.restore(data, bad)
+    assert attached.save(d) == before
+
+
+def test_wrong_use_is_refused_with_a_sentence():
+    m = model()
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    d = mujoco.MjData(m)
+    with pytest.raises(ValueError, match="has an Attachment already"):
+        pm.attach(m, scene(0), "tip", "tissue")
+    with attached.acting(), pytest.raises(RuntimeError, match="would make the step twice"):
+        attached.step(d)
+    attached.step(d)
+    mujoco.mj_step(m, d)
+    with pytest.raises(RuntimeError, match="stepped, reset or set without"):
+        attached.step(d)
+    attached.reset(d)
+    attached.step(d)
+    m.opt.timestep = 1e-3
+    with pytest.raises(RuntimeError, match=r"was 0.002 s .* now 0.001 s"):
+        attached.step(d)
+    attached.detach()
+    with pytest.raises(RuntimeError, match="was detached"):
+        attached.step(d)
+    with pytest.raises(ValueError, match="no site 'point'; it has 'tip'"):
+        pm.attach(m, scene(0), "point", "tissue")
+    with pytest.raises(ValueError, match="no body 'arm'; it has 'world', 'tissue', 'needle'"):
+        pm.attach(m, scene(0), "tip", "arm")
+    with pytest.raises(ValueError, match="'wall 1' has no body"):
+        pm.attach(m, scene(0, 1), "tip", {"wall 0": "tissue"})
+    with pytest.raises(ValueError, match="pushed into itself"):
+        pm.attach(m, scene(0), "tip", "needle")
+
+
+def test_a_callback_of_the_user_still_runs_and_one_that_replaces_the_needles_is_reported():
+    m = model()
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    calls = []
+    mujoco.set_mjcb_control(lambda model, data: calls.append(data.time))
+    try:
+        attached.step(d)
+        assert calls == [0.0]
+        with pytest.raises(RuntimeError, match="another mjcb_control"), attached.acting():
+            mujoco.set_mjcb_control(None)
+    finally:
+        mujoco.set_mjcb_control(None)
+
+
+def test_the_robot_of_the_example_feels_two_pops_and_ends_in_the_vein():
+    example = Path(__file__).with_name("example.py")
+    done = subprocess.run([sys.executable, example, "--no-video"], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    pops = [line.split() for line in done.stdout.splitlines() if line.startswith("pop")]
+    assert [words[1] for words in pops] == ["1", "2"]
+    assert 4.1 < float(pops[1][-2]) < 6.0  # the whole tip has passed the wall; the back wall is 6.8 mm away

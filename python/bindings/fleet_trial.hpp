@@ -1,0 +1,90 @@
+// One trial of a fleet: an experiment that a program steers along the needle, and what happened in its last step.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "punctura/plant/experiment.hpp"
+
+namespace punctura::bindings {
+
+/// What happened in a step of a trial.
+struct TrialRecord {
+  double force = 0;             ///< of the last tick, N: what the device gives against the needle's direction
+  double lowest_force = 0;      ///< the smallest such force in the step, N
+  double highest_force = 0;     ///< the largest such force in the step, N
+  double travel = 0;            ///< measured way along the needle since the start, m
+  double speed = 0;             ///< mean of the measured speed along the needle in the step, m/s
+  Fault fault = Fault::none;    ///< the latched fault of the servo step
+  std::vector<double> depth;    ///< of each membrane after the step, m, see SpaceTick::depth
+  std::vector<double> deepest;  ///< of each membrane, the largest depth in the step, m
+};
+
+/// An experiment whose hand moves along the needle with a speed that a program sets.
+class Trial {
+ public:
+  /// axis: unit direction of the needle. The scene must have passed check().
+  Trial(const Scene& scene, const Vector3d& start, const Vector3d& axis, const DeviceDynamics& plant, const Hand& hand,
+        std::uint64_t seed)
+      : experiment_(scene, Steered(start), axis, plant, hand, seed),
+        start_(start),
+        axis_(axis),
+        period_(1 / scene.servo.rate) {
+    record_.depth.resize(scene.membranes.size());
+    record_.deepest.resize(scene.membranes.size());
+  }
+
+  /// Makes `ticks` ticks while the hand moves with `speed` (m/s) along the needle. Call begin() first.
+  void step(double speed, std::size_t ticks) noexcept {
+    experiment_.motion().steer(speed * axis_);
+    for (std::size_t k = 0; k < ticks; ++k) {
+      const Snapshot& tick = experiment_.step();
+      const double force = -axis_.dot(to_vector(tick.force));
+      record_.force = force;
+      record_.lowest_force = std::min(record_.lowest_force, force);
+      record_.highest_force = std::max(record_.highest_force, force);
+      for (std::size_t i = 0; i < record_.deepest.size(); ++i)
+        record_.deepest[i] = std::max(record_.deepest[i], tick.membranes[i].depth);
+    }
+  }
+
+  /// Starts the record of a step.
+  void begin() noexcept {
+    record_.lowest_force = std::numeric_limits<double>::infinity();
+    record_.highest_force = -std::numeric_limits<double>::infinity();
+    std::fill(record_.deepest.begin(), record_.deepest.end(), -std::numeric_limits<double>::infinity());
+  }
+
+  /// Ends the record of a step of `ticks` ticks.
+  const TrialRecord& end(std::size_t ticks) noexcept {
+    const Snapshot& tick = experiment_.servo().snapshot();
+    const double travel = axis_.dot(to_vector(tick.sample.position) - start_);
+    record_.speed = (travel - record_.travel) / (static_cast<double>(ticks) * period_);
+    record_.travel = travel;
+    record_.fault = tick.fault;
+    for (std::size_t i = 0; i < record_.depth.size(); ++i) record_.depth[i] = tick.membranes[i].depth;
+    return record_;
+  }
+
+  /// For save_state() and load_state(). The record of the last step is not saved, except for what the next needs.
+  static void archive(auto& self, auto& state) {
+    Experiment<Steered>::archive(self.experiment_, state);
+    state.numbers(self.record_.travel);
+  }
+  void describe(auto& parameters) const {
+    experiment_.describe(parameters);
+    parameters.numbers(start_, axis_);
+  }
+
+ private:
+  Experiment<Steered> experiment_;
+  Vector3d start_, axis_;
+  double period_;
+  TrialRecord record_;
+};
+
+}  // namespace punctura::bindings

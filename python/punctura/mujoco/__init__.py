@@ -1,0 +1,10 @@
+"""Needles in MuJoCo models: `attach` adds the force of K06 between a site of the model and a body with membranes.
+
+Needs MuJoCo: pip install 'punctura[mujoco]'.
+"""
+
+from punctura.mujoco.attachment import Attachment
+from punctura.mujoco.build import NeedleInTissue, attach, attach_needles
+from punctura.mujoco.stability import StabilityWarning, smallest_mass
+
+__all__ = ["Attachment", "NeedleInTissue", "StabilityWarning", "attach", "attach_needles", "smallest_mass"]

@@ -1,0 +1,88 @@
+"""The needles of one MjData: their models, and the tick that MuJoCo has not made yet."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from punctura import Insertion, Phase
+from punctura.mujoco.applied import Applied
+from punctura.mujoco.frames import Array, Relative
+from punctura.mujoco.implicit import solve
+from punctura.mujoco.kinematics import Link
+
+_HOLDING = (Phase.sticking, Phase.sliding_in, Phase.sliding_out)
+
+
+class Tick(NamedTuple):
+    """A tick that is computed and not yet made."""
+
+    time: float  # s, the start of the step
+    tip: Array  # (L, 3) m, in the frames of the tissues
+    axis: Array  # (L, 3)
+    force: Array  # (L, 3) N, in the frames of the tissues, on the needles
+
+
+class Needles:
+    """One Insertion a link, and the last tick."""
+
+    def __init__(self, links: Sequence[Link], period: float) -> None:
+        self._links, self._period = links, period
+        self.applied = Applied([(link.holder, link.body) for link in links])
+        self._stages = 0  # of RK4, inside the pending step
+        self.insertions: list[Insertion] = [copy.copy(link.insertion) for link in links]
+        self.pending: Tick | None = None  # the tick of the step that MuJoCo is making
+        self.last: Tick | None = None  # the last tick that was made
+        self.steepest = max(  # K + B/T of all membranes that can hold one needle
+            len(i.scene.membranes) * (i.scene.coupling.stiffness + i.scene.coupling.damping * i.scene.servo.rate)
+            for i in self.insertions
+        )
+
+    @property
+    def force(self) -> Array:
+        """(L, 3) N: of the last tick that was made; 0 before the first."""
+        return self.last.force if self.last else np.zeros((len(self.insertions), 3))
+
+    def holds(self, i: int) -> bool:
+        """Whether a membrane holds the needle of link i."""
+        return any(phase in _HOLDING for phase in self.insertions[i].phases)
+
+    def ahead(self, time: float, free: Array, seen: Relative, compliance: Array) -> Tick:
+        """The tick of a step that begins at `time`, from the last one that was made. Makes no tick.
+
+        free (L, 3): where the tips will be at the end of the step without these forces, m. compliance (3 L, 3 L): how
+        far a force moves them until then, m/N.
+        """
+        if self.last is None:  # the needles begin where they are now, not where the first step ends
+            self.insertions = [copy.copy(link.insertion) for link in self._links]
+            self._step(seen.tip, seen.axis)
+
+        def respond(tips: Array) -> Array:
+            given = zip(self.insertions, tips, seen.axis, strict=True)
+            return np.array([insertion.peek(tip, axis) for insertion, tip, axis in given])
+
+        tip, force = solve(respond, free, compliance, self.force, self.steepest)
+        return Tick(time, tip, seen.axis, force)
+
+    def in_stage(self, time: float) -> bool:
+        """Whether this call is a later stage of RK4 in the pending step: two in its middle and one at its end."""
+        if self.pending is None:
+            return False
+        share = (time - self.pending.time) / self._period
+        stage = 0.25 < share < 0.75 or (self._stages == 2 and share < 1.25)
+        self._stages = self._stages + 1 if stage else 0
+        return stage
+
+    def end_step(self, time: float) -> None:
+        """Makes the pending tick if its step has ended. Otherwise the step was not made, and is forgotten."""
+        pending, self.pending, self._stages = self.pending, None, 0
+        if pending is not None and time - pending.time > 0.75 * self._period:
+            self._step(pending.tip, pending.axis)
+            self.last = pending
+
+    def _step(self, tips: Array, axes: Array) -> None:
+        for insertion, tip, axis in zip(self.insertions, tips, axes, strict=True):
+            insertion.step(tip, axis)
