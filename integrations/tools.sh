@@ -13,8 +13,10 @@ need_header() {
   printf '#include <%s>\n' "$1" | c++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1 ||
     { echo "the header $1 is missing. Debian: apt-get install $2"; exit 77; }
 }
+# need_module MODULE PACKAGE: installs a package of Python if it is missing, or ends the test with 77.
 need_module() {
-  python3 -c "import $1" >/dev/null 2>&1 || { echo "the Python package $1 is missing: pip install $2"; exit 77; }
+  python3 -c "import $1" >/dev/null 2>&1 || python3 -m pip install -q "$2" >/dev/null 2>&1 ||
+    { echo "the Python package $1 is missing: pip install $2"; exit 77; }
 }
 
 # Builds libpunctura. Sets: library, its folder; header, the folder of punctura.h.
@@ -31,7 +33,8 @@ build_library() {
 
 # The motion and the forces of the core with which all integrations compare theirs. Sets: reference, its folder.
 make_reference() {
-  need_module punctura "'.[test]'   (in the root of the project)"
+  python3 -c "import punctura" 2>/dev/null ||
+    { echo "punctura is missing: pip install . in the project's root"; exit 77; }
   reference=$root/build/integrations/reference
   python3 "$root/integrations/reference.py" "$reference"
 }

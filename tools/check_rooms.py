@@ -44,6 +44,7 @@ ROOMS = (
     "python/punctura/fmu",
     "python/punctura/mujoco",
     "python/punctura/gym",
+    "python/punctura/poses.py",
     "python/punctura/record",
     "python/punctura/events",
     "python/punctura/trace",

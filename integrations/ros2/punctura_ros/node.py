@@ -1,0 +1,73 @@
+"""The node: geometry_msgs/PoseStamped of the needle's tip in, geometry_msgs/WrenchStamped out."""
+
+from __future__ import annotations
+
+import numpy as np
+import rclpy
+from geometry_msgs.msg import PoseStamped, WrenchStamped
+from punctura import load_scene
+from punctura.poses import PosedNeedle
+from rclpy.node import Node
+
+
+def rotated(quaternion: object, vector: np.ndarray) -> np.ndarray:
+    """A vector turned by a quaternion message, which need not have length 1. Raises ValueError if it is 0."""
+    u = np.array([quaternion.x, quaternion.y, quaternion.z])  # type: ignore[attr-defined]
+    w = float(quaternion.w)  # type: ignore[attr-defined]
+    square = w * w + u @ u
+    if not square > 0:
+        raise ValueError("the orientation is 0")
+    return vector + 2 / square * np.cross(u, np.cross(u, vector) + w * vector)
+
+
+def seconds(stamp: object) -> float:
+    return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
+
+
+class NeedleNode(Node):
+    """Publishes the force of the scene on the needle for each pose. The force acts at the tip: the torque is 0."""
+
+    def __init__(self) -> None:
+        super().__init__("needle")
+        self.declare_parameter("scene", "venipuncture")
+        self.declare_parameter("tool_axis", [0.0, 0.0, 1.0])
+        self.declare_parameter("frame_id", "")
+        self.declare_parameter("longest_gap_s", 0.25)
+        scene = load_scene(self.get_parameter("scene").value)
+        self._needle = PosedNeedle(scene, longest_gap=self.get_parameter("longest_gap_s").value)
+        self._axis = np.array(self.get_parameter("tool_axis").value, float)
+        self._frame = self.get_parameter("frame_id").value
+        self._publisher = self.create_publisher(WrenchStamped, "needle_wrench", 10)
+        self.create_subscription(PoseStamped, "needle_pose", self.on_pose, 10)
+        self.get_logger().info(f"scene {scene.name!r}, {scene.servo.rate:g} ticks a second")
+
+    def on_pose(self, message: PoseStamped) -> None:
+        if self._frame and message.header.frame_id != self._frame:
+            self.get_logger().warning(f"a pose in {message.header.frame_id!r}, not in {self._frame!r}: not used")
+            return
+        at, starts = message.pose.position, self._needle.starts
+        try:
+            axis = rotated(message.pose.orientation, self._axis)
+            force = self._needle.move(seconds(message.header.stamp), [at.x, at.y, at.z], axis)
+        except ValueError as error:
+            self.get_logger().warning(f"this pose is not used: {error}")
+            return
+        if 0 < starts < self._needle.starts:
+            self.get_logger().warning("a gap in the times of the poses: the needle starts anew")
+        answer = WrenchStamped()
+        answer.header.stamp = message.header.stamp
+        answer.header.frame_id = message.header.frame_id
+        answer.wrench.force.x, answer.wrench.force.y, answer.wrench.force.z = (float(f) for f in force)
+        self._publisher.publish(answer)
+
+
+def main() -> None:
+    rclpy.init()
+    node = NeedleNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
