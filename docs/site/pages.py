@@ -11,7 +11,7 @@ from text import heading
 PACKAGES = [
     "punctura", "punctura.scene", "punctura.simulation", "punctura.live", "punctura.record", "punctura.events",
     "punctura.exercise", "punctura.reproduce",
-    "punctura.rivals",
+    "punctura.rivals", "punctura.trace", "punctura.identify",
     "punctura.mujoco",
 ]  # fmt: skip
 

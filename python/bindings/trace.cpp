@@ -6,6 +6,37 @@
 namespace punctura::bindings {
 namespace {
 
+struct TraceParameters {
+  std::vector<TraceMembrane> membranes;
+  TraceCoupling coupling;
+};
+TraceParameters parameters_of(const Needle& needle, const nb::object& membranes, const nb::object& coupling) {
+  const Input given = input(membranes, "membranes"), shared = input(coupling, "coupling");
+  if (given.ndim() != 2 || given.shape(1) != trace_membrane_names.size())
+    throw nb::value_error("membranes must be (m, 11): see TraceModel.membrane_names");
+  if (shared.ndim() != 1 || shared.shape(0) != trace_coupling_names.size())
+    throw nb::value_error("coupling must be (6,): see TraceModel.coupling_names");
+  std::vector<TraceMembrane> m(given.shape(0));
+  for (std::size_t i = 0; i < m.size(); ++i) std::copy_n(given.data() + i * m[i].size(), m[i].size(), m[i].begin());
+  TraceCoupling c;
+  std::copy_n(shared.data(), c.size(), c.begin());
+  raise_if(problems_of_trace(needle, m, c));
+  return {std::move(m), c};
+}
+
+/// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 17).
+nb::tuple pop_depths(const Needle& needle, const nb::object& membranes, const nb::object& coupling) {
+  const auto [m, c] = parameters_of(needle, membranes, coupling);
+  std::vector<double> depths, rows;
+  for (const TraceMembrane& membrane : m) {
+    const auto pop = trace_pop(needle, membrane, c);
+    depths.push_back(pop.value);
+    rows.insert(rows.end(), pop.d.begin(), pop.d.end());
+  }
+  return nb::make_tuple(to_numpy(std::move(depths), {m.size()}),
+                        to_numpy(std::move(rows), {m.size(), trace_parameters(1)}));
+}
+
 /// A measured motion, and the needle that made it. It does not change, so that any number of threads can use it.
 class TraceModel {
  public:
@@ -19,17 +50,7 @@ class TraceModel {
   }
 
   nb::tuple forces(const nb::object& membranes, const nb::object& coupling, bool jacobian) const {
-    const Input given = input(membranes, "membranes"), shared = input(coupling, "coupling");
-    if (given.ndim() != 2 || given.shape(1) != trace_membrane_names.size())
-      throw nb::value_error("membranes must be (m, 11): see TraceModel.membrane_names");
-    if (shared.ndim() != 1 || shared.shape(0) != trace_coupling_names.size())
-      throw nb::value_error("coupling must be (6,): see TraceModel.coupling_names");
-    std::vector<TraceMembrane> m(given.shape(0));
-    for (std::size_t i = 0; i < m.size(); ++i) std::copy_n(given.data() + i * m[i].size(), m[i].size(), m[i].begin());
-    TraceCoupling c;
-    std::copy_n(shared.data(), c.size(), c.begin());
-    raise_if(problems_of_trace(needle_, m, c));
-
+    const auto [m, c] = parameters_of(needle_, membranes, coupling);
     const std::size_t n = depth_.size(), columns = jacobian ? trace_parameters(m.size()) : 0;
     std::vector<double> force(n), rows(n * columns);
     {
@@ -77,6 +98,12 @@ void bind_trace(nb::module_& m) {
             "The force that resists insertion (n,), N, and its derivatives (n, 6 + 11 m): by the coupling, then by "
             "each membrane.\n\nmembranes: (m, 11), coupling: (6,), SI, in the order of membrane_names and "
             "coupling_names. Raises ConfigurationError.");
+  model.def_static("pop_depths", &pop_depths, nb::arg("needle"), nb::arg("membranes"), nb::arg("coupling"),
+                   nb::sig("def pop_depths(needle: Needle, membranes: numpy.typing.ArrayLike, "
+                           "coupling: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
+                           "numpy.typing.NDArray[numpy.float64]]"),
+                   "How far behind each surface the tip of a slow needle is when it pops (m,), m, and the derivatives "
+                   "(m, 17): by the coupling, then by the membrane.");
   model.def_prop_ro_static(
       "membrane_names", [](nb::handle) { return as_tuple(trace_membrane_names); },
       nb::sig("def membrane_names(cls, /) -> tuple[str, ...]"),

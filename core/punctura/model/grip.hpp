@@ -182,7 +182,8 @@ struct ProfileOfCurve {
 ///
 /// On the tip phi_I = -in G(y) and phi_O = out G(y), with y = w q / X, m. On the shaft -2 mu G(w) and 2 mu G(w), which
 /// the tail lowers. The exponential grip gets as few chords as keep the error below most_chord_error, at most 28, or
-/// `chords` of them if that is not 0: then the profile is a smooth function of the parameters.
+/// `chords` of them if that is not 0: then the profile is a smooth function of the parameters, and its error is not
+/// computed.
 template <typename Scalar>
 ProfileOfCurve<Scalar> profile_of(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
                                   const BasicTissue<Scalar>& tissue, std::size_t chords = 0) noexcept {
@@ -194,10 +195,11 @@ ProfileOfCurve<Scalar> profile_of(const BasicNeedle<Scalar>& needle, const Basic
   bool follows = false;
   for (const std::size_t n : {1u, 4u, 8u, 14u, 20u, 28u}) {
     curve = detail::chords_of(membrane, tissue, w, chords > 0 ? std::min(chords, most_chords) : n);
+    if (chords > 0) break;
     error = detail::average_error(curve, membrane, tissue, w, X);
     const Scalar reached = detail::reached_force(curve, factor, membrane, tissue, w, X);
     follows = !(error * factor.in > Scalar(most_chord_error) * reached);
-    if (follows || chords > 0) break;
+    if (follows) break;
   }
   BasicProfile<Scalar> profile;
   for (std::size_t j = 0; j < curve.count; ++j) {

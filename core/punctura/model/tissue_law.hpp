@@ -36,9 +36,9 @@ class BasicTissueLaw {
   using Pieces = TissueBand<Scalar, 2 * max_knots + 5>;  // cutting adds at most four breaks
   using Memory = BasicHole<Scalar>;
 
-  /// cos_beta: n.b, for pieces() without n.b.
+  /// cos_beta: n.b, for pieces() without n.b. chords: see profile_of().
   BasicTissueLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
-                 const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1)) noexcept
+                 const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1), std::size_t chords = 0) noexcept
       : k06_(needle, membrane),
         is_k06_(has_k06_grip(tissue)),
         H_(membrane.thickness),
@@ -49,7 +49,7 @@ class BasicTissueLaw {
     if (!tissue.profile.empty())
       profile_ = BasicProfile<Scalar>(tissue.profile);
     else if (!is_k06_)
-      profile_ = profile_of(needle, membrane, tissue).profile;
+      profile_ = profile_of(needle, membrane, tissue, chords).profile;
     pieces_ = pieces(cos_beta);
   }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "punctura/model/needle.hpp"
@@ -16,6 +17,7 @@
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/exact.hpp"
 #include "punctura/trace/dual.hpp"
+#include "punctura/trace/jump.hpp"
 
 namespace punctura {
 
@@ -74,7 +76,7 @@ inline std::vector<Problem> problems_of_trace(const Needle& needle, std::span<co
     const Membrane membrane{p[1], p[2], p[3], p[4]};
     if (check(membrane, path, problems)) check_insertion(needle, membrane, path, problems);
     const Tissue tissue = tissue_of(p);
-    if (check(tissue, path, problems)) check_curve(needle, membrane, tissue, path, problems);
+    check(tissue, path, problems);  // a search may pass curves that chords follow badly: no check_curve()
   }
   for (std::size_t i = 0; i < coupling.size(); ++i)
     check_one(i == 0 || i == 3 || i == 5 ? positive : not_negative, trace_coupling_names[i], coupling[i], "");
@@ -85,69 +87,180 @@ namespace detail {
 
 constexpr std::size_t coupling_seeds = trace_coupling_names.size(), membrane_seeds = trace_membrane_names.size();
 using TraceDual = Dual<coupling_seeds + membrane_seeds>;  ///< derivatives: the coupling, then one membrane
-using DualMembrane = std::array<TraceDual, membrane_seeds>;
-using DualCoupling = std::array<TraceDual, coupling_seeds>;
+
+/// Copies what jump_of() reads of a state, without the pieces.
+template <typename State>
+void copy_for_jump(State& to, const State& from) noexcept {
+  to.p = from.p;
+  to.e = from.e;
+  to.law = from.law;
+  to.coupling = from.coupling;
+}
 
 /// K06's coupling (21) for one time step dt, s.
+template <typename Scalar>
 struct SpringAndDamper {
-  using Type = SampledCoupling<TraceDual>;
-  static Type of(const DualCoupling& c, double dt) noexcept { return {{c[0], c[1]}, dt}; }
+  using Type = SampledCoupling<Scalar>;
+  static Type of(const std::array<Scalar, coupling_seeds>& c, double dt) noexcept { return {{c[0], c[1]}, dt}; }
 };
 
-/// Steps the exact solver in one membrane along a motion, and adds the force that resists insertion, with its
-/// derivatives, to a row of `jacobian` for each sample.
-template <typename C, typename L>
-void add_membrane(const TraceMotion& motion, const L& law, const DualCoupling& coupling, const TraceDual& surface,
-                  std::size_t first_column, std::span<double> force, std::span<double> jacobian) {
-  const std::size_t n = motion.depth.size(), columns = jacobian.empty() ? 0 : jacobian.size() / n;
+/// The rows of a result: forces, and derivatives if they are wanted.
+struct TraceRows {
+  std::span<double> force, jacobian;
+  std::size_t columns, first_column;  // first_column: of this membrane
+
+  void add(std::size_t k, double f) const noexcept { force[k] += f; }
+  void add(std::size_t k, const TraceDual& f) const noexcept {
+    force[k] += f.value;
+    double* row = &jacobian[k * columns];
+    for (std::size_t i = 0; i < coupling_seeds; ++i) row[i] += f.d[i];
+    for (std::size_t i = 0; i < membrane_seeds; ++i) row[first_column + i] += f.d[coupling_seeds + i];
+  }
+};
+
+/// The jump of the proxy in its last tick. before: the state in front of this tick; p: the device's depth, m.
+template <typename L, typename C, typename Scalar>
+Jump<Scalar> jump_of(const LineParams<L, C>& params, const LineState<L, C>& before, const LineTick<Scalar>& tick,
+                     const Scalar& p) noexcept {
+  const Scalar f_star = params.coupling.holding_force(p, before.p, before.e, before.coupling);
+  const SlidingTick<Scalar> sliding{p - before.p, before.p + before.e, tick.proxy, f_star, params.coupling.g};
+  const auto find = [&](const auto& pieces) {
+    return tick.phase == Phase::sliding_in ? find_jump<+1>(pieces, sliding) : find_jump<-1>(pieces, sliding);
+  };
+  if constexpr (LawWithMemory<L>)
+    return find(before.pieces);
+  else
+    return find(params.law.pieces());
+}
+
+/// Steps the exact solver in one membrane along a motion and adds the force that resists insertion to the rows.
+///
+/// A sample stands for the way from half a step before to half a step behind it. If the force jumps on this way, the
+/// sample gets the average. So the force is a continuous function of the parameters, and its derivatives contain the
+/// place of the jump.
+template <typename C, typename Scalar, typename L>
+void add_membrane(const TraceMotion& motion, const L& law, const std::array<Scalar, coupling_seeds>& coupling,
+                  const Scalar& surface, const TraceRows& rows) {
+  const std::size_t n = motion.depth.size();
   const auto step_of = [&](std::size_t k) {
-    return motion.time.empty() || n < 2 ? 1.0
-           : k == 0                     ? motion.time[1] - motion.time[0]
-                                        : motion.time[k] - motion.time[k - 1];
+    if (motion.time.empty() || n < 2) return 1.0;
+    return k == 0 ? motion.time[1] - motion.time[0] : motion.time[k] - motion.time[k - 1];
   };
   double dt = step_of(0);
   LineParams<L, typename C::Type> params{law, C::of(coupling, dt)};
-  const auto memory = std::make_unique<LineState<L, typename C::Type>>();
-  auto& state = *memory;
+  using State = LineState<L, typename C::Type>;
+  const auto states = std::make_unique<std::array<State, 2>>();  // of a law with memory: 0.1 MB each
+  State &state = (*states)[0], &before = (*states)[1];
   for (std::size_t k = 0; k < n; ++k) {
-    if (!state.started && motion.depth[k] < surface.value) continue;  // no membrane has been touched
+    const Scalar p = motion.depth[k] - surface;
+    if (!state.started && p < 0 && k + 1 < n && motion.depth[k + 1] < surface) continue;  // not touched yet
     if (const double now = step_of(k); std::abs(now - dt) > 1e-9 * dt) params.coupling = C::of(coupling, dt = now);
-    const TraceDual f = Exact::step(params, state, motion.depth[k] - surface).force;
-    force[k] -= f.value;
-    if (columns == 0) continue;
-    double* row = &jacobian[k * columns];
-    for (std::size_t i = 0; i < coupling_seeds; ++i) row[i] -= f.d[i];
-    for (std::size_t i = 0; i < membrane_seeds; ++i) row[first_column + i] -= f.d[coupling_seeds + i];
+    const bool may_jump = state.started && p != state.p;
+    if (may_jump) copy_for_jump(before, state);
+    const auto tick = Exact::step(params, state, p);
+    rows.add(k, -tick.force);
+    if (!may_jump || tick.phase == Phase::sticking) continue;
+    const Scalar way = tick.proxy - (before.p + before.e), moved = p - before.p;
+    if (way * way < 1.2 * moved * moved) continue;
+    if constexpr (LawWithMemory<L>) before.pieces = params.law.pieces(before.law);
+    const Jump<Scalar> jump = jump_of(params, before, tick, p);
+    if (!jump.found || !(jump.share > 0 && jump.share < 1)) continue;
+    if (jump.share < 0.5)
+      rows.add(k - 1, -(0.5 - jump.share) * jump.drop);
+    else
+      rows.add(k, (jump.share - 0.5) * jump.drop);
+  }
+}
+
+inline constexpr std::size_t trace_chords = 12;  ///< of a grip: a fixed number, so that no derivative jumps
+
+/// Calls use(law) with the law of a membrane.
+template <typename Scalar, typename Use>
+void with_law(const BasicNeedle<Scalar>& needle, const std::array<Scalar, membrane_seeds>& p, Use&& use) {
+  const BasicMembrane<Scalar> membrane{p[1], p[2], p[3], p[4]};
+  const BasicTissue<Scalar> tissue = tissue_of(p);
+  if (is_k06(tissue))
+    use(BasicThickLaw<Scalar>(needle, membrane));
+  else
+    use(*std::make_unique<BasicTissueLaw<Scalar>>(needle, membrane, tissue, Scalar(1), trace_chords));  // 0.1 MB
+}
+
+/// The parameters as dual numbers, each with its own derivative, or as they are.
+template <typename Scalar, std::size_t N>
+std::array<Scalar, N> seeded(const std::array<double, N>& values, [[maybe_unused]] std::size_t first) noexcept {
+  std::array<Scalar, N> made;
+  for (std::size_t i = 0; i < N; ++i) {
+    if constexpr (std::is_same_v<Scalar, double>)
+      made[i] = values[i];
+    else
+      made[i] = Scalar::parameter(values[i], first + i);
+  }
+  return made;
+}
+
+/// The depth of the tip behind the surface at which a slow needle pops, m: where the proxy jumps, or, with a stiff
+/// coupling, where the force falls fastest.
+template <typename L>
+typename L::Scalar pop_depth(const L& law, const typename L::Scalar& stiffness) noexcept {
+  using Scalar = typename L::Scalar;
+  const auto& pieces = law.pieces();
+  Scalar at(0), before(0), steepest(-1e300);
+  for (std::size_t i = pieces.index(Scalar(0)); i != pieces.last(); ++i) {
+    const auto& piece = pieces.piece(i);
+    for (const Scalar& q : {Scalar(pieces.end(i - 1)), Scalar(pieces.end(i))}) {
+      const Scalar slope = piece.lower.slope(q - piece.origin);
+      if (!(slope > steepest)) continue;
+      steepest = slope;
+      at = q;
+      before = piece.lower.value(q - piece.origin);
+    }
+  }
+  Scalar jump_at, jump_before;
+  const Scalar end = pieces.end(pieces.last() - 1);
+  if (jump_depth<+1>(pieces, SlidingTick<Scalar>{end, Scalar(0), end, Scalar(0), stiffness}, jump_at, jump_before))
+    return jump_at - jump_before / stiffness;
+  return at - before / stiffness;
+}
+
+/// Computes all membranes with Scalar, a double or a dual number.
+template <typename Scalar>
+void add_membranes(const TraceMotion& motion, std::span<const TraceMembrane> membranes, const TraceCoupling& coupling,
+                   TraceRows rows) {
+  const BasicNeedle<Scalar> needle{motion.needle.diameter, motion.needle.tip_angle};
+  const auto c = seeded<Scalar>(coupling, 0);
+  for (std::size_t m = 0; m < membranes.size(); ++m) {
+    const auto p = seeded<Scalar>(membranes[m], coupling_seeds);
+    rows.first_column = trace_parameters(m);
+    const auto add = [&](const auto& law) { add_membrane<SpringAndDamper<Scalar>>(motion, law, c, p[0], rows); };
+    with_law(needle, p, add);
   }
 }
 
 }  // namespace detail
 
+/// The depth of the tip behind the surface at which a slow needle pops, m, and its derivatives: by the coupling, then
+/// by the membrane.
+inline detail::TraceDual trace_pop(const Needle& needle, const TraceMembrane& membrane, const TraceCoupling& coupling) {
+  using namespace detail;
+  TraceDual depth;
+  with_law(BasicNeedle<TraceDual>{needle.diameter, needle.tip_angle}, seeded<TraceDual>(membrane, coupling_seeds),
+           [&](const auto& law) { depth = pop_depth(law, seeded<TraceDual>(coupling, 0)[0]); });
+  return depth;
+}
+
 /// The force that resists insertion at each sample (n), N, as the exact solver gives it, and its derivatives.
 ///
 /// jacobian: n rows of trace_parameters(m) numbers: by the coupling, then by each membrane; or empty. The tip begins
-/// outside all membranes. All membranes share one coupling. The parameters must be inside the ranges of validity.hpp.
+/// outside all membranes. All membranes share one coupling. The parameters must have passed problems_of_trace().
 inline void trace_forces(const TraceMotion& motion, std::span<const TraceMembrane> membranes,
                          const TraceCoupling& coupling, std::span<double> force, std::span<double> jacobian) {
-  using namespace detail;
   std::fill(force.begin(), force.end(), 0.0);
   std::fill(jacobian.begin(), jacobian.end(), 0.0);
-  const BasicNeedle<TraceDual> needle{motion.needle.diameter, motion.needle.tip_angle};
-  DualCoupling c;
-  for (std::size_t i = 0; i < coupling_seeds; ++i) c[i] = TraceDual::parameter(coupling[i], i);
-  for (std::size_t m = 0; m < membranes.size(); ++m) {
-    DualMembrane p;
-    for (std::size_t i = 0; i < membrane_seeds; ++i) p[i] = TraceDual::parameter(membranes[m][i], coupling_seeds + i);
-    const BasicMembrane<TraceDual> membrane{p[1], p[2], p[3], p[4]};
-    const auto add = [&](const auto& law) {
-      add_membrane<SpringAndDamper>(motion, law, c, p[0], trace_parameters(m), force, jacobian);
-    };
-    const BasicTissue<TraceDual> tissue = tissue_of(p);
-    if (is_k06(tissue))
-      add(BasicThickLaw<TraceDual>(needle, membrane));
-    else
-      add(*std::make_unique<BasicTissueLaw<TraceDual>>(needle, membrane, tissue));  // its pieces take 0.1 MB
-  }
+  const detail::TraceRows rows{force, jacobian, trace_parameters(membranes.size()), 0};
+  if (jacobian.empty())
+    detail::add_membranes<double>(motion, membranes, coupling, rows);
+  else
+    detail::add_membranes<detail::TraceDual>(motion, membranes, coupling, rows);
 }
 
 }  // namespace punctura

@@ -1,0 +1,7 @@
+"""Membranes identified from measured traces of force against depth (docs/identify.md)."""
+
+from punctura.identify.identify import Identification, identify
+from punctura.identify.intervals import Estimate
+from punctura.identify.parameters import Parameters
+
+__all__ = ["Estimate", "Identification", "Parameters", "identify"]

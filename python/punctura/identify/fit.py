@@ -32,15 +32,29 @@ class Misfit:
         force, _ = self._model.forces(parameters.membranes, parameters.coupling, False)
         return np.asarray(force + self._nuisance @ parameters.nuisance)
 
-    def residuals(self, free: Free, u: Array) -> Array:
-        """Model minus measured force at the used samples, N."""
-        return (self.forces(free.parameters(u)) - self.trace.force)[self.used]
+    def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
+        """Model minus measured force at the used samples, N. blur: see blurred()."""
+        left = self.forces(free.parameters(u)) - self.trace.force
+        return np.asarray(blurred(left[:, None], blur)[self.used, 0])
 
-    def jacobian(self, free: Free, u: Array) -> Array:
+    def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
         parameters = free.parameters(u)
         _, by_all = self._model.forces(parameters.membranes, parameters.coupling, True)
-        return free.chain(np.hstack((by_all, self._nuisance))[self.used], u)
+        return blurred(free.chain(np.hstack((by_all, self._nuisance)), u), blur)[self.used]
+
+
+def blurred(columns: Array, width: int) -> Array:
+    """Moving averages of columns over `width` samples, twice. 0: unchanged.
+
+    A pop of the model that is a few samples away from the measured one finds its way there in blurred residuals.
+    """
+    for _ in range(2 if width > 1 else 0):
+        half = width // 2
+        padded = np.vstack((np.repeat(columns[:1], half, 0), columns, np.repeat(columns[-1:], half, 0)))
+        total = np.vstack((np.zeros((1, columns.shape[1])), np.cumsum(padded, axis=0)))
+        columns = (total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1)
+    return columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,30 +84,58 @@ class Fit:
         return float(np.sqrt(self.sse / len(self.residuals)))
 
 
-def fit(misfit: Misfit, names: Sequence[str], start: Parameters, evaluations: int = 400) -> Fit:
-    """The parameters `names` that fit best, from `start`. Raises TraceError if the search does not end."""
-    from scipy.optimize import least_squares
+def fit(
+    misfit: Misfit, names: Sequence[str], start: Parameters, blurs: Sequence[int] = (0,), evaluations: int = 200
+) -> Fit:
+    """The parameters `names` that fit best, from `start`. blurs: widths in samples, one search after the other.
 
+    Raises TraceError if the last search does not end.
+    """
     free = Free(names, start)
     u = free.coordinates(start)
+    count = 0
+    for blur in blurs:
+        u, more, message = _search(misfit, free, u, blur, evaluations)
+        count += more
+    if message and blurs[-1] == 0:
+        raise TraceError(f"the fit did not end after {evaluations} evaluations: {message}")
+    return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
+
+
+def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Parameters], quick: bool = False) -> Fit:
+    """The best of several fits: from each start, with narrow and with wide blurs. Raises TraceError if none ends.
+
+    quick: without blurs, for a start that is nearly the solution.
+    """
+    n = int(misfit.used.sum())
+    best: Fit | None = None
+    reason = "there is no start"
+    for k, start in enumerate(starts):
+        wide = (max(n // 20, 5), max(n // 80, 3), 0)
+        for blurs in ((0,), wide) if k < 2 and not quick else ((0,),):
+            try:
+                found = fit(misfit, names, start, blurs)
+            except TraceError as error:
+                reason = str(error)
+                continue
+            if best is None or found.sse < best.sse:
+                best = found
+    if best is None:
+        raise TraceError(reason)
+    return best
+
+
+def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:
+    """The coordinates of the least squares, the number of evaluations, and a message if the search did not end."""
+    from scipy.optimize import least_squares
+
     if len(u) == 0:
-        left = misfit.residuals(free, u)
-        return Fit(misfit, free, u, left, misfit.jacobian(free, u), 1)
-    known: dict[bytes, tuple[Array, Array]] = {}  # the search asks for residuals and derivatives at the same place
-
-    def both(at: Array) -> tuple[Array, Array]:
-        key = at.tobytes()
-        if key not in known:
-            known.clear()
-            known[key] = misfit.residuals(free, at), misfit.jacobian(free, at)
-        return known[key]
-
-    span = free.high - free.low
-    inside = np.clip(u, free.low + 1e-9 * np.minimum(span, 1), free.high - 1e-9 * np.minimum(span, 1))
+        return u, 0, ""
+    margin = 1e-9 * np.minimum(free.high - free.low, 1)
     found = least_squares(
-        lambda at: misfit.residuals(free, at), inside, lambda at: both(at)[1], (free.low, free.high),
-        method="trf", x_scale="jac", ftol=1e-10, xtol=1e-10, gtol=1e-12, max_nfev=evaluations,
+        lambda at: misfit.residuals(free, at, blur), np.clip(u, free.low + margin, free.high - margin),
+        lambda at: misfit.jacobian(free, at, blur), (free.low, free.high),
+        method="trf", x_scale="jac", ftol=1e-3 if blur else 1e-7, xtol=1e-7, gtol=1e-12,
+        max_nfev=15 if blur else evaluations,
     )  # fmt: skip
-    if not found.success:
-        raise TraceError(f"the fit did not end after {evaluations} evaluations: {found.message}")
-    return Fit(misfit, free, found.x, found.fun, np.asarray(found.jac), int(found.nfev))
+    return found.x, int(found.nfev), "" if found.success else str(found.message)

@@ -107,7 +107,11 @@ def kind_of(name: str) -> str:
 
 
 class Free:
-    """The free parameters of a fit. Their coordinates u are logarithms where a parameter is positive by nature."""
+    """The free parameters of a fit, and their coordinates u.
+
+    A coordinate is a logarithm where a parameter is positive by nature. The coordinate of a free surface is the depth
+    where its wall pops: the pop is seen sharply, so a search must be able to change all else without moving it.
+    """
 
     def __init__(self, names: Sequence[str], base: Parameters) -> None:
         self.names = tuple(names)
@@ -117,6 +121,8 @@ class Free:
         self._log = np.array([kind_of(name) in _LOGARITHMIC for name in self.names])
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
         self.low, self.high = self._coordinates(low), self._coordinates(high)
+        surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
+        self._walls = [(k, surfaces.index(at[0])) for k, at in enumerate(self._at) if at[0] in surfaces]
 
     def _range(self, name: str) -> tuple[float, float]:
         kind = kind_of(name)
@@ -133,21 +139,62 @@ class Free:
         values = np.array([vector[at[0]] for at in self._at])
         small = np.array([_RANGES.get(kind_of(name), (0.0, 0.0))[0] for name in self.names])
         values = np.where(self._log, np.maximum(values, np.maximum(small, 1e-12)), values)
-        return np.clip(self._coordinates(values), self.low, self.high)
+        u = np.clip(self._coordinates(values), self.low, self.high)
+        if self._walls:
+            pops, _ = self._pops(self._without_pops(u))
+            for k, wall in self._walls:
+                u[k] += pops[wall]
+        return np.clip(u, self.low, self.high)
 
-    def values(self, u: Array) -> Array:
-        """The values of the free parameters, SI."""
-        return np.where(self._log, np.exp(np.where(self._log, u, 0.0)), u)
+    def _without_pops(self, u: Array) -> Array:
+        """The vector of all parameters for these coordinates, if those of the surfaces were the surfaces."""
+        vector = self.base.vector()
+        values = np.where(self._log, np.exp(np.where(self._log, u, 0.0)), u)
+        for at, value in zip(self._at, values, strict=True):
+            vector[at] = value
+        return vector
+
+    def _pops(self, vector: Array) -> tuple[Array, Array]:
+        p = self.base.with_vector(vector)
+        return TraceModel.pop_depths(p.needle, p.membranes, p.coupling)
 
     def parameters(self, u: Array) -> Parameters:
         """All parameters for these coordinates."""
-        vector = self.base.vector()
-        for at, value in zip(self._at, self.values(u), strict=True):
-            vector[at] = value
+        vector = self._without_pops(u)
+        if self._walls:
+            pops, _ = self._pops(vector)
+            for k, wall in self._walls:
+                vector[self._at[k]] -= pops[wall]
         return self.base.with_vector(vector)
+
+    def place(self, j: int) -> int:
+        """Where parameter j first stands in the vector of all parameters."""
+        return int(self._at[j][0])
+
+    def logarithmic(self, j: int) -> bool:
+        """Whether coordinate j is a logarithm."""
+        return bool(self._log[j])
+
+    def values(self, u: Array) -> Array:
+        """The values of the free parameters, SI."""
+        vector = self.parameters(u).vector()
+        return np.array([vector[at[0]] for at in self._at])
+
+    def derivatives(self, u: Array) -> Array:
+        """Derivatives of the vector of all parameters by the coordinates: (parameters, free)."""
+        vector = self._without_pops(u)
+        by_u = np.zeros((len(vector), len(u)))
+        for k, at in enumerate(self._at):
+            by_u[at, k] = vector[at[0]] if self._log[k] else 1.0
+        if self._walls:
+            _, rows = self._pops(vector)
+            shared, own = len(COUPLING), len(MEMBRANE)
+            for k, wall in self._walls:
+                first = shared + wall * own
+                moves = rows[wall, :shared] @ by_u[:shared] + rows[wall, shared + 1 :] @ by_u[first + 1 : first + own]
+                by_u[self._at[k][0]] -= moves
+        return by_u
 
     def chain(self, jacobian: Array, u: Array) -> Array:
         """From derivatives by all parameters (n, p) to those by the coordinates (n, free)."""
-        scale = np.where(self._log, self.values(u), 1.0)
-        columns = [jacobian[:, at[0]] if len(at) == 1 else jacobian[:, at].sum(axis=1) for at in self._at]
-        return np.column_stack(columns) * scale if columns else np.empty((len(jacobian), 0))
+        return np.asarray(jacobian @ self.derivatives(u))

@@ -1,0 +1,119 @@
+"""Identification of a trace: from force against depth to membranes with intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from punctura import Needle, Scene
+from punctura.identify.choose import Candidate, choose, extended_parameters, thinned
+from punctura.identify.fit import Fit, Misfit, best_fit
+from punctura.identify.intervals import Estimate, Uncertainty, estimates
+from punctura.identify.noise import effective_samples
+from punctura.identify.parameters import Parameters
+from punctura.identify.scene import scene_of
+from punctura.identify.verdict import verdicts
+from punctura.trace import Segments, Trace, TraceError, segment
+
+MOST_MEMBRANES = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """Membranes identified from a trace. `estimates` have the 95 % intervals, `verdicts` say what cannot be told."""
+
+    trace: Trace
+    segments: Segments
+    fit: Fit
+    estimates: tuple[Estimate, ...]
+    verdicts: tuple[str, ...]
+    candidates: tuple[Candidate, ...]  # the chosen model first
+    effective_samples: float
+
+    @property
+    def parameters(self) -> Parameters:
+        """The values of all parameters."""
+        return self.fit.parameters
+
+    @property
+    def peak(self) -> float:
+        """The greatest measured force, N."""
+        return float(np.max(np.abs(self.trace.force)))
+
+    @property
+    def scene(self) -> Scene:
+        """The identified membranes as a scene, without extensions of K06."""
+        return scene_of(self.parameters, self.trace.source or "identified")
+
+    @property
+    def extensions(self) -> tuple[str, ...]:
+        """The chosen extensions of K06."""
+        return self.candidates[0].extensions
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything as plain values for JSON: SI units, `rmse_N` among the numbers."""
+        chosen, needle = self.candidates[0], self.parameters.needle
+        return {
+            "source": self.trace.source,
+            "samples": len(self.trace),
+            "effective_samples": self.effective_samples,
+            "membranes": len(self.parameters.membranes),
+            "extensions": list(self.extensions),
+            "rmse_N": self.fit.rmse,
+            "rmse_of_peak": self.fit.rmse / self.peak,
+            "held_out_rmse_N": chosen.held_out,
+            "needle": {"diameter_m": needle.diameter, "tip_angle_rad": needle.tip_angle},
+            "parameters": [
+                {"name": e.name, "value": e.value, "low": e.low, "high": e.high, "unit": e.unit,
+                 "identifiable": e.identifiable}
+                for e in self.estimates
+            ],
+            "correlations": Uncertainty(self.fit).correlations.round(4).tolist(),
+            "findings": [{"kind": f.kind, "text": f.text, "repaired": f.repaired} for f in self.trace.findings],
+            "not_told": list(self.verdicts),
+            "models": [
+                {"name": c.name, "extensions": list(c.extensions), "rmse_N": c.fit.rmse, "parameters": len(c.fit.u),
+                 "AICc": c.aicc, "BIC": c.bic(chosen.effective), "held_out_rmse_N": c.held_out}
+                for c in self.candidates
+            ],
+        }  # fmt: skip
+
+
+def identify(
+    trace: Trace,
+    needle: Needle,
+    membranes: int | Literal["auto"] = "auto",
+    tell: Callable[[str], None] = lambda _: None,
+) -> Identification:
+    """Identifies membranes of a trace that was made with this needle.
+
+    membranes: their number; "auto" takes that of the pops. tell: gets a word about each step. Raises TraceError for a
+    trace with a severe finding, and if no fit succeeds.
+    """
+    severe = [finding for finding in trace.findings if finding.severe]
+    if severe:
+        raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
+    segments = segment(trace)
+    count = membranes if isinstance(membranes, int) else _number_of_membranes(trace, segments)
+    few = thinned(trace)
+    candidates = choose(few, segment(few), needle, count, tell)
+    chosen = candidates[0].fit
+    tell("all samples")
+    whole = Misfit(trace, chosen.parameters)
+    final = chosen if len(few) == len(trace) else best_fit(whole, chosen.free.names, [chosen.parameters], quick=True)
+    tell("intervals")
+    found = estimates(final)
+    effective = effective_samples(final.residuals, len(final.u))
+    return Identification(trace, segments, final, found, verdicts(found, trace, segments), candidates, effective)
+
+
+def _number_of_membranes(trace: Trace, segments: Segments) -> int:
+    """One membrane for each pop of the first insertion."""
+    pops = sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
+    return min(max(pops, 1), MOST_MEMBRANES)
+
+
+__all__ = ["Identification", "extended_parameters", "identify"]

@@ -1,0 +1,154 @@
+"""Start values from the convex fit: profiles of the walls, linear in the knots' values, for given depths of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura import Needle, ProfileLaw
+from punctura.identify.parameters import MEMBRANE, Parameters, default_coupling, default_membrane
+from punctura.trace import Segments, Trace
+
+Array = NDArray[np.float64]
+
+KNOTS = 12  # a wall
+LEAST_STIFFNESS, STIFFEST = 50.0, 2e5  # N/m, of a series spring
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileFit:
+    """Walls as free profiles. knots: depths, m, one row a wall; values: -phi_I there, N; rmse: N."""
+
+    surfaces: Array
+    thickness: float
+    stiffness: float
+    knots: Array
+    values: Array
+    rmse: float
+
+
+def first_insertion(trace: Trace, segments: Segments) -> Trace:
+    """The samples of the first insertion up to its end, without holds and withdrawals."""
+    going_in = next((s for s in segments.strokes if s.kind == "in"), None)
+    return trace if going_in is None else trace[going_in.start : going_in.end]
+
+
+def profile_fit(trace: Trace, surfaces: Array, lengths: Array, thickness: float, stiffness: float) -> ProfileFit:
+    """Fits the knots' values of every wall at once: bounded linear least squares, one optimum, no start values.
+
+    trace: one insertion. surfaces, lengths: of each wall and its profile, m. stiffness: of the series spring, N/m.
+    """
+    from scipy.optimize import nnls
+
+    at = trace.depth - np.maximum(trace.force, 0) / stiffness  # the proxy, while the needle slides in
+    knots = np.array([length * np.linspace(0, 1, KNOTS) for length in lengths])
+    zeros = np.zeros(KNOTS)
+    weights = np.hstack(
+        [
+            ProfileLaw(row.tolist(), zeros, zeros, thickness).weights(at - surface)
+            for row, surface in zip(knots, surfaces, strict=True)
+        ]
+    )
+    values, norm = nnls(weights, np.asarray(trace.force))
+    return ProfileFit(
+        surfaces, thickness, stiffness, knots, values.reshape(knots.shape), float(norm / np.sqrt(len(trace)))
+    )
+
+
+def starts(
+    trace: Trace, segments: Segments, needle: Needle, membranes: int, curved: bool = False
+) -> Iterator[Parameters]:
+    """Start values, the most promising first: from the best profile fits over contact depths and springs.
+
+    curved: with growth and tip length.
+    """
+    found = sorted(_search(trace, segments, needle, membranes), key=lambda fit: fit.rmse)
+    for fit in found:
+        yield _physical(fit, needle, curved)
+
+
+def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) -> Iterator[ProfileFit]:
+    """Profile fits for several springs and tip lengths. They give the surfaces: a wall pops when the tip is through."""
+    insertion = first_insertion(trace, segments)
+    insertion = insertion[:: max(1, len(insertion) // 400)]
+    contact = float(trace.depth[segments.contact] if segments.contact is not None else insertion.depth[0])
+    ends, own = _pops(insertion, trace, segments, contact, membranes)
+    tip = needle.diameter / np.tan(needle.tip_angle)
+    way = max(float(ends[0]) - contact, 1e-4)
+    left = way - tip  # of the way from contact to the pop: the spring gives
+    soft = own[0] / left if left > 0.02 * way else np.inf
+    springs = {max(LEAST_STIFFNESS, min(share * own[0] / way, STIFFEST)) for share in (1.3, 2.0, 4.0, 20.0, 200.0)}
+    for stiffness in sorted(springs | ({max(soft, LEAST_STIFFNESS)} if np.isfinite(soft) else set())):
+        for length in (tip, max(way - own[0] / stiffness, 0.1 * way)):
+            for thickness in (0.1 * length, 0.5 * length):
+                surfaces = ends - own / stiffness - length - 0.5 * thickness
+                lengths = np.full(membranes, 1.3 * length + thickness)
+                yield profile_fit(insertion, surfaces, lengths, thickness, stiffness)
+
+
+def _pops(insertion: Trace, trace: Trace, segments: Segments, contact: float, membranes: int) -> tuple[Array, Array]:
+    """The depth where each wall gives way, m, and its own force there, N: at the greatest pops, else spread evenly."""
+    first = [pop for pop in segments.pops if trace.strokes[pop.start] == 0]
+    greatest = sorted(sorted(first, key=lambda pop: -pop.drop)[:membranes], key=lambda pop: pop.depth)
+    ends = [pop.depth for pop in greatest]
+    own = [pop.force for pop in greatest]
+    for i in range(1, len(greatest)):
+        own[i] = max(greatest[i].force - (greatest[i - 1].force - greatest[i - 1].drop), greatest[i].drop)
+    deepest = float(insertion.depth.max())
+    while len(ends) < membranes:  # halve the longest way without a pop
+        edges = [contact, *ends, deepest]
+        widest = int(np.argmax(np.diff(edges)))
+        ends.insert(widest, (edges[widest] + edges[widest + 1]) / 2)
+        own.insert(widest, float(insertion.force.max()) / membranes)
+    return np.array(ends), np.maximum(own, 1e-3)
+
+
+def _physical(fit: ProfileFit, needle: Needle, curved: bool) -> Parameters:
+    """Stiffness, precompression and friction that have the shape of each profile; with `curved` growth and tip, too."""
+    rows = []
+    for surface, knots, values in zip(fit.surfaces, fit.knots, fit.values, strict=True):
+        peak = max(float(values.max()), 1e-3)
+        plateau = float(np.clip(values[-1], 0.02 * peak, 0.98 * peak))
+        friction = friction_of_ratio(peak / plateau, needle.tip_angle)
+        grip = plateau / (2 * friction)
+        length = max(float(knots[int(np.argmax(values))]), 2 * float(knots[1]))
+        opening = needle.diameter * knots / length
+        first, growth = (
+            grip_shape(opening[knots <= length], values[knots <= length]) if curved else (values[0] / peak, 0)
+        )
+        precompression = grip * float(np.clip(first, 0.02, 0.9))
+        rise = needle.diameter if growth == 0 else np.expm1(growth * needle.diameter) / growth
+        named = {
+            "surface": surface, "stiffness": (grip - precompression) / rise, "precompression": precompression,
+            "friction": friction, "thickness": fit.thickness,
+        } | ({"growth": growth, "tip_length": length} if curved else {})  # fmt: skip
+        row = default_membrane()
+        for name, value in named.items():
+            row[MEMBRANE.index(name)] = value
+        rows.append(row)
+    return Parameters(needle, np.array(rows), default_coupling(fit.stiffness))
+
+
+def grip_shape(opening: Array, force: Array) -> tuple[float, float]:
+    """The first force over the last one, and the growth (1/m), of the exponential that fits best."""
+    best = (np.inf, 0.0, 0.0)
+    for growth in np.linspace(-2, 6, 33) / float(opening[-1]):
+        rise = opening if growth == 0 else np.expm1(growth * opening) / growth
+        shapes = np.column_stack((np.ones_like(rise), rise))
+        first, slope = np.maximum(np.linalg.lstsq(shapes, force, rcond=None)[0], 0)
+        error = float(np.sum((first + slope * rise - force) ** 2))
+        last = first + slope * rise[-1]
+        if error < best[0] and last > 0:
+            best = (error, float(first / last), float(growth))
+    return best[1], best[2]
+
+
+def friction_of_ratio(ratio: float, tip_angle: float) -> float:
+    """mu with which the peak of the thin law is `ratio` times its plateau, K06 (15); else the nearest."""
+    mu = np.geomspace(1e-3, 0.9 / np.tan(tip_angle), 400)
+    ratios = (mu + np.tan(tip_angle + np.arctan(mu))) / (2 * mu)
+    mu, ratios = mu[: int(np.argmin(ratios)) + 1], ratios[: int(np.argmin(ratios)) + 1]
+    return float(np.interp(-ratio, -ratios, mu))

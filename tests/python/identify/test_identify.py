@@ -1,0 +1,116 @@
+"""Identification of synthetic traces: the truth lies inside the intervals, and what is not told is named."""
+
+import json
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura.identify import identify
+from punctura.identify.fit import Misfit
+from punctura.identify.noise import correlated_gram, effective_samples
+from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
+from punctura.trace import Finding, Trace, TraceError
+from traces import MEMBRANE, NEEDLE, motion, trace
+from typer.testing import CliRunner
+
+TRUTH = {
+    "membrane[0].surface": 5e-3,
+    "membrane[0].stiffness": MEMBRANE.stiffness,
+    "membrane[0].precompression": MEMBRANE.precompression,
+    "membrane[0].friction": MEMBRANE.friction,
+    "coupling_stiffness": 4000,
+}
+
+
+def test_the_truth_of_a_synthetic_trace_is_found():
+    found = identify(trace(noise=0.01), NEEDLE)
+    assert found.extensions == () and len(found.parameters.membranes) == 1
+    assert found.fit.rmse == pytest.approx(0.01, rel=0.05)
+    estimates = {estimate.name: estimate for estimate in found.estimates}
+    for name, value in TRUTH.items():
+        estimate = estimates[name]
+        assert estimate.identifiable
+        width = estimate.high - estimate.low
+        assert estimate.low - width / 2 < value < estimate.high + width / 2, name
+    assert any("second time" in text for text in found.verdicts)
+
+
+def test_without_a_withdrawal_the_verdict_asks_for_one():
+    made = trace(noise=0.01)
+    found = identify(made[: int(np.argmax(made.depth))], NEEDLE, membranes=1)
+    assert any("withdrawal" in text for text in found.verdicts)
+
+
+def test_coordinates_lead_back_to_the_parameters_and_keep_the_pop():
+    row = default_membrane()
+    row[:5] = [5.013e-3, 400, 0.2, 0.3, 0.3e-3]
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(900))
+    free = Free(["membrane[0].surface", "tissue.stiffness", "tissue.thickness", "coupling_stiffness", "offset"], start)
+    u = free.coordinates(start)
+    np.testing.assert_allclose(free.parameters(u).vector(), start.vector(), rtol=1e-10)
+    stiffer = u + np.array([0, 0.2, 0.1, -0.3, 0])
+    changed = free.parameters(stiffer)
+    assert changed.get("membrane[0].surface") != pytest.approx(5.013e-3, rel=1e-3)
+    assert free.coordinates(changed)[0] == pytest.approx(u[0])
+
+
+def test_derivatives_by_coordinates_are_exact():
+    made = trace(noise=0.01, surface=5.013e-3)
+    row = default_membrane()
+    row[:5] = [5.113e-3, 400, 0.2, 0.3, 0.3e-3]
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(900))
+    free = Free(["membrane[0].surface", "tissue.stiffness", "tissue.friction", "coupling_stiffness", "drift"], start)
+    misfit, u = Misfit(made, start), free.coordinates(start)
+    jacobian = misfit.jacobian(free, u)
+    for i in range(len(u)):
+        step = np.zeros(len(u))
+        step[i] = 1e-7 * max(abs(u[i]), 1e-2)
+        difference = (misfit.residuals(free, u + step) - misfit.residuals(free, u - step)) / (2 * step[i])
+        error = np.abs(difference - jacobian[:, i]) / np.abs(difference).max()
+        assert np.quantile(error, 0.99) < 1e-5, free.names[i]
+
+
+def test_correlated_noise_counts_as_fewer_samples():
+    white = np.random.default_rng(4).normal(size=20000)
+    slow = np.empty_like(white)
+    slow[0] = white[0]
+    for i in range(1, len(white)):
+        slow[i] = 0.8 * slow[i - 1] + white[i]
+    assert effective_samples(white) == pytest.approx(20000, rel=0.1)
+    assert effective_samples(slow) == pytest.approx(20000 * 0.2 / 1.8, rel=0.2)
+
+
+def test_the_gram_of_correlated_noise_is_that_of_its_matrix():
+    rng = np.random.default_rng(5)
+    jacobian, rho = rng.normal(size=(30, 3)), np.array([1, 0.5, 0.2])
+    lags = np.abs(np.subtract.outer(np.arange(30), np.arange(30)))
+    matrix = np.where(lags < 3, rho[np.minimum(lags, 2)], 0)
+    np.testing.assert_allclose(correlated_gram(jacobian, rho), jacobian.T @ matrix @ jacobian, atol=1e-12)
+
+
+def test_a_severe_finding_stops_the_identification():
+    made = trace()
+    bad = Trace(
+        made.depth, made.force, made.time, "a.csv", (Finding("wrong_unit", "1000 times too large", severe=True),)
+    )
+    with pytest.raises(TraceError, match=r"a.csv: wrong unit: 1000 times"):
+        identify(bad, NEEDLE)
+
+
+def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
+    from punctura.cli._app import build_app
+
+    made = trace(noise=0.01)
+    table = np.column_stack((made.time, made.depth * 1e3, made.force))
+    np.savetxt(tmp_path / "a.csv", table, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    scene = str(tmp_path / "scene.toml")
+    arguments = ["identify", str(tmp_path / "a.csv"), "--needle", "diameter_mm=1.2,tip_angle_rad=0.4", "--scene", scene]
+    ran = CliRunner().invoke(build_app(), [*arguments, "--membranes", "1", "--json"])
+    assert ran.exit_code == 0, ran.output
+    told = json.loads(ran.stdout)
+    assert told["rmse_N"] == pytest.approx(0.01, rel=0.05)
+    assert {parameter["name"] for parameter in told["parameters"]} >= set(TRUTH)
+    _, depth = motion()
+    ticks = pn.simulate(scene, depth - 5e-3)
+    assert np.abs(ticks.force).max() == pytest.approx(made.force.max(), rel=0.1)
+    assert CliRunner().invoke(build_app(), ["identify", str(tmp_path / "a.csv")]).exit_code == 2
