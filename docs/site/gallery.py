@@ -108,6 +108,7 @@ PICTURES: dict[str, Callable[[Axes, Run], None]] = {
     "04_own_law": printed,
     "05_servo_loop": servo_loop,
     "06_own_device": servo_loop,
+    "07_measured_tissue": printed,
 }
 
 

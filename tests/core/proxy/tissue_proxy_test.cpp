@@ -18,9 +18,9 @@ namespace {
 constexpr double tissue_period = 1 / 1600.0;
 
 /// The largest residual of (21)-(23) along a motion, N. The band is that of the memory before the tick.
-double tissue_residual(const TissueLaw& law, const Coupling& coupling, const std::vector<double>& motion) {
-  const SampledCoupling<double> sampled(coupling, tissue_period);
-  Proxy1d<TissueLaw> proxy(law, coupling, tissue_period);
+double tissue_residual(const TissueLaw& law, const Coupling& spring, const std::vector<double>& motion) {
+  const SampledCoupling<double> sampled(spring, tissue_period);
+  Proxy1d<TissueLaw> proxy(law, spring, tissue_period);
   double worst = 0, p_prev = motion[0];
   for (const double p : motion) {
     const auto band_before = law.pieces(proxy.state().law);
@@ -50,9 +50,9 @@ double tissue_residual(const TissueLaw& law, const Coupling& coupling, const std
 /// Moves the device at 5 mm/s, in steps of a tick, and rests for 0.1 s. Returns the work of the hand, J.
 double tissue_stroke(Proxy1d<TissueLaw>& proxy, double from, double to) {
   double work = 0, before = from;
-  const auto ticks = static_cast<int>(std::abs(to - from) / 5e-3 / tissue_period);
-  for (int k = 1; k <= ticks + 160; ++k) {
-    const double p = from + (to - from) * std::min(1.0, double(k) / ticks);
+  const auto moves = static_cast<int>(std::abs(to - from) / 5e-3 / tissue_period);
+  for (int k = 1; k <= moves + 160; ++k) {
+    const double p = from + (to - from) * std::min(1.0, double(k) / moves);
     work -= proxy.step(p) * (p - before);
     before = p;
   }
@@ -81,12 +81,12 @@ TEST_CASE("with the additions off, a proxy has the bits of K06's, also in space"
       const LawCase c = random_law(noise);
       const ThickLaw k06(c.needle, c.membrane);
       const TissueLaw law(c.needle, c.membrane, Tissue{});
-      const Coupling coupling = random_coupling(noise);
-      Proxy1d one(k06, coupling, tissue_period, solver);
-      Proxy1d other(law, coupling, tissue_period, solver);
+      const Coupling spring = random_coupling(noise);
+      Proxy1d one(k06, spring, tissue_period, solver);
+      Proxy1d other(law, spring, tissue_period, solver);
       const Vector3d down(0, -1, 0), axis = Vector3d(0.2, -1, 0.1).normalized();
-      Proxy3d one_3d(k06, Vector3d(), down, coupling, tissue_period, solver);
-      Proxy3d other_3d(law, Vector3d(), down, coupling, tissue_period, solver);
+      Proxy3d one_3d(k06, Vector3d(), down, spring, tissue_period, solver);
+      Proxy3d other_3d(law, Vector3d(), down, spring, tissue_period, solver);
       for (const double p : random_motion(noise, 1500, k06.constants().X + k06.thickness(), tissue_period)) {
         REQUIRE(one.step(p) == other.step(p));
         REQUIRE(one.phase() == other.phase());
@@ -100,9 +100,9 @@ TEST_CASE("along the normal a wall of tissue in space is one on a line; both all
   for (int i = 0; i < 10; ++i) {
     const TissueCase c = random_tissue(noise);
     const TissueLaw law(c.needle, c.membrane, c.tissue);
-    const Coupling coupling{400, 1};
-    Proxy1d line(law, coupling, tissue_period);
-    Proxy3d space(law, Vector3d(), Vector3d(0, -1, 0), coupling, tissue_period);
+    const Coupling spring{400, 1};
+    Proxy1d line(law, spring, tissue_period);
+    Proxy3d space(law, Vector3d(), Vector3d(0, -1, 0), spring, tissue_period);
     const auto motion = random_motion(noise, 2000, std::min(c.reach(), 0.03), tissue_period);
     const auto before = allocations();
     for (const double p : motion) {
