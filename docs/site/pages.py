@@ -13,6 +13,7 @@ PACKAGES = [
     "punctura.exercise", "punctura.reproduce",
     "punctura.rivals", "punctura.trace", "punctura.identify",
     "punctura.mujoco",
+    "punctura.gym",
 ]  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/paper_scene.hpp"
+#include "punctura/state/archive.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -65,4 +66,27 @@ TEST_CASE("a target can be moved while the experiment runs") {
   for (int k = 0; k < 1600; ++k) experiment.step();
   CHECK(experiment.tip().y() < -3e-3);
   CHECK(experiment.servo().snapshot().force[1] > 0.2);
+}
+
+TEST_CASE("a steered hand moves with the velocity that was set last, from where it is") {
+  Steered hand({0, 3e-3, 0});
+  CHECK(hand.at(0.5).position == Vector3d(0, 3e-3, 0));
+  hand.steer({0, -2e-3, 0});
+  CHECK(hand.at(1.0).position.y() == doctest::Approx(2e-3));
+  hand.steer({1e-3, 0, 0});
+  const Desired desired = hand.at(3.0);
+  CHECK(desired.position.x() == doctest::Approx(2e-3));
+  CHECK(desired.position.y() == doctest::Approx(2e-3));
+  CHECK(desired.velocity == Vector3d(1e-3, 0, 0));
+
+  const auto made = [] {
+    Experiment experiment(paper_scene(), Steered({0, 3e-3, 0}), Vector3d(0, -1, 0), {}, {}, 4);
+    experiment.motion().steer({0, -0.01, 0});
+    return experiment;
+  };
+  auto experiment = made(), again = made();
+  for (int k = 0; k < 800; ++k) experiment.step();
+  REQUIRE(load_state(again, save_state(experiment)));
+  for (int k = 0; k < 400; ++k) CHECK(again.step().force == experiment.step().force);
+  CHECK(experiment.servo().snapshot().force[1] > 0.1);
 }

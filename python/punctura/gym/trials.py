@@ -1,0 +1,81 @@
+"""Trials of a task at a fleet: the rules that the single and the vector environment share."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura import Fault, Hand, Plant, load_scene
+from punctura._core import Fleet
+from punctura.gym.observation import OBSERVATION, Observations, observations
+from punctura.gym.population import Population
+from punctura.gym.task import Task
+
+Flags = npt.NDArray[np.bool_]
+
+
+class Outcome(NamedTuple):
+    """The results of a step, one row a trial."""
+
+    observation: Observations
+    reward: npt.NDArray[np.float64]
+    terminated: Flags
+    truncated: Flags
+    success: Flags  # at rest in the space for long enough
+    pierced: Flags  # went too far
+    fault: npt.NDArray[np.uint8]  # the latched Fault of the servo step
+
+
+class Trials:
+    """n trials. Rewards: success 1 minus half the share of the time limit that was used; a needle that goes too far,
+    or a fault, -1; otherwise 0."""
+
+    def __init__(
+        self, task: Task, n: int, population: Population | None, plant: Plant | None, hand: Hand | None, threads: int
+    ) -> None:
+        self.task, self.n = task, n
+        self.population = population or Population(load_scene(task.scene), task.vary)
+        count = len(self.population.scene.membranes)
+        if max(task.wall, task.next_wall or 0) >= count:
+            raise ValueError(f"the scene of the population has {count} membranes, too few for this task")
+        self.fleet = Fleet(plant or Plant(), hand or Hand(), threads)
+        self.rate = self.population.scene.servo.rate
+        self.ticks = max(1, round(task.decision * self.rate))
+        self._begin, self._end = np.zeros(n), np.zeros(n)
+        self._time, self._rest = np.zeros(n), np.zeros(n)
+
+    def start(self, i: int, random: np.random.Generator) -> None:
+        """Starts trial i anew, with a scene, a distance to the skin and a tremor that `random` draws."""
+        scene = self.population.draw(random)
+        distance = random.uniform(*self.task.distance)
+        start = -distance * np.array(self.task.axis)
+        self.fleet.place(i, scene, start, self.task.axis, int(random.integers(2**63)))
+        self._begin[i], self._end[i] = self.task.space(scene)
+        self._time[i] = self._rest[i] = 0
+
+    def first(self) -> Observations:
+        """(n, 5) The observation before the first step: nothing is felt, nothing has moved."""
+        return np.zeros((self.n, len(OBSERVATION)), np.float32)
+
+    def step(self, action: npt.ArrayLike) -> Outcome:
+        """action (n,): share of the fastest speed; clipped to -1 ... 1. Raises ValueError if one is not finite."""
+        task = self.task
+        share = np.clip(np.asarray(action, dtype=float).reshape(self.n), -1, 1)
+        step = self.fleet.step(share * task.fastest, self.ticks)
+        period = self.ticks / self.rate
+        self._time += period
+        depth, deepest = step["depth"], step["deepest"]
+        pierced = deepest[:, task.wall] > self._end
+        if task.next_wall is not None:
+            pierced |= deepest[:, task.next_wall] > task.press
+        resting = (depth[:, task.wall] >= self._begin) & ~pierced & (np.abs(step["speed"]) < task.still)
+        self._rest = np.where(resting, self._rest + period, 0)
+        fault = step["fault"]
+        failed = pierced | (fault != Fault.none.value)
+        success = (self._rest >= task.hold - period / 2) & ~failed
+        late = self._time >= task.time_limit - period / 2
+        reward = np.where(failed, -1.0, np.where(success, 1 - 0.5 * self._time / task.time_limit, 0.0))
+        terminated = failed | success
+        return Outcome(observations(step), reward, terminated, late & ~terminated, success, pierced, fault)

@@ -1,0 +1,176 @@
+"""The Gymnasium environments: Gymnasium's own checker, equal bits of single and vector, the rules, populations."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+
+import gymnasium
+import numpy as np
+import punctura as pn
+import punctura.gym as pg
+import pytest
+from gymnasium.utils.env_checker import check_env
+from punctura.extras import optional
+from punctura.gym.trials import Trials
+
+NAMES = [f"punctura/{name}-v0" for name in pg.TASKS]
+QUIET = pn.Hand(tremor_rms=0)
+
+
+def advance(env: pg.NeedleEnv, share: float, seconds: float) -> list[tuple]:
+    """Steps with one action until the trial ends."""
+    rows = []
+    for _ in range(round(seconds / env.task.decision)):
+        rows.append(env.step(np.array([share], np.float32)))
+        if rows[-1][2] or rows[-1][3]:
+            break
+    return rows
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_gymnasiums_own_checker_passes(name):
+    check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_trial_i_of_a_vector_is_the_single_environment_with_seed_plus_i_bit_for_bit(threads):
+    task = replace(pg.TASKS["StopAfterPop"], time_limit=1.2)
+    many = pg.NeedleVectorEnv(task, 4, threads=threads)
+    many.reset(seed=7)
+    single = pg.NeedleEnv(task)
+    singles = {i: [single.reset(seed=7 + i)[0]] for i in (0, 3)}
+    for i, rows in singles.items():
+        single.reset(seed=7 + i)
+        rows[:] = [row[0] for row in advance(single, 1.0, 2)]
+    for k in range(60):
+        seen, *_ = many.step(np.ones((4, 1), np.float32))
+        for i, rows in singles.items():
+            if k < len(rows):
+                assert (seen[i] == rows[k]).all()
+
+
+def test_a_trial_of_a_vector_that_has_ended_begins_anew_in_the_next_step():
+    env = gymnasium.make_vec("punctura/StopAfterPop-v0", num_envs=2).unwrapped
+    assert isinstance(env, pg.NeedleVectorEnv)
+    env.reset(seed=[1, 2])
+    for _ in range(200):
+        _, reward, ended, _, info = env.step(np.array([[1], [0]], np.float32))
+        if ended[0]:
+            break
+    assert list(ended) == [True, False] and list(reward) == [-1, 0]
+    assert list(info["pierced"]) == [True, False] and not info["fault"].any()
+    seen, reward, ended, late, info = env.step(np.ones((2, 1), np.float32))
+    assert not seen[0].any() and seen[1].any()
+    assert not (reward.any() or ended.any() or late.any() or info["pierced"].any())
+    seen, *_ = env.step(np.ones((2, 1), np.float32))
+    assert abs(seen[0, 3]) < 1 < seen[1, 3]  # mm on the way
+
+
+def test_a_hand_that_stops_after_the_pop_succeeds_and_one_that_goes_on_fails():
+    env = pg.NeedleEnv("StopAfterPop", population=pg.Population(pn.load_scene("k06-fig10")), hand=QUIET)
+    env.reset(seed=3)
+    highest, reward = 0.0, 0.0
+    for _ in range(500):
+        seen, *_ = env.step(np.array([0.5], np.float32))
+        highest = max(highest, seen[2])
+        if seen[1] < highest - 0.15:  # the force has fallen: the pop
+            rows = advance(env, 0.0, 2)
+            reward, info = rows[-1][1], rows[-1][4]
+            break
+    assert info == {"success": True, "pierced": False, "fault": 0}
+    assert 0.5 < reward < 1
+    with pytest.raises(RuntimeError, match="call reset"):
+        env.step(np.array([0], np.float32))
+    env.reset(seed=3)
+    assert advance(env, 0.5, 10)[-1][4] == {"success": False, "pierced": True, "fault": 0}
+
+
+def test_the_observation_is_what_the_device_measures_and_nothing_that_a_hand_cannot_feel():
+    env = pg.NeedleEnv("StopAfterPop", hand=QUIET)
+    assert env.reset(seed=1)[0].tolist() == [0] * len(pg.OBSERVATION)
+    rows = np.array([row[0] for row in advance(env, 0.5, 1.0)])
+    force, lowest, highest, depth, speed = rows.T
+    assert (lowest <= force).all() and (force <= highest).all()
+    assert np.allclose(np.diff(depth), speed[1:] * env.task.decision, atol=1e-4)
+    step = pn.Plant().encoder_step * 1e3
+    assert depth[-1] == pytest.approx(0.5 * 20 * 1.0, abs=4 * step + 2)  # the hand gives way
+    hidden = pg.NeedleEnv("StopAfterPop", hand=QUIET)  # another tissue, not touched yet
+    hidden.reset(seed=1)
+    assert (np.array([row[0] for row in advance(hidden, 0.5, 0.1)]) == rows[:5]).all()
+
+
+def test_a_fault_ends_the_trial_and_is_in_the_result_of_its_own_trial_only():
+    task = replace(pg.TASKS["StopAfterPop"], fastest=1000.0)
+    env = pg.NeedleVectorEnv(task, 2, hand=pn.Hand(stiffness=1e6, mass=0.01, tremor_rms=0), threads=2)
+    env.reset(seed=1)
+    for _ in range(5):
+        _, reward, ended, _, info = env.step(np.array([[-1], [0]], np.float32))
+        if ended.any():
+            break
+    assert pn.Fault(int(info["fault"][0])) == pn.Fault.position_jump and info["fault"][1] == 0
+    assert list(ended) == [True, False] and reward[0] == -1
+
+
+def test_a_population_draws_within_its_ranges_and_repeats_with_the_seed():
+    scene = pn.load_scene("venipuncture")
+    people = pg.Population(
+        scene,
+        [
+            pg.Vary(["membrane[0].stiffness"], 0.5, 2),
+            pg.Vary({"membrane[1].point[1]": 1, "membrane[2].point[1]": 2}, -1e-3, 1e-3, "shift"),
+            pg.Vary(["needle.tip_angle"], 0.2, 0.3, "set"),
+        ],
+    )
+    drawn = [people.scene_of(seed) for seed in range(30)]
+    assert people.scene_of(4) == drawn[4] != drawn[5]
+    for one in drawn:
+        assert 450 <= one.membranes[0].membrane.stiffness <= 1800
+        near, far = (one.membranes[i].point[1] - scene.membranes[i].point[1] for i in (1, 2))
+        assert abs(near) <= 1e-3 and far == pytest.approx(2 * near)
+        assert 0.2 <= one.needle.tip_angle <= 0.3
+    assert len({one.membranes[0].membrane.stiffness for one in drawn}) == 30
+    for wrong, match in [
+        (pg.Vary(["membrane[9].stiffness"], 1, 2), "is not a number of scene"),
+        (pg.Vary(["membrane[0].stiffness"], 2, 1), "low must be at most high"),
+        (pg.Vary(["membrane[0].stiffness"], 1, 2, "times"), "how must be"),
+        (pg.Vary("membrane[0].stiffness", 1, 2), "list of paths"),
+        (pg.Vary({"membrane[0].stiffness": 1}, 1, 2), "weights are for"),
+        (pg.Vary(["membrane[0].stiffness"], -1, 1), "must be greater than 0"),
+    ]:
+        with pytest.raises(ValueError, match=match):
+            pg.Population(scene, [wrong])
+
+
+@pytest.mark.parametrize("name", list(pg.TASKS))
+def test_the_populations_of_the_tasks_have_a_space_to_stop_in(name):
+    task = pg.TASKS[name]
+    trials = Trials(task, 1, None, None, None, 1)
+    for seed in range(20):
+        scene = trials.population.scene_of(seed)
+        begin, end = task.space(scene)
+        if task.next_wall is not None:
+            wall, after = (np.array(scene.membranes[i].point) for i in (task.wall, task.next_wall))
+            end = (wall - after)[1] / -task.axis[1]
+        assert end - begin > 1e-3
+
+
+def test_wrong_use_is_refused_with_a_sentence():
+    with pytest.raises(ValueError, match="there is no task 'Vein'; the tasks are Venipuncture"):
+        pg.NeedleEnv("Vein")
+    with pytest.raises(ValueError, match="too few for this task"):
+        pg.NeedleEnv("Venipuncture", population=pg.Population(pn.load_scene("k06-fig10")))
+    env = pg.NeedleVectorEnv("StopAfterPop", 2)
+    with pytest.raises(RuntimeError, match="call reset"):
+        env.step(np.zeros((2, 1), np.float32))
+    with pytest.raises(ValueError, match="one number for each of the 2"):
+        env.reset(seed=[1, 2, 3])
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match=r"speed\[1\] must be finite"):
+        env.step(np.array([[0], [np.nan]], np.float32))
+
+
+def test_the_message_without_gymnasium_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    with pytest.raises(ModuleNotFoundError, match=r"pip install 'punctura\[gym\]'"):
+        optional("gymnasium", "gym", "punctura.gym")
