@@ -1,5 +1,5 @@
 // Compares the forces of the binding and of the Unity component with those of the core.
-//   Test.exe REFERENCE
+//   Test.exe REFERENCE          with a second argument, only the time of a tick
 using System;
 using System.IO;
 using System.Reflection;
@@ -151,6 +151,11 @@ static class Test
     {
         string toml = File.ReadAllText(Path.Combine(arguments[0], "scene.toml"));
         Triple[,] rows = ReadRows(Path.Combine(arguments[0], "motion.f64"));
+        if (arguments.Length > 1)
+        {
+            Cost.Print(toml, rows);
+            return 0;
+        }
         Binding(toml, rows);
         Errors(toml);
         Device(toml);
