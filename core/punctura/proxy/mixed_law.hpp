@@ -13,7 +13,7 @@ namespace punctura {
 /// One of several laws, with a common type. `room` is the number of pieces of the largest law.
 ///
 /// The solvers use only its pieces. They are computed when a needle enters and when advance() of a law with memory
-/// returns true. On a line they are computed in each tick.
+/// returns true. The pieces of each law are a PiecewiseBand.
 template <ObliqueLaw... Laws>
 class MixedLaw {
  public:

@@ -6,6 +6,7 @@
 #include "../support/given_law.hpp"
 #include "../support/random_law.hpp"
 #include "punctura/events/law_curve.hpp"
+#include "punctura/model/tissue_law.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -72,6 +73,24 @@ TEST_CASE("the crossing of a custom law is at its breaks, and with_room() does n
   }
   const BasicThickLaw<float> small({1.08e-3f, 0.28f}, {570, 0.41f, 0.2f, 1e-3f});
   CHECK(crossing(small, needle, 1e-3, 1).through == doctest::Approx(tip_length(needle) + 1e-3));
+}
+
+TEST_CASE("the crossing of a wall of tissue: its cutting raises the peak, its tail moves the end") {
+  const Membrane membrane = paper_membrane(1e-3);
+  Tissue tissue;
+  tissue.cutting = 0.3;
+  tissue.tail_length = 2e-3;
+  tissue.tail_floor = 0.5;
+  const double X = tip_length(paper_needle);
+  const TissueLaw law(paper_needle, membrane, tissue);
+  const Crossing plain = crossing(ThickLaw(paper_needle, membrane), paper_needle, 1e-3, 1);
+  const Crossing turns = crossing(law, paper_needle, 1e-3, 1);
+  CHECK(turns.through == doctest::Approx(X + 2e-3 + 1e-3));
+  CHECK(turns.shaft == doctest::Approx(0.5 * plain.shaft));
+  CHECK(-law.band(turns.peak).lower == doctest::Approx(0.3 - ThickLaw(paper_needle, membrane).band(plain.peak).lower));
+  const LawCurve curve = law_curve(law.pieces());
+  CHECK(curve.depth.back() > turns.through);
+  CHECK(curve.lower.back() == doctest::Approx(-turns.shaft));
 }
 
 TEST_CASE("a law whose resistance never decreases has no pop") {

@@ -221,3 +221,27 @@ TEST_CASE("a saved proxy in tissue continues with the same bits; another tissue 
     CHECK(!load_state(changed, save_state(line)));
   }
 }
+
+TEST_CASE("in float, a proxy in tissue has the forces of double within the precision of float") {
+  TissueCase c = plain_tissue();
+  c.tissue.cutting = 0.3;
+  c.tissue.set = 0.2;
+  c.tissue.tip_length = 3e-3;
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const auto& m = c.membrane;
+  BasicTissue<float> tissue;
+  tissue.cutting = f(c.tissue.cutting);
+  tissue.set = f(c.tissue.set);
+  tissue.tip_length = f(c.tissue.tip_length);
+  const BasicTissueLaw<float> small({f(c.needle.diameter), f(c.needle.tip_angle)},
+                                    {f(m.stiffness), f(m.precompression), f(m.friction), f(m.thickness)}, tissue);
+  Proxy1d single(small, BasicCoupling<float>{400, 1}, f(tissue_period));
+  Proxy1d proxy(c.law(), Coupling{400, 1}, tissue_period);
+  double worst = 0;
+  for (int k = 0; k < 6400; ++k) {  // in and out, twice
+    const double p = 4e-3 - 5e-3 * std::cos(k * 6.283185307179586 / 3200);
+    worst = std::max(worst, std::abs(proxy.step(p) - static_cast<double>(single.step(f(p)))));
+  }
+  MESSAGE("largest difference: " << worst << " N");
+  CHECK(worst < 5e-3);
+}
