@@ -13,13 +13,19 @@ from punctura import Needle
 from punctura.files.whole_file import write_whole
 from punctura.identify import Identification, identify
 from punctura.identify.choose import extended_parameters
+from punctura.identify.folder import Task, identify_folder
+from punctura.identify.plan import plans
+from punctura.identify.report import report_html
 from punctura.identify.scene import left_out
+from punctura.progress import progress_bar
 from punctura.scene.write import scene_text
 from punctura.trace import read_trace
 
 
 def command(
-    trace: Annotated[Path, typer.Argument(help="CSV, Parquet, MAT or XLSX file, or a recording of Punctura.")],
+    trace: Annotated[
+        Path, typer.Argument(help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.")
+    ],
     needle: Annotated[
         str, typer.Option("--needle", help="The needle: diameter_mm=2,tip_angle_deg=45.", metavar="KEY=VALUE,...")
     ] = "",
@@ -37,20 +43,64 @@ def command(
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", help="One-page report to write.", metavar="OUT.html")
+    ] = None,
+    plan: Annotated[
+        Path | None,
+        typer.Option("--plan", help="Motion of the next experiment to write, for a robot.", metavar="OUT.csv"),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for the results of a folder of traces.", metavar="DIR")
+    ] = None,
+    processes: Annotated[int | None, typer.Option("--processes", help="For a folder; default: all processors.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Identifies membranes from a trace: values, 95 % intervals, and what the trace cannot tell."""
     if order not in ("recorded", "depth"):
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
-    read = read_trace(
-        trace, pairs(column, "--column"), pairs(unit, "--unit"), order="depth" if order == "depth" else "recorded"
-    )
-    found = identify(
-        read, needle_of(needle), number_of(membranes), lambda word: typer.echo(f"punctura: {word}", err=True)
-    )
+    task = Task(
+        needle_of(needle), number_of(membranes), pairs(column, "--column"), pairs(unit, "--unit"),
+        "depth" if order == "depth" else "recorded",
+    )  # fmt: skip
+    if trace.is_dir():
+        if scene or report or plan:
+            raise typer.BadParameter("a folder gives --out DIR; --scene, --report and --plan need one trace")
+        if out is None:
+            raise typer.BadParameter("a folder of traces needs --out DIR for the results", param_hint="--out")
+        _folder(trace, out, task, processes, as_json)
+        return
+    read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order)
+    found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
     if scene is not None:
         write_whole(scene, (left_out(extended_parameters(found.fit)) + scene_text(found.scene)).encode())
+    if report is not None:
+        write_whole(report, report_html(found))
+    if plan is not None:
+        _plan(plan, found)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))
+
+
+def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json: bool) -> None:
+    with progress_bar("identify") as tell:
+        told = identify_folder(folder, out, task, processes, tell)
+    if as_json:
+        typer.echo(json.dumps(told, indent=2))
+        return
+    typer.echo(f"{out}: {told['identified']} of {told['traces']} traces identified, {told['kept']} kept from before")
+    for name, reason in told["failed"].items():
+        typer.echo(f"  {name}: {reason}")
+    for row in told["population"]:
+        spread = f"{100 * row['spread']:.3g} %" if row["spread_is_relative"] else f"{row['spread']:.3g} {row['unit']}"
+        typer.echo(f"  {row['name']:28} {row['mean']:10.4g} {row['unit']:6} [{row['low']:.4g}, {row['high']:.4g}], "
+                   f"spread {spread}")  # fmt: skip
+
+
+def _plan(path: Path, found: Identification) -> None:
+    deepest = float(found.trace.depth.max())
+    best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
+    write_whole(path, best.csv())
+    typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
 
 
 def pairs(given: list[str] | None, option: str) -> dict[str, str]:

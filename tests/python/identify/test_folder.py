@@ -1,0 +1,87 @@
+"""A folder of traces: broken files, resuming, the population; the report and the plan of the next experiment."""
+
+import json
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from punctura.identify import identify
+from punctura.identify.folder import Task, identify_folder
+from punctura.identify.plan import information, plans
+from punctura.identify.population import drawn_to_mean, population, random_effects
+from punctura.identify.report import report_html
+from traces import NEEDLE, trace
+
+
+@pytest.fixture(scope="module")
+def found():
+    return identify(trace(noise=0.01, hold=0.2, speed=10e-3), NEEDLE, membranes=1)
+
+
+def write(path, made):
+    table = np.column_stack((made.time, made.depth * 1e3, made.force))
+    np.savetxt(path, table, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+
+
+def test_a_broken_file_does_not_stop_the_others_and_a_second_run_keeps_results(tmp_path):
+    folder, out = tmp_path / "traces", tmp_path / "out"
+    folder.mkdir()
+    for seed in (1, 2):
+        write(folder / f"{seed}.csv", trace(noise=0.01, seed=seed, hold=0.2, speed=10e-3))
+    (folder / "broken.csv").write_text("time_s,depth_mm,force_N\nx,y,z\n")
+    task, heard = Task(NEEDLE, membranes=1), []
+    told = identify_folder(folder, out, task, 1, heard.append)
+    assert told["identified"] == 2 and told["kept"] == 0 and set(told["failed"]) == {"broken.csv"}
+    assert heard[-1] == 1.0
+    rows = pq.read_table(out / "traces.parquet").to_pylist()
+    assert {row["trace"] for row in rows} == {"1.csv", "2.csv"}
+    assert {row["name"] for row in pq.read_table(out / "population.parquet").to_pylist()} >= {"membrane[0].stiffness"}
+    before = (out / "1.csv.json").read_bytes()
+    (out / "2.csv.json").write_text("damaged")
+    again = identify_folder(folder, out, task, 1)
+    assert again["kept"] == 2 and again["identified"] == 2
+    assert (out / "1.csv.json").read_bytes() == before
+    assert json.loads((out / "2.csv.json").read_bytes())["error"] is None
+    with pytest.raises(ValueError, match="holds no trace"):
+        identify_folder(tmp_path, out, task)
+
+
+def test_the_spread_between_traces_is_told_from_their_own_errors():
+    rng = np.random.default_rng(6)
+    error = rng.uniform(0.5, 1.5, 2000)
+    same = 3 + error * rng.normal(size=2000)
+    mean, between, _ = random_effects(same, error)
+    assert mean == pytest.approx(3, abs=0.1) and between < 0.3
+    mean, between, of_mean = random_effects(same + 2 * rng.normal(size=2000), error)
+    assert between == pytest.approx(2, rel=0.1) and mean == pytest.approx(3, abs=4 * of_mean)
+
+
+def test_a_value_with_a_large_error_is_drawn_further_to_the_mean():
+    value, error = np.array([0.0, 1, 2, 3, 10, 10]), np.array([0.1, 0.1, 0.1, 0.1, 0.1, 20])
+    drawn = drawn_to_mean(value, error)
+    assert drawn[4] == pytest.approx(10, abs=0.1) and drawn[5] < 6
+
+
+def test_a_population_needs_two_traces_with_both_bounds():
+    row = {"name": "a", "value": 1.0, "low": 0.9, "high": 1.1, "unit": "N"}
+    assert population([row, row | {"low": None}]) == []
+    [told] = population([row, row | {"value": 2.0, "low": 1.8, "high": 2.2}])
+    assert told["spread_is_relative"] and told["mean"] == pytest.approx(np.sqrt(2), rel=0.02)
+
+
+def test_the_report_holds_every_parameter_and_verdict(found):
+    page = report_html(found).decode()
+    assert all(estimate.name in page for estimate in found.estimates)
+    assert all(text in page for text in found.verdicts) and "data:image/png" in page
+
+
+def test_the_plan_is_the_motion_with_the_most_information(found):
+    names = [*found.fit.free.names, "tissue.cutting"]
+    cut = found.parameters.with_values({"tissue.cutting": 0.05})
+    made = plans(cut, names, 12e-3, 0.01)
+    assert made[0].score == max(plan.score for plan in made) and made[0].time[-1] <= 60
+    assert made[0].depth.max() <= 12e-3 and made[0].csv().startswith(b"time_s,depth_mm\n")
+    once, twice = (next(plan for plan in made if ("second" in plan.name) == again) for again in (False, True))
+    assert twice.errors["tissue.cutting"] < 0.7 * once.errors["tissue.cutting"]
+    score, errors = information(cut, names, twice.time, twice.depth, 0.01)
+    assert score == twice.score and errors == twice.errors
