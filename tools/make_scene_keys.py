@@ -15,10 +15,10 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from punctura.files.fields import Number, NumberOrAutomatic, Vector, WholeNumber
+from punctura.files.fields import Number, NumberOrAutomatic, Numbers, Vector, WholeNumber
 from punctura.files.units import split_key
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.schema import SceneFile
+from punctura.scene.schema import ROWS, SceneFile
 from pydantic import BaseModel, PlainValidator
 
 PATH = Path(__file__).resolve().parents[1] / "capi/src/scene_keys.hpp"
@@ -32,12 +32,12 @@ TEXT = """// Made by tools/make_scene_keys.py, from the schema of scene files in
 namespace punctura::c {{
 
 /// What a key holds.
-enum class KeyKind {{ number, number_or_word, vector, word, gauge }};
+enum class KeyKind {{ number, number_or_word, vector, column, word, gauge }};
 
 /// A key of a scene file. A value in SI units is the number in the file times `digits` times 10^exponent.
 struct SceneKey {{
   std::string_view table, key;
-  std::string_view name;  ///< in the core
+  std::string_view name;  ///< in the core; a column has [] in place of the row: "profile[].depth"
   KeyKind kind;
   bool has_default;
   std::string_view digits;
@@ -77,6 +77,7 @@ KINDS = {
         (Number, "number"),
         (NumberOrAutomatic, "number_or_word"),
         (Vector, "vector"),
+        (Numbers, "column"),
         (WholeNumber, "gauge"),
     )
 }
@@ -101,6 +102,8 @@ def rows(table: str, model: Any) -> Iterator[str]:
         kind = kind_of(info)
         if kind == "gauge":
             name = "diameter"
+        if kind == "column":
+            name = next(f"{rows}[].{of[key]}" for rows, of in ROWS[table].items() if key in of)
         digits, exponent = digits_of(unit.si)
         has_default = not info.is_required() and info.default is not None
         texts = ", ".join(json.dumps(text) for text in (table, key, name))

@@ -59,14 +59,13 @@ punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t cou
 }
 
 int32_t punctura_insertion_membrane_count(const punctura_insertion* insertion) {
-  return insertion ? static_cast<int32_t>(insertion->now.proxies().size()) : 0;
+  return insertion ? static_cast<int32_t>(insertion->now.size()) : 0;
 }
 
 punctura_status punctura_insertion_membrane(const punctura_insertion* insertion, int32_t membrane,
                                             punctura_membrane_tick* tick) {
   if (membrane < 0 || membrane >= punctura_insertion_membrane_count(insertion)) return PUNCTURA_BAD_ARGUMENT;
-  const auto& proxy = insertion->now.proxies()[static_cast<size_t>(membrane)];
-  return give_membrane(tick, punctura::record_of(proxy.tick()));
+  return give_membrane(tick, punctura::record_of(insertion->now.tick(static_cast<size_t>(membrane))));
 }
 
 size_t punctura_insertion_state_size(const punctura_insertion* insertion) { return state_size(insertion); }

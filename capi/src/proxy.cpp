@@ -9,27 +9,27 @@
 namespace punctura::c {
 namespace {
 
-using InSpace = SceneInsertion::Proxies::value_type;
+using InSpace = SceneInsertion::Wide::Proxies::value_type;  // of every scene; K06's membranes have K06's bits in it
 using Law = std::remove_cvref_t<decltype(std::declval<InSpace>().law())>;
 using Coupled = std::remove_cvref_t<decltype(std::declval<InSpace>().params().coupling)>;
 using OnALine = Proxy1d<Law, Coupled>;
 
 /// The proxy of one membrane of a scene; empty after it has kept an error.
 std::optional<InSpace> proxy_of(const Scene& scene, int32_t membrane, punctura_status& status) {
-  std::vector<Problem> problems;
-  const auto built = try_build_insertion(scene, problems);
-  if (!built) {
+  auto problems = check(scene);
+  if (!problems.empty()) {
     status = fail(std::move(problems));
     return std::nullopt;
   }
-  const std::size_t count = built->proxies().size();
+  const auto built = detail::wide_model_of<double>(scene);
+  const std::size_t count = built.size();
   if (membrane < 0 || static_cast<std::size_t>(membrane) >= count) {
     status = fail(PUNCTURA_BAD_ARGUMENT, "membrane " + std::to_string(membrane) + ": the scene has " +
                                              std::to_string(count) + " membranes, counted from 0");
     return std::nullopt;
   }
   status = ok;
-  return built->proxies()[static_cast<std::size_t>(membrane)];
+  return built.proxies()[static_cast<std::size_t>(membrane)];
 }
 
 }  // namespace

@@ -91,9 +91,21 @@ bool set_word(Scene& scene, const std::string& path, std::string_view word, std:
     if (rest == "name") return membrane->name = word, true;
     if (rest == "look") return take(membrane->look, path, word, look_words, problems);
     if (rest == "behind") return take(membrane->behind, path, word, behind_words, problems);
+    if (rest == "grip") return take(membrane->tissue.grip, path, word, punctura::grip_words, problems);
   }
   problems.push_back({path, not_given, "there is no such word in the scene"});
   return false;
+}
+
+void make_rows(Scene& scene, const std::string& list, std::size_t count) {
+  const auto grow = [&](auto& rows, const auto& row) {
+    if (rows.size() < count) rows.resize(count, row);
+  };
+  if (list == "coupling.relaxation") return grow(scene.relaxation, MaxwellBranch{not_given, not_given});
+  std::string_view rest;
+  PlacedMembrane* membrane = membrane_of(scene, list, rest);
+  if (membrane && rest == "grip_table") grow(membrane->tissue.grip_table, GripPoint{not_given, not_given});
+  if (membrane && rest == "profile") grow(membrane->tissue.profile, Knot{not_given, not_given, not_given});
 }
 
 }  // namespace punctura::c

@@ -30,4 +30,7 @@ SyringeSettings empty_syringe();
 /// Sets a word of the scene. Adds a problem if there is no such path or word. Returns whether there was none.
 bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems);
 
+/// Gives a list of the scene, such as "membrane[0].profile", at least `count` rows. The numbers of new rows are NaN.
+void make_rows(Scene& scene, const std::string& list, std::size_t count);
+
 }  // namespace punctura::c

@@ -7,12 +7,12 @@
 namespace punctura::c {
 
 /// What a key holds.
-enum class KeyKind { number, number_or_word, vector, word, gauge };
+enum class KeyKind { number, number_or_word, vector, column, word, gauge };
 
 /// A key of a scene file. A value in SI units is the number in the file times `digits` times 10^exponent.
 struct SceneKey {
   std::string_view table, key;
-  std::string_view name;  ///< in the core
+  std::string_view name;  ///< in the core; a column has [] in place of the row: "profile[].depth"
   KeyKind kind;
   bool has_default;
   std::string_view digits;
@@ -29,11 +29,14 @@ inline constexpr SceneKey scene_keys[] = {
     {"needle", "direction", "direction", KeyKind::word, true, "1", 0},
     {"coupling", "stiffness_N_per_mm", "stiffness", KeyKind::number, false, "1", 3},
     {"coupling", "damping_Ns_per_mm", "damping", KeyKind::number, false, "1", 3},
+    {"coupling", "relaxation_stiffness_N_per_mm", "relaxation[].stiffness", KeyKind::column, true, "1", 3},
+    {"coupling", "relaxation_time_constant_s", "relaxation[].time_constant", KeyKind::column, true, "1", 0},
     {"servo", "rate_hz", "rate", KeyKind::number, true, "1", 0},
     {"servo", "low_pass_hz", "low_pass", KeyKind::number, true, "1", 0},
     {"servo", "solver", "solver", KeyKind::word, true, "1", 0},
     {"servo", "conditioning", "conditioning", KeyKind::word, true, "1", 0},
     {"servo", "encoder_step_mm", "encoder_step", KeyKind::number, true, "1", -3},
+    {"servo", "sub_steps", "sub_steps", KeyKind::number, true, "1", 0},
     {"display", "force_scale", "force_scale", KeyKind::number_or_word, true, "1", 0},
     {"syringe", "bore_mm", "bore", KeyKind::number, false, "1", -3},
     {"syringe", "liquid_mL", "liquid", KeyKind::number, false, "1", -6},
@@ -56,6 +59,18 @@ inline constexpr SceneKey scene_keys[] = {
     {"membrane", "outflow_pressure_kPa", "outflow_pressure", KeyKind::number, true, "1", 3},
     {"membrane", "behind_resistance_kPa_s_per_mL", "behind_resistance", KeyKind::number, true, "1", 9},
     {"membrane", "behind_pressure_kPa", "behind_pressure", KeyKind::number, true, "1", 3},
+    {"membrane", "grip", "grip", KeyKind::word, true, "1", 0},
+    {"membrane", "growth_per_mm", "growth", KeyKind::number, true, "1", 3},
+    {"membrane", "grip_opening_mm", "grip_table[].opening", KeyKind::column, true, "1", -3},
+    {"membrane", "grip_force_N", "grip_table[].grip", KeyKind::column, true, "1", 0},
+    {"membrane", "tip_length_mm", "tip_length", KeyKind::number, true, "1", -3},
+    {"membrane", "tail_length_mm", "tail_length", KeyKind::number, true, "1", -3},
+    {"membrane", "tail_floor", "tail_floor", KeyKind::number, true, "1", 0},
+    {"membrane", "cutting_N", "cutting", KeyKind::number, true, "1", 0},
+    {"membrane", "set", "set", KeyKind::number, true, "1", 0},
+    {"membrane", "profile_depth_mm", "profile[].depth", KeyKind::column, true, "1", -3},
+    {"membrane", "profile_lower_N", "profile[].lower", KeyKind::column, true, "1", 0},
+    {"membrane", "profile_upper_N", "profile[].upper", KeyKind::column, true, "1", 0},
 };
 
 /// A needle's gauge and its outer diameter, m. ISO 9626

@@ -56,9 +56,7 @@ double scaled(double value, std::string_view digits, int exponent) {
 /// Reads the tables of a file into a scene.
 class Reader {
  public:
-  Reader(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {
-    for_each_value(scene_, [&](const std::string& path, const Field&, double& number) { places_[path] = &number; });
-  }
+  Reader(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) { find_places(); }
 
   /// kind: the table's name in scene_keys; path: with the number of a membrane.
   void table(const toml::table& from, std::string_view kind, const std::string& path) {
@@ -93,6 +91,7 @@ class Reader {
       return void(set_word(scene_, path, *word, problems_));
     if (key.kind == KeyKind::gauge) return gauge(node, path, place);
     if (key.kind == KeyKind::vector) return vector(key, node, path, place);
+    if (key.kind == KeyKind::column) return column(key, node, path, place);
     if (!node.is_number()) return problem(place, "must be a number");
     *places_.at(path) = scaled(*node.value<double>(), key.digits, key.exponent);
   }
@@ -105,6 +104,26 @@ class Reader {
     for (std::size_t k = 0; k < 3; ++k)
       *places_.at(path + "[" + std::to_string(k) + "]") =
           scaled(*numbers->get(k)->value<double>(), key.digits, key.exponent);
+  }
+
+  /// A list of numbers: one field of each row of a list in the core. path: of the field, with [] for the row.
+  void column(const SceneKey& key, const toml::node& node, const std::string& path, const std::string& place) {
+    const toml::array* numbers = node.as_array();
+    if (!numbers || !std::all_of(numbers->begin(), numbers->end(), [](const auto& n) { return n.is_number(); }))
+      return problem(place, "must be a list of numbers");
+    const std::size_t row = path.find("[]");
+    make_rows(scene_, path.substr(0, row), numbers->size());
+    find_places();
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+      const std::string number = "[" + std::to_string(i) + "]",
+                        at = path.substr(0, row) + number + path.substr(row + 2);
+      keys[at] = place + number;
+      *places_.at(at) = scaled(*numbers->get(i)->value<double>(), key.digits, key.exponent);
+    }
+  }
+
+  void find_places() {
+    for_each_value(scene_, [&](const std::string& path, const Field&, double& number) { places_[path] = &number; });
   }
 
   void gauge(const toml::node& node, const std::string& path, const std::string& place) {

@@ -29,6 +29,7 @@ void bind_model(nb::module_&);
 void bind_profile_law(nb::module_&);
 void bind_proxy(nb::module_&);
 void bind_syringe(nb::module_&);
+void bind_membrane(nb::module_&);
 void bind_scene(nb::module_&);
 void bind_insertion(nb::module_&);
 void bind_events(nb::module_&);

@@ -132,8 +132,9 @@ const PlacedMembrane& membrane_of(const Scene& scene, std::size_t i) {
 }
 
 std::array<double, 6> crossing_of(const Scene& scene, std::size_t i, double cos_beta) {
-  const Membrane& membrane = membrane_of(scene, i).membrane;
-  const Crossing c = crossing(ThickLaw(scene.needle, membrane), scene.needle, membrane.thickness, cos_beta);
+  const PlacedMembrane& placed = membrane_of(scene, i);
+  const TissueLaw law(scene.needle, placed.membrane, placed.tissue);
+  const Crossing c = crossing(law, scene.needle, placed.membrane.thickness, cos_beta);
   return {c.cos_beta, c.far_face, c.peak, c.through, c.again, c.shaft};
 }
 
@@ -142,13 +143,14 @@ nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
   std::vector<Problem> problems;
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);
-  const ThickLaw law(scene.needle, placed.membrane, obliquity);
+  const double cos_beta = std::cos(obliquity), thickness = placed.membrane.thickness;
+  const TissueLaw law(scene.needle, placed.membrane, placed.tissue, cos_beta);
   const LawCurve curve = law_curve(law.pieces());
   nb::dict d;
   d["name"] = placed.name;
   d["obliquity"] = obliquity;
-  d["far_face"] = law.path_length();
-  d["through"] = law.pieces().breaks.back();
+  d["far_face"] = thickness / cos_beta;
+  d["through"] = detail::passed(law, law.pieces(), thickness / cos_beta);
   d["depth"] = curve.depth;
   d["lower"] = curve.lower;
   d["upper"] = curve.upper;
@@ -200,7 +202,9 @@ void bind_events(nb::module_& m) {
         "Angle between the needle and each membrane's inward normal, (m,), rad, at most 85 degrees.\n\n"
         "axis (3,): direction of the stylus. entered (m, 3): the needle's direction at entry for each membrane that\n"
         "it is in, NaN for the others.");
-  m.def("tip_length", &tip_length<double>, nb::arg("needle"), "Length of the slanted face along the needle, m: X.");
+  m.def(
+      "tip_length", [](const Needle& needle) { return tip_length(needle); }, nb::arg("needle"),
+      "Length of the slanted face along the needle, m: X.");
   m.attr("grazing_cosine") = grazing_cosine<double>;
 }
 

@@ -33,7 +33,7 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (insertion.uses_axis()) axes.check("axis");
-  const auto count = static_cast<std::uint32_t>(insertion.proxies().size());
+  const auto count = static_cast<std::uint32_t>(insertion.size());
   SnapshotColumns columns(
       {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
   columns.reserve(n, count);
@@ -46,7 +46,7 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
     record.sample.axis = to_array(direction);
     record.force = to_array(insertion.step(position, direction));
     record.tip = to_array(insertion.tip());
-    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.proxies()[j].tick());
+    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.tick(j));
     columns.add(record);
   };
   make_ticks(n, tick, progress);
@@ -107,7 +107,7 @@ void bind_insertion(nb::module_& m) {
           "depths",
           [](const SceneInsertion& i) {
             std::vector<double> depths;
-            for (const auto& proxy : i.proxies()) depths.push_back(proxy.depth());
+            for (std::size_t k = 0; k < i.size(); ++k) depths.push_back(i.tick(k).depth);
             return nb::tuple(nb::cast(depths));
           },
           nb::sig("def depths(self) -> tuple[float, ...]"), "Depth of the proxy behind each membrane, last tick, m")
@@ -115,7 +115,7 @@ void bind_insertion(nb::module_& m) {
           "phases",
           [](const SceneInsertion& i) {
             std::vector<Phase> phases;
-            for (const auto& proxy : i.proxies()) phases.push_back(proxy.phase());
+            for (std::size_t k = 0; k < i.size(); ++k) phases.push_back(i.tick(k).phase);
             return nb::tuple(nb::cast(phases));
           },
           nb::sig("def phases(self) -> tuple[Phase, ...]"), "Phase at each membrane in the last tick")

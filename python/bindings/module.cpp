@@ -16,6 +16,7 @@ NB_MODULE(_core, m) {
   bind_profile_law(m);
   bind_proxy(m);
   bind_syringe(m);
+  bind_membrane(m);
   bind_scene(m);
   bind_insertion(m);
   bind_events(m);

@@ -167,7 +167,7 @@ nb::object run(SceneRivals& self, const nb::object& positions, const nb::object&
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (self.insertion.uses_axis()) axes.check("axis");
-  const auto count = static_cast<std::uint32_t>(self.insertion.proxies().size());
+  const auto count = static_cast<std::uint32_t>(self.insertion.size());
   SnapshotColumns columns({"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"});
   columns.reserve(n, count);
   Snapshot record{};
@@ -179,7 +179,7 @@ nb::object run(SceneRivals& self, const nb::object& positions, const nb::object&
     record.sample.axis = to_array(direction);
     record.force = to_array(self.insertion.step(position, direction));
     record.tip = to_array(self.insertion.tip());
-    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(self.insertion.proxies()[j].tick());
+    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(self.insertion.tick(j));
     columns.add(record);
   };
   make_ticks(n, tick, progress);

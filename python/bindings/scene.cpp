@@ -29,39 +29,10 @@ Conditioning conditioning_from(const std::string& name) {
 
 const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
 
-/// The type hint of a word out of a list.
-template <std::size_t n>
-std::string literal(const std::array<std::string_view, n>& words) {
-  std::string text;
-  for (const auto word : words) text += (text.empty() ? "typing.Literal['" : ", '") + std::string(word) + "'";
-  return text + "]";
-}
-const std::string look_type = literal(look_words), behind_type = literal(behind_words);
-
-/// The enumerator of a word. Throws ConfigurationError that lists the words.
-template <typename Enum, std::size_t n>
-Enum from_word(const std::string& path, const std::string& given, const std::array<std::string_view, n>& words) {
-  if (const auto found = enum_of<Enum>(given, words)) return *found;
-  std::string reason = "must be one of";
-  for (const auto word : words) reason += (word == words.front() ? " \"" : ", \"") + std::string(word) + "\"";
-  raise_word(path, given, reason.c_str());
-}
-
-PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
-                           std::string look, Outlet outflow, Outlet outflow_behind) {
-  return {std::move(name),
-          membrane,
-          point,
-          inward_normal,
-          from_word<Behind>("membrane.behind", behind, behind_words),
-          from_word<Look>("membrane.look", look, look_words),
-          outflow,
-          outflow_behind};
-}
-
 ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
-                         double encoder_step) {
-  return {rate, low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning), encoder_step};
+                         double encoder_step, double sub_steps) {
+  return {rate,         low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning),
+          encoder_step, sub_steps};
 }
 
 using ScaleOrWord = std::variant<double, std::string>;
@@ -77,9 +48,9 @@ SyringeSettings make_settings(Syringe syringe, Coupling thumb) { return {syringe
 
 Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector<PlacedMembrane> membranes,
                  ServoSettings servo, std::string direction, DisplaySettings display,
-                 std::optional<SyringeSettings> syringe) {
+                 std::optional<SyringeSettings> syringe, std::vector<MaxwellBranch> relaxation) {
   Scene made{std::move(name),           needle,  coupling, std::move(membranes), servo,
-             direction_from(direction), display, syringe};
+             direction_from(direction), display, syringe,  std::move(relaxation)};
   raise_if(check(made));
   return made;
 }
@@ -172,10 +143,10 @@ void bind_scene_field(nb::module_& m) {
 }
 
 template <typename Owner, std::size_t n>
-void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fields)[n]) {
+void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fields)[n], const char* prefix = "") {
   for (const Field& field : fields) {
     nb::dict d;
-    d["path"] = std::string(path) + "." + std::string(field.name);
+    d["path"] = std::string(path) + "." + prefix + std::string(field.name);
     d["symbol"] = text(field.symbol);
     d["unit"] = text(field.unit);
     d["min"] = field.range.min;
@@ -190,42 +161,6 @@ void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fie
 }  // namespace
 
 void bind_scene(nb::module_& m) {
-  auto placed =
-      nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane and its place in the scene.")
-          .def_ro("name", &PlacedMembrane::name)
-          .def_ro("membrane", &PlacedMembrane::membrane)
-          .def_prop_ro(
-              "point", [](const PlacedMembrane& p) { return as_tuple(p.point); },
-              nb::sig("def point(self) -> tuple[float, float, float]"), "Any point of the surface, m")
-          .def_prop_ro(
-              "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
-              nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0")
-          .def_prop_ro(
-              "behind", [](const PlacedMembrane& p) { return text(word_of(p.behind)); },
-              nb::sig(("def behind(self) -> " + behind_type).c_str()),
-              "Content of the space between this membrane and the next. It does not affect the force")
-          .def_prop_ro(
-              "look", [](const PlacedMembrane& p) { return text(word_of(p.look)); },
-              nb::sig(("def look(self) -> " + look_type).c_str()),
-              "The kind of tissue that the studio draws. It does not affect the force")
-          .def_ro("outflow", &PlacedMembrane::outflow, "What liquid from the needle's syringe meets in the membrane")
-          .def_ro("outflow_behind", &PlacedMembrane::outflow_behind, "The same for the space behind it");
-  def_init(
-      placed,
-      {{"name", "str"},
-       {"membrane", "Membrane"},
-       {"point", three_numbers},
-       {"inward_normal", three_numbers},
-       {"behind", behind_type.c_str(), nb::str("tissue")},
-       {"look", look_type.c_str(), nb::str("plain")},
-       {"outflow", "Outlet", nb::cast(dense_tissue)},
-       {"outflow_behind", "Outlet", nb::cast(dense_tissue)}},
-      &make_placed,
-      "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
-      "this membrane and the next. look: kind of tissue in the studio's picture. outflow,\n"
-      "outflow_behind: what liquid from a syringe meets in the membrane and behind it; by default it cannot leave.");
-  def_value(placed, {"name", "membrane", "point", "inward_normal", "behind", "look", "outflow", "outflow_behind"});
-
   auto syringe = nb::class_<SyringeSettings>(m, "SyringeSettings", "The syringe on a scene's needle. docs/syringe.md")
                      .def_ro("syringe", &SyringeSettings::syringe)
                      .def_ro("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger");
@@ -246,17 +181,21 @@ void bind_scene(nb::module_& m) {
                        nb::sig("def conditioning(self) -> typing.Literal['low_pass', 'line_fit']"),
                        "\"low_pass\" or \"line_fit\"")
                    .def_ro("encoder_step", &ServoSettings::encoder_step,
-                           "Encoder step for conditioning \"line_fit\", m; 0 for an ideal sensor");
+                           "Encoder step for conditioning \"line_fit\", m; 0 for an ideal sensor")
+                   .def_ro("sub_steps", &ServoSettings::sub_steps,
+                           "Steps of the model in a tick, a whole number from 1 to 16. docs/pop-time.md");
   def_init(servo,
            {{"rate", "float", nb::float_(defaults.rate)},
             {"low_pass", "float", nb::float_(defaults.low_pass)},
             {"solver", "typing.Literal['exact', 'paper']", nb::str(name_of(defaults.solver).c_str())},
             {"conditioning", "typing.Literal['low_pass', 'line_fit']", nb::str(name_of(defaults.conditioning))},
-            {"encoder_step", "float", nb::float_(defaults.encoder_step)}},
+            {"encoder_step", "float", nb::float_(defaults.encoder_step)},
+            {"sub_steps", "float", nb::float_(defaults.sub_steps)}},
            &make_servo,
            "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\" is K06's filter with cutoff\n"
-           "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).");
-  def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step"});
+           "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).\n"
+           "sub_steps: steps of the model in a tick, 1 to 16; more find the time of a pop better.");
+  def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step", "sub_steps"});
 
   auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.")
                      .def_prop_ro(
@@ -288,6 +227,10 @@ void bind_scene(nb::module_& m) {
           .def_ro("display", &Scene::display)
           .def_ro("syringe", &Scene::syringe, "The syringe on the needle; None without one")
           .def_prop_ro(
+              "relaxation", [](const Scene& s) { return nb::tuple(nb::cast(s.relaxation)); },
+              nb::sig("def relaxation(self) -> tuple[MaxwellBranch, ...]"),
+              "The branches beside the coupling that relax while the needle rests; empty in K06")
+          .def_prop_ro(
               "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
               "Indices of the two membranes with blood between them; None if there is no blood")
           .def("fields", &fields_of, nb::sig("def fields(self) -> list[SceneField]"),
@@ -296,35 +239,38 @@ void bind_scene(nb::module_& m) {
                nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
                "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
                "ConfigurationError.");
-  def_init(scene,
-           {{"name", "str"},
-            {"needle", "Needle"},
-            {"coupling", "Coupling"},
-            {"membranes", "Sequence[PlacedMembrane]"},
-            {"servo", "ServoSettings", nb::cast(defaults)},
-            {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")},
-            {"display", "DisplaySettings", nb::cast(DisplaySettings{})},
-            {"syringe", "SyringeSettings | None", nb::none()}},
-           &make_scene,
-           "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). Raises\n"
-           "ConfigurationError with all problems.");
-  def_value(scene, {"name", "needle", "coupling", "membranes", "servo", "direction", "display", "syringe"});
+  def_init(
+      scene,
+      {{"name", "str"},
+       {"needle", "Needle"},
+       {"coupling", "Coupling"},
+       {"membranes", "Sequence[PlacedMembrane]"},
+       {"servo", "ServoSettings", nb::cast(defaults)},
+       {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")},
+       {"display", "DisplaySettings", nb::cast(DisplaySettings{})},
+       {"syringe", "SyringeSettings | None", nb::none()},
+       {"relaxation", "Sequence[MaxwellBranch]", nb::make_tuple()}},
+      &make_scene,
+      "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). relaxation: at\n"
+      "most two branches beside the coupling. Raises ConfigurationError with all problems.");
+  def_value(scene,
+            {"name", "needle", "coupling", "membranes", "servo", "direction", "display", "syringe", "relaxation"});
 
   m.def(
       "scene_problems",
       [](const std::string& name, const Needle& needle, const Coupling& coupling,
          const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const DisplaySettings& display,
-         const std::optional<SyringeSettings>& syringe) {
+         const std::optional<SyringeSettings>& syringe, const std::vector<MaxwellBranch>& relaxation) {
         nb::list out;
-        for (const Problem& p : check(Scene{name, needle, coupling, membranes, servo, {}, display, syringe}))
-          out.append(nb::make_tuple(p.path, p.value, p.reason));
+        const Scene scene{name, needle, coupling, membranes, servo, {}, display, syringe, relaxation};
+        for (const Problem& p : check(scene)) out.append(nb::make_tuple(p.path, p.value, p.reason));
         return out;
       },
       nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo"),
-      nb::arg("display"), nb::arg("syringe") = nb::none(),
+      nb::arg("display"), nb::arg("syringe") = nb::none(), nb::arg("relaxation") = nb::make_tuple(),
       nb::sig("def scene_problems(name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
-              "servo: ServoSettings, display: DisplaySettings, syringe: SyringeSettings | None = None) -> "
-              "list[tuple[str, float, str]]"),
+              "servo: ServoSettings, display: DisplaySettings, syringe: SyringeSettings | None = None, relaxation: "
+              "Sequence[MaxwellBranch] = ()) -> list[tuple[str, float, str]]"),
       "All problems of a scene that may be invalid: (path, value in SI, reason).");
 
   m.def(
@@ -333,7 +279,9 @@ void bind_scene(nb::module_& m) {
         nb::list out;
         describe_fields(out, "needle", needle_fields);
         describe_fields(out, "membrane", membrane_fields);
+        describe_fields(out, "membrane", tissue_fields);
         describe_fields(out, "coupling", coupling_fields);
+        describe_fields(out, "coupling", branch_fields, "relaxation_");
         describe_fields(out, "servo", servo_fields);
         describe_fields(out, "display", display_fields);
         describe_fields(out, "membrane", outflow_fields);

@@ -56,7 +56,8 @@ class Contact {
     if (!(now.depth >= crossing_.through)) return;
     can_pop_ = false;
     const double friction = std::isfinite(now.lower) ? -now.lower : resistance;
-    found(EventKind::pop, peak_, std::isfinite(friction) ? friction : crossing_.shaft);
+    const bool falls_on = crossing_.settled > crossing_.through;  // a tail: the shaft alone comes behind it
+    found(EventKind::pop, peak_, std::isfinite(friction) && !falls_on ? friction : crossing_.shaft);
   }
 
   /// Changes the law of the membrane. enter(cos_beta) returns its Crossing.

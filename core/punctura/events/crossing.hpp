@@ -21,6 +21,7 @@ struct Crossing {
   double through;   ///< the slanted face passes the far face, X + U, K06 (18); see crossing()
   double again;     ///< a tip that comes back to this depth can pop again
   double shaft;     ///< friction of the shaft alone, N: F U / H, K06 (18)
+  double settled;   ///< the friction is constant from here on. In K06's law: `through`
 };
 
 /// After a pop, the tip must come back by this fraction of its length before the peak. Then it can pop again.
@@ -57,12 +58,23 @@ Peak<Scalar> peak_of(const Pieces& law) noexcept {
   }
   return peak;
 }
+
+/// Where the slanted face has passed the far face: X + U if the law says its tip length X and has its maximum before,
+/// otherwise its last break. pieces: of the law. U: m.
+template <typename L, typename Pieces>
+double passed(const L& law, const Pieces& pieces, double U) noexcept {
+  const auto last = static_cast<double>(pieces.breaks[last_break(pieces)]);
+  if constexpr (requires { law.tip_length(); })
+    if (const double X_U = static_cast<double>(law.tip_length()) + U; X_U >= static_cast<double>(peak_of(pieces).depth))
+      return std::min(X_U, last);
+  return last;
+}
 }  // namespace detail
 
 /// The crossing of a membrane with any law. thickness: H, m. For a law with memory, the membrane is untouched.
 ///
-/// `through` is the last break of the law. If the friction does not decrease before it, there is no pop and `through`
-/// is infinite. cos_beta is clamped to [cos(80 degrees), 1]. NaN counts as 1.
+/// If the friction does not decrease before the last break of the law, there is no pop and `through` is infinite. See
+/// detail::passed(). cos_beta is clamped to [cos(80 degrees), 1]. NaN counts as 1.
 template <ObliqueLaw L>
 Crossing crossing(const L& law, const Needle& needle, double thickness, double cos_beta) noexcept {
   cos_beta = std::isfinite(cos_beta) ? std::clamp(cos_beta, grazing_cosine<double>, 1.0) : 1.0;
@@ -74,9 +86,10 @@ Crossing crossing(const L& law, const Needle& needle, double thickness, double c
   return {cos_beta,
           thickness / cos_beta,  // K06 (17)
           depth,
-          peak.resistance > shaft ? static_cast<double>(pieces.breaks[last]) : no_bound,
+          peak.resistance > shaft ? detail::passed(law, pieces, thickness / cos_beta) : no_bound,
           depth - pop_again * tip_length(needle),
-          static_cast<double>(shaft)};
+          static_cast<double>(shaft),
+          static_cast<double>(pieces.breaks[last])};
 }
 
 /// n.b of a needle that is inside. b: the direction since entry. axis: the direction of the stylus, used if b is NaN

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -46,7 +47,9 @@ class EventFinderOf {
   /// build_insertion().
   template <typename LawOf>
   EventFinderOf(const Scene& scene, LawOf&& law_of) : now_(scene, law_of) {}
-  explicit EventFinderOf(const Scene& scene) : EventFinderOf(scene, detail::k06_law<double>) {}
+  explicit EventFinderOf(const Scene& scene)
+    requires std::same_as<L, SceneLaw<double>>
+      : EventFinderOf(scene, scene_law_of<double>(scene)) {}
 
   /// Changes the scene, from the next tick with command_scene on. It allocates memory: do not call it in a tick.
   template <typename LawOf>
@@ -54,7 +57,11 @@ class EventFinderOf {
     next_ = SceneSites(scene, law_of);
     scene_is_pending_ = true;
   }
-  void change(const Scene& scene) { change(scene, detail::k06_law<double>); }
+  void change(const Scene& scene)
+    requires std::same_as<L, SceneLaw<double>>
+  {
+    change(scene, scene_law_of<double>(scene));
+  }
   /// Whether a changed scene waits for a tick with command_scene.
   bool waits_for_scene() const noexcept { return scene_is_pending_; }
 
@@ -127,7 +134,7 @@ class EventFinderOf {
   std::size_t found_ = 0;
 };
 
-/// The event finder for K06's law.
-using EventFinder = EventFinderOf<ThickLaw>;
+/// The event finder for the laws of a scene.
+using EventFinder = EventFinderOf<SceneLaw<double>>;
 
 }  // namespace punctura

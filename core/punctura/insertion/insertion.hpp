@@ -1,6 +1,7 @@
 // A needle through several membranes, with one proxy and one coupling for each membrane. K06 Fig. 8
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -45,11 +46,15 @@ class InsertionOf {
   using Proxies = typename Storage::template Membranes<Proxy>;
   using StoredIn = Storage;
 
-  /// period: T, s. low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m.
+  /// coupling: sampled with the period of a sub-step, period / sub_steps. period: T, s. low_pass_hz: for
+  /// Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m. sub_steps: how many steps the
+  /// proxies make in a tick, 1 or more; the position between two ticks is interpolated on a straight line.
   InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
               Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
-              Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0)
-      : conditioner_(conditioning, low_pass_hz, encoder_step, period), from_motion_(tracker(direction, period)) {
+              Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0, std::uint32_t sub_steps = 1)
+      : conditioner_(conditioning, low_pass_hz, encoder_step, period),
+        from_motion_(tracker(direction, period)),
+        sub_steps_(sub_steps) {
     proxies_.reserve(sites.size());
     for (const auto& site : sites) proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, solver);
     reset();
@@ -68,15 +73,18 @@ class InsertionOf {
     force_.setZero();
   }
 
-  /// Takes over the state of another insertion of the same period. `previous` loses its history. Allocates no memory.
+  /// Takes over the state of another insertion of the same period, which may have other laws and another coupling.
+  /// `previous` loses its history. Allocates no memory.
   ///
   /// Each membrane takes over the state of the membrane at the same place, also if its number differs. If several
   /// membranes are at one place, the first takes over from the first, the second from the second. A membrane at a new
   /// place starts without history.
-  void resume(InsertionOf& previous) noexcept {
+  template <typename OtherLaw, typename OtherCoupling>
+  void resume(InsertionOf<OtherLaw, OtherCoupling, Storage>& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
-    match_by_place(proxies_, previous.proxies_, [](Proxy& proxy, const Proxy& old) { proxy.resume(old); });
+    tip_ = previous.tip_;
+    match_by_place(proxies_, previous.proxies_, [](Proxy& proxy, const auto& old) { proxy.resume(old); });
   }
 
   /// One tick. position: measured, m. axis: the needle's unit direction. Returns the force on the device, N.
@@ -86,8 +94,11 @@ class InsertionOf {
   Vector step(const Vector& position, const Vector& axis) noexcept {
     const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
+    const bool first = !conditioner_.started();
+    const Vector before = tip_;
     tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
+    if (sub_steps_ > 1 && !first) step_between(before, direction);
     force_.setZero();
     for (Proxy& proxy : proxies_) force_ += proxy.step_finite(tip_, direction);
     return force_;
@@ -103,6 +114,7 @@ class InsertionOf {
     conditioner_.describe(parameters);
     parameters.flag(uses_axis());
     if (from_motion_) from_motion_->describe(parameters);
+    parameters.index(sub_steps_, 0);
     for (const Proxy& proxy : proxies_) proxy.describe(parameters);
   }
 
@@ -110,6 +122,11 @@ class InsertionOf {
   const Vector& force() const noexcept { return force_; }    ///< the sum of all membranes, N
   bool uses_axis() const noexcept { return !from_motion_; }  ///< whether step() reads the axis
   const Proxies& proxies() const noexcept { return proxies_; }
+  std::size_t size() const noexcept { return proxies_.size(); }  ///< the number of membranes
+  /// The result of the last tick at membrane i.
+  const SpaceTick<Scalar>& tick(std::size_t i) const noexcept { return proxies_[i].tick(); }
+  /// n.b of the needle in membrane i, constant while the needle is inside.
+  Scalar cos_beta(std::size_t i) const noexcept { return proxies_[i].state().cos_beta; }
 
   /// Whether the tip is in front of every membrane. Forces may be switched on only in this state.
   bool outside() const noexcept {
@@ -119,6 +136,8 @@ class InsertionOf {
   }
 
  private:
+  template <ObliqueLaw, typename, typename>
+  friend class InsertionOf;
   using Conditioner = PositionConditioner<Scalar, Storage>;
   using Tracker = EntryDirection<Scalar, Storage>;
 
@@ -128,8 +147,17 @@ class InsertionOf {
     return std::nullopt;
   }
 
+  /// The sub-steps of a tick without the last one. before: the conditioned position of the last tick, m.
+  void step_between(const Vector& before, const Vector& direction) noexcept {
+    for (std::uint32_t i = 1; i < sub_steps_; ++i) {
+      const Vector between = before + (static_cast<Scalar>(i) / static_cast<Scalar>(sub_steps_)) * (tip_ - before);
+      for (Proxy& proxy : proxies_) proxy.step_finite(between, direction);
+    }
+  }
+
   Conditioner conditioner_;
   std::optional<Tracker> from_motion_;
+  std::uint32_t sub_steps_;
   Proxies proxies_;
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
 };
@@ -137,10 +165,5 @@ class InsertionOf {
 /// A membrane with K06's law.
 template <typename Scalar>
 using MembraneSite = SiteOf<BasicThickLaw<Scalar>>;
-/// The model with K06's law and coupling.
-template <typename Scalar>
-using BasicInsertion = InsertionOf<BasicThickLaw<Scalar>>;
-using Insertion = BasicInsertion<double>;
-using InsertionF = BasicInsertion<float>;
 
 }  // namespace punctura

@@ -41,15 +41,15 @@ class NeedleSyringe {
   }
 
   /// One tick, after the insertion's. thumb: depth of the thumb, m. Returns the force on the thumb, N.
-  template <typename Proxies>
-  Scalar step(Scalar thumb, const Proxies& proxies) noexcept {
+  template <typename Insertion>
+  Scalar step(Scalar thumb, const Insertion& insertion) noexcept {
     Opening<Scalar> opening(opening_);
     for (const auto& layer : layers_) {
-      if (layer.membrane >= proxies.size()) std::abort();
-      const auto& proxy = proxies[layer.membrane];
-      const bool in = inside(proxy.phase());
-      const Scalar U = in ? layer.thickness / proxy.state().cos_beta : layer.thickness;  // K06 (17)
-      opening.pass({in ? proxy.depth() : Scalar(0), U, layer.inside, layer.behind});
+      if (layer.membrane >= insertion.size()) std::abort();
+      const auto& tick = insertion.tick(layer.membrane);
+      const bool in = inside(tick.phase);
+      const Scalar U = in ? layer.thickness / insertion.cos_beta(layer.membrane) : layer.thickness;  // K06 (17)
+      opening.pass({in ? tick.depth : Scalar(0), U, layer.inside, layer.behind});
     }
     return plunger_.step(thumb, opening.outlet());
   }

@@ -57,14 +57,14 @@ struct HeapStorage {
 
 /// Storage without a heap, for at most most_membranes membranes.
 ///
-/// most_in_10_ms: how many samples conditioning and direction from motion look back at. This is the number of samples
-/// in 10 ms, plus one: 17 at 1600 Hz.
-template <std::size_t most_membranes, std::size_t most_in_10_ms = 17>
+/// most_in_15_ms: how many samples conditioning and direction from motion look back at. This is the number of samples
+/// in 15 ms, plus one: 25 at 1600 Hz.
+template <std::size_t most_membranes, std::size_t most_in_15_ms = 25>
 struct FixedStorage {
   template <typename T>
   using Membranes = FixedVector<T, most_membranes>;
   template <typename T>
-  using Samples = FixedVector<T, 2 * most_in_10_ms>;  // LineFit writes each sample twice
+  using Samples = FixedVector<T, 2 * most_in_15_ms>;  // LineFit writes each sample twice
 };
 
 }  // namespace punctura

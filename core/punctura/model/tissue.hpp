@@ -1,10 +1,12 @@
 // What measured tissue adds to K06's membrane. Each addition at its default is K06.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "punctura/model/profile.hpp"
@@ -18,6 +20,9 @@ enum class GripShape : std::uint8_t {
   exponential,  ///< G = c + kappa (exp(growth y) - 1) / growth
   table,        ///< straight lines between the points of grip_table, constant outside them
 };
+
+/// The words of scene files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> grip_words = {"linear", "exponential", "table"};
 
 /// One point of a measured grip.
 template <typename Scalar>

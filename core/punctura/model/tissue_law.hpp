@@ -1,6 +1,7 @@
 // The law of a membrane of measured tissue: K06's membrane with the additions of tissue.hpp, each of which can be off.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -143,7 +144,9 @@ inline bool check_curve(const Needle& needle, const Membrane& membrane, const Ti
                         "must be 0 m in a wall that the tip cuts: cutting begins at the surface"});
     return false;
   }
-  if (tissue.grip != GripShape::exponential || profile_of(needle, membrane, tissue).follows) return true;
+  if (tissue.grip != GripShape::exponential) return true;
+  const auto made = profile_of(needle, membrane, tissue);
+  if (made.follows && std::isfinite(made.error)) return true;  // the grip may overflow
   problems.push_back({dot + "growth", tissue.growth,
                       "is too large for this needle: 28 chords miss the grip by more than 1e-4 of the largest force. "
                       "Take "

@@ -84,5 +84,11 @@ Vector3<Scalar> without_denormals(const Vector3<Scalar>& e) noexcept {
   const auto tiny = Vector3<Scalar>::Constant(std::sqrt(std::numeric_limits<Lane<Scalar>>::min()));
   return (e + tiny) - tiny;
 }
+/// The same on a line.
+template <std::floating_point Scalar>
+Scalar without_denormals(Scalar e) noexcept {
+  const Scalar tiny = std::sqrt(std::numeric_limits<Scalar>::min());
+  return (e + tiny) - tiny;
+}
 
 }  // namespace punctura

@@ -44,14 +44,15 @@ class Proxy3d {
     return step_finite(p, axis);
   }
   /// Whether another proxy is at the same membrane.
-  bool same_place(const Proxy3d& other) const noexcept {
-    return params_.a == other.params_.a && params_.n == other.params_.n;
+  template <typename OtherLaw, typename OtherCoupling>
+  bool same_place(const Proxy3d<OtherLaw, OtherCoupling>& other) const noexcept {
+    return params_.a == other.params().a && params_.n == other.params().n;
   }
   /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
-  void resume(const Proxy3d& previous) noexcept {
-    state_ = previous.state_;
-    tick_ = previous.tick_;
-    if (inside(state_.phase)) lay_out(params_, state_);
+  template <typename OtherLaw, typename OtherCoupling>
+  void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
+    punctura::resume(params_, state_, previous.state());
+    tick_ = previous.tick();
   }
 
   /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.

@@ -76,6 +76,9 @@ class RivalInsertion {
   const Vector& force() const noexcept { return force_; }
   bool uses_axis() const noexcept { return !from_motion_; }
   const Proxies& proxies() const noexcept { return proxies_; }
+  std::size_t size() const noexcept { return proxies_.size(); }
+  const SpaceTick<double>& tick(std::size_t i) const noexcept { return proxies_[i].tick(); }
+  double cos_beta(std::size_t i) const noexcept { return proxies_[i].state().cos_beta; }
   bool outside() const noexcept {
     for (const RivalProxy& proxy : proxies_)
       if (proxy.phase() != Phase::outside) return false;

@@ -10,34 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "punctura/insertion/insertion.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura/scene/model.hpp"
 #include "punctura/servo/force_scale.hpp"
 #include "punctura/servo/servo_step.hpp"
 
 namespace punctura {
 
 namespace detail {
-/// The insertion of a scene that has passed check().
-template <typename Scalar, typename LawOf>
-auto insertion_of(const Scene& scene, LawOf&& law_of) {
-  using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}, std::size_t{}))>;
-  const auto to = [](double x) { return static_cast<Scalar>(x); };
-  const BasicNeedle<Scalar> needle{to(scene.needle.diameter), to(scene.needle.tip_angle)};
-  std::vector<SiteOf<L>> sites;
-  for (const PlacedMembrane& placed : scene.membranes) {
-    const Membrane& m = placed.membrane;
-    const BasicMembrane<Scalar> membrane{to(m.stiffness), to(m.precompression), to(m.friction), to(m.thickness)};
-    const Vector3d normal = to_vector(placed.inward_normal).stableNormalized();
-    sites.push_back({law_of(needle, membrane, sites.size()), to_vector(placed.point).template cast<Scalar>(),
-                     normal.template cast<Scalar>()});
-  }
-  const Scalar period = to(1 / scene.servo.rate);
-  const SampledCoupling<Scalar> coupling({to(scene.coupling.stiffness), to(scene.coupling.damping)}, period);
-  return InsertionOf<L>(sites, coupling, period, scene.servo.solver, to(scene.servo.low_pass), scene.direction,
-                        scene.servo.conditioning, to(scene.servo.encoder_step));
-}
-
 /// The syringe of a scene that has passed check(), and the membranes from the front to the back, as seen along the
 /// first one's inward normal.
 template <typename Step>
@@ -62,10 +42,11 @@ void put_syringe(const Scene& scene, Step& step) {
   step.set_syringe({plunger, to(tip_length(scene.needle)), layers});
 }
 
-/// K06's law for each membrane.
-template <typename Scalar>
-BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, std::size_t) {
-  return {needle, membrane};
+/// The result of make(); empty if there are problems `found`, which are added to `problems`.
+template <typename Make>
+auto if_good(const std::vector<Problem>& found, std::vector<Problem>& problems, Make&& make) {
+  problems.insert(problems.end(), found.begin(), found.end());
+  return found.empty() ? std::make_optional(make()) : std::nullopt;
 }
 }  // namespace detail
 
@@ -75,19 +56,22 @@ concept GivesLaws = std::invocable<LawOf, const BasicNeedle<Scalar>&, const Basi
 
 /// Builds the model of a scene, without device and safety limits. Scalar: double or float.
 ///
-/// law_of(needle, membrane, i) returns the law of each membrane. needle and membrane are in Scalar. i is the number
-/// of the membrane in the scene. The result is empty if the scene has problems. They are added to `problems`.
+/// law_of(needle, membrane, i) returns the law of each membrane, in place of the scene's. needle and membrane are in
+/// Scalar. i is the number of the membrane in the scene. The coupling is K06's. The result is empty if the scene has
+/// problems. They are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
-  using Result = decltype(detail::insertion_of<Scalar>(scene, law_of));
-  const auto found = check(scene);
-  problems.insert(problems.end(), found.begin(), found.end());
-  return found.empty() ? std::make_optional<Result>(detail::insertion_of<Scalar>(scene, law_of)) : std::nullopt;
+  auto found = check(scene);
+  if (!scene.relaxation.empty())
+    found.push_back({"coupling.relaxation", static_cast<double>(scene.relaxation.size()),
+                     "with laws of your own, build an InsertionOf with a RelaxingCoupling yourself"});
+  return detail::if_good(
+      found, problems, [&] { return detail::insertion_of<Scalar>(scene, detail::coupling_of<Scalar>(scene), law_of); });
 }
-/// Builds the model of a scene with K06's law.
+/// Builds the model of a scene with the laws of its membranes.
 template <typename Scalar = double>
 std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, std::vector<Problem>& problems) {
-  return try_build_insertion<Scalar>(scene, problems, detail::k06_law<Scalar>);
+  return detail::if_good(check(scene), problems, [&] { return detail::model_of<Scalar>(scene); });
 }
 
 /// How much of the model's force a device with these limits gives. insertion: of the scene, which has passed check().
@@ -96,28 +80,37 @@ double force_scale(const Scene& scene, const Insertion& insertion, const ForceLi
   return scene.display.automatic ? automatic_force_scale(insertion, limits) : scene.display.force_scale;
 }
 
+namespace detail {
+/// The servo step of a scene that has passed check(), with its insertion. Empty if the limits have problems.
+template <typename Insertion>
+std::optional<ServoStepOf<Insertion>> step_of(const Scene& scene, std::optional<Insertion> insertion,
+                                              std::vector<Problem>& problems, const GateLimits& gate,
+                                              const ForceLimits& limits) {
+  using Scalar = typename Insertion::Scalar;
+  const auto found = check(gate, limits);
+  problems.insert(problems.end(), found.begin(), found.end());
+  if (!insertion || !found.empty()) return std::nullopt;
+  const auto scale = std::max(static_cast<Scalar>(force_scale(scene, *insertion, limits)),
+                              std::numeric_limits<Scalar>::min());  // a scale that is too small for a float
+  auto made = std::make_optional<ServoStepOf<Insertion>>(
+      std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits, scale);
+  if (scene.syringe) put_syringe(scene, *made);
+  return made;
+}
+}  // namespace detail
+
 /// The whole tick of a scene: input gate, model, force scale, force limits. Laws as in try_build_insertion(). Empty
 /// where scene or limits have problems, which are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of, const GateLimits& gate = {},
                const ForceLimits& limits = {}) {
-  auto insertion = try_build_insertion<Scalar>(scene, problems, law_of);
-  using Result = ServoStepOf<std::remove_reference_t<decltype(*insertion)>>;
-  const auto found = check(gate, limits);
-  problems.insert(problems.end(), found.begin(), found.end());
-  if (!insertion || !found.empty()) return std::optional<Result>();
-  const auto scale = std::max(static_cast<Scalar>(force_scale(scene, *insertion, limits)),
-                              std::numeric_limits<Scalar>::min());  // a scale that is too small for a float
-  auto made =
-      std::make_optional<Result>(std::move(*insertion), static_cast<Scalar>(1 / scene.servo.rate), gate, limits, scale);
-  if (scene.syringe) detail::put_syringe(scene, *made);
-  return made;
+  return detail::step_of(scene, try_build_insertion<Scalar>(scene, problems, law_of), problems, gate, limits);
 }
-/// Builds the servo step of a scene with K06's law.
+/// Builds the servo step of a scene with the laws of its membranes.
 template <typename Scalar = double>
 std::optional<BasicServoStep<Scalar>> try_build(const Scene& scene, std::vector<Problem>& problems,
                                                 const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  return try_build<Scalar>(scene, problems, detail::k06_law<Scalar>, gate, limits);
+  return detail::step_of(scene, try_build_insertion<Scalar>(scene, problems), problems, gate, limits);
 }
 
 #if defined(__cpp_exceptions)
@@ -154,7 +147,9 @@ auto build_insertion(const Scene& scene, LawOf&& law_of) {
 }
 template <typename Scalar = double>
 BasicInsertion<Scalar> build_insertion(const Scene& scene) {
-  return build_insertion<Scalar>(scene, detail::k06_law<Scalar>);
+  std::vector<Problem> problems;
+  auto made = try_build_insertion<Scalar>(scene, problems);
+  return detail::or_throw(std::move(made), std::move(problems));
 }
 
 /// The same as try_build(), but throws SceneError with the problems of scene and limits.
@@ -166,7 +161,9 @@ auto build(const Scene& scene, LawOf&& law_of, const GateLimits& gate = {}, cons
 }
 template <typename Scalar = double>
 BasicServoStep<Scalar> build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  return build<Scalar>(scene, detail::k06_law<Scalar>, gate, limits);
+  std::vector<Problem> problems;
+  auto made = try_build<Scalar>(scene, problems, gate, limits);
+  return detail::or_throw(std::move(made), std::move(problems));
 }
 #endif
 

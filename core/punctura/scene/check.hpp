@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "punctura/device/placement.hpp"
+#include "punctura/model/tissue_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
@@ -24,6 +25,16 @@ inline constexpr FieldOf<Coupling> coupling_fields[] = {
     {{"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}}, &Coupling::damping},
 };
 
+inline constexpr FieldOf<MaxwellBranch> branch_fields[] = {
+    {{"stiffness", "K_m", "N/m", {0, no_bound, false, true, "must be 0 (no branch) or more"}},
+     &MaxwellBranch::stiffness},
+    {{"time_constant",
+      "tau",
+      "s",
+      {1e-4, 1e4, false, false, "must be from 0.0001 s, less than a tick, to 10000 s, longer than a run"}},
+     &MaxwellBranch::time_constant},
+};
+
 inline constexpr FieldOf<ServoSettings> servo_fields[] = {
     {{"rate",
       "1/T",
@@ -36,6 +47,7 @@ inline constexpr FieldOf<ServoSettings> servo_fields[] = {
       "m",
       {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"}},
      &ServoSettings::encoder_step},
+    {{"sub_steps", "-", "-", {1, 16, false, false, "must be a whole number from 1 to 16"}}, &ServoSettings::sub_steps},
 };
 
 inline constexpr FieldOf<DisplaySettings> display_fields[] = {
@@ -105,6 +117,16 @@ inline bool check(const Coupling& coupling, std::vector<Problem>& problems) {
   return check_fields(coupling_fields, coupling, "coupling", problems);
 }
 
+inline void check_relaxation(const Scene& scene, std::vector<Problem>& problems) {
+  static_assert(max_branches == 2);
+  const auto& branches = scene.relaxation;
+  if (branches.size() > max_branches)
+    problems.push_back(
+        {"coupling.relaxation", static_cast<double>(branches.size()), "there may be two branches at most"});
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    check_fields(branch_fields, branches[i], "coupling.relaxation[" + std::to_string(i) + "]", problems);
+}
+
 inline void check(const SyringeSettings& settings, std::vector<Problem>& problems) {
   check(settings.syringe, "syringe", problems);
   check_fields(thumb_fields, settings.thumb, "syringe", problems);
@@ -116,7 +138,10 @@ inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
   check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
-  check_fields(servo_fields, scene.servo, "servo", problems);
+  check_relaxation(scene, problems);
+  if (check_fields(servo_fields, scene.servo, "servo", problems) &&
+      std::trunc(scene.servo.sub_steps) != scene.servo.sub_steps)
+    problems.push_back({"servo.sub_steps", scene.servo.sub_steps, "must be a whole number"});
   check_fields(display_fields, scene.display, "display", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
   if (scene.membranes.size() > max_membranes)
@@ -126,9 +151,11 @@ inline std::vector<Problem> check(const Scene& scene) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
     check(placed.membrane, path, problems);
+    check(placed.tissue, path, problems);
     if (needle_fields[1].range.holds(scene.needle.tip_angle) &&
         membrane_fields[2].range.holds(placed.membrane.friction))
       check_insertion(scene.needle, placed.membrane, path, problems);
+    if (problems.empty()) check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
     check_fields(outflow_fields, placed.outflow, path, problems);
     check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
     if (!detail::finite(placed.point))

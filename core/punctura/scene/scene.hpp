@@ -10,7 +10,9 @@
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/needle.hpp"
 #include "punctura/model/omni.hpp"
+#include "punctura/model/tissue.hpp"
 #include "punctura/proxy/coupling.hpp"
+#include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura/proxy/solver.hpp"
 #include "punctura/scene/look.hpp"
 #include "punctura/signal/conditioning.hpp"
@@ -31,6 +33,7 @@ struct PlacedMembrane {
   Look look = Look::plain;                ///< for the picture
   Outlet outflow = dense_tissue;          ///< what liquid from the needle meets in the membrane
   Outlet outflow_behind = dense_tissue;   ///< the same for the space behind it
+  Tissue tissue{};                        ///< what measured tissue adds to the membrane
 };
 
 /// The syringe on the needle, and the virtual coupling between thumb and plunger.
@@ -46,6 +49,7 @@ struct ServoSettings {
   Solver solver = Solver::exact;
   Conditioning conditioning = Conditioning::low_pass;
   double encoder_step = Omni::encoder_step;  ///< m, for line_fit; 0 is an ideal sensor
+  double sub_steps = 1;  ///< steps of the model in a tick: a whole number, as a double like all numbers of a scene
 };
 
 /// How a device shows the forces of the model, if it cannot give them.
@@ -64,6 +68,7 @@ struct Scene {
   Direction direction = Direction::stylus;
   DisplaySettings display{};
   std::optional<SyringeSettings> syringe{};  ///< empty: no syringe
+  std::vector<MaxwellBranch> relaxation{};   ///< beside the coupling, at most max_branches; empty in K06
 };
 
 }  // namespace punctura

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "punctura/insertion/scene_insertion.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/safety/force_limits.hpp"
@@ -23,9 +24,9 @@ inline constexpr double automatic_share = 0.95;
 /// The needle goes straight through all membranes, along the inward normal of the first. A membrane that such a needle
 /// does not enter from the front is left out. For a law with memory, the membrane is untouched. Sideways, only the
 /// coupling limits the force; this is not included.
-template <typename Insertion>
-double largest_force(const Insertion& insertion) {
-  using Scalar = typename Insertion::Scalar;
+template <typename L, typename C, typename Storage>
+double largest_force(const InsertionOf<L, C, Storage>& insertion) {
+  using Scalar = typename L::Scalar;
   const auto& first = insertion.proxies()[0].params();
   struct Layer {
     PiecesOf<std::remove_cvref_t<decltype(first.law)>> pieces;
@@ -71,6 +72,11 @@ double largest_force(const Insertion& insertion) {
     }
   }
   return largest;
+}
+
+template <typename Scalar>
+double largest_force(const BasicInsertion<Scalar>& insertion) {
+  return insertion.visit([](const auto& model) { return largest_force(model); });
 }
 
 /// The force scale that lets a device give the forces of an insertion for any time: then no limit cuts the friction.

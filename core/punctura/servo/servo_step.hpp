@@ -15,8 +15,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "punctura/insertion/insertion.hpp"
 #include "punctura/insertion/needle_syringe.hpp"
+#include "punctura/insertion/scene_insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/servo/record.hpp"
@@ -26,8 +26,8 @@ namespace punctura {
 
 /// The servo step: input gate, model, force scale, force limits and the record of a tick.
 ///
-/// Insertion: an InsertionOf, with K06's or your own laws and coupling. A tick is computed in its Scalar. The record is
-/// double.
+/// Insertion: the BasicInsertion of a scene, or an InsertionOf with your own laws and coupling. A tick is computed in
+/// its Scalar. The record is double.
 template <typename Insertion>
 class ServoStepOf {
  public:
@@ -45,8 +45,8 @@ class ServoStepOf {
         limiter_(limits, period),
         force_scale_(force_scale),
         fade_step_(period / fade_time) {
-    if (insertion_.proxies().size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
-    snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.proxies().size());
+    if (insertion_.size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
+    snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.size());
   }
 
   /// Puts a syringe on the needle. Before the first tick.
@@ -109,7 +109,7 @@ class ServoStepOf {
                                     to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
       // NaN says that the thumb's device has a fault: then neither hand gets force.
-      if (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_.proxies())))
+      if (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_)))
         fault_ = Fault::thumb;
     }
     if (fault_ != Fault::none) {
@@ -233,8 +233,7 @@ class ServoStepOf {
     snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;
-    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i)
-      snapshot_.membranes[i] = record_of(insertion_.proxies()[i].tick());
+    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) snapshot_.membranes[i] = record_of(insertion_.tick(i));
   }
 
   Insertion insertion_;
@@ -254,7 +253,7 @@ class ServoStepOf {
   Snapshot snapshot_{};
 };
 
-/// The servo step with K06's law and coupling.
+/// The servo step of a scene.
 template <typename Scalar>
 using BasicServoStep = ServoStepOf<BasicInsertion<Scalar>>;
 using ServoStep = BasicServoStep<double>;

@@ -17,7 +17,7 @@ namespace punctura {
 /// How measured positions are conditioned for the model. docs/conditioning.md compares these methods with others.
 enum class Conditioning : std::uint8_t {
   low_pass,  ///< a first-order low-pass, as in K06 section 4
-  line_fit,  ///< for real devices: LineFit on each axis, then a low-pass; the fit compensates the lag of the low-pass
+  line_fit,  ///< for real devices: LineFit on each axis, a low-pass whose lag the fit compensates, and a small play
 };
 
 /// How strongly the line fit smooths: as the encoder of the Omni needs it, and less for finer encoders.
@@ -28,10 +28,12 @@ template <typename Scalar>
 struct Smoothing {
   Scalar window;     ///< the window of LineFit, s
   Scalar cutoff_hz;  ///< the cutoff of the low-pass behind LineFit; 0 is off, for an ideal sensor
+  /// Half the play behind the low-pass, m. What is left of the noise moves nothing within it. A motion lags by it.
+  Scalar half_play;
 
   static Smoothing of(Scalar encoder_step) noexcept {
     const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
-    return {Scalar(0.010) * share, share > 0 ? Scalar(150) / share : Scalar(0)};
+    return {Scalar(0.015) * share, share > 0 ? Scalar(200) / share : Scalar(0), Scalar(0.2) * encoder_step};
   }
 };
 
@@ -48,34 +50,48 @@ class PositionConditioner {
   /// period: s.
   PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
       : fits_(conditioning == Conditioning::line_fit),
+        half_play_(Smoothing<Scalar>::of(encoder_step).half_play),
         low_pass_(fits_ ? Smoothing<Scalar>::of(encoder_step).cutoff_hz : low_pass_hz, period),
         lines_{fit(encoder_step, period), fit(encoder_step, period), fit(encoder_step, period)} {}
 
   void reset() noexcept {
     for (auto& line : lines_) line.reset();
     low_pass_.reset();
+    played_ = {};
   }
 
   /// Takes over the samples of another conditioner of the same period. `previous` loses its history.
   void resume(PositionConditioner& previous) noexcept {
     for (std::size_t i = 0; i < 3; ++i) lines_[i].resume(previous.lines_[i]);
     low_pass_.resume(previous.low_pass_);
+    played_ = previous.fits_ ? previous.played_ : previous.low_pass_.last();
   }
 
   static void archive(auto& self, auto& state) {
-    if (self.fits_)
+    if (self.fits_) {
       for (auto& line : self.lines_) Line::archive(line, state);
+      state.numbers(self.played_);
+    }
     LowPass<Scalar, Vector>::archive(self.low_pass_, state);
   }
   void describe(auto& parameters) const {
     parameters.flag(fits_);
+    parameters.numbers(half_play_);
     lines_[0].describe(parameters);
     low_pass_.describe(parameters);
   }
 
+  /// Whether it has had a sample.
+  bool started() const noexcept { return low_pass_.started(); }
+
   Vector step(const Vector& measured) noexcept {
     if (!fits_) return low_pass_.step(measured);
-    return low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});
+    const bool first = !low_pass_.started();
+    const Vector y =
+        low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});
+    for (std::size_t i = 0; i < 3; ++i)
+      played_[i] = first ? y[i] : std::min(std::max(played_[i], y[i] - half_play_), y[i] + half_play_);
+    return played_;
   }
 
  private:
@@ -84,8 +100,10 @@ class PositionConditioner {
   }
 
   bool fits_;
+  Scalar half_play_;
   LowPass<Scalar, Vector> low_pass_;
   std::array<Line, 3> lines_;
+  Vector played_{};  // the position behind the play, m
 };
 
 }  // namespace punctura

@@ -12,30 +12,44 @@ namespace punctura {
 
 /// Fits a straight line to the last samples by least squares. step() returns the end of the line.
 ///
-/// If the samples do not lie on the line within `tolerance`, the window is halved until they do: 17, 9, 5 and 3
-/// samples for 10 ms at 1600 Hz, then only the newest sample. So the estimate follows a steady motion without lag and
-/// does not smear a sudden motion. All memory is allocated at construction.
+/// A line holds if its samples scatter around it as an encoder does, and if its end is within `tolerance` of the newest
+/// sample. If it does not hold, the window is halved until it does: 25, 13, 7 and 3 samples for 15 ms at 1600 Hz, then
+/// only the newest sample. So the estimate follows a steady motion without lag and does not smear a sudden motion. All
+/// memory is allocated at construction.
 ///
 /// The longest window that the noise permits is the first-order adaptive window of Janabi-Sharifi, Hayward and Chen
 /// (2000). They compute the slope of the line, a velocity. LineFit computes the end of the line, a position.
 ///
 /// Each window has an odd number n of samples. An encoder that toggles in each tick then moves the end of the line by
 /// 1/n of a step. With an even n it would be 3/n.
+///
+/// Running sums give the line of the longest window, so that the time of a tick does not grow with the window. They are
+/// computed afresh once a window: so no rounding errors collect, and a position far from the origin loses no digits.
 template <typename Scalar, typename Storage = HeapStorage>
 class LineFit {
  public:
   static constexpr std::size_t most_samples = 129;         ///< it bounds the time of a tick
   static constexpr Scalar steps_of_tolerance = Scalar(2);  ///< one step of noise, and one step of quantization
+  /// The largest scatter of the samples around a line, rms, in steps. Noise of one step in both directions has at most
+  /// 1 step, and a sudden motion soon has more.
+  static constexpr Scalar steps_of_scatter = Scalar(1.1);
 
   /// encoder_step: the resolution of the encoder, m; 0 is an ideal sensor, and its samples pass unchanged. window:
   /// length of the longest window, s. period: s. lead: step() extrapolates the line by this many ticks, to compensate
   /// the lag of a filter behind it.
   LineFit(Scalar encoder_step, Scalar window, Scalar period, Scalar lead = 0)
-      : tolerance_(steps_of_tolerance * encoder_step), lead_(lead), size_(samples(window, period)), ring_(2 * size_) {}
+      : tolerance_(steps_of_tolerance * encoder_step),
+        most_square_(steps_of_scatter * encoder_step * (steps_of_scatter * encoder_step)),
+        lead_(lead),
+        size_(samples(window, period)),
+        whole_(size_),
+        ring_(2 * size_) {}
 
   void reset() noexcept {
     started_ = false;
     newest_ = 0;
+    origin_ = 0;
+    sums_ = {};
     std::fill(ring_.begin(), ring_.end(), Scalar{});
   }
 
@@ -46,30 +60,48 @@ class LineFit {
     if (previous.size_ != size_) return reset();
     ring_.swap(previous.ring_);
     newest_ = previous.newest_;
+    origin_ = previous.origin_;
+    sums_ = previous.sums_;
     started_ = std::exchange(previous.started_, false);
   }
 
   static void archive(auto& self, auto& state) {
     state.flag(self.started_);
     state.index(self.newest_, self.size_);
+    state.numbers(self.origin_, self.sums_.zero, self.sums_.one, self.sums_.square);
     for (auto& sample : self.ring_) state.numbers(sample);
   }
   void describe(auto& parameters) const {
-    parameters.numbers(tolerance_, lead_);
+    parameters.numbers(tolerance_, most_square_, lead_);
     parameters.index(size_, most_samples + 1);
   }
 
   /// One tick. x: measured position, m. Returns the estimated position, m.
   Scalar step(Scalar x) noexcept {
     if (tolerance_ == 0) return x;
-    if (!started_) std::fill(ring_.begin(), ring_.end(), x);
-    started_ = true;
+    if (!started_) {
+      std::fill(ring_.begin(), ring_.end(), x);
+      origin_ = x;
+      sums_ = {};
+      started_ = true;
+    }
     // Each sample is written twice. So the last size_ samples are always contiguous, the newest first.
     newest_ = newest_ == 0 ? size_ - 1 : newest_ - 1;
+    const Scalar oldest = ring_[newest_] - origin_;
     ring_[newest_] = ring_[newest_ + size_] = x;
-    for (std::size_t n = size_; n >= 3; n = (n / 2) | 1) {
-      const Line line = fit(n);
-      if (holds(line, n)) return x + (line.end - lead_ * line.slope);
+    if (newest_ == 0) {
+      origin_ = x;
+      sums_ = sums_of(size_, x);
+    } else {
+      const Scalar now = x - origin_;
+      sums_.one += sums_.zero - static_cast<Scalar>(size_) * oldest;
+      sums_.zero += now - oldest;
+      sums_.square += now * now - oldest * oldest;
+    }
+    if (const Line line = whole_.line(sums_, x - origin_); holds(line, whole_)) return end_of(line, x);
+    for (std::size_t n = (size_ / 2) | 1; n >= 3 && n < size_; n = (n / 2) | 1) {
+      const Window window(n);
+      if (const Line line = window.line(sums_of(n, x), 0); holds(line, window)) return end_of(line, x);
     }
     return x;
   }
@@ -77,8 +109,26 @@ class LineFit {
   std::size_t size() const noexcept { return size_; }  ///< samples in the longest window
 
  private:
+  /// Sums over the samples z of a window, relative to an origin: of z, of z times its age, of z squared.
+  struct Sums {
+    Scalar zero{}, one{}, square{};
+  };
   struct Line {
     Scalar end, slope;  ///< m from the newest sample; m per tick into the past
+    Scalar squares;     ///< of the distances of the samples from the line, m^2
+  };
+  /// The constants of a window of n samples.
+  struct Window {
+    Scalar n, inv_n, middle, inv_moment;  // moment: of the ages around their mean
+
+    explicit Window(std::size_t samples) noexcept
+        : n(static_cast<Scalar>(samples)), inv_n(1 / n), middle((n - 1) / 2), inv_moment(12 / (n * (n * n - 1))) {}
+
+    /// newest: the newest sample, relative to the origin of the sums.
+    Line line(const Sums& sums, Scalar newest) const noexcept {
+      const Scalar mean = sums.zero * inv_n, tilt = sums.one - middle * sums.zero, slope = tilt * inv_moment;
+      return {mean - middle * slope - newest, slope, sums.square - sums.zero * mean - slope * tilt};
+    }
   };
 
   static std::size_t samples(Scalar window, Scalar period) noexcept {
@@ -86,31 +136,31 @@ class LineFit {
     return 2 * static_cast<std::size_t>(std::clamp(half, Scalar(1), Scalar(most_samples / 2))) + 1;
   }
 
-  /// A sample relative to the newest one, m. So a position far from the origin loses no digits.
-  Scalar sample(std::size_t age) const noexcept { return ring_[newest_ + age] - ring_[newest_]; }
-
-  Line fit(std::size_t n) const noexcept {
-    Scalar sum = 0, moment = 0;
-    for (std::size_t i = 1; i < n; ++i) {
-      const Scalar z = sample(i);
-      sum += z;
-      moment += static_cast<Scalar>(i) * z;
+  /// The sums over the last n samples.
+  Sums sums_of(std::size_t n, Scalar origin) const noexcept {
+    Sums sums;
+    for (std::size_t age = 0; age < n; ++age) {
+      const Scalar z = ring_[newest_ + age] - origin;
+      sums.zero += z;
+      sums.one += static_cast<Scalar>(age) * z;
+      sums.square += z * z;
     }
-    const auto count = static_cast<Scalar>(n);
-    const Scalar middle = (count - 1) / 2;
-    const Scalar slope = (moment - middle * sum) * 12 / (count * (count * count - 1));
-    return {sum / count - middle * slope, slope};
+    return sums;
   }
 
-  bool holds(const Line& line, std::size_t n) const noexcept {
-    for (std::size_t i = 0; i < n; ++i)
-      if (!(std::abs(line.end + static_cast<Scalar>(i) * line.slope - sample(i)) <= tolerance_)) return false;
-    return true;
+  bool holds(const Line& line, const Window& window) const noexcept {
+    return line.squares <= window.n * most_square_ && std::abs(line.end) <= tolerance_;
   }
+  Scalar end_of(const Line& line, Scalar x) const noexcept { return x + (line.end - lead_ * line.slope); }
 
-  Scalar tolerance_, lead_;
+  Scalar tolerance_;
+  Scalar most_square_;  // m^2, of the mean square of the samples' distances from a line
+  Scalar lead_;
   std::size_t size_, newest_ = 0;
+  Window whole_;
   bool started_ = false;
+  Scalar origin_{};  // of the sums, m
+  Sums sums_{};
   typename Storage::template Samples<Scalar> ring_;
 };
 

@@ -48,6 +48,8 @@ class LowPass {
     return y_;
   }
 
+  bool started() const noexcept { return started_; }  ///< whether it has had a sample
+  const Value& last() const noexcept { return y_; }   ///< the last result
   Scalar gain() const noexcept { return off_ ? Scalar{1} : gain_; }
   /// The lag behind a steady motion, in ticks.
   Scalar lag() const noexcept { return 1 / gain() - 1; }

@@ -47,6 +47,14 @@ def _numbers(value: object, names: str) -> tuple[Decimal, ...]:
     return numbers
 
 
+def _number_list(value: object) -> tuple[Decimal, ...]:
+    given = [_as_decimal(v) for v in value] if isinstance(value, (list, tuple)) else [None]
+    numbers = tuple(n for n in given if n is not None)
+    if len(numbers) != len(given):
+        raise PydanticCustomError("numbers", "must be a list of numbers, as [0, 0.5, 1]")
+    return numbers
+
+
 def _vector(value: object) -> tuple[Decimal, ...]:
     return _numbers(value, "x, y, z")
 
@@ -93,6 +101,12 @@ NumberOrAutomatic = Annotated[
     WithJsonSchema({"anyOf": [{"type": "number"}, {"const": AUTOMATIC}]}),
 ]
 Vector = Annotated[tuple[Decimal, Decimal, Decimal], PlainValidator(_vector), _AS_FLOAT, WithJsonSchema(_VECTOR_SCHEMA)]
+Numbers = Annotated[
+    tuple[Decimal, ...],
+    PlainValidator(_number_list),
+    _AS_FLOAT,
+    WithJsonSchema({"type": "array", "items": {"type": "number"}}),
+]
 Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator(_quaternion)]
 Buttons = Annotated[list[int], PlainValidator(_buttons)]
 WholeNumber = Annotated[int, PlainValidator(_whole_number), WithJsonSchema({"type": "integer"})]

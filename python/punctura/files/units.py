@@ -28,6 +28,7 @@ UNITS = {
     "m_per_s": Unit("m/s", Decimal(1)),
     "hz": Unit("Hz", Decimal(1)),
     "N": Unit("N", Decimal(1)),
+    "per_mm": Unit("1/mm", Decimal(1000)),
     "N_per_mm": Unit("N/mm", Decimal(1000)),
     "Ns_per_mm": Unit("N s/mm", Decimal(1000)),
     "mL": Unit("mL", Decimal("1e-6")),

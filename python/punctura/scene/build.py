@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from punctura._core import (
     Coupling,
     DisplaySettings,
+    MaxwellBranch,
     Membrane,
     Needle,
     Outlet,
@@ -17,10 +18,12 @@ from punctura._core import (
     ServoSettings,
     Syringe,
     SyringeSettings,
+    Tissue,
 )
 from punctura.files.units import split_key, to_si
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import (
+    ROWS,
     CouplingTable,
     DisplayTable,
     MembraneTable,
@@ -35,6 +38,8 @@ from punctura.scene.schema import (
 _STAND_INS: dict[str, Any] = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
+    "sub_steps": 1.0, "grip": "linear", "growth": 0.0, "tip_length": 0.0, "tail_length": 0.0, "tail_floor": 1.0,
+    "cutting": 0.0, "set": 0.0,
     "force_scale": 1.0, "behind": "tissue", "look": "plain", "precompression": 0.0, "friction": 1e-6,
     "thickness": 0.0, "bore": 1e-2, "liquid": 1e-6, "air": 0.0, "compliance": 1e-12,
     "resistance": 1e9, "thumb_stiffness": 1.0, "thumb_damping": 1.0, "outflow_resistance": 1.0,
@@ -77,8 +82,22 @@ class _Reader:
         for name, value in values.items():
             if value is None:
                 self.stand_ins.add(f"{path}.{name}")
-                values[name] = _STAND_INS[name]
+                values[name] = _STAND_INS.get(name, ())
         return values
+
+    def rows(self, values: dict[str, Any], path: str, kind: str) -> dict[str, Any]:
+        """The lists of a table (schema.ROWS), as rows; takes them out of `values`. As long as the shortest list."""
+        lists: dict[str, Any] = {}
+        for name, columns in ROWS[kind].items():
+            taken = [values.pop(split_key(key)[0]) for key in columns]
+            lists[name] = list(zip(*taken, strict=False))
+            if any(f"{path}.{key}" in self.unsound for key in columns):
+                self.stand_ins.add(f"{path}.{name}")
+            for key, field in columns.items():
+                self.keys.setdefault(f"{path}.{name}", f"{path}.{key}")
+                for i in range(len(lists[name])):
+                    self.keys[f"{path}.{name}[{i}].{field}"] = f"{path}.{key}[{i}]"
+        return lists
 
 
 def _si(value: Any, unit: Any) -> Any:
@@ -94,6 +113,7 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
     reader = _Reader(unsound)
     needle = reader.table(data.get("needle"), "needle", NeedleTable)
     coupling = reader.table(data.get("coupling"), "coupling", CouplingTable)
+    branches = reader.rows(coupling, "coupling", "coupling")["relaxation"]
     servo = reader.table(data.get("servo"), "servo", ServoTable)
     display = reader.table(data.get("display"), "display", DisplayTable)
     tables = data.get("membrane")
@@ -104,7 +124,10 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         placed = m["name"], membrane, m["point"], m["inward_normal"], m["behind"], m["look"]
         outflow = Outlet.unchecked(m["outflow_resistance"], m["outflow_pressure"])
         behind = Outlet.unchecked(m["behind_resistance"], m["behind_pressure"])
-        membranes.append(PlacedMembrane(*placed, outflow, behind))
+        rows = reader.rows(m, f"membrane[{i}]", "membrane")
+        numbers = [m[name] for name in ("tip_length", "tail_length", "tail_floor", "cutting", "set")]
+        tissue = Tissue(m["grip"], m["growth"], rows["grip_table"], *numbers, rows["profile"])
+        membranes.append(PlacedMembrane(*placed, outflow, behind, tissue))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")
@@ -117,6 +140,7 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         needle["direction"],
         DisplaySettings(**display),
         _syringe(reader, data.get("syringe")),
+        [MaxwellBranch(*branch) for branch in branches],
     )
     return Parts(arguments, reader.keys, reader.stand_ins)
 

@@ -23,6 +23,7 @@ from punctura.scene.build import Parts, scene_parts
 from punctura.scene.gauges import GAUGE_DIAMETER_MM
 from punctura.scene.schema import (
     ALTERNATIVES,
+    ROWS,
     CouplingTable,
     DisplayTable,
     MembraneTable,
@@ -57,6 +58,7 @@ def check_tables(data: Tables) -> tuple[SceneFile | None, list[Problem]]:
         scene_file = SceneFile.model_validate(data)
     except ValidationError as error:
         problems = _SCHEMA.problems(error) + problems
+    problems += [(location_of(p.path), p) for p in _length_problems(data, {p.path for _, p in problems})]
     problems += [(location_of(p.path), p) for p in _domain_problems(data, {p.path for _, p in problems})]
     order = _Order(data)
     problems.sort(key=lambda located: order.place(located[0]))
@@ -78,11 +80,33 @@ def _alternative_problems(data: Mapping[str, object]) -> Iterator[Problem]:
         yield Problem("needle.gauge", gauge, f"must be a gauge of ISO 9626, {low} to {high}")
 
 
+def _length_problems(data: Mapping[str, object], unsound: set[str]) -> Iterator[Problem]:
+    """Lists that must have the same length, as the depths and the forces of a profile."""
+    membranes = data.get("membrane")
+    tables = [("coupling", "coupling", data.get("coupling"))]
+    tables += [
+        ("membrane", f"membrane[{i}]", m) for i, m in enumerate(membranes if isinstance(membranes, list) else [])
+    ]
+    for kind, path, table in tables:
+        if not isinstance(table, dict):
+            continue
+        for first, *others in (list(columns) for columns in ROWS[kind].values()):
+            size = _size(table.get(first, []))
+            for key in others:
+                if not {f"{path}.{first}", f"{path}.{key}"} & unsound and _size(table.get(key, [])) != size:
+                    reason = f"must have as many numbers as {first}, which has {size}"
+                    yield Problem(f"{path}.{key}", shown(table.get(key, [])), reason)
+
+
+def _size(value: object) -> int:
+    return len(value) if isinstance(value, list) else 0
+
+
 def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Problem]:
     parts: Parts = scene_parts(data, unsound)
     problems = []
-    name, needle, coupling, membranes, servo, _direction, display, syringe = parts.arguments
-    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display, syringe):
+    name, needle, coupling, membranes, servo, _direction, display, *others = parts.arguments
+    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display, *others):
         if path in parts.stand_ins:
             continue
         key_path = parts.keys.get(path, path)

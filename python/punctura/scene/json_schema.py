@@ -46,9 +46,10 @@ def _complete(entry: JsonSchemaValue, key: str, field: FieldBounds | None) -> No
         entry.pop("default", None)
     elif kinds:  # a number or a word
         entry["anyOf"] = kinds
-    number = next((kind for kind in (entry, *kinds) if kind.get("type") == "number"), None)
+    list_of = entry.get("items", {}) if entry.get("type") == "array" else {}
+    number = next((kind for kind in (entry, *kinds, list_of) if kind.get("type") == "number"), None)
     if number is not None and "default" in entry:
-        entry["default"] = float(entry["default"])
+        entry["default"] = list(entry["default"]) if number is list_of else float(entry["default"])
     unit = split_key(key)[1]
     if unit.name:
         entry["x-unit"] = unit.name

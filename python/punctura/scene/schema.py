@@ -12,7 +12,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from punctura._core import Coupling, DisplaySettings, Membrane, PlacedMembrane, ServoSettings, Syringe, SyringeSettings
-from punctura.files.fields import Number, NumberOrAutomatic, Text, Vector, WholeNumber
+from punctura.files.fields import Number, NumberOrAutomatic, Numbers, Text, Vector, WholeNumber
 from punctura.files.tables import Table
 from punctura.files.units import UNITS, from_si
 
@@ -31,9 +31,16 @@ _DENSE = from_si(
 _THUMB: Coupling = SyringeSettings(Syringe.unchecked(1, 1, 0, 0, 1, 1)).thumb
 
 
-def _field(title: str, help: str, symbol: str = "", default: Any = ...) -> Any:
-    extra: Any = {"x-symbol": symbol} if symbol else None
-    return Field(default, title=title, description=help, json_schema_extra=extra)
+def _field(title: str, help: str, symbol: str = "", default: Any = ..., folded: str = "") -> Any:
+    """folded: the heading of the part of a form that holds the field and is closed at first."""
+    extra: Any = {"x-symbol": symbol} if symbol else {}
+    if folded:
+        extra["x-folded"] = folded
+    return Field(default, title=title, description=help, json_schema_extra=extra or None)
+
+
+def _tissue(title: str, help: str, symbol: str = "", default: Any = Decimal(0)) -> Any:
+    return _field(title, help, symbol, default, "Measured tissue")
 
 
 class NeedleTable(Table):
@@ -63,6 +70,13 @@ class CouplingTable(Table):
 
     stiffness_N_per_mm: Number = _field("Stiffness", "Spring of the virtual coupling.", "K")
     damping_Ns_per_mm: Number = _field("Damping", "Damper of the virtual coupling.", "B")
+    relaxation_stiffness_N_per_mm: Numbers = _field(
+        "Relaxation, stiffness",
+        "Springs of the branches whose force decays while the needle rests, at most two. Empty is K06's coupling.",
+        "K_m",
+        (),
+    )
+    relaxation_time_constant_s: Numbers = _field("Relaxation, time", "Time constant of each branch.", "tau", ())
 
 
 class ServoTable(Table):
@@ -89,6 +103,12 @@ class ServoTable(Table):
         "Jump of the tip's measured position per encoder count, for line_fit; 0 is an ideal sensor.",
         "",
         from_si(_SERVO.encoder_step, UNITS["mm"]),
+    )
+    sub_steps: Number = _field(
+        "Sub-steps",
+        "Steps of the model in each tick. More steps find the time of a pop better and cost more.",
+        "",
+        Decimal(repr(_SERVO.sub_steps)),
     )
 
 
@@ -158,6 +178,37 @@ class MembraneTable(Table):
         "Resistance behind", "Flow resistance for liquid from the needle, in the space behind.", "R_t", _DENSE
     )
     behind_pressure_kPa: Number = _field("Pressure behind", "Pressure in the space behind.", "P_t", Decimal(0))
+    grip: Literal["linear", "exponential", "table"] = _tissue(
+        "Grip",
+        "How the wall's grip on the needle grows with the opening of the hole: linear is K06, exponential grows "
+        "faster, table is measured.",
+        "",
+        "linear",
+    )
+    growth_per_mm: Number = _tissue("Growth", "Of an exponential grip; 0 is linear.", "b")
+    grip_opening_mm: Numbers = _tissue("Grip table, openings", "Openings of the hole, ascending.", "y", ())
+    grip_force_N: Numbers = _tissue("Grip table, forces", "The grip at each opening.", "G", ())
+    tip_length_mm: Number = _tissue(
+        "Tip length", "Length of the tip along the needle; 0 is diameter / tan(tip angle).", "X"
+    )
+    tail_length_mm: Number = _tissue("Tail length", "The shaft's friction falls on this length behind the tip.")
+    tail_floor: Number = _tissue(
+        "Tail floor", "The part of the shaft's friction that is left behind the tail; 1 is no tail.", "", Decimal(1)
+    )
+    cutting_N: Number = _tissue(
+        "Cutting", "Force on the tip while it cuts the wall for the first time; none on a later pass.", "C"
+    )
+    set: Number = _tissue("Set", "The part of the grip that a hole has lost once the needle has left it.")
+    profile_depth_mm: Numbers = _tissue(
+        "Profile, depths",
+        "A measured profile of an infinitely thin wall, in place of grip and tail: depths of its knots.",
+        "q",
+        (),
+    )
+    profile_lower_N: Numbers = _tissue(
+        "Profile, lower", "The force on the way in at each knot, 0 or less.", "phi_I", ()
+    )
+    profile_upper_N: Numbers = _tissue("Profile, upper", "The force on the way out at each knot.", "phi_O", ())
 
 
 class SceneFile(Table):
@@ -173,6 +224,18 @@ class SceneFile(Table):
     syringe: SyringeTable | None = Field(None, title="Syringe")
     membrane: list[MembraneTable] = _field("Membranes", "In the order in which their forces are added.")
 
+
+# Lists of a table that have the same length: each place of them is one row of a list in the core. By table: the core's
+# list, and the core's name of each key.
+ROWS = {
+    "coupling": {
+        "relaxation": {"relaxation_stiffness_N_per_mm": "stiffness", "relaxation_time_constant_s": "time_constant"},
+    },
+    "membrane": {
+        "grip_table": {"grip_opening_mm": "opening", "grip_force_N": "grip"},
+        "profile": {"profile_depth_mm": "depth", "profile_lower_N": "lower", "profile_upper_N": "upper"},
+    },
+}
 
 # The file gives exactly one key of each pair.
 ALTERNATIVES = (("diameter_mm", "gauge"), ("tip_angle_rad", "tip_angle_deg"))

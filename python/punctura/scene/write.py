@@ -10,10 +10,11 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from punctura._core import DisplaySettings, Membrane, PlacedMembrane, Scene, SyringeSettings
+from punctura._core import DisplaySettings, Membrane, PlacedMembrane, Scene, SyringeSettings, Tissue
 from punctura.files.units import from_si, split_key
 from punctura.files.whole_file import write_whole
 from punctura.scene.schema import (
+    ROWS,
     CouplingTable,
     DisplayTable,
     MembraneTable,
@@ -25,6 +26,10 @@ from punctura.scene.schema import (
 
 _DENSE = PlacedMembrane("", Membrane.unchecked(1, 0, 1, 0), (0, 0, 0), (0, -1, 0)).outflow  # the default
 _SKIPPED = ("gauge", "tip_angle_deg")  # the alternatives of diameter_mm and tip_angle_rad
+# Written only where they differ from K06's membrane.
+_ONLY_MEASURED = (
+    "grip", "growth_per_mm", "tip_length_mm", "tail_length_mm", "tail_floor", "cutting_N", "set",
+)  # fmt: skip
 
 
 def scene_text(scene: Scene) -> str:
@@ -32,7 +37,9 @@ def scene_text(scene: Scene) -> str:
     lines = [f"name = {_string(scene.name)}"]
     needle = {"diameter": scene.needle.diameter, "tip_angle": scene.needle.tip_angle, "direction": scene.direction}
     lines += _table("[needle]", NeedleTable, needle)
-    lines += _table("[coupling]", CouplingTable, _attributes(scene.coupling, CouplingTable))
+    branches = [(branch.stiffness, branch.time_constant) for branch in scene.relaxation]
+    coupling = _attributes(scene.coupling, CouplingTable) | _lists("coupling", {"relaxation": branches})
+    lines += _table("[coupling]", CouplingTable, coupling)
     lines += _table("[servo]", ServoTable, _attributes(scene.servo, ServoTable))
     if scene.display != DisplaySettings():
         lines += _table("[display]", DisplayTable, _attributes(scene.display, DisplayTable))
@@ -40,6 +47,7 @@ def scene_text(scene: Scene) -> str:
         lines += _table("[syringe]", SyringeTable, _syringe(scene.syringe))
     for placed in scene.membranes:
         values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable) | _outflow(placed)
+        values |= _tissue(placed.tissue)
         lines += _table("[[membrane]]", MembraneTable, values)
     return "\n".join(lines) + "\n"
 
@@ -82,6 +90,23 @@ def _outflow(placed: PlacedMembrane) -> dict[str, float]:
     return values
 
 
+def _tissue(tissue: Tissue) -> dict[str, Any]:
+    """Only what differs from K06's membrane."""
+    none = Tissue()
+    values = {name: value for name, value in _attributes(tissue, MembraneTable).items() if value != getattr(none, name)}
+    return values | _lists("membrane", {"grip_table": tissue.grip_table, "profile": tissue.profile})
+
+
+def _lists(kind: str, rows: dict[str, Any]) -> dict[str, Any]:
+    """Rows of the core as the lists of a table (schema.ROWS); empty ones are left out."""
+    lists: dict[str, Any] = {}
+    for name, columns in ROWS[kind].items():
+        if rows[name]:
+            each = zip(columns, zip(*rows[name], strict=True), strict=True)
+            lists |= {split_key(key)[0]: list(column) for key, column in each}
+    return lists
+
+
 def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:
     lines = ["", head]
     for key in model.model_fields:
@@ -100,7 +125,10 @@ def _value(value: Any, unit: Any) -> str:
 
 
 def _given(table: BaseModel) -> list[str]:
-    return [f"{key} = {_as_given(value)}" for key, value in table if value is not None]
+    fields = type(table).model_fields
+    left_out = {key for key, value in table if value is None or (value == () and fields[key].default == ())}
+    left_out |= {key for key, value in table if key in _ONLY_MEASURED and value == fields[key].default}
+    return [f"{key} = {_as_given(value)}" for key, value in table if key not in left_out]
 
 
 def _as_given(value: Any) -> str:

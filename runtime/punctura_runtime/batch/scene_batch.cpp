@@ -95,7 +95,7 @@ class Runner {
     Insertion insertion = build_insertion(trial_.scene);
     const double* p = given.position + static_cast<std::ptrdiff_t>(i) * given.trial_stride;
     Snapshot s{};
-    s.membrane_count = static_cast<std::uint32_t>(insertion.proxies().size());
+    s.membrane_count = static_cast<std::uint32_t>(insertion.size());
     for (std::size_t k = 0; k < given.ticks && !work_.stop; ++k) {
       const Vector3d axis(given.axis + static_cast<std::ptrdiff_t>(k) * given.axis_stride);
       s.tick = k;
@@ -104,7 +104,7 @@ class Runner {
       s.sample.axis = to_array(axis.stableNormalized());
       s.model_force = to_array(insertion.step(to_vector(s.sample.position), to_vector(s.sample.axis)));
       s.tip = to_array(insertion.tip());
-      for (std::size_t j = 0; j < s.membrane_count; ++j) s.membranes[j] = record_of(insertion.proxies()[j].tick());
+      for (std::size_t j = 0; j < s.membrane_count; ++j) s.membranes[j] = record_of(insertion.tick(j));
       summary.add(s);
       keep(i * given.ticks + k, s.model_force);
     }

@@ -59,7 +59,7 @@ TEST_CASE("with FixedStorage, forces and states have the same bits as with HeapS
       Fixed fixed(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
       Fixed again(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
       CHECK(allocations() == before);
-      Insertion heap(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
+      InsertionOf<ThickLaw> heap(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
       Noise noise(140);
       for (double depth : random_motion(noise, 4000, 10e-3, T)) {
         const Vector3d p{0, -depth, 1e-3 * depth};

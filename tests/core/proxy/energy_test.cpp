@@ -39,7 +39,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
     sites.push_back({law, depth * axis, n});
     reach = std::max(reach, depth + law.constants().X + 2 * law.thickness());
   }
-  Insertion insertion(sites, random_coupling(noise), T, solver);
+  InsertionOf<ThickLaw> insertion(sites, random_coupling(noise), T, solver);
 
   auto path = random_motion(noise, 1500, reach, T);
   const Vector3d home = -0.5 * reach * axis;  // in front of all membranes at all angles

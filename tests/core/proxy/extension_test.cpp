@@ -20,7 +20,7 @@ static_assert(ObliqueLaw<CutLaw> && LawWithMemory<CutLaw> && !LawWithMemory<Thic
 
 /// K06's coupling with a parallel branch of stiffness K_m that relaxes: f_m = a (f_m + K_m (e - e_prev)), a = exp(-T
 /// / tau).
-struct RelaxingCoupling {
+struct OwnCoupling {
   using Scalar = double;
   template <typename Vector>
   struct Memory {
@@ -44,7 +44,7 @@ struct RelaxingCoupling {
     m.force = a * (m.force + K_m * (e - e_prev));
   }
 };
-static_assert(SampledCouplingOf<RelaxingCoupling, double> && SampledCouplingOf<RelaxingCoupling, Vector3d>);
+static_assert(SampledCouplingOf<OwnCoupling, double> && SampledCouplingOf<OwnCoupling, Vector3d>);
 static_assert(SampledCouplingOf<SampledCoupling<double>, double> &&
               SampledCouplingOf<SampledCoupling<double>, Vector3d>);
 
@@ -113,7 +113,7 @@ TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
 
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
-  const RelaxingCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
+  const OwnCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
   const GivenLaw<2> grip{{{0}, {{{}, {0, {-1, 0, 0}, {1, 0, 0}}}}}};  // 1 N in both directions
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d line(grip, coupling, solver);
@@ -142,7 +142,7 @@ TEST_CASE("a relaxing coupling with branch stiffness 0 equals K06's coupling") {
   const ThickLaw law(paper_needle, paper_membrane(1e-3));
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d plain(law, Coupling{400, 1}, T, solver);
-    Proxy1d relaxing(law, RelaxingCoupling{{Coupling{400, 1}, T}, 0, 0.9}, solver);
+    Proxy1d relaxing(law, OwnCoupling{{Coupling{400, 1}, T}, 0, 0.9}, solver);
     for (double p : random_motion(noise, 3000, 8e-3, T)) {
       const double f = plain.step(p);
       REQUIRE(relaxing.step(p) == doctest::Approx(f).epsilon(1e-9));

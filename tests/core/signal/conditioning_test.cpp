@@ -56,10 +56,11 @@ TEST_CASE("for an ideal sensor the conditioning with line fit leaves samples unc
     CHECK(filter.step({0.1 * k, -1.0 * k, 1.0 / (k + 1)}) == Vector3d(0.1 * k, -1.0 * k, 1.0 / (k + 1)));
 }
 
-TEST_CASE("at 10 mm/s the line fit has no more delay than K06's filter, and no delay to the true position") {
+TEST_CASE("at 10 mm/s the line fit adds less than 1 ms to K06's filter; a motion lags by half of the play") {
   CHECK(lag(Conditioning::low_pass, 10e-3) == doctest::Approx(0.278e-3).epsilon(0.1));
-  CHECK(lag(Conditioning::line_fit, 10e-3) < lag(Conditioning::low_pass, 10e-3));
-  for (const double speed : {5e-3, 10e-3, 20e-3, 100e-3}) CHECK(std::abs(lag(Conditioning::line_fit, speed)) < 0.1e-3);
+  CHECK(lag(Conditioning::line_fit, 10e-3) - lag(Conditioning::low_pass, 10e-3) < 0.9e-3);
+  for (const double speed : {5e-3, 10e-3, 20e-3, 100e-3})
+    CHECK(lag(Conditioning::line_fit, speed) * speed == doctest::Approx(0.2 * count).epsilon(0.1));
 }
 
 TEST_CASE("a finer encoder gets less smoothing and the force noise stays the same") {
@@ -74,15 +75,15 @@ TEST_CASE("a finer encoder gets less smoothing and the force noise stays the sam
       if (k >= 100) square += (f_now - f) * (f_now - f) / 19900;
       y = y_now, f = f_now;
     }
-    CHECK(std::sqrt(square) < 0.0125);
+    CHECK(std::sqrt(square) < 0.0065);
     CHECK(Smoothing<double>::of(step).window > window);
     window = Smoothing<double>::of(step).window;
   }
-  CHECK(window == doctest::Approx(0.010));
-  CHECK(Smoothing<double>::of(1e-3).window == doctest::Approx(0.010));
+  CHECK(window == doctest::Approx(0.015));
+  CHECK(Smoothing<double>::of(1e-3).window == doctest::Approx(0.015));
 }
 
-TEST_CASE("a reversal has no dead band") {
+TEST_CASE("a reversal has a dead band of 0.4 counts, the play") {
   Conditioned filter(Conditioning::line_fit);
   double width = 0;
   int n = 0;
@@ -94,7 +95,7 @@ TEST_CASE("a reversal has no dead band") {
     width += 2 * way * (x - y);
     ++n;
   }
-  CHECK(std::abs(width / n) < 0.05 * count);
+  CHECK(width / n == doctest::Approx(0.4 * count).epsilon(0.1));
 }
 
 TEST_CASE("an axis at rest stays at rest while another axis moves") {
@@ -106,7 +107,7 @@ TEST_CASE("an axis at rest stays at rest while another axis moves") {
   }
 }
 
-TEST_CASE("after a sudden stop the position settles within 15 ms") {
+TEST_CASE("after a sudden stop the position settles within 20 ms, inside the play") {
   for (const double speed : {10e-3, 0.2}) {
     Conditioned filter(Conditioning::line_fit);
     double x = 0, worst = 0;
@@ -115,7 +116,7 @@ TEST_CASE("after a sudden stop the position settles within 15 ms") {
     for (int k = 1; k < 200; ++k) {
       const double off = std::abs(filter(end) - end);
       worst = std::max(worst, off);
-      if (k >= 24) CHECK(off < 0.01 * count);
+      if (k >= 32) CHECK(off < 0.21 * count);
     }
     CHECK(worst < 3 * count);
   }

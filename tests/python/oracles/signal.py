@@ -15,26 +15,31 @@ def low_pass(p, rate, cut_off):
 
 
 def line_fit(p, rate, step):
-    """(ticks,) one axis: a line over the last 10 ms or half, a quarter ... of it, within two steps, then 150 Hz.
+    """(ticks,) one axis: a line over the last 15 ms or half, a quarter ... of it, then 200 Hz, then a play.
 
+    The samples scatter around a line by at most 1.1 steps rms, and its end is within two steps of the newest sample.
     Below a step of 0.055 mm both times shrink with the square root of the step. The line is extrapolated beyond the
-    newest sample by the delay of the low-pass for a steady motion.
+    newest sample by the delay of the low-pass for a steady motion. The play is 0.4 steps.
     """
     share = min(1.0, step / 0.055e-3) ** 0.5
-    lag = 1 / (1 - np.exp(-2 * np.pi * 150 / share / rate)) - 1
+    lag = 1 / (1 - np.exp(-2 * np.pi * 200 / share / rate)) - 1
     seen = np.concatenate([np.full(200, p[0]), p])
     out = np.empty(len(p))
     for k in range(200, len(seen)):
         out[k - 200] = seen[k]
-        n = 2 * max(1, int(share * 0.010 * rate / 2 + 0.5)) + 1
+        n = 2 * max(1, int(share * 0.015 * rate / 2 + 0.5)) + 1
         while n >= 3:
             t = np.arange(1 - n, 1)
             slope, end = np.polyfit(t, seen[k - n + 1 : k + 1], 1)
-            if abs(end + slope * t - seen[k - n + 1 : k + 1]).max() <= 2 * step:
+            scatter = ((end + slope * t - seen[k - n + 1 : k + 1]) ** 2).mean() ** 0.5
+            if scatter <= 1.1 * step and abs(end - seen[k]) <= 2 * step:
                 out[k - 200] = end + lag * slope
                 break
             n = n // 2 | 1  # always odd
-    return low_pass(out, rate, 150.0 / share)
+    smooth = low_pass(out, rate, 200.0 / share)
+    for k in range(1, len(smooth)):
+        smooth[k] = np.clip(smooth[k - 1], smooth[k] - 0.2 * step, smooth[k] + 0.2 * step)
+    return smooth
 
 
 def motion_direction(p, rate, seconds=0.010, path=0.2e-3):

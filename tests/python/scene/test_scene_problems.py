@@ -92,6 +92,47 @@ ONE_PROBLEM = {
         "servo.encoder_step_mm = 55: must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser "
         "(at most 1 mm)",
     ),
+    "half a step in a tick": (
+        ("[coupling]", "[servo]\nsub_steps = 1.5\n[coupling]"),
+        "servo.sub_steps = 1.5: must be a whole number",
+    ),
+    "a branch without its time": (
+        ("damping_Ns_per_mm = 0.001", "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [0.1]"),
+        "coupling.relaxation_time_constant_s = []: must have as many numbers as relaxation_stiffness_N_per_mm, "
+        "which has 1",
+    ),
+    "a branch that relaxes at once": (
+        (
+            "damping_Ns_per_mm = 0.001",
+            "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [0.1, 0.2]\n"
+            "relaxation_time_constant_s = [1, 0]",
+        ),
+        "coupling.relaxation_time_constant_s[1] = 0: must be from 0.0001 s, less than a tick, to 10000 s, longer "
+        "than a run",
+    ),
+    "three branches": (
+        (
+            "damping_Ns_per_mm = 0.001",
+            "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [1, 2, 3]\n"
+            "relaxation_time_constant_s = [1, 2, 3]",
+        ),
+        "coupling.relaxation_stiffness_N_per_mm = [1, 2, 3]: there may be two branches at most",
+    ),
+    "a profile that pulls the needle in": (
+        (
+            "thickness_mm = 1.0",
+            "thickness_mm = 1.0\nprofile_depth_mm = [0, 1]\nprofile_lower_N = [0, 0.5]\nprofile_upper_N = [0, 1]",
+        ),
+        "membrane[0].profile_lower_N[1] = 0.5: must be 0 N or less: the lower edge resists insertion",
+    ),
+    "a grip of words": (
+        ("thickness_mm = 1.0", 'thickness_mm = 1.0\ngrip = "table"\ngrip_opening_mm = ["wide"]'),
+        "membrane[0].grip_opening_mm = ['wide']: must be a list of numbers, as [0, 0.5, 1] (mm)",
+    ),
+    "more than the whole friction behind a tail": (
+        ("thickness_mm = 1.0", "thickness_mm = 1.0\ntail_floor = 1.5"),
+        "membrane[0].tail_floor = 1.5: must be from 0 to 1",
+    ),
     "a missing key": (("friction = 0.2\n", ""), "membrane[0].friction: is missing"),
     "a missing name": (('name = "test"\n', ""), "name: is missing"),
     "no diameter at all": (

@@ -11,7 +11,7 @@ from punctura import ConfigurationError, load_scene, scene_names
 def test_every_number_of_a_scene_is_listed_with_its_unit_and_bounds():
     scene = load_scene("venipuncture")
     fields = {field.path: field for field in scene.fields()}
-    assert len(fields) == len(scene.fields()) == 2 + 2 + 3 + 1 + 10 * len(scene.membranes)
+    assert len(fields) == len(scene.fields()) == 2 + 2 + 4 + 1 + 16 * len(scene.membranes)
     friction = fields["membrane[1].friction"]
     assert (friction.value, friction.unit, friction.symbol) == (scene.membranes[1].membrane.friction, "-", "mu")
     assert (friction.min, friction.max, friction.min_open, friction.max_open) == (0, math.inf, True, True)
@@ -31,7 +31,13 @@ def test_its_own_values_give_the_same_scene(name):
 def test_one_changed_value_changes_that_field_alone():
     scene = load_scene("k06-fig12")
     for field in scene.fields():
-        value = {"servo.encoder_step": 1e-5, "display.force_scale": 0.5}.get(field.path, field.value + 1e-4)
+        value = {
+            "servo.encoder_step": 1e-5,
+            "servo.sub_steps": 2,
+            "display.force_scale": 0.5,
+            "membrane[0].tail_floor": 0.5,
+            "membrane[1].tail_floor": 0.5,
+        }.get(field.path, field.value + 1e-4)
         changed = scene.with_values({field.path: np.float64(value)})
         before, after = scene.fields(), changed.fields()
         assert [b.path for b, a in zip(before, after, strict=True) if b.value != a.value] == [field.path]

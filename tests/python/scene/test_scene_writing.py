@@ -10,11 +10,13 @@ from hypothesis import strategies as st
 from punctura import (
     Coupling,
     DisplaySettings,
+    MaxwellBranch,
     Membrane,
     Needle,
     PlacedMembrane,
     Scene,
     ServoSettings,
+    Tissue,
     load_scene,
     save_scene,
     scene_names,
@@ -29,17 +31,41 @@ def plain(scene):
     places = [(p.name, tuple(p.point), tuple(p.inward_normal)) for p in scene.membranes]
     needle = (scene.needle.diameter, scene.needle.tip_angle, scene.direction)
     servo = scene.servo
-    return scene.name, needle, (scene.coupling.stiffness, scene.coupling.damping), servo, laws, places, scene.display
+    beyond = scene.relaxation, [placed.tissue for placed in scene.membranes]
+    coupling = scene.coupling.stiffness, scene.coupling.damping
+    return scene.name, needle, coupling, servo, laws, places, scene.display, beyond
 
 
 positive = st.floats(1e-9, 1e9)
 
 
 @st.composite
+def tissues(draw):
+    steps = draw(st.lists(st.floats(1e-6, 1e-2), min_size=1, max_size=8))
+    depths = [sum(steps[:i]) for i in range(len(steps))]
+    numbers = {"tip_length": positive, "tail_length": positive, "cutting": positive}
+    numbers |= {"tail_floor": st.floats(0, 1), "set": st.floats(0, 1)}
+    given = {name: draw(values) for name, values in numbers.items() if draw(st.booleans())}
+    kind = draw(st.sampled_from(["linear", "table", "profile"]))
+    if kind == "table":
+        return Tissue("table", grip_table=[(y, draw(st.floats(0, 1e3))) for y in depths], **given)
+    if kind == "profile":
+        return Tissue(profile=[(q, -draw(st.floats(0, 1e3)), draw(st.floats(0, 1e3))) for q in depths], **given)
+    return Tissue(**given)
+
+
+@st.composite
 def scenes(draw):
     membrane = st.builds(Membrane, positive, positive, st.floats(1e-6, 0.5), st.floats(0, 1.0))
     vector = st.tuples(*[st.floats(-1e3, 1e3)] * 3)
-    placed = st.builds(PlacedMembrane, st.text(max_size=8), membrane, vector, vector.filter(any))
+    placed = st.builds(
+        PlacedMembrane,
+        st.text(max_size=8),
+        membrane,
+        vector,
+        vector.filter(any),
+        tissue=st.one_of(st.just(Tissue()), tissues()),
+    )
     return Scene(
         draw(st.text(st.characters(exclude_categories=["Cs"]))),
         Needle(draw(positive), draw(st.floats(1e-6, 1.0))),
@@ -51,9 +77,11 @@ def scenes(draw):
             draw(st.sampled_from(["exact", "paper"])),
             draw(st.sampled_from(["low_pass", "line_fit"])),
             draw(st.floats(0, 1e-3)),
+            draw(st.sampled_from([1, 4])),
         ),
         draw(st.sampled_from(["stylus", "motion"])),
         DisplaySettings(draw(st.one_of(st.just("automatic"), st.just(1.0), st.floats(1e-6, 1)))),
+        relaxation=draw(st.lists(st.builds(MaxwellBranch, positive, st.floats(1e-4, 1e4)), max_size=2)),
     )
 
 

@@ -1,6 +1,6 @@
 /** Converts the JSON Schema of a scene file to the fields of a form. All texts come from the schema. */
 
-export type FieldKind = "number" | "integer" | "text" | "choice" | "vector";
+export type FieldKind = "number" | "integer" | "text" | "choice" | "vector" | "numbers";
 
 export interface Bound {
   readonly value: number;
@@ -27,6 +27,8 @@ export interface Field {
   readonly sizes: readonly number[];
   readonly required: boolean;
   readonly standard: unknown;
+  /** The heading of the folded part of the form in which the field is; empty for the open part. */
+  readonly folded: string;
 }
 
 /** One table of the file; `list` if it can be repeated. */
@@ -121,6 +123,7 @@ function field(key: string, whole: Json, required: boolean): Field {
     sizes: list(entry["x-diameters-mm"]).filter((size) => typeof size === "number"),
     required,
     standard: entry.default,
+    folded: text(entry["x-folded"]),
   };
 }
 
@@ -128,7 +131,7 @@ function kind(key: string, entry: Json, hasOptions: boolean): FieldKind {
   if (hasOptions) return "choice";
   if (entry.type === "number" || entry.type === "integer") return entry.type;
   if (entry.type === "string") return "text";
-  if (entry.type === "array") return "vector";
+  if (entry.type === "array") return typeof entry.minItems === "number" ? "vector" : "numbers";
   throw new SchemaError(`${key} has a type that the editor does not know`);
 }
 

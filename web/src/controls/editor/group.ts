@@ -25,7 +25,7 @@ export function group(
     const other = byKey.get(partnerOf(table, field.key) ?? "");
     const here = [...path, field.key];
     const input = other ? pairField(field, other, path, draft) : single(field, here, draft);
-    root.append(input.root);
+    place(root, field.folded).append(input.root);
     inputs.set(pathText(here), input);
     if (other) {
       paired.add(other.key);
@@ -33,6 +33,16 @@ export function group(
     }
   }
   return { root, inputs };
+}
+
+/** The open part of the form, or its folded part with this heading. */
+function place(root: HTMLElement, heading: string): HTMLElement {
+  if (!heading) return root;
+  for (const part of root.querySelectorAll<HTMLElement>(":scope > details"))
+    if (part.dataset.heading === heading) return part;
+  const part = element("details", { class: "folded", "data-heading": heading }, element("summary", {}, heading));
+  root.append(part);
+  return part;
 }
 
 const partnerOf = (table: Pick<Table, "pairs">, key: string): string | undefined =>

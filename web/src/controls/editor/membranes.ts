@@ -59,6 +59,8 @@ export class MembraneList {
     const field = path
       ? card?.inputs.get(path)?.root.querySelector<HTMLElement>("input:not([type=range]), select")
       : null;
+    const folded = field?.closest("details");
+    if (folded) folded.open = true;
     (field ?? card?.head)?.focus();
   }
 

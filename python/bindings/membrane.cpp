@@ -1,0 +1,167 @@
+// core/punctura/scene: a membrane with its place and its tissue, and the branches of a coupling that relaxes.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "bindings.hpp"
+#include "punctura/scene/check.hpp"
+#include "value.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+using Point = std::array<double, 2>;  // opening, m; grip, N
+using Row = std::array<double, 3>;    // depth, m; lower, upper, N
+
+nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
+
+/// The type hint of a word out of a list.
+template <std::size_t n>
+std::string literal(const std::array<std::string_view, n>& words) {
+  std::string text;
+  for (const auto word : words) text += (text.empty() ? "typing.Literal['" : ", '") + std::string(word) + "'";
+  return text + "]";
+}
+const std::string look_type = literal(look_words), behind_type = literal(behind_words), grip_type = literal(grip_words);
+
+/// The enumerator of a word. Throws ConfigurationError that lists the words.
+template <typename Enum, std::size_t n>
+Enum from_word(const std::string& path, const std::string& given, const std::array<std::string_view, n>& words) {
+  if (const auto found = enum_of<Enum>(given, words)) return *found;
+  std::string reason = "must be one of";
+  for (const auto word : words) reason += (word == words.front() ? " \"" : ", \"") + std::string(word) + "\"";
+  raise_word(path, given, reason.c_str());
+}
+
+Tissue make_tissue(std::string grip, double growth, std::vector<Point> grip_table, double tip_length,
+                   double tail_length, double tail_floor, double cutting, double set, std::vector<Row> profile) {
+  Tissue made;
+  made.grip = from_word<GripShape>("membrane.grip", grip, grip_words);
+  made.growth = growth;
+  for (const auto& [opening, force] : grip_table) made.grip_table.push_back({opening, force});
+  made.tip_length = tip_length;
+  made.tail_length = tail_length;
+  made.tail_floor = tail_floor;
+  made.cutting = cutting;
+  made.set = set;
+  for (const auto& [depth, lower, upper] : profile) made.profile.push_back({depth, lower, upper});
+  return made;
+}
+
+MaxwellBranch make_branch(double stiffness, double time_constant) { return {stiffness, time_constant}; }
+
+PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
+                           std::string look, Outlet outflow, Outlet outflow_behind, Tissue tissue) {
+  return {std::move(name),
+          membrane,
+          point,
+          inward_normal,
+          from_word<Behind>("membrane.behind", behind, behind_words),
+          from_word<Look>("membrane.look", look, look_words),
+          outflow,
+          outflow_behind,
+          std::move(tissue)};
+}
+
+}  // namespace
+
+void bind_membrane(nb::module_& m) {
+  auto tissue =
+      nb::class_<Tissue>(m, "Tissue", "What a membrane of measured tissue has beside the four numbers of K06.")
+          .def_prop_ro(
+              "grip", [](const Tissue& t) { return text(grip_words[static_cast<std::size_t>(t.grip)]); },
+              nb::sig(("def grip(self) -> " + grip_type).c_str()), "How the grip grows with the opening of the hole")
+          .def_ro("growth", &Tissue::growth, "Of an exponential grip, 1/m; 0 is linear")
+          .def_prop_ro(
+              "grip_table",
+              [](const Tissue& t) {
+                nb::list rows;
+                for (const auto& p : t.grip_table) rows.append(nb::make_tuple(p.opening, p.grip));
+                return nb::tuple(rows);
+              },
+              nb::sig("def grip_table(self) -> tuple[tuple[float, float], ...]"),
+              "Of a measured grip: openings (m) and grips (N)")
+          .def_ro("tip_length", &Tissue::tip_length, "X, m; 0 is w / tan(theta)")
+          .def_ro("tail_length", &Tissue::tail_length, "The shaft's friction falls on this length behind the tip, m")
+          .def_ro("tail_floor", &Tissue::tail_floor, "The part of the shaft's friction that is left behind the tail")
+          .def_ro("cutting", &Tissue::cutting, "The force on the tip while it cuts for the first time, N")
+          .def_ro("set", &Tissue::set, "The part of the grip that a hole has lost")
+          .def_prop_ro(
+              "profile",
+              [](const Tissue& t) {
+                nb::list rows;
+                for (const auto& k : t.profile) rows.append(nb::make_tuple(k.depth, k.lower, k.upper));
+                return nb::tuple(rows);
+              },
+              nb::sig("def profile(self) -> tuple[tuple[float, float, float], ...]"),
+              "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)");
+  const Tissue none;
+  def_init(
+      tissue,
+      {{"grip", grip_type.c_str(), nb::str("linear")},
+       {"growth", "float", nb::float_(none.growth)},
+       {"grip_table", "Sequence[tuple[float, float]]", nb::make_tuple()},
+       {"tip_length", "float", nb::float_(none.tip_length)},
+       {"tail_length", "float", nb::float_(none.tail_length)},
+       {"tail_floor", "float", nb::float_(none.tail_floor)},
+       {"cutting", "float", nb::float_(none.cutting)},
+       {"set", "float", nb::float_(none.set)},
+       {"profile", "Sequence[tuple[float, float, float]]", nb::make_tuple()}},
+      &make_tissue,
+      "Tissue() is K06's membrane. A profile replaces grip and tail. docs/measured-tissue.md. The scene that uses\n"
+      "it checks all values.");
+  def_value(tissue,
+            {"grip", "growth", "grip_table", "tip_length", "tail_length", "tail_floor", "cutting", "set", "profile"});
+
+  auto branch = nb::class_<MaxwellBranch>(m, "MaxwellBranch",
+                                          "A spring in series with a damper, beside the coupling: it relaxes while the "
+                                          "needle rests.")
+                    .def_ro("stiffness", &MaxwellBranch::stiffness, "K_m of the spring, N/m; 0 is no branch")
+                    .def_ro("time_constant", &MaxwellBranch::time_constant, "tau: damping over stiffness, s");
+  def_init(branch, {{"stiffness", "float"}, {"time_constant", "float"}}, &make_branch,
+           "The scene that uses it checks all values.");
+  def_value(branch, {"stiffness", "time_constant"});
+
+  auto placed =
+      nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane and its place in the scene.")
+          .def_ro("name", &PlacedMembrane::name)
+          .def_ro("membrane", &PlacedMembrane::membrane)
+          .def_prop_ro(
+              "point", [](const PlacedMembrane& p) { return as_tuple(p.point); },
+              nb::sig("def point(self) -> tuple[float, float, float]"), "Any point of the surface, m")
+          .def_prop_ro(
+              "inward_normal", [](const PlacedMembrane& p) { return as_tuple(p.inward_normal); },
+              nb::sig("def inward_normal(self) -> tuple[float, float, float]"), "A direction of any length but 0")
+          .def_prop_ro(
+              "behind", [](const PlacedMembrane& p) { return text(word_of(p.behind)); },
+              nb::sig(("def behind(self) -> " + behind_type).c_str()),
+              "Content of the space between this membrane and the next. It does not affect the force")
+          .def_prop_ro(
+              "look", [](const PlacedMembrane& p) { return text(word_of(p.look)); },
+              nb::sig(("def look(self) -> " + look_type).c_str()),
+              "The kind of tissue that the studio draws. It does not affect the force")
+          .def_ro("outflow", &PlacedMembrane::outflow, "What liquid from the needle's syringe meets in the membrane")
+          .def_ro("outflow_behind", &PlacedMembrane::outflow_behind, "The same for the space behind it")
+          .def_ro("tissue", &PlacedMembrane::tissue, "What measured tissue adds to the membrane; Tissue() in K06");
+  def_init(
+      placed,
+      {{"name", "str"},
+       {"membrane", "Membrane"},
+       {"point", three_numbers},
+       {"inward_normal", three_numbers},
+       {"behind", behind_type.c_str(), nb::str("tissue")},
+       {"look", look_type.c_str(), nb::str("plain")},
+       {"outflow", "Outlet", nb::cast(dense_tissue)},
+       {"outflow_behind", "Outlet", nb::cast(dense_tissue)},
+       {"tissue", "Tissue", nb::cast(Tissue{})}},
+      &make_placed,
+      "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
+      "this membrane and the next. look: kind of tissue in the studio's picture. outflow,\n"
+      "outflow_behind: what liquid from a syringe meets in the membrane and behind it; by default it cannot leave.\n"
+      "tissue: what measured tissue adds.");
+  def_value(placed,
+            {"name", "membrane", "point", "inward_normal", "behind", "look", "outflow", "outflow_behind", "tissue"});
+}
+
+}  // namespace punctura::bindings
