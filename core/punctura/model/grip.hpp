@@ -72,16 +72,18 @@ struct Chords {
 
 namespace detail {
 /// n chords to the exponential grip: denser where it is more curved, so that all have the same error. They are moved,
-/// except at the surface, so that their mean error is 0 and the average over a wall has little error.
+/// so that their mean error is 0 and the average over a wall has little error. The first one moves only at its end. So
+/// its mean error is 0 if it is sqrt(1/2) times as long as the distance of the others.
 template <typename Scalar>
 Chords<Scalar> exponential_chords(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
                                   const Scalar& w, std::size_t n) noexcept {
   using namespace lane;
   Chords<Scalar> chords;
   const Scalar b = tissue.growth, rise = exp(b * w / 2) - 1;
-  Scalar area(0);  // of chords minus curve, N m
+  Scalar area(0);                             // of chords minus curve, N m
+  const auto shorter = Lane<Scalar>(0.2929);  // 1 - sqrt(1/2)
   for (std::size_t j = 0; j <= n; ++j) {
-    const Scalar share = Scalar(static_cast<Lane<Scalar>>(j)) / Scalar(static_cast<Lane<Scalar>>(n));
+    const Scalar share = Scalar((static_cast<Lane<Scalar>>(j) - shorter) / (static_cast<Lane<Scalar>>(n) - shorter));
     const Scalar y = j == 0 ? Scalar(0) : j == n ? w : Scalar(2 / b * log(1 + share * rise));
     const Scalar grip = grip_at(membrane, tissue, y);
     if (j > 0) {
