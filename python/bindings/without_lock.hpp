@@ -14,28 +14,32 @@ namespace punctura::bindings {
 /// frames, which aborts the process.
 class WithoutLock {
  public:
-  WithoutLock() noexcept : state_(PyEval_SaveThread()) {
-    if (std::this_thread::get_id() != first_) others_.store(true, std::memory_order_relaxed);
-  }
+  WithoutLock() noexcept : state_(PyEval_SaveThread()) {}
   WithoutLock(const WithoutLock&) = delete;
   ~WithoutLock() {
-    while (ends_.load() && std::this_thread::get_id() != last_) std::this_thread::sleep_for(std::chrono::hours(1));
+    taking_.fetch_add(1);
+    if (ends_.load() && std::this_thread::get_id() != last_) {
+      taking_.fetch_sub(1);
+      for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
     PyEval_RestoreThread(state_);
+    taking_.fetch_sub(1);
   }
 
   /// Call in the thread that ends the program (registered with atexit). From then on no other thread takes the GIL.
   static void end_program() {
     last_ = std::this_thread::get_id();
     ends_.store(true);
-    if (!others_.load(std::memory_order_relaxed)) return;
     PyThreadState* state = PyEval_SaveThread();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // threads that already wait for the GIL get it
+    // A thread that did not see ends_ has counted itself before. It gets the GIL now, however busy the computer is.
+    while (taking_.load() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     PyEval_RestoreThread(state);
   }
 
  private:
-  inline static std::atomic<bool> ends_{false}, others_{false};
-  inline static std::thread::id first_ = std::this_thread::get_id(), last_{};
+  inline static std::atomic<bool> ends_{false};
+  inline static std::atomic<int> taking_{0};  ///< threads that take the GIL back now
+  inline static std::thread::id last_{};
   PyThreadState* state_;
 };
 

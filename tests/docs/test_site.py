@@ -11,7 +11,7 @@ import text
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = dict(cpp_reference.pages())
-INTERNAL = re.compile(r"namespace detail \{.*?\}  // namespace detail", re.S)
+INTERNAL = re.compile(r"namespace (?:punctura::)?detail \{.*?\}  // namespace (?:punctura::)?detail", re.S)
 PAGE = '<html><body id="top">{}</body></html>'
 
 

@@ -2,6 +2,7 @@
 tests of an xdist_group in one worker."""
 
 import re
+import signal
 import sys
 from functools import cache
 from pathlib import Path
@@ -12,6 +13,10 @@ sys.path.insert(0, str(Path(__file__).parent))
 sys.path.append(str(Path(__file__).parents[2] / "tools"))  # waiting.py
 
 from oracles import cases
+
+# A shell starts its background jobs with SIGINT ignored. The tests of Ctrl-C then need Python's own handler.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("punctura", deadline=None, derandomize=True, database=None, max_examples=cases.count(200))
 settings.load_profile("punctura")

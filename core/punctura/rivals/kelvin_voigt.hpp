@@ -12,9 +12,7 @@ namespace punctura {
 struct KelvinVoigt : BehindPuncture {
   static constexpr const char* name = "kelvin_voigt";
   static constexpr const char* title = "Kelvin-Voigt (Barbe 2007)";
-  static constexpr const char* source =
-      "Barbe, Bayle, de Mathelin, Gangi: In vivo model estimation and haptic characterization of needle insertions. "
-      "Int. J. Robotics Research 26(11-12), 2007";
+  static constexpr const char* source = "Barbe et al., Int. J. Robotics Research 26(11-12), 2007";
 
   double stiffness = 100;  ///< k, N/m
   double damping = 0;      ///< b, N s/m

@@ -63,7 +63,7 @@ def _identifier(name: str) -> str:
 
 
 def _binary() -> Path:
-    path = Path(__file__).parents[1] / f"punctura_fmu{_BUILT.get(sys.platform, '.so')}"
+    path = Path(__file__).parent / f"punctura_fmu{_BUILT.get(sys.platform, '.so')}"
     if not path.is_file():
         raise FileNotFoundError(
             f"{path} does not exist: this copy of punctura was not installed by pip. Run `pip install .` in its source "

@@ -33,7 +33,9 @@ struct LineBlock {
   bool started = false;
 
   /// The piece of the band in which each lane is, for depths in [first, last]. It is empty at the start: first > last.
-  LaneNumbers first, last, origin, lower[3], upper[3];
+  LaneNumbers first, last, origin;
+  LaneNumbers lower[3];  ///< coefficients of Phi_I, see Quadratic
+  LaneNumbers upper[3];  ///< coefficients of Phi_O
   BandTable table[block_lanes];
 };
 
