@@ -49,6 +49,10 @@ class TraceModel {
       if (!(time_[i] > time_[i - 1])) throw nb::value_error("time must ascend");
   }
 
+  std::string text() const {
+    return "<TraceModel of " + std::to_string(depth_.size()) + (time_.empty() ? " depths>" : " depths with times>");
+  }
+
   nb::tuple forces(const nb::object& membranes, const nb::object& coupling, bool jacobian) const {
     const auto [m, c] = parameters_of(needle_, membranes, coupling);
     const std::size_t n = depth_.size(), columns = jacobian ? trace_parameters(m.size()) : 0;
@@ -91,6 +95,7 @@ void bind_trace(nb::module_& m) {
             nb::sig("def __init__(self, needle: Needle, depth: numpy.typing.ArrayLike, "
                     "time: numpy.typing.ArrayLike | None = None) -> None"),
             "depth: of the tip, (n,), m. time: (n,), s, ascending; None if nothing depends on time.");
+  model.def("__repr__", &TraceModel::text);
   model.def("forces", &TraceModel::forces, nb::arg("membranes"), nb::arg("coupling"), nb::arg("jacobian") = true,
             nb::sig("def forces(self, membranes: numpy.typing.ArrayLike, coupling: numpy.typing.ArrayLike, "
                     "jacobian: bool = True) -> tuple[numpy.typing.NDArray[numpy.float64], "

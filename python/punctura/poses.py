@@ -33,6 +33,9 @@ class PosedNeedle:
         self._pose = np.zeros(6)
         self._force = np.zeros(3)
 
+    def __repr__(self) -> str:
+        return f"<PosedNeedle at {self._rate:g} Hz, started {self.starts} times>"
+
     @property
     def force(self) -> Array:
         """The force on the needle after the last tick, N (3,)."""
