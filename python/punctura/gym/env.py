@@ -45,6 +45,9 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
         self.render_mode = render_mode
         self._done = True
 
+    def __repr__(self) -> str:
+        return f"<NeedleEnv on {self.task.scene}, {'ended or not begun' if self._done else 'running'}>"
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observations, dict[str, Any]]:
