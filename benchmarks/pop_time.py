@@ -15,6 +15,7 @@ import numpy.typing as npt
 import punctura
 from punctura import Insertion, Proxy1d, Scene, ThickLaw
 
+Array = npt.NDArray[np.float64]
 DOC = Path(__file__).resolve().parent.parent / "docs" / "pop-time.md"
 THICKNESSES_MM = (0.05, 0.1, 0.2, 0.5)
 SPEEDS_MM_PER_S = (2, 5, 10, 20)
@@ -31,7 +32,7 @@ def scene(thickness: float, solver: str, sub_steps: int) -> Scene:
     return base.replace(servo=base.servo.replace(solver=solver, sub_steps=sub_steps, low_pass=0.0, rate=RATE))
 
 
-def half_fall(times: npt.NDArray[np.float64], force: npt.NDArray[np.float64]) -> float:
+def half_fall(times: Array, force: Array) -> float:
     """When the force is half-way down from its peak to the plateau, s; straight lines between the ticks."""
     peak, plateau = int(np.argmax(force)), float(force[-1])
     middle = (force[peak] + plateau) / 2
@@ -41,12 +42,13 @@ def half_fall(times: npt.NDArray[np.float64], force: npt.NDArray[np.float64]) ->
     return float(times[before] + share * (times[after] - times[before]))
 
 
-def path(thickness: float, speed: float, rate: float, phase: float) -> tuple[npt.NDArray[np.float64], ...]:
+def path(thickness: float, speed: float, rate: float, phase: float) -> tuple[Array, Array]:
     """Times (s) and depths (m) of a steady motion from 0.2 mm in front of the membrane to 2 mm behind the pop."""
     s = scene(thickness, "exact", 1)
     law = ThickLaw(s.needle, s.membranes[0].membrane)
     end = (law.X + thickness + 3.5e-3) / speed
-    times = (np.arange(int((end + 0.2e-3 / speed) * rate)) + phase) / rate - 0.2e-3 / speed
+    ticks = np.arange(int((end + 0.2e-3 / speed) * rate), dtype=np.float64)
+    times: Array = (ticks + phase) / rate - 0.2e-3 / speed
     return times, speed * times
 
 

@@ -195,7 +195,8 @@ inline std::vector<Method> methods() {
       before_low_pass("foaw_position", "best fit within a count, 24 intervals, its end, then 300 Hz",
                       EachAxis(BestFitPosition{History(25), count})),
       {"line_fit",
-       "a line over 10 ms or less, within two counts, followed for the lag of 150 Hz, then 150 Hz. In the core",
+       "a line over 15 ms or less, extrapolated by the lag of 200 Hz, then 200 Hz, then a play of 0.4 counts. In the "
+       "core",
        [] { return core(Conditioning::line_fit); }},
   };
 }

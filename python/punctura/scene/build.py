@@ -125,8 +125,9 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         outflow = Outlet.unchecked(m["outflow_resistance"], m["outflow_pressure"])
         behind = Outlet.unchecked(m["behind_resistance"], m["behind_pressure"])
         rows = reader.rows(m, f"membrane[{i}]", "membrane")
-        numbers = [m[name] for name in ("tip_length", "tail_length", "tail_floor", "cutting", "set")]
-        tissue = Tissue(m["grip"], m["growth"], rows["grip_table"], *numbers, rows["profile"])
+        tip_and_tail = {name: m[name] for name in ("tip_length", "tail_length", "tail_floor")}
+        hole = {name: m[name] for name in ("cutting", "set")}
+        tissue = Tissue(m["grip"], m["growth"], **rows, **tip_and_tail, **hole)
         membranes.append(PlacedMembrane(*placed, outflow, behind, tissue))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:

@@ -27,7 +27,7 @@ def line_fit(p, rate, step):
     out = np.empty(len(p))
     for k in range(200, len(seen)):
         out[k - 200] = seen[k]
-        n = 2 * max(1, int(share * 0.015 * rate / 2 + 0.5)) + 1
+        n = 2 * max(1, int(0.015 * share / (2 * (1 / rate)) + 0.5)) + 1
         while n >= 3:
             t = np.arange(1 - n, 1)
             slope, end = np.polyfit(t, seen[k - n + 1 : k + 1], 1)

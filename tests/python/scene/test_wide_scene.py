@@ -1,0 +1,105 @@
+"""Scenes beyond K06: read, run, recorded, replayed, followed by events and drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from punctura import Experiment, Insertion, MaxwellBranch, Strokes, Tissue, load_scene, save_scene
+from punctura._core import law_curve
+from punctura.events import crossing, find_events
+
+DOWN = [0.0, -1.0, 0.0]
+WIDE = """
+name = "wide"
+[needle]
+diameter_mm = 1.08
+tip_angle_rad = 0.28
+[coupling]
+stiffness_N_per_mm = 0.4
+damping_Ns_per_mm = 0.001
+relaxation_stiffness_N_per_mm = [0.1, 0.05]
+relaxation_time_constant_s = [0.2, 3]
+[servo]
+sub_steps = 2
+[[membrane]]
+name = "wall"
+stiffness_N_per_mm = 0.57
+precompression_N = 0.41
+friction = 0.2
+thickness_mm = 0.5
+point_mm = [0, 0, 0]
+inward_normal = [0, -1, 0]
+grip = "exponential"
+growth_per_mm = 0.9
+tip_length_mm = 3
+tail_length_mm = 1.2
+tail_floor = 0.3
+cutting_N = 0.2
+set = 0.25
+[[membrane]]
+name = "profile"
+stiffness_N_per_mm = 0.57
+precompression_N = 0.41
+friction = 0.2
+thickness_mm = 1
+point_mm = [0, -6, 0]
+inward_normal = [0, -1, 0]
+profile_depth_mm = [0, 1, 2.5, 4]
+profile_lower_N = [0, -0.4, -0.9, -0.2]
+profile_upper_N = [0, 0.05, 0.1, 0.1]
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    (tmp_path / "wide.toml").write_text(WIDE)
+    return load_scene(tmp_path / "wide.toml")
+
+
+def test_a_wide_scene_is_read_in_si_and_saved_again(scene, tmp_path):
+    assert scene.relaxation == (MaxwellBranch(100.0, 0.2), MaxwellBranch(50.0, 3.0))
+    wall, profile = (placed.tissue for placed in scene.membranes)
+    assert (wall.grip, wall.growth, wall.tip_length, wall.cutting, wall.set) == ("exponential", 900.0, 3e-3, 0.2, 0.25)
+    assert profile.profile[2] == (2.5e-3, -0.9, 0.1) and profile.replace(profile=()) == Tissue()
+    save_scene(scene, tmp_path / "again.toml")
+    assert load_scene(tmp_path / "again.toml") == scene
+    paths = {field.path for field in scene.fields()}
+    assert {"coupling.relaxation[1].stiffness", "membrane[1].profile[3].upper", "membrane[0].tail_floor"} <= paths
+    assert scene.with_values({"membrane[1].profile[2].lower": -1.0}).membranes[1].tissue.profile[2][1] == -1.0
+
+
+def test_the_first_insertion_is_harder_than_the_second(scene):
+    insertion = Insertion(scene.replace(relaxation=[], membranes=scene.membranes[:1]))
+    depth = np.concatenate([np.linspace(-1e-3, 9e-3, 2400), np.linspace(9e-3, -4e-3, 2400)])
+    force = insertion.run(np.outer(np.tile(depth, 2), DOWN), DOWN).force[:, 1]
+    first, second = force[:2400], force[4800:7200]
+    assert first.max() - second.max() > 0.2  # the cutting, and a part of the grip: the set
+    assert second[-1] == pytest.approx(0.75 * first[-1], rel=0.01)  # the shaft in the hole
+
+
+def test_the_force_of_a_hold_relaxes(scene):
+    insertion = Insertion(scene)
+    insertion.run(np.outer(np.linspace(-1e-3, 12e-3, 2000), DOWN), DOWN)
+    insertion.run(np.outer(np.linspace(12e-3, 11.5e-3, 100), DOWN), DOWN)
+    held = insertion.run(np.tile(np.outer([11.5e-3], DOWN), (8000, 1)), DOWN).force[:, 1]
+    assert abs(held[-1] - held[200]) > 0.005
+    assert abs(held[-1] - held[-400]) < 0.1 * abs(held[-1] - held[200])
+
+
+def test_events_and_curves_know_the_law(scene):
+    wall, profile = crossing(scene, 0, 1.0), crossing(scene, 1, 1.0)
+    assert wall.through == pytest.approx(3.5e-3) and profile.peak == pytest.approx(2.7e-3, abs=0.5e-3)
+    ticks = Insertion(scene).run(np.outer(np.linspace(-1e-3, 14e-3, 4000), DOWN), DOWN)
+    pops = [event for event in find_events(ticks, scene) if event.what == "pop"]
+    assert [pop.membrane for pop in pops] == [0, 1] and all(pop.drop > 0.1 for pop in pops)
+    curve = law_curve(scene, 1, 0.0)
+    assert min(curve["lower"]) == pytest.approx(-0.85, abs=0.06) and max(curve["upper"]) <= 0.1
+
+
+def test_an_experiment_continues_from_its_state(scene):
+    one, other = (Experiment(scene, Strokes([0, 2e-3, 0], [0, -8e-3, 0])) for _ in range(2))
+    one.run(2000)
+    other.state = one.state
+    assert (one.run(500).force == other.run(500).force).all()
+    with pytest.raises(ValueError):
+        Experiment(load_scene("k06-fig12"), Strokes([0, 2e-3, 0], [0, -8e-3, 0])).state = one.state
