@@ -99,6 +99,45 @@ def test_without_the_implicit_force_it_is_that_of_the_core_bit_for_bit():
     assert largest > 0.2
 
 
+def test_the_implicit_force_is_that_of_the_core_at_the_end_of_the_step_bit_for_bit():
+    m = model(2e-3, joint=SLIDE)
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0, -2e-3), "tip", "tissue")
+    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, pn.ServoSettings(500, 0)))
+    core.step((0, 0, 2e-3), (0, 0, -1))  # where the needle begins
+    assert attached.last_tick(d) is None
+    needle, largest = m.body("needle").id, 0.0
+    for k in range(800):
+        d.xfrc_applied[needle, 2] = -1.0 if k < 400 else 1.0
+        attached.step(d)
+        tick = attached.last_tick(d)
+        assert (core.step(tick.tip[0], tick.axis[0]) == tick.force[0]).all()
+        mujoco.mj_kinematics(m, d)
+        assert d.site_xpos[0] == pytest.approx(tick.tip[0], abs=2e-6)  # it came where it was expected
+        largest = max(largest, tick.force[0, 2])
+    assert largest > 0.5
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1e-1])
+def test_a_needle_that_is_welded_to_a_hand_is_held_steadily(mass):
+    m = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><option timestep="0.002"/><worldbody><body name="tissue"/>
+        <body name="hand" mocap="true" pos="0 0 0.002"/><body name="needle" pos="0 0 0.002"><freejoint/>
+        <inertial mass="{mass}" pos="0 0 0.05" diaginertia="{mass * 1e-3} {mass * 1e-3} {mass * 1e-4}"/>
+        <site name="tip" zaxis="0 0 -1"/></body></worldbody>
+        <equality><weld body1="hand" body2="needle" solref="0.005 1"/></equality></mujoco>"""
+    )
+    d = mujoco.MjData(m)
+    attached = pm.attach(m, scene(0), "tip", "tissue")
+    forces = []
+    for k in range(1500):
+        d.mocap_pos[0, 2] = 0.002 - 0.008 * min(k / 500, 1)
+        attached.step(d)
+        forces.append(attached.force(d)[0, 2])
+    assert max(forces) < 0.7 and forces[-1] > 0.4
+    assert np.ptp(forces[-200:]) < 1e-6
+
+
 def test_held_by_static_friction_the_needle_does_not_drift():
     m = model(1e-3)
     d = mujoco.MjData(m)
@@ -232,6 +271,9 @@ def test_a_saved_state_continues_with_the_same_bits_and_foreign_ones_change_noth
     first = push(attached, d, -0.2, 0.2)
     attached.restore(d, state)
     assert (push(attached, d, -0.2, 0.2) == first).all()
+    twin = mujoco.MjData(m)
+    attached.restore(twin, state)
+    assert (push(attached, twin, -0.2, 0.2) == first).all()
 
     changed = model(5e-3, joint='<joint type="slide" axis="0 0 1"/>')
     other = pm.attach(changed, scene(0), "tip", "tissue")

@@ -5,6 +5,7 @@ Needs MuJoCo: pip install 'punctura[mujoco]'.
 
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.build import NeedleInTissue, attach, attach_needles
+from punctura.mujoco.needles import Tick
 from punctura.mujoco.stability import StabilityWarning, smallest_mass
 
-__all__ = ["Attachment", "NeedleInTissue", "StabilityWarning", "attach", "attach_needles", "smallest_mass"]
+__all__ = ["Attachment", "NeedleInTissue", "StabilityWarning", "Tick", "attach", "attach_needles", "smallest_mass"]

@@ -155,6 +155,13 @@ class Attachment:
         forces: Array = np.einsum("lij,lj->li", rotation, shown)
         return forces
 
+    def last_tick(self, data: Any) -> Tick | None:
+        """What the last finished step gave to the models and got from them; None before the first.
+
+        punctura.Insertion gives the same forces for these tips, bit for bit.
+        """
+        return self._of(data).last
+
     def depths(self, data: Any) -> list[tuple[float, ...]]:
         """Depth behind each membrane, m, for each pair of a needle and a body: of the proxy, as in a tick."""
         return [insertion.depths for insertion in self._of(data).insertions]

@@ -18,12 +18,12 @@ _HOLDING = (Phase.sticking, Phase.sliding_in, Phase.sliding_out)
 
 
 class Tick(NamedTuple):
-    """A tick that is computed and not yet made."""
+    """One tick of all L pairs of a needle and a body, in the frames of the bodies that carry the membranes."""
 
     time: float  # s, the start of the step
-    tip: Array  # (L, 3) m, in the frames of the tissues
+    tip: Array  # (L, 3) m; with the implicit force as it was expected for the end of the step
     axis: Array  # (L, 3)
-    force: Array  # (L, 3) N, in the frames of the tissues, on the needles
+    force: Array  # (L, 3) N, on the needles
 
 
 class Needles:
