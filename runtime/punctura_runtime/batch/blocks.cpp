@@ -25,6 +25,10 @@ std::size_t usable_threads(std::size_t wanted) noexcept {
 
 void for_each_block(std::size_t count, std::size_t threads, Work& work, const std::function<void(std::size_t)>& block,
                     const std::function<bool()>& watch) {
+  if (threads <= 1 && !watch) {
+    for (std::size_t i = 0; i < count && !work.stop; ++i) block(i);
+    return;
+  }
   std::atomic<std::size_t> next{0};
   std::mutex lock;
   std::condition_variable ended;
@@ -58,7 +62,7 @@ void for_each_block(std::size_t count, std::size_t threads, Work& work, const st
     if (ended.wait_for(guard, std::chrono::milliseconds(50), [&] { return running == 0; })) break;
     guard.unlock();
     try {
-      if (!watch()) work.stop = true;
+      if (watch && !watch()) work.stop = true;
     } catch (...) {
       fail(std::current_exception());
     }

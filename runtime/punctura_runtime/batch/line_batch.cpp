@@ -84,10 +84,12 @@ LineBatch::Outcome LineBatch::run(std::size_t ticks, const Grid<const double>& p
       work.done += n * (to - from);
     }
   };
-  const auto watch = [&] {
-    outcome.stopped = !options.watch(work.done, ticks * blocks_.size());
-    return !outcome.stopped;
-  };
+  std::function<bool()> watch;
+  if (options.watch)
+    watch = [&] {
+      outcome.stopped = !options.watch(work.done, ticks * blocks_.size());
+      return !outcome.stopped;
+    };
   const auto restore = [&] {
     for (std::size_t b = 0; b < blocks_.size(); ++b) before[b].restore(blocks_[b]);
   };

@@ -1,6 +1,7 @@
 // The ticks of a block with the solvers of core. It is compiled once for each instruction set.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 
 #include "punctura/proxy/exact.hpp"
@@ -49,6 +50,17 @@ class LineVector {
   LineState<PresentLaw<V>> state_{};
 };
 
+/// How far ahead run_vectors() fetches depths and places for forces.
+inline constexpr std::ptrdiff_t rows_ahead = 12;
+
+/// Asks for the memory `ahead` doubles behind an address. It may lie behind the end of an array.
+inline void fetch([[maybe_unused]] const double* from, [[maybe_unused]] std::ptrdiff_t ahead) noexcept {
+#if defined(__GNUC__)
+  const auto bytes = static_cast<std::uintptr_t>(ahead) * sizeof(double);
+  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(from) + bytes));
+#endif
+}
+
 /// The ticks of several vectors. They take turns, so that the processor computes one while another waits for a result.
 template <typename V, typename Solver, bool shared, bool stores, std::size_t... j>
 [[gnu::flatten]] bool run_vectors(LineBlock& block, std::size_t start, const LineSpan& span,
@@ -62,6 +74,9 @@ template <typename V, typename Solver, bool shared, bool stores, std::size_t... 
   for (std::size_t k = span.ticks; k > 0; --k, p += p_stride) {
     const auto tick = [&](Vector& vector, std::size_t lane) {
       const V depth = shared ? V(*p) : V::load(p + lane);
+      // The rows may be pages apart, where the processor does not fetch ahead by itself.
+      if constexpr (!shared) fetch(p + lane, rows_ahead * p_stride);
+      if constexpr (stores) fetch(force + lane, rows_ahead * force_stride);
       good = good && V(-1e6) <= depth && depth <= V(1e6);
       const V f = vector.step(block, lane, depth);
       if constexpr (stores) f.store(force + lane);

@@ -40,11 +40,6 @@ class RunSummary {
     const PlacedMembrane& first = scene.membranes.front();
     point_ = to_vector(first.point);
     normal_ = to_vector(first.inward_normal).stableNormalized();
-    for (std::size_t i = 0; i < following_.size(); ++i) {
-      const PlacedMembrane& placed = scene.membranes[i];
-      following_[i].law.emplace(scene.needle, placed.membrane);
-      following_[i].normal = to_vector(placed.inward_normal);
-    }
   }
 
   void add(const Snapshot& s) noexcept {
@@ -71,7 +66,7 @@ class RunSummary {
     }
     for (const Event& event : events) {
       if (event.what == EventKind::out && event.membrane == touched_) left_ = true;
-      if (event.what == EventKind::pop) following_[event.membrane].pop(event, to_vector(s.sample.axis), needle());
+      if (event.what == EventKind::pop) following_[event.membrane].pop(event, axis, finder_.scene());
     }
     for (std::size_t i = 0; i < following_.size(); ++i) following_[i].follow(s.sample.time, s.membranes[i].depth);
     last_tip_ = tip;
@@ -93,21 +88,21 @@ class RunSummary {
   static double resistance(const Vector3d& force, const Vector3d& axis) noexcept {
     return force.dot(axis) > 0 ? -force.norm() : force.norm();
   }
-  const Needle& needle() const noexcept { return finder_.scene().needle; }
 
   /// A membrane, and how far the needle runs on after a pop.
   struct Following {
-    std::optional<ThickLaw> law;
-    Vector3d normal;
     MembraneNumbers numbers{};
     double through = 0, until = -std::numeric_limits<double>::infinity();  // m, s
 
-    void pop(const Event& event, const Vector3d& axis, const Needle& of) noexcept {
+    void pop(const Event& event, const Vector3d& axis, const Scene& scene) noexcept {
       if (++numbers.pops == 1) numbers.first_pop = event.time;
       numbers.drop = std::fmax(numbers.drop, event.drop());
       numbers.overshoot = std::fmax(numbers.overshoot, 0.0);
+      const PlacedMembrane& placed = scene.membranes[event.membrane];
+      const Vector3d normal = to_vector(placed.inward_normal);
+      const TissueLaw law(scene.needle, placed.membrane, placed.tissue);
       const double cosine = std::abs(axis.dot(normal)) / normal.norm();
-      through = crossing(*law, of, law->thickness(), cosine).through;
+      through = crossing(law, scene.needle, placed.membrane.thickness, cosine).through;
       until = event.time + overshoot_time;
     }
     void follow(double time, double depth) noexcept {

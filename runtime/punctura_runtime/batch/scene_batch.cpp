@@ -125,6 +125,12 @@ template <typename Make, typename Each>
 bool for_each_trial(const SceneBatch& all, const RunOptions& options, std::size_t block, Work& work, Make&& make,
                     Each&& each) {
   bool stopped = false;
+  std::function<bool()> watch;
+  if (options.watch)
+    watch = [&] {
+      stopped = !options.watch(work.done, all.trials);
+      return !stopped;
+    };
   for_each_block((all.trials + block - 1) / block, usable_threads(options.threads), work,
                  [&](std::size_t index) {
                    auto own = make();
@@ -134,10 +140,7 @@ bool for_each_trial(const SceneBatch& all, const RunOptions& options, std::size_
                      ++work.done;
                    }
                  },
-                 [&] {
-                   stopped = !options.watch(work.done, all.trials);
-                   return !stopped;
-                 });
+                 watch);
   return !stopped;
 }
 
@@ -149,7 +152,7 @@ std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& opti
   std::mutex lock;
   Work work;
   RunOptions quiet = options;
-  quiet.watch = [&](std::size_t, std::size_t) { return options.watch(0, all.trials); };
+  if (options.watch) quiet.watch = [&](std::size_t, std::size_t) { return options.watch(0, all.trials); };
   for_each_trial(
       all, quiet, 1024, work, [&] { return std::make_unique<Trial>(all); },
       [&](Trial& trial, std::size_t i) {

@@ -1,0 +1,117 @@
+// Batches of proxies on a line against the core stepped tick by tick, in one program and over the same trials.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numbers>
+
+#include "../timing.hpp"
+#include "punctura/model/thick_law.hpp"
+#include "punctura/plant/noise.hpp"
+#include "punctura/proxy/proxy_1d.hpp"
+#include "punctura_runtime/batch/line_batch.hpp"
+
+namespace {
+
+using namespace punctura;
+
+constexpr double period = 1 / 1600.0;
+
+/// Trials through K06's membrane: thickness, friction and coupling differ, and each hand has its own stroke and tremor.
+struct Work {
+  std::size_t trials, ticks;
+  std::vector<ThickLaw> laws;
+  std::vector<Coupling> couplings;
+  std::vector<double> depth, force;  ///< (ticks, trials)
+
+  Work(std::size_t n, std::size_t k) : trials(n), ticks(k), depth(n * k), force(n * k) {
+    Noise noise(7);
+    const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(); };
+    for (std::size_t i = 0; i < n; ++i) {
+      laws.emplace_back(Needle{1.08e-3, 0.28}, Membrane{570, 0.41, between(0.1, 0.3), between(0.3e-3, 1e-3)});
+      couplings.push_back({between(300, 500), between(0.5, 1.5)});
+      const double stroke = between(0.6, 1), start = between(0, 1), hertz = between(8, 12), phase = between(0, 6);
+      for (std::size_t j = 0; j < k; ++j) {
+        const double t = period * static_cast<double>(j);
+        const double u = (t + start) / stroke, share = u - std::floor(u);
+        const double s = share < 0.5 ? 2 * share : 2 - 2 * share;
+        const double tremor = 5e-5 * std::sin(2 * std::numbers::pi * hertz * t + phase);
+        depth[j * n + i] = -2e-3 + 9e-3 * s * s * s * (10 - 15 * s + 6 * s * s) + tremor;
+      }
+    }
+  }
+};
+
+struct Result {
+  std::string name;
+  bench::Spread ns, over_scalar;  ///< per trial and tick; scalar time / this time
+};
+
+/// The scalar core first, then each instruction set. Exits with 3 if one bit of a force differs.
+std::vector<Result> measure(Work& work, Solver solver, double seconds) {
+  std::vector<Proxy1d<ThickLaw>> start;
+  batch::LineBatch batch(period, solver);
+  for (std::size_t i = 0; i < work.trials; ++i) {
+    start.emplace_back(work.laws[i], work.couplings[i], period, solver);
+    batch.add(work.laws[i].pieces(), work.couplings[i]);
+  }
+  std::vector<double> scalar(work.force.size());
+  auto proxies = start;
+  std::vector<bench::Contestant> contestants{{"scalar", [&] {
+                                                proxies = start;
+                                                for (std::size_t k = 0; k < work.ticks; ++k)
+                                                  for (std::size_t i = 0; i < work.trials; ++i)
+                                                    scalar[k * work.trials + i] =
+                                                        proxies[i].step(work.depth[k * work.trials + i]);
+                                              }}};
+  const auto n = static_cast<std::ptrdiff_t>(work.trials);
+  for (const batch::LineCode* code : batch::line_codes())
+    contestants.push_back({code->name, [&, code] {
+                             batch.reset();
+                             batch::RunOptions options;
+                             options.threads = 1;  // and no watch: in this thread, whose time is measured
+                             options.code = code;
+                             batch.run(work.ticks, {work.depth.data(), n, 1}, {work.force.data(), n, 1}, options);
+                           }});
+  contestants[0].run();
+  for (std::size_t i = 1; i < contestants.size(); ++i) {
+    contestants[i].run();
+    if (std::memcmp(scalar.data(), work.force.data(), scalar.size() * sizeof(double)) == 0) continue;
+    std::fprintf(stderr, "%s: a force differs from that of the scalar core\n", contestants[i].name.c_str());
+    std::exit(3);
+  }
+  const bench::Times times = bench::time_against_each_other(contestants, work.ticks * work.trials, seconds);
+  std::vector<Result> results;
+  for (std::size_t i = 0; i < contestants.size(); ++i)
+    results.push_back({contestants[i].name, times.spreads[i], bench::ratio(times.rounds[0], times.rounds[i])});
+  return results;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double seconds = 2;
+  for (int i = 1; i + 1 < argc; i += 2)
+    if (std::string(argv[i]) == "--seconds") seconds = std::atof(argv[i + 1]);
+  std::printf("{\n  \"compiler\": \"%s\", \"flags\": \"%s\", \"rows\": [", BENCH_COMPILER, BENCH_FLAGS);
+  bool first = true;
+  for (const auto& [trials, ticks] : {std::pair<std::size_t, std::size_t>{32, 4000}, {1024, 800}, {100'000, 64}}) {
+    Work work(trials, ticks);
+    for (const Solver solver : {Solver::paper, Solver::exact}) {
+      std::printf("%s\n    {\"solver\": \"%s\", \"trials\": %zu, \"ticks\": %zu, \"contestants\": {", first ? "" : ",",
+                  solver == Solver::paper ? "paper" : "exact", trials, ticks);
+      first = false;
+      const auto results = measure(work, solver, seconds);
+      for (const Result& r : results)
+        std::printf(
+            "%s\n      \"%s\": {\"median_ns\": %.4g, \"fastest_ns\": %.4g, \"lower_quartile_ns\": %.4g, "
+            "\"upper_quartile_ns\": %.4g, \"times_faster\": %.4g}",
+            &r == &results.front() ? "" : ",", r.name.c_str(), r.ns.median, r.ns.fastest, r.ns.lower_quartile,
+            r.ns.upper_quartile, r.over_scalar.median);
+      std::printf("}}");
+      std::fflush(stdout);
+      std::fprintf(stderr, ".");
+    }
+  }
+  std::printf("\n  ],\n  \"bytes_per_trial\": %zu\n}\n", sizeof(batch::LineBlock) / batch::block_lanes);
+  std::fprintf(stderr, "\n");
+}
