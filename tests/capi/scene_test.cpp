@@ -202,3 +202,35 @@ TEST_CASE("C ABI: a scene from lines is the scene from a file; wrong lines are n
   CHECK(from_lines("", &none) == PUNCTURA_BAD_SCENE);
   CHECK(none == nullptr);
 }
+
+TEST_CASE("a scene file beyond K06 gives its tissue, its lists and its branches; wrong lists are told") {
+  const std::string beyond = with("outflow_pressure_kPa = 4.8", R"(grip = "exponential"
+growth_per_mm = 0.5
+cutting_N = 0.2
+tail_length_mm = 1
+tail_floor = 0.25
+profile_depth_mm = [0, 1, 2.5]
+profile_lower_N = [0, -0.4, -0.2]
+profile_upper_N = [0, 0.05, 0.1])");
+  const std::string_view damping = "damping_Ns_per_mm = 0.001";
+  std::string text = beyond;
+  text.insert(text.find(damping) + damping.size(),
+              "\nrelaxation_stiffness_N_per_mm = [0.1, 0.05]\nrelaxation_time_constant_s = [0.2, 3]");
+  const auto scene = parsed(text);
+  for (const auto& [path, right] : std::map<std::string, double>{{"membrane[0].growth", 500},
+                                                                 {"membrane[0].cutting", 0.2},
+                                                                 {"membrane[0].tail_floor", 0.25},
+                                                                 {"membrane[0].profile[2].depth", 2.5e-3},
+                                                                 {"membrane[0].profile[1].lower", -0.4},
+                                                                 {"coupling.relaxation[1].stiffness", 50},
+                                                                 {"coupling.relaxation[0].time_constant", 0.2}}) {
+    double value = 0;
+    CAPTURE(path);
+    CHECK(punctura_scene_get(scene.get(), path.c_str(), &value) == PUNCTURA_OK);
+    CHECK(value == right);
+  }
+  text.replace(text.find("[0, -0.4, -0.2]"), 15, "[0, 0.4]");
+  const auto problems = problems_of(text);
+  CHECK(problems.contains("membrane[0].profile_lower_N[1]"));
+  CHECK(problems.contains("membrane[0].profile[2].lower"));
+}
