@@ -102,6 +102,10 @@ PUNCTURA_API punctura_status punctura_scene_new(const punctura_setup* setup, pun
 PUNCTURA_API punctura_status punctura_scene_add_membrane(punctura_scene* scene, const punctura_membrane* membrane);
 /* Puts a syringe on the needle. Its numbers are NaN until they are set. */
 PUNCTURA_API punctura_status punctura_scene_add_syringe(punctura_scene* scene);
+/* Gives a list at least `count` rows: "coupling.relaxation", "membrane[i].grip_table" or "membrane[i].profile"
+ * (docs/measured-tissue.md). The numbers of new rows are NaN until they are set, for example
+ * "membrane[0].profile[2].depth". */
+PUNCTURA_API punctura_status punctura_scene_make_rows(punctura_scene* scene, const char* list, size_t count);
 PUNCTURA_API punctura_status punctura_scene_copy(const punctura_scene* scene, punctura_scene** copy);
 PUNCTURA_API void punctura_scene_free(punctura_scene* scene);
 
@@ -109,7 +113,7 @@ PUNCTURA_API void punctura_scene_free(punctura_scene* scene);
 PUNCTURA_API punctura_status punctura_scene_set(punctura_scene* scene, const char* path, double value);
 PUNCTURA_API punctura_status punctura_scene_get(const punctura_scene* scene, const char* path, double* value);
 /* The words: name, needle.direction, servo.solver, servo.conditioning, display.force_scale ("automatic"),
- * membrane[i].name, membrane[i].look, membrane[i].behind. */
+ * membrane[i].name, membrane[i].look, membrane[i].behind, membrane[i].grip. */
 PUNCTURA_API punctura_status punctura_scene_set_word(punctura_scene* scene, const char* path, const char* word);
 
 typedef struct punctura_field {

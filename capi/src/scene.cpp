@@ -97,15 +97,17 @@ bool set_word(Scene& scene, const std::string& path, std::string_view word, std:
   return false;
 }
 
-void make_rows(Scene& scene, const std::string& list, std::size_t count) {
+bool make_rows(Scene& scene, const std::string& list, std::size_t count) {
   const auto grow = [&](auto& rows, const auto& row) {
     if (rows.size() < count) rows.resize(count, row);
+    return true;
   };
   if (list == "coupling.relaxation") return grow(scene.relaxation, MaxwellBranch{not_given, not_given});
   std::string_view rest;
   PlacedMembrane* membrane = membrane_of(scene, list, rest);
-  if (membrane && rest == "grip_table") grow(membrane->tissue.grip_table, GripPoint{not_given, not_given});
-  if (membrane && rest == "profile") grow(membrane->tissue.profile, Knot{not_given, not_given, not_given});
+  if (membrane && rest == "grip_table") return grow(membrane->tissue.grip_table, GripPoint{not_given, not_given});
+  if (membrane && rest == "profile") return grow(membrane->tissue.profile, Knot{not_given, not_given, not_given});
+  return false;
 }
 
 }  // namespace punctura::c
@@ -158,6 +160,16 @@ punctura_status punctura_scene_add_syringe(punctura_scene* scene) {
   return guarded([&] {
     if (!scene) return null_pointer();
     scene->scene.syringe = empty_syringe();
+    return ok;
+  });
+}
+
+punctura_status punctura_scene_make_rows(punctura_scene* scene, const char* list, size_t count) {
+  return guarded([&] {
+    if (!scene || !list) return null_pointer();
+    if (count > longest_list || !make_rows(scene->scene, list, count))
+      return fail(PUNCTURA_BAD_ARGUMENT, "the scene has no list \"" + std::string(list) + "\" that can have " +
+                                             std::to_string(count) + " rows");
     return ok;
   });
 }

@@ -18,6 +18,9 @@ namespace punctura::c {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
+/// More rows than any list of a scene may have. The check of the scene has the limit of each list.
+inline constexpr std::size_t longest_list = 1000;
+
 /// The types that build() and build_insertion() make.
 using SceneInsertion = decltype(build_insertion(std::declval<const Scene&>()));
 using SceneServo = decltype(build(std::declval<const Scene&>()));
@@ -31,6 +34,7 @@ SyringeSettings empty_syringe();
 bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems);
 
 /// Gives a list of the scene, such as "membrane[0].profile", at least `count` rows. The numbers of new rows are NaN.
-void make_rows(Scene& scene, const std::string& list, std::size_t count);
+/// Returns false if there is no such list.
+bool make_rows(Scene& scene, const std::string& list, std::size_t count);
 
 }  // namespace punctura::c

@@ -9,8 +9,6 @@
 namespace punctura::c {
 namespace {
 
-constexpr std::size_t longest_list = 1000;
-
 /// The index behind `name` in a path, as in "membrane[3].friction"; empty if the path does not begin so.
 std::optional<std::size_t> index_after(std::string_view path, std::string_view name) {
   if (path.substr(0, name.size()) != name || path.substr(name.size(), 1) != "[") return std::nullopt;
@@ -22,11 +20,15 @@ std::optional<std::size_t> index_after(std::string_view path, std::string_view n
   return index;
 }
 
-/// Makes the membrane or the syringe that a path is in.
+/// Makes the membrane, the syringe or the row of a list that a path is in.
 void grow(Scene& scene, std::string_view path) {
   if (const auto i = index_after(path, "membrane"))
     while (scene.membranes.size() <= *i) scene.membranes.push_back(empty_membrane());
   if (path.substr(0, 8) == "syringe." && !scene.syringe) scene.syringe = empty_syringe();
+  if (const auto close = path.rfind("]."); close != std::string_view::npos) {
+    const std::string_view list = path.substr(0, path.rfind('[', close));
+    if (const auto row = index_after(path, list)) make_rows(scene, std::string(list), *row + 1);
+  }
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -37,6 +37,7 @@ def scene_lines(scene: Scene) -> Iterator[tuple[str, float | str]]:
     yield "servo.conditioning", scene.servo.conditioning
     for i, membrane in enumerate(scene.membranes):
         yield f"membrane[{i}].name", _one_line(membrane.name)
+        yield f"membrane[{i}].grip", membrane.tissue.grip
     for number in scene.fields():
         if not number.path.startswith(_NO_EFFECT) and not any(part in number.path for part in _NO_EFFECT_OF_A_MEMBRANE):
             yield number.path, number.value
