@@ -17,6 +17,7 @@
 #include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
+#include "punctura/model/tissue_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/solver.hpp"
@@ -27,6 +28,7 @@ namespace punctura::bindings {
 
 void bind_model(nb::module_&);
 void bind_profile_law(nb::module_&);
+void bind_tissue_law(nb::module_&);
 void bind_proxy(nb::module_&);
 void bind_syringe(nb::module_&);
 void bind_membrane(nb::module_&);
@@ -96,6 +98,12 @@ struct GivenThickLaw : ThickLaw {
 
 struct GivenProfileLaw : ProfileLaw {
   std::vector<double> depth, lower, upper;
+  double obliquity;
+};
+struct GivenTissueLaw : TissueLaw {
+  Needle needle;
+  Membrane membrane;
+  Tissue tissue;
   double obliquity;
 };
 

@@ -17,6 +17,7 @@ NB_MODULE(_core, m) {
   bind_proxy(m);
   bind_syringe(m);
   bind_membrane(m);
+  bind_tissue_law(m);
   bind_scene(m);
   bind_insertion(m);
   bind_events(m);

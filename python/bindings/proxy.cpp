@@ -21,7 +21,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
   check_period(period, problems);
 }
 
-using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>;
+using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw, GivenTissueLaw>;
 
 /// One Python class for proxies with either law. It keeps its constructor arguments.
 class LineProxy : public OneThread {
@@ -77,12 +77,14 @@ class LineProxy : public OneThread {
   nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
 
  private:
-  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<ProfileLaw>>;
+  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<ProfileLaw>, Proxy1d<TissueLaw>>;
   Proxies made() const {
     if (const auto* thin = std::get_if<GivenThinLaw>(&law_))
       return Proxy1d<ThinLaw>(*thin, coupling_, period_, solver_);
     if (const auto* profile = std::get_if<GivenProfileLaw>(&law_))
       return Proxy1d<ProfileLaw>(*profile, coupling_, period_, solver_);
+    if (const auto* tissue = std::get_if<GivenTissueLaw>(&law_))
+      return Proxy1d<TissueLaw>(*tissue, coupling_, period_, solver_);
     return Proxy1d<ThickLaw>(std::get<GivenThickLaw>(law_), coupling_, period_, solver_);
   }
 
@@ -191,7 +193,7 @@ void bind_proxy(nb::module_& m) {
   auto line =
       nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line,
-           {{"law", "ThinLaw | ThickLaw | ProfileLaw"},
+           {{"law", "ThinLaw | ThickLaw | ProfileLaw | TissueLaw"},
             {"coupling", "Coupling"},
             {"period", "float"},
             {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},

@@ -34,6 +34,7 @@ from punctura._core import (
     ThickLaw,
     ThinLaw,
     Tissue,
+    TissueLaw,
     outlet_at,
     tube_resistance,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "ThinLaw",
     "Ticks",
     "Tissue",
+    "TissueLaw",
     "__version__",
     "batch",
     "cmake_dir",
