@@ -10,7 +10,8 @@
 namespace punctura {
 
 /// Whether V is a single number. Specialize it for a number of your own, for example a dual number, which carries
-/// derivatives. Comparisons of such a number return bool. It has the functions that `Lanes` names, and `exp` and `log`.
+/// derivatives. Comparisons of such a number return bool. It has the functions that `Lanes` names, and `exp`,
+/// `expm1` and `log`.
 template <typename V>
 inline constexpr bool is_one_number = std::floating_point<V>;
 /// A single number: float, double or a number of your own.
@@ -78,6 +79,10 @@ T cos(T x) noexcept {
 template <std::floating_point T>
 T exp(T x) noexcept {
   return std::exp(x);
+}
+template <std::floating_point T>
+T expm1(T x) noexcept {
+  return std::expm1(x);
 }
 template <std::floating_point T>
 T log(T x) noexcept {

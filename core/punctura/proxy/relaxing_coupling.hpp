@@ -51,11 +51,12 @@ class RelaxingCoupling {
   RelaxingCoupling(const BasicCoupling<Scalar>& coupling, std::span<const BasicMaxwellBranch<Scalar>> branches,
                    Scalar period) noexcept
       : g(0), inv_g(0), spring_(coupling, period) {
+    using namespace lane;
     Scalar sum = 0;
     for (const auto& branch : branches) {
       if (count_ == max_branches || branch.stiffness == 0) continue;
       const Scalar x = period / branch.time_constant;
-      branches_[count_] = {std::exp(-x), branch.stiffness * (-std::expm1(-x) / x)};
+      branches_[count_] = {exp(-x), branch.stiffness * (-expm1(-x) / x)};
       sum += branches_[count_++].k;
     }
     g = spring_.g + sum;

@@ -16,6 +16,7 @@
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/exact.hpp"
+#include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura/trace/dual.hpp"
 #include "punctura/trace/jump.hpp"
 
@@ -102,6 +103,16 @@ template <typename Scalar>
 struct SpringAndDamper {
   using Type = SampledCoupling<Scalar>;
   static Type of(const std::array<Scalar, coupling_seeds>& c, double dt) noexcept { return {{c[0], c[1]}, dt}; }
+};
+
+/// The same with Maxwell branches beside it.
+template <typename Scalar>
+struct Relaxing {
+  using Type = RelaxingCoupling<Scalar>;
+  static Type of(const std::array<Scalar, coupling_seeds>& c, double dt) noexcept {
+    const std::array<BasicMaxwellBranch<Scalar>, max_branches> branches{{{c[2], c[3]}, {c[4], c[5]}}};
+    return {{c[0], c[1]}, branches, dt};
+  }
 };
 
 /// The rows of a result: forces, and derivatives if they are wanted.
@@ -231,7 +242,12 @@ void add_membranes(const TraceMotion& motion, std::span<const TraceMembrane> mem
   for (std::size_t m = 0; m < membranes.size(); ++m) {
     const auto p = seeded<Scalar>(membranes[m], coupling_seeds);
     rows.first_column = trace_parameters(m);
-    const auto add = [&](const auto& law) { add_membrane<SpringAndDamper<Scalar>>(motion, law, c, p[0], rows); };
+    const auto add = [&](const auto& law) {
+      if (coupling[2] > 0 || coupling[4] > 0)
+        add_membrane<Relaxing<Scalar>>(motion, law, c, p[0], rows);
+      else
+        add_membrane<SpringAndDamper<Scalar>>(motion, law, c, p[0], rows);
+    };
     with_law(needle, p, add);
   }
 }
@@ -242,9 +258,11 @@ void add_membranes(const TraceMotion& motion, std::span<const TraceMembrane> mem
 /// by the membrane.
 inline detail::TraceDual trace_pop(const Needle& needle, const TraceMembrane& membrane, const TraceCoupling& coupling) {
   using namespace detail;
+  const auto c = seeded<TraceDual>(coupling, 0);
+  const TraceDual spring = c[0] + c[2] + c[4];  // the branches relax little on the way to a pop
   TraceDual depth;
   with_law(BasicNeedle<TraceDual>{needle.diameter, needle.tip_angle}, seeded<TraceDual>(membrane, coupling_seeds),
-           [&](const auto& law) { depth = pop_depth(law, seeded<TraceDual>(coupling, 0)[0]); });
+           [&](const auto& law) { depth = pop_depth(law, spring); });
   return depth;
 }
 

@@ -12,11 +12,9 @@ import typer
 from punctura import Needle
 from punctura.files.whole_file import write_whole
 from punctura.identify import Identification, identify
-from punctura.identify.choose import extended_parameters
 from punctura.identify.folder import Task, identify_folder
 from punctura.identify.plan import plans
 from punctura.identify.report import report_html
-from punctura.identify.scene import left_out
 from punctura.progress import progress_bar
 from punctura.scene.write import scene_text
 from punctura.trace import read_trace
@@ -73,7 +71,7 @@ def command(
     read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order)
     found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
     if scene is not None:
-        write_whole(scene, (left_out(extended_parameters(found.fit)) + scene_text(found.scene)).encode())
+        write_whole(scene, scene_text(found.scene).encode())
     if report is not None:
         write_whole(report, report_html(found))
     if plan is not None:

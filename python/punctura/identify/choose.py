@@ -10,7 +10,7 @@ import numpy as np
 from punctura import Needle
 from punctura.identify.fit import Fit, Misfit, best_fit
 from punctura.identify.noise import effective_samples
-from punctura.identify.parameters import Parameters, kind_of
+from punctura.identify.parameters import Parameters
 from punctura.identify.start import starts
 from punctura.trace import Segments, Trace, TraceError
 
@@ -24,7 +24,7 @@ class Extension:
     """An addition to K06 that all membranes share: its parameters with start values, and when it can be seen."""
 
     name: str
-    start: dict[str, float]
+    start: dict[str, float]  # SI; a stiffness as a part of the coupling's
     needs_hold: bool = False
     needs_insertions: int = 1
 
@@ -36,6 +36,8 @@ def extensions(needle: Needle) -> tuple[Extension, ...]:
         Extension("curved grip", {"tissue.growth": 1 / w, "tissue.tip_length": tip}),
         Extension("tip length", {"tissue.tip_length": 1.02 * tip}),
         Extension("tail", {"tissue.tail_length": 0.3 * tip, "tissue.tail_floor": 0.8}),
+        Extension("relaxation", {"relaxation_1_stiffness": 0.4, "relaxation_1_time": 1.0}, needs_hold=True),
+        Extension("second relaxation", {"relaxation_2_stiffness": 0.3, "relaxation_2_time": 10.0}, needs_hold=True),
         Extension("cutting", {"tissue.cutting": 0.05}, needs_insertions=2),
         Extension("set", {"tissue.set": 0.1}, needs_insertions=2),
     )
@@ -80,12 +82,15 @@ def choose(
     current = _candidate("K06", (), Misfit(trace, plain[0]), names, plain)
     tried = [current]
     for extension in extensions(needle):
+        if extension.needs_hold and not segments.holds:
+            continue
         if segments.insertions < extension.needs_insertions or any(
             n in current.fit.free.names for n in extension.start
         ):
             continue
         tell(extension.name)
-        from_here = current.fit.parameters.with_values(extension.start)
+        here = current.fit.parameters
+        from_here = here.with_values(_kept(here, extension))
         fresh = [p.with_values(_kept(p, extension)) for p in curved] if "tissue.growth" in extension.start else []
         try:
             found = _candidate(
@@ -101,8 +106,16 @@ def choose(
 
 
 def _kept(parameters: Parameters, extension: Extension) -> dict[str, float]:
-    """The start values of an extension where these parameters have none of their own."""
-    return {name: value for name, value in extension.start.items() if parameters.get(name) == 0}
+    """The start values of an extension where these parameters have none of their own. A branch takes its part of K."""
+    spring = parameters.get("coupling_stiffness")
+    values = {}
+    for name, value in extension.start.items():
+        branch = name.startswith("relaxation") and name.endswith("stiffness")
+        if branch:
+            values[name] = value * spring
+        elif parameters.get(name) in (0.0, 1.0) or name.startswith("relaxation"):
+            values[name] = value
+    return values
 
 
 def _candidate(
@@ -134,8 +147,3 @@ def held_out_error(fit: Fit) -> float | None:
             return None
         squares.append((part.forces(kept.parameters) - trace.force)[out] ** 2)
     return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else None
-
-
-def extended_parameters(fit: Fit) -> tuple[str, ...]:
-    """The free parameters that K06 does not have."""
-    return tuple(n for n in fit.free.names if kind_of(n) not in (*OWN, "coupling_stiffness", "offset", "drift"))

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from punctura import Needle, Scene
-from punctura.identify.choose import Candidate, choose, extended_parameters, thinned
+from punctura.identify.choose import Candidate, choose, thinned
 from punctura.identify.fit import Fit, Misfit, best_fit
 from punctura.identify.intervals import Estimate, Uncertainty, estimates
 from punctura.identify.noise import effective_samples
@@ -45,7 +45,7 @@ class Identification:
 
     @property
     def scene(self) -> Scene:
-        """The identified membranes as a scene, without extensions of K06."""
+        """The identified membranes as a scene. Its coupling has at least 1 N s/m of damping."""
         return scene_of(self.parameters, self.trace.source or "identified")
 
     @property
@@ -114,6 +114,3 @@ def _number_of_membranes(trace: Trace, segments: Segments) -> int:
     """One membrane for each pop of the first insertion."""
     pops = sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
     return min(max(pops, 1), MOST_MEMBRANES)
-
-
-__all__ = ["Identification", "extended_parameters", "identify"]

@@ -77,9 +77,27 @@ def estimates(fit: Fit) -> tuple[Estimate, ...]:
             low: float | None = value - spread
             high: float | None = value + spread
         else:
-            low, high = (_bound(fit, uncertainty, j, side) for side in (-1, 1))
+            low, high = (_wider(fit, uncertainty, j, side) for side in (-1, 1))
         found.append(Estimate(name, value, low, high, UNITS[kind_of(name)]))
     return tuple(found)
+
+
+def _wider(fit: Fit, uncertainty: Uncertainty, j: int, side: int) -> float | None:
+    """The bound of the profile, or that of a linear model if the profile's is less than half as far.
+
+    A profile rises too early where the search for the other parameters stops on the way, which a rough misfit causes.
+    """
+    bound = _bound(fit, uncertainty, j, side)
+    if bound is None:
+        return None
+    u = float(np.log(bound)) if fit.free.logarithmic(j) else bound
+    far = float(np.sqrt(CHI2_95 * uncertainty.covariance[j, j]))
+    if abs(u - fit.u[j]) >= 0.5 * far:
+        return bound
+    u = fit.u[j] + side * far
+    if not fit.free.low[j] < u < fit.free.high[j]:
+        return None
+    return float(np.exp(u)) if fit.free.logarithmic(j) else float(u)
 
 
 def _bound(fit: Fit, uncertainty: Uncertainty, j: int, side: int) -> float | None:

@@ -2,31 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+import numpy as np
 
-from punctura import Coupling, Membrane, PlacedMembrane, Scene
-from punctura.identify.parameters import MEMBRANE, Parameters
+from punctura import ConfigurationError, Coupling, MaxwellBranch, Membrane, PlacedMembrane, Scene, Tissue
+from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters
 
 DAMPING = 1.0  # N s/m, of the coupling: a servo loop needs some, and slow traces do not show it
-SOFTEST_APART = 1e-4  # m: membranes of a scene begin behind this depth
+TABLE = 28  # points of a grip that the scene's chords do not follow
 
 
 def scene_of(parameters: Parameters, name: str) -> Scene:
-    """The identified membranes along -y, for `punctura run`: the first surface is at the origin. Without extensions."""
-    coupling = parameters.coupling
-    membranes: list[Any] = []
+    """The identified membranes along -y, for `punctura run`: the first surface is at the origin."""
+    try:
+        return _scene(parameters, name, False)
+    except ConfigurationError:  # the grip is curved too much for the chords of an exponential grip
+        return _scene(parameters, name, True)
+
+
+def _scene(parameters: Parameters, name: str, as_table: bool) -> Scene:
+    shared = dict(zip(COUPLING, parameters.coupling.tolist(), strict=True))
+    branches = [(shared[f"relaxation_{i}_stiffness"], shared[f"relaxation_{i}_time"]) for i in (1, 2)]
+    membranes = []
     for i, row in enumerate(parameters.membranes):
         value = dict(zip(MEMBRANE, row.tolist(), strict=True))
         membrane = Membrane(value["stiffness"], value["precompression"], value["friction"], value["thickness"])
-        depth = value["surface"] - float(parameters.membranes[0, 0])
-        membranes.append(PlacedMembrane(f"membrane {i + 1}", membrane, (0, -depth, 0), (0, -1, 0)))
-    return Scene(
-        needle=parameters.needle, membranes=membranes, name=name,
-        coupling=Coupling(float(coupling[0]), max(float(coupling[1]), DAMPING)),
+        place = (0.0, float(parameters.membranes[0, 0]) - value["surface"], 0.0)
+        tissue = _tissue(value, parameters.needle.diameter, as_table)
+        membranes.append(PlacedMembrane(f"membrane {i + 1}", membrane, place, (0, -1, 0), tissue=tissue))
+    coupling = Coupling(shared["coupling_stiffness"], max(shared["coupling_damping"], DAMPING))
+    relaxation = [MaxwellBranch(stiffness, time) for stiffness, time in branches if stiffness > 0]
+    return Scene(name, parameters.needle, coupling, membranes, relaxation=relaxation)
+
+
+def _tissue(value: dict[str, float], diameter: float, as_table: bool) -> Tissue:
+    growth = value["growth"]
+    table: list[tuple[float, float]] = []
+    if growth != 0 and as_table:
+        opening = np.linspace(0, diameter, TABLE)
+        grip = value["precompression"] + value["stiffness"] * np.expm1(growth * opening) / growth
+        table = list(zip(opening.tolist(), grip.tolist(), strict=True))
+    return Tissue(
+        grip="table" if table else "linear" if growth == 0 else "exponential", growth=0.0 if table else growth,
+        grip_table=table, tip_length=value["tip_length"], tail_length=value["tail_length"],
+        tail_floor=value["tail_floor"], cutting=value["cutting"], set=value["set"],
     )  # fmt: skip
-
-
-def left_out(names: Sequence[str]) -> str:
-    """A comment for the scene file about the extensions that it does not hold; empty if there are none."""
-    return f"# Without the extensions of the fit: {', '.join(names)}.\n" if names else ""
