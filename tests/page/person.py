@@ -4,19 +4,54 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
+from punctura.exercise import load_exercise
 
-PATIENCE = 120_000  # ms, on a machine without a graphics card
+# ms: of every action and every expectation. A test that passes does not wait so long, however busy the computer is.
+PATIENCE = 120_000
+
+
+@contextmanager
+def opened(browser: Browser, url: str, sound_answered: bool = True) -> Iterator[Page]:
+    """The page at the address, in a context of its own. Every error of its script fails the test."""
+    errors: list[str] = []
+    # Half the resolution: the processor draws a quarter of the pixels, and nobody looks.
+    size = {"width": 1440, "height": 900}
+    context = browser.new_context(viewport=size, device_scale_factor=0.5, reduced_motion="reduce")
+    context.set_default_timeout(PATIENCE)
+    if sound_answered:
+        context.add_cookies([{"name": "punctura_sound", "value": "off", "url": url}])
+    page = context.new_page()
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    try:
+        page.goto(url)
+        yield page
+    finally:
+        context.close()
+    assert not errors, errors
+
+
+def own_exercise(folder: Path, title: str, *changes: tuple[str, str]) -> Path:
+    """A file with the venipuncture under another title. changes: what to replace in its text, and by what."""
+    text = load_exercise("venipuncture").path.read_text(encoding="utf-8")
+    for before, after in (('"Venipuncture"', f'"{title}"'), *changes):
+        assert before in text, before
+        text = text.replace(before, after)
+    file = folder / "own_exercise.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
 
 
 def ready(page: Page) -> None:
     """Past the tour, with force on."""
-    expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
+    expect(page.locator(".connection-words")).to_have_text("Connected")
     if page.get_by_role("button", name="Skip").count():
         page.get_by_role("button", name="Skip").click()
-    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on")
 
 
 def tab(page: Page, name: str) -> Locator:
@@ -35,7 +70,7 @@ def events(page: Page, what: str = "") -> Locator:
 def ticks_come(page: Page) -> None:
     """Waits until the page shows a later tick than it does now."""
     shown = "document.querySelector('.phases-when').textContent"
-    page.wait_for_function(f"before => {shown} !== before", arg=page.evaluate(shown), timeout=PATIENCE)
+    page.wait_for_function(f"before => {shown} !== before", arg=page.evaluate(shown))
 
 
 def drag_in(page: Page, pops: int, step: int = 6) -> None:
@@ -52,7 +87,7 @@ def drag_in(page: Page, pops: int, step: int = 6) -> None:
         if events(page, "pop").count() >= pops:
             break
     page.mouse.up()
-    expect(events(page, "pop")).to_have_count(pops, timeout=PATIENCE)
+    expect(events(page, "pop").nth(pops - 1)).to_be_attached()  # the hand may have followed through one more
 
 
 def push(page: Page, key: str, times: int) -> None:
@@ -72,7 +107,7 @@ def newton(words: str) -> float:
 
 def saved(page: Page, act: Locator, folder: Path) -> Path:
     """Clicks what saves a file, and gives the file."""
-    with page.expect_download(timeout=PATIENCE) as download:
+    with page.expect_download() as download:
         act.click()
     path = folder / download.value.suggested_filename
     download.value.save_as(path)

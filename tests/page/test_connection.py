@@ -2,7 +2,7 @@
 
 import time
 
-from person import PATIENCE, ready
+from person import ready
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -10,26 +10,26 @@ from studio_process import StudioProcess
 def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
     ready(page)
     assert studio.end() in (0, 130)
-    expect(page.locator(".header")).to_contain_text("No connection", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("No connection")
     token = studio.url.split("token=")[1]
     with StudioProcess(tmp_path, "k06-fig10", port=studio.port, token=token):
-        expect(page.locator(".connection-words")).to_have_text("Connected", timeout=PATIENCE)
+        expect(page.locator(".connection-words")).to_have_text("Connected")
 
 
 def test_a_page_whose_token_is_of_another_run_says_so_and_tries_no_more(page, studio, tmp_path):
     ready(page)
     assert studio.end() in (0, 130)
     with StudioProcess(tmp_path, "k06-fig10", port=studio.port, token="of-another-run-0123"):
-        expect(page.locator(".connection-words")).to_contain_text("Refused: This needs the token", timeout=PATIENCE)
+        expect(page.locator(".connection-words")).to_contain_text("Refused: This needs the token")
 
 
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
-    second.goto(studio.url, timeout=PATIENCE)
-    expect(second.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)
+    second.goto(studio.url)
+    expect(second.get_by_role("button", name="Take control").first).to_be_visible()
     second.get_by_role("button", name="Take control").first.click()
-    expect(page.get_by_role("button", name="Take control").first).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_role("button", name="Take control").first).to_be_visible()
     second.close()
 
 

@@ -1,9 +1,8 @@
 """An exercise of one's own, to success and to failure: the venipuncture, as slowly as the computer is."""
 
 import pytest
-from person import PATIENCE, push, ready, tab, view
+from person import own_exercise, push, ready, tab, view
 from playwright.sync_api import expect
-from punctura.exercise import load_exercise
 from studio_process import StudioProcess
 
 TITLE = "In your own time"
@@ -11,13 +10,9 @@ TITLE = "In your own time"
 
 @pytest.fixture
 def studio(tmp_path, request):
-    """A studio that lists the file. request.param: s to stay in the vein."""
-    text = load_exercise("venipuncture").path.read_text(encoding="utf-8")
-    limit = '[[goal]]\nkind = "time_limit"\nseconds = 60'
-    assert all(part in text for part in (limit, "seconds = 3", 'title = "Venipuncture"'))
-    text = text.replace("seconds = 3", f"seconds = {request.param}")
-    file = tmp_path / "unhurried.toml"
-    file.write_text(text.replace(limit, "").replace('"Venipuncture"', f'"{TITLE}"'), encoding="utf-8")
+    """A studio that lists an exercise without a time limit. request.param: s to stay in the vein."""
+    stay = ("seconds = 3", f"seconds = {request.param}")
+    file = own_exercise(tmp_path, TITLE, ('[[goal]]\nkind = "time_limit"\nseconds = 60', ""), stay)
     with StudioProcess(tmp_path, "k06-fig10", more=["--exercise", str(file)]) as running:
         yield running
 
@@ -28,8 +23,8 @@ def begin(page):
     page.get_by_role("textbox").first.fill("Ann")
     card = page.locator("article.exercise", has_text=TITLE)
     card.get_by_role("button", name="Start").click()
-    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
-    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(page.locator(".running")).to_be_visible()
+    expect(page.locator(".header")).to_contain_text("Force on")
 
 
 @pytest.mark.parametrize("studio", [600], indirect=True)  # a slow computer must not pass it on the way
@@ -42,11 +37,11 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
         if page.get_by_role("dialog").count():
             break
     dialog = page.get_by_role("dialog")
-    expect(dialog).to_contain_text("not passed", timeout=PATIENCE)
+    expect(dialog).to_contain_text("not passed")
     expect(dialog).to_contain_text("You went through the back vein wall")
     expect(dialog.locator(".coach.change")).to_contain_text("You still moved in at ")
     expect(dialog).to_contain_text("Peak model force")
-    expect(dialog.locator(".trace svg")).to_contain_text("model force (N)", timeout=PATIENCE)
+    expect(dialog.locator(".trace svg")).to_contain_text("model force (N)")
     expect(dialog.locator(".trace svg")).to_contain_text("✕ lost")
     assert len(fetched) == 1 and "/trace?" in fetched[0].url and len(fetched[0].body()) < 100_000
 
@@ -55,7 +50,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
 def test_staying_in_the_vein_passes(page):
     begin(page)
     running = page.locator(".running")
-    expect(page.locator(".view-label.goal")).to_have_text("Goal: the vein", timeout=PATIENCE)
+    expect(page.locator(".view-label.goal")).to_have_text("Goal: the vein")
     push(page, "Shift+ArrowDown", 17)  # the skin is 10 mm away, the vein 20
     for _ in range(200):
         words = running.locator(".instruction").inner_text()
@@ -65,7 +60,7 @@ def test_staying_in_the_vein_passes(page):
             push(page, "ArrowUp", 1)
         else:
             push(page, "Shift+ArrowDown" if words.startswith("Reach") else "ArrowDown", 1)
-    expect(page.get_by_role("dialog")).to_contain_text("passed", timeout=PATIENCE)
+    expect(page.get_by_role("dialog")).to_contain_text("passed")
     expect(page.get_by_role("dialog")).not_to_contain_text("not passed")
 
 
@@ -74,14 +69,14 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
     ready(page)
     tab(page, "Exercises")
     page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
-    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
-    expect(view(page)).to_be_focused(timeout=PATIENCE)  # the keys move the needle without a click
+    expect(page.locator(".running")).to_be_visible()
+    expect(view(page)).to_be_focused()  # the keys move the needle without a click
     expect(page.locator(".hold-ring")).to_be_hidden()
     plot = page.locator(".time-plots")
     expect(plot.locator(".plot-save")).to_be_hidden()
     plot.locator("canvas").last.focus()
     page.keyboard.press("ArrowLeft")
-    expect(plot.locator("[aria-live]")).to_contain_text("model force", timeout=PATIENCE)
+    expect(plot.locator("[aria-live]")).to_contain_text("model force")
     expect(plot.locator("[aria-live]")).not_to_contain_text("mm")
     tab(page, "Hand")
     expect(page.get_by_role("button", name="Start strokes")).to_be_disabled()

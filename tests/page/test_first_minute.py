@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from person import PATIENCE, drag_in, events, tab, view
+from person import drag_in, events, opened, tab, ticks_come, view
 from playwright.sync_api import expect
 
 RATE = 1600  # Hz, of the simulated device
@@ -25,34 +25,34 @@ def drag_out(page, until):
     for _ in range(400):
         y -= 4
         page.mouse.move(x, y)
-        page.wait_for_timeout(10)
+        ticks_come(page)
         if until.is_visible():
             break
     page.mouse.up()
-    expect(until).to_be_visible(timeout=PATIENCE)
+    expect(until).to_be_visible()
 
 
 def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slowly_everywhere(page):
     tour = page.get_by_role("region", name="Tour")
     sentence = page.get_by_text("Push until it gives", exact=True)
-    expect(tour).to_contain_text("Drag in the view", timeout=PATIENCE)
+    expect(tour).to_contain_text("Drag in the view")
     expect(sentence).to_be_visible()
-    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(page.locator(".header")).to_contain_text("Force on")
     drag_in(page, pops=1)
-    expect(tour).to_contain_text(re.compile("It gave: the (model )?force fell by"), timeout=PATIENCE)
+    expect(tour).to_contain_text(re.compile("It gave: the (model )?force fell by"))
     expect(sentence).to_be_hidden()
     drag_out(page, tour.get_by_text("the needle is out"))
 
     page.get_by_role("combobox", name="Membrane", exact=True).select_option(index=1)
     tour.get_by_role("button", name="Show the pop again, slowly").click()
     bar = page.get_by_role("group", name="Replay")
-    expect(bar).to_be_visible(timeout=PATIENCE)
+    expect(bar).to_be_visible()
     bar.get_by_role("button", name="Next event").click()  # the only event of these 100 ms: the pop
     expect(page.locator(".player output")).to_have_text(re.compile(r"[+]\s*0[.]0 ms"))
     for _ in range(3):
         bar.get_by_role("button", name="Forward one tick").click()
     expect(page.locator(".player output")).to_have_text(re.compile(r"[+]\s*1[.]9 ms"))
-    page.wait_for_function(ONE_MOMENT, timeout=PATIENCE)
+    page.wait_for_function(ONE_MOMENT)
     told = float(events(page, "pop").locator(".event-time").inner_text().removesuffix(" s"))
     assert float(view(page).get_attribute("data-time")) - told == pytest.approx(3 / RATE, abs=6e-4)
     page.get_by_role("button", name="Back to live").click()
@@ -61,25 +61,22 @@ def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slow
     tour.get_by_role("button", name="Done").click()
     expect(tour).to_be_hidden()
     page.reload()
-    expect(events(page, "pop")).to_have_count(1, timeout=PATIENCE)
+    expect(events(page, "pop")).to_have_count(1)
     expect(tour).to_be_hidden()
     page.get_by_role("button", name="Tour").click()
-    expect(tour).to_contain_text("Drag in the view", timeout=PATIENCE)
+    expect(tour).to_contain_text("Drag in the view")
 
 
 def test_the_question_about_sound_comes_once_after_the_first_pop_and_its_answer_stays(browser, studio):
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, device_scale_factor=0.5)
-    page = context.new_page()
-    page.goto(studio.url, timeout=PATIENCE)
-    question = page.get_by_role("region", name="Sound")
-    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
-    expect(question).to_be_hidden()
-    drag_in(page, pops=1)
-    question.get_by_role("button", name="Sound on").click(timeout=PATIENCE)
-    expect(question).to_be_hidden()
-    page.reload()
-    expect(events(page, "pop")).to_have_count(1, timeout=PATIENCE)
-    expect(question).to_be_hidden()
-    tab(page, "Hand")
-    expect(page.get_by_role("button", name="Sound is on")).to_be_visible()
-    context.close()
+    with opened(browser, studio.url, sound_answered=False) as page:
+        question = page.get_by_role("region", name="Sound", exact=True)
+        expect(page.locator(".header")).to_contain_text("Force on")
+        expect(question).to_be_hidden()
+        drag_in(page, pops=1)
+        question.get_by_role("button", name="Sound on", exact=True).click()
+        expect(question).to_be_hidden()
+        page.reload()
+        expect(events(page, "pop")).to_have_count(1)
+        expect(question).to_be_hidden()
+        tab(page, "Hand")
+        expect(page.get_by_role("button", name="Sound is on", exact=True)).to_be_visible()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pyarrow.parquet as parquet
-from person import PATIENCE, drag_in, events, ready, saved, tab
+from person import drag_in, events, ready, saved, tab
 from playwright.sync_api import expect
 from punctura.record import replay
 
@@ -12,8 +12,8 @@ def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     tab(page, "Recordings")
     page.get_by_role("textbox", name="Name of the recording").fill("first try")
     page.get_by_role("button", name="Record", exact=True).click()
-    expect(page.locator(".record-line")).to_contain_text("0 lost", timeout=PATIENCE)
-    expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
+    expect(page.locator(".record-line")).to_contain_text("0 lost")
+    expect(page.locator(".header")).to_contain_text("Force on")
     drag_in(page, pops=1)
     drop = events(page, "pop").first.inner_text()
     page.get_by_role("button", name="Stop", exact=True).click()
@@ -27,7 +27,7 @@ def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
 
     entry.get_by_role("button", name="Replay", exact=True).click()
     bar = page.get_by_role("group", name="Replay")
-    expect(bar).to_be_visible(timeout=PATIENCE)
+    expect(bar).to_be_visible()
     expect(page.locator("body")).to_contain_text("Replay of")
     bar.get_by_role("button", name="Next event").click()
     assert events(page, "pop").first.inner_text().split("s", 1)[1] == drop.split("s", 1)[1]

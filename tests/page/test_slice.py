@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from person import PATIENCE, drag_in, ready
+from person import drag_in, opened, ready
 from playwright.sync_api import Browser, Page, expect
 from studio_process import StudioProcess
 
@@ -18,24 +18,18 @@ def epidural(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess
 
 @pytest.fixture(scope="module")
 def shown(browser: Browser, epidural: StudioProcess) -> Iterator[Page]:
-    size = {"width": 1440, "height": 900}
-    context = browser.new_context(viewport=size, device_scale_factor=0.5, reduced_motion="reduce")
-    context.add_cookies([{"name": "punctura_sound", "value": "off", "url": epidural.url}])
-    page = context.new_page()
-    page.goto(epidural.url, timeout=PATIENCE)
-    ready(page)
-    yield page
-    context.close()
+    with opened(browser, epidural.url) as page:
+        ready(page)
+        yield page
 
 
-def brightness(page: Page) -> list[int]:
-    """Grey values of the slice's picture at a grid of places."""
-    return page.evaluate("""() => {
-        const canvas = document.querySelector(".slice canvas"), draw = canvas.getContext("2d");
-        const at = (i, n, size) => Math.floor(((i + 0.5) / n) * size);
-        return Array.from({length: 600}, (_, i) =>
-            draw.getImageData(at(i % 20, 20, canvas.width), at(Math.floor(i / 20), 30, canvas.height), 1, 1).data[0]);
-    }""")
+# Grey values of the slice's picture at a grid of places.
+BRIGHTNESS = """() => {
+    const canvas = document.querySelector(".slice canvas"), draw = canvas.getContext("2d");
+    const at = (i, n, size) => Math.floor(((i + 0.5) / n) * size);
+    return Array.from({length: 600}, (_, i) =>
+        draw.getImageData(at(i % 20, 20, canvas.width), at(Math.floor(i / 20), 30, canvas.height), 1, 1).data[0]);
+}"""
 
 
 def test_the_slice_opens_shows_the_tissue_follows_the_probe_and_is_remembered(shown: Page) -> None:
@@ -46,23 +40,19 @@ def test_the_slice_opens_shows_the_tissue_follows_the_probe_and_is_remembered(sh
     picture = shown.get_by_role("application", name="Slice through the tissue")
     expect(picture).to_be_visible()
     expect(shown.locator(".slice")).to_contain_text("Drawing, not a simulation of an ultrasound instrument")
-    expect(shown.locator(".slice-words")).to_contain_text("The needle is not in this slice", timeout=PATIENCE)
-    before = brightness(shown)
+    expect(shown.locator(".slice-words")).to_contain_text("The needle is not in this slice")
+    before = shown.evaluate(BRIGHTNESS)
     assert max(before) - min(before) > 80, "bright and dark tissue"
 
     picture.focus()
     for _ in range(6):
         shown.keyboard.press("ArrowDown")
     expect(shown.locator(".slice output").nth(1)).to_have_text("3.0 mm")
-    for _ in range(50):
-        if brightness(shown) != before:
-            break
-        shown.wait_for_timeout(100)
-    assert brightness(shown) != before, "another slice has other speckle"
+    shown.wait_for_function(f"before => String(({BRIGHTNESS})()) !== String(before)", arg=before)  # other speckle
 
     shown.reload()
     ready(shown)
-    expect(picture).to_be_visible(timeout=PATIENCE)
+    expect(picture).to_be_visible()
     shown.get_by_role("button", name="Close the slice").click()
     expect(picture).to_be_hidden()
     expect(button).to_be_focused()
@@ -72,7 +62,7 @@ def test_the_slice_says_where_the_needle_is(shown: Page) -> None:
     shown.locator(".view-main .view-tools").get_by_role("button", name="Slice", exact=True).click()
     drag_in(shown, pops=1)
     shown.get_by_role("button", name="Along needle").click()
-    expect(shown.locator(".slice-words")).to_contain_text("The needle lies in the slice: the tip is", timeout=PATIENCE)
+    expect(shown.locator(".slice-words")).to_contain_text("The needle lies in the slice: the tip is")
     shown.get_by_role("button", name="Close the slice").click()
 
 
@@ -94,5 +84,5 @@ def test_no_label_covers_another_from_above_on_a_desktop_a_phone_and_at_200_perc
     shown.locator(".view-main").get_by_role("button", name="Top", exact=True).click()
     for width, height in ((1440, 900), (390, 844), (720, 450)):
         shown.set_viewport_size({"width": width, "height": height})
-        expect(shown.locator(".view-label.membrane:visible")).to_have_count(6, timeout=PATIENCE)
-        shown.wait_for_function(f"() => ({OVERLAPS})().length === 0", polling=100, timeout=PATIENCE)
+        expect(shown.locator(".view-label.membrane:visible")).to_have_count(6)
+        shown.wait_for_function(f"() => ({OVERLAPS})().length === 0", polling=100)

@@ -20,16 +20,14 @@ export class Labels {
   private readonly layer = element("div", { class: "view-labels" });
   private readonly lines = document.createElementNS(SVG, "svg");
   private readonly known = new Map<string, Label>();
-  private readonly wishes: Wish[] = [];
+  private wishes: Wish[] = [];
   private size: readonly [number, number] = [1, 1];
   private obstacles: Rect[] = [];
   private measured = Number.NEGATIVE_INFINITY;
+  private later = 0; // timer of the next measurement; 0 if none is due
   private readonly watched = new WeakSet<Element>();
   /** Places the labels again when a button or a note comes, goes or changes its size. */
-  private readonly watch = new ResizeObserver(() => {
-    this.measured = Number.NEGATIVE_INFINITY;
-    if (this.wishes.length > 0) this.end();
-  });
+  private readonly watch = new ResizeObserver(() => this.again());
 
   constructor(private readonly host: HTMLElement) {
     this.lines.setAttribute("aria-hidden", "true");
@@ -38,7 +36,7 @@ export class Labels {
   }
 
   begin(): void {
-    this.wishes.length = 0;
+    this.wishes = [];
   }
 
   /** Asks for a label at `at`, mm: right or left of it, or in the column next to the tissue, with a line to it. */
@@ -86,7 +84,7 @@ export class Labels {
       line.remove();
     }
     this.known.clear();
-    this.wishes.length = 0;
+    this.wishes = [];
   }
 
   private show({ node, line }: Label, place: Place, { x, y }: Wish): void {
@@ -109,11 +107,30 @@ export class Labels {
     return label;
   }
 
-  /** Reads the places of buttons and notes in the view, now and then. */
+  private again(): void {
+    this.measured = Number.NEGATIVE_INFINITY;
+    if (this.wishes.length > 0) this.end();
+  }
+
+  /**
+   * Reads the places of buttons and notes and the sizes of labels, at most once in MEASURE_MS. After the last picture,
+   * and after each change, it reads them once more: a button may move later, when no picture is drawn any more.
+   */
   private measure(): void {
     const now = performance.now();
-    if (now - this.measured < MEASURE_MS) return;
-    this.measured = now;
+    const due = now - this.measured >= MEASURE_MS;
+    if (due) this.measured = now;
+    const changed = due && this.read();
+    if ((changed || !due) && !this.later)
+      this.later = window.setTimeout(() => {
+        this.later = 0;
+        this.again();
+      }, MEASURE_MS);
+  }
+
+  /** Returns whether an obstacle or the size of a label has changed. */
+  private read(): boolean {
+    const before = JSON.stringify([this.obstacles, this.wishes.map(({ id, width, height }) => [id, width, height])]);
     const from = this.host.getBoundingClientRect();
     this.obstacles = [...this.host.querySelectorAll<HTMLElement>(OBSTACLES)].flatMap((node) => {
       if (!this.watched.has(node)) this.watch.observe(node);
@@ -122,5 +139,15 @@ export class Labels {
       if (right <= left || bottom <= top) return [];
       return [{ left: left - from.left, top: top - from.top, right: right - from.left, bottom: bottom - from.top }];
     });
+    for (const label of this.known.values()) {
+      if (label.node.hidden) continue;
+      label.width = label.node.offsetWidth;
+      label.height = label.node.offsetHeight;
+    }
+    this.wishes = this.wishes.map((wish) => {
+      const label = this.known.get(wish.id);
+      return label ? { ...wish, width: label.width, height: label.height } : wish;
+    });
+    return before !== JSON.stringify([this.obstacles, this.wishes.map(({ id, width, height }) => [id, width, height])]);
   }
 }

@@ -43,7 +43,10 @@ export class Stage {
       alpha: true,
       powerPreference: "high-performance",
     });
-    this.resting = software ? Math.max(1.75, this.quality.best) : this.quality.best;
+    // In software, a still picture is sharper than the screen, which smooths its edges.
+    this.resting = software
+      ? Math.max(1.75 * Math.min(1, devicePixelRatio || 1), this.quality.best)
+      : this.quality.best;
     this.renderer.setClearAlpha(0);
     this.key.position.set(0.6, 1, 0.9);
     this.scene.add(this.key, this.sky);

@@ -30,6 +30,7 @@ export function varyForm(act: (job: Variation) => void): {
     to.value = String(Number((value * (1 + AROUND)).toPrecision(4)));
   };
   field.addEventListener("change", suggest);
+  const simulate = element("button", { type: "submit", class: "small primary", disabled: true }, "Simulate");
   const form = element(
     "form",
     { class: "lab-vary" },
@@ -39,7 +40,7 @@ export function varyForm(act: (job: Variation) => void): {
     toRow,
     countRow,
     element("label", {}, element("span", {}, "Motion"), motion),
-    element("button", { type: "submit", class: "small primary" }, "Simulate"),
+    simulate,
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -82,6 +83,7 @@ export function varyForm(act: (job: Variation) => void): {
         field.value = offered.find(({ path }) => path.startsWith("membrane[0]."))?.path ?? offered[0]?.path ?? "";
         suggest();
       }
+      simulate.disabled = fields.length === 0; // without a field there is no value to vary
     },
   };
 }
