@@ -40,6 +40,7 @@ void bind_plant(nb::module_&);
 void bind_experiment(nb::module_&);
 void bind_rivals(nb::module_&);
 void bind_fleet(nb::module_&);
+void bind_live_estimate(nb::module_&);
 void bind_limits(nb::module_&);
 void bind_tick_table(nb::module_&);
 void bind_thumb(nb::module_&);

@@ -26,6 +26,7 @@ NB_MODULE(_core, m) {
   bind_experiment(m);
   bind_rivals(m);
   bind_fleet(m);
+  bind_live_estimate(m);
   bind_limits(m);
   bind_tick_table(m);
   bind_thumb(m);

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from punctura import save_scene
+from punctura.cli.identify import needle_of, pairs
 from punctura.progress import progress_bar
 
 
@@ -23,9 +25,13 @@ def command(
     unit: Annotated[
         list[str] | None, typer.Option("--unit", help="Unit of a column, such as depth=mm.", metavar="ROLE=UNIT")
     ] = None,
-    by_depth: Annotated[
-        bool, typer.Option("--by-depth", help="Sort the samples by depth: a digitised curve of one insertion.")
-    ] = False,
+    order: Annotated[
+        str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")
+    ] = "recorded",
+    needle: Annotated[
+        str | None,
+        typer.Option("--needle", help="For K06, such as diameter_mm=1.27,tip_angle_deg=20.", metavar="NAME=VALUE,..."),
+    ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Write a .png, .svg or .pdf.", metavar="FILE")] = None,
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for the fitted models, to feel them.", metavar="FOLDER")
@@ -48,13 +54,18 @@ def command(
         raise typer.BadParameter(f"must end in {', '.join(SUFFIXES)}", param_hint="--plot")
     if out is not None and out.exists() and not out.is_dir():
         raise typer.BadParameter(f"{out} is not a folder", param_hint="--out")
-    columns = {role: int(name) if name.isdigit() else name for role, name in _pairs(column, "--column").items()}
-    read = read_trace(trace, columns or None, _pairs(unit, "--unit") or None, order="depth" if by_depth else "recorded")
+    if order not in ("recorded", "depth"):
+        raise typer.BadParameter("must be recorded or depth", param_hint="--order")
+    read = read_trace(
+        trace, pairs(column, "--column"), pairs(unit, "--unit"), order="depth" if order == "depth" else "recorded"
+    )
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]
     with progress_bar("compare") as tell:
-        found = compare_trace(read, names, with_chatter=chatter, progress=tell)
+        found = compare_trace(
+            read, names, needle=needle_of(needle) if needle else None, with_chatter=chatter, progress=tell
+        )
     if plot is not None:
         save_figure(found, plot)
     if out is not None:
@@ -62,20 +73,11 @@ def command(
         for row in found.rows:
             if row.layers:
                 save_layers(out / f"{row.name}.json", row.layers)
+            elif row.scene is not None:
+                save_scene(row.scene, out / f"{row.name}.toml")
     if as_json:
         typer.echo(json.dumps(numbers(found), indent=2))
         return
     typer.echo(table(found))
     for note in notes(found):
         typer.echo(note)
-
-
-def _pairs(given: list[str] | None, option: str) -> dict[str, str]:
-    """{"depth": "mm"} from ["depth=mm"]."""
-    found = {}
-    for text in given or []:
-        role, equals, value = text.partition("=")
-        if not (equals and role and value):
-            raise typer.BadParameter(f"must be ROLE=VALUE, such as depth=mm, not {text}", param_hint=option)
-        found[role] = value
-    return found

@@ -72,8 +72,12 @@ def scene_of(layers: tuple[Layer, ...], name: str = "rivals") -> Scene:
     placed = [
         PlacedMembrane(f"layer {i + 1}", unused, _point(layer.surface - first), DOWN) for i, layer in enumerate(layers)
     ]
-    servo = ServoSettings(rate=RATE, conditioning="line_fit", encoder_step=COUNT)
-    return Scene(name, Needle(1.2e-3, 0.28), Coupling(400.0, 1.0), placed, servo)
+    return Scene(name, Needle(1.2e-3, 0.28), Coupling(400.0, 1.0), placed, device_settings())
+
+
+def device_settings() -> ServoSettings:
+    """A servo step for the encoders of a PHANTOM Omni."""
+    return ServoSettings(rate=RATE, conditioning="line_fit", encoder_step=COUNT)
 
 
 def places_of(surface: float, pop: float | None, deepest: float) -> list[float]:

@@ -8,16 +8,20 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura._core import Needle, Scene
 from punctura.errors import ConfigurationError, Problem
+from punctura.identify.noise import effective_samples
 from punctura.progress import Tell
 from punctura.rivals.chatter import Chatter, places_of, rival_chatter
 from punctura.rivals.fit import RivalFit, fit_rival
+from punctura.rivals.k06 import CHOSEN, PRINTED, K06Fit, fit_k06, k06_chatter
 from punctura.rivals.kinds import kinds
 from punctura.rivals.layers import Layer
-from punctura.trace import Segments, Trace, segment
-from punctura.trace.information import effective_samples, information
+from punctura.trace import Segments, Trace, TraceError, segment
+from punctura.trace.information import information
 
 Array = NDArray[np.float64]
+AnyFit = RivalFit | K06Fit
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,7 @@ class Row:
     rmse_share: float  # of the peak
     aic: float
     bic: float
-    held_out_rmse: float  # N, on blocks or insertions that the fit did not see
+    held_out_rmse: float  # N, on samples that the fit did not see; NaN if it was not measured
     first_rmse_share: float  # of the peak, fitted from contact to the first pop alone; NaN without a pop
     chatter: Chatter | None
     converged: bool
@@ -39,6 +43,7 @@ class Row:
     agreeing: int
     force: Array = field(repr=False)  # (n,), N, against the insertion
     layers: tuple[Layer, ...] = field(default=(), repr=False)  # of a rival
+    scene: Scene | None = field(default=None, repr=False)  # of K06
 
 
 @dataclass(frozen=True)
@@ -53,64 +58,97 @@ class TraceComparison:
 
     def row(self, name: str) -> Row:
         """Raises KeyError."""
-        return next(row for row in self.rows if row.name == name)
+        return {row.name: row for row in self.rows}[name]
 
 
 def compare_trace(
-    trace: Trace, names: Sequence[str] | None = None, *, with_chatter: bool = True, progress: Tell | None = None
+    trace: Trace,
+    names: Sequence[str] | None = None,
+    *,
+    needle: Needle | None = None,
+    with_chatter: bool = True,
+    progress: Tell | None = None,
 ) -> TraceComparison:
-    """Fits rivals to a trace and compares them. names: default: all.
+    """Fits rivals to a trace, and K06 if the needle is told, and compares them. names: default: all.
 
     Needs SciPy. Raises ConfigurationError for an unknown name, TraceError for a trace without an insertion.
     """
     known = kinds()
-    wanted = list(known) if names is None else list(names)
+    wanted = [*known, PRINTED] if names is None else list(names)
     for name in wanted:
-        if name not in known:
-            raise ConfigurationError([Problem("rival", name, f"must be one of {', '.join(known)}")])
+        if name not in known and name != PRINTED:
+            raise ConfigurationError([Problem("rival", name, f"must be one of {', '.join([PRINTED, *known])}")])
+    if names is not None and PRINTED in names and needle is None:
+        raise ConfigurationError([Problem("needle", "", "K06 needs the needle's diameter and tip angle")])
     segments = segment(trace)
     first = _first_stretch(trace, segments)
-    fits: list[RivalFit] = []
-    parts: list[RivalFit | None] = []
+    fits: list[AnyFit] = []
+    shares: dict[str, float] = {}  # of the first stretch
     for i, name in enumerate(wanted):
         if progress is not None:
             progress(i / len(wanted))
-        fits.append(fit_rival(known[name], trace, segments))
-        parts.append(None if first is None else fit_rival(known[name], first))
-    return _comparison(trace, segments, fits, parts, with_chatter)
+        if name in known:
+            fits.append(fit_rival(known[name], trace, segments))
+            if first is not None:
+                shares[name] = _share(fit_rival(known[name], first).residuals, first)
+        elif needle is not None:
+            fits += fit_k06(trace, needle)
+            shares |= {} if first is None else _k06_shares(first, needle)
+    return _comparison(trace, segments, fits, shares, with_chatter)
+
+
+def _k06_shares(first: Trace, needle: Needle) -> dict[str, float]:
+    """Of K06 on the first stretch, by name; the extended law is K06 itself if the stretch asks for no extension."""
+    try:
+        found = {fit.name: _share(fit.residuals, first) for fit in fit_k06(first, needle)}
+    except TraceError:  # a stretch that is too short for an identification
+        return {}
+    return {CHOSEN: found[PRINTED]} | found if PRINTED in found else found
+
+
+def _share(residuals: Array, trace: Trace) -> float:
+    return float(np.sqrt(np.mean(residuals**2)) / np.max(np.abs(trace.force)))
 
 
 def _comparison(
-    trace: Trace, segments: Segments, fits: list[RivalFit], parts: list[RivalFit | None], with_chatter: bool
+    trace: Trace, segments: Segments, fits: list[AnyFit], shares: dict[str, float], with_chatter: bool
 ) -> TraceComparison:
     peak = float(np.max(np.abs(trace.force)))
-    effective = effective_samples(min(fits, key=lambda fit: fit.rmse).residuals)
+    best = min(fits, key=lambda fit: float(np.sum(fit.residuals**2)))
+    effective = effective_samples(best.residuals, best.parameters)
     pop = segments.pops[0].depth if segments.pops else None
     rows = []
-    for fit, part in zip(fits, parts, strict=True):
+    for fit in fits:
         worth = information(fit.residuals, fit.parameters, effective)
-        places = places_of(fit.layers[0].surface, pop, float(trace.depth.max()))
+        places = places_of(fit.surface, pop, float(trace.depth.max()))
+        rival = fit if isinstance(fit, RivalFit) else None
+        rmse = float(np.sqrt(np.mean(fit.residuals**2)))
         rows.append(
             Row(
-                name=fit.kind.name,
-                title=fit.kind.title,
+                name=fit.name,
+                title=fit.title,
                 parameters=fit.parameters,
-                rmse=fit.rmse,
-                rmse_share=fit.rmse / peak,
+                rmse=rmse,
+                rmse_share=rmse / peak,
                 aic=worth.aic,
                 bic=worth.bic,
                 held_out_rmse=fit.held_out_rmse,
-                first_rmse_share=float("nan") if part is None else part.rmse / float(np.max(np.abs(part.measured))),
-                chatter=rival_chatter(fit.layers, places) if with_chatter else None,
-                converged=fit.converged,
-                starts=fit.starts,
-                agreeing=fit.agreeing,
+                first_rmse_share=shares.get(fit.name, float("nan")),
+                chatter=_chatter(fit, places) if with_chatter else None,
+                converged=rival.converged if rival else True,
+                starts=rival.starts if rival else 1,
+                agreeing=rival.agreeing if rival else 1,
                 force=fit.force,
-                layers=fit.layers,
+                layers=rival.layers if rival else (),
+                scene=fit.scene if isinstance(fit, K06Fit) else None,
             )
         )
     rows.sort(key=lambda row: (row.aic, row.rmse))
     return TraceComparison(trace, segments, peak, effective, tuple(rows))
+
+
+def _chatter(fit: AnyFit, places: list[float]) -> Chatter:
+    return rival_chatter(fit.layers, places) if isinstance(fit, RivalFit) else k06_chatter(fit.scene, places)
 
 
 def _first_stretch(trace: Trace, segments: Segments) -> Trace | None:

@@ -34,11 +34,15 @@ class RivalFit:
     agreeing: int  # of the starts, how many ended within 1 % of the least error
     starts: int
     held_out_rmse: float  # N, of blocks of samples that the fit did not see
+    surface: float  # m, of the first layer
 
     @property
-    def measured(self) -> Array:
-        """(n,), N, against the insertion."""
-        return self.force + self.residuals
+    def name(self) -> str:
+        return self.kind.name
+
+    @property
+    def title(self) -> str:
+        return self.kind.title
 
     @property
     def rmse(self) -> float:
@@ -64,10 +68,11 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
     at = _best_punctures(every, trace.force, x, at)
     x, converged = _solve(every, trace.force, x, at, 60)
     force = every.force(x, at)
+    layers = every.layers(x, at)
     best = min(costs)
     return RivalFit(
         kind=kind,
-        layers=every.layers(x, at),
+        layers=layers,
         parameters=every.parameters,
         force=force,
         residuals=trace.force - force,
@@ -75,6 +80,7 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
         agreeing=sum(cost <= 1.01 * best + 1e-12 for cost in costs),
         starts=len(costs),
         held_out_rmse=_held_out(few, trace.force[rows], few.inside(x * every.scale / few.scale), punctured),
+        surface=layers[0].surface,
     )
 
 

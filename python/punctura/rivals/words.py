@@ -30,7 +30,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         f"{100 * row.rmse_share:.2f}",
         _number(row.aic, ".1f"),
         _number(row.bic, ".1f"),
-        f"{row.held_out_rmse:.4f}",
+        _number(row.held_out_rmse, ".4f"),
         _number(100 * row.first_rmse_share, ".2f"),
         "-" if shake is None else f"{1e3 * shake.rest:.1f}",
         "-" if shake is None else f"{1e3 * shake.hand:.1f}",
@@ -51,6 +51,8 @@ def notes(comparison: TraceComparison) -> list[str]:
         found.append("AIC -: the model has more numbers than the trace has independent samples.")
     if any(not row.converged for row in comparison.rows):
         found.append("*: the fit ended at its limit of steps, not at an optimum.")
+    if not any(row.scene for row in comparison.rows):
+        found.append("K06 is not in the table: it needs the needle (--needle diameter_mm=...,tip_angle_deg=...).")
     alone = [row.title for row in comparison.rows if row.starts > 1 and row.agreeing == 1]
     if alone:
         found.append(f"Only one start led to the best fit, so there may be a better one: {', '.join(alone)}.")
@@ -78,7 +80,7 @@ def _entry(row: Row) -> dict[str, Any]:
         "rmse_share_of_peak": row.rmse_share,
         "aic": _finite(row.aic),
         "bic": _finite(row.bic),
-        "held_out_rmse_N": row.held_out_rmse,
+        "held_out_rmse_N": _finite(row.held_out_rmse),
         "first_stretch_rmse_share": _finite(row.first_rmse_share),
         "chatter_rest_N": None if row.chatter is None else row.chatter.rest,
         "chatter_hand_N": None if row.chatter is None else row.chatter.hand,

@@ -1,4 +1,7 @@
-"""How much a fit is worth: AIC and BIC for residuals that depend on their neighbours."""
+"""How much a fit is worth: AIC and BIC for residuals that depend on their neighbours.
+
+punctura.identify.noise.effective_samples() counts the independent samples.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-LARGEST = 0.9999  # of the autocorrelation
 
 
 @dataclass(frozen=True)
@@ -37,39 +39,8 @@ def information(residuals: ArrayLike, parameters: int, effective: float) -> Info
     return Information(len(left), parameters, effective, aic, level + counted * float(np.log(max(effective, 1.0))))
 
 
-def effective_samples(residuals: ArrayLike) -> float:
-    """How many independent samples say as much as these residuals (n,): n (1 - r) / (1 + r), at most n.
-
-    Neighbouring residuals of a smooth misfit are alike, so n samples say less than n independent ones. r is their
-    first-order autocorrelation, about 0, that makes them most likely. Raises ValueError.
-    """
-    left = _checked(residuals)
-    r = _autocorrelation(left)
-    return min(float(len(left)), len(left) * (1 - r) / (1 + r))
-
-
 def _checked(residuals: ArrayLike) -> Array:
     left = np.asarray(residuals, dtype=np.float64)
     if left.ndim != 1 or len(left) < 3 or not np.isfinite(left).all():
         raise ValueError("residuals must be at least three finite numbers")
     return left
-
-
-def _autocorrelation(left: Array) -> float:
-    """The autocorrelation with the largest likelihood, by golden section."""
-    low, high, golden = -LARGEST, LARGEST, (np.sqrt(5.0) - 1) / 2
-    for _ in range(60):
-        a, b = high - golden * (high - low), low + golden * (high - low)
-        if _log_likelihood(left, a) < _log_likelihood(left, b):
-            low = a
-        else:
-            high = b
-    return float((low + high) / 2)
-
-
-def _log_likelihood(left: Array, r: float) -> float:
-    """Of normal first-order autoregressive noise, with the variance that fits best."""
-    n, innovations = len(left), left[1:] - r * left[:-1]
-    squares = (1 - r * r) * float(left[0]) ** 2 + float(innovations @ innovations)
-    variance = max(squares / n, 1e-24)  # (1e-12 N)^2: below what double numbers resolve
-    return float(-0.5 * n * (np.log(2 * np.pi * variance) + 1) + 0.5 * np.log(1 - r * r))

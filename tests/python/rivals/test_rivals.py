@@ -8,11 +8,12 @@ import sys
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.identify.noise import effective_samples
 from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, fit_rival, kinds, load_layers, save_layers
 from punctura.rivals.chatter import places_of, rival_chatter
 from punctura.rivals.words import table
 from punctura.trace import Trace
-from punctura.trace.information import effective_samples, information
+from punctura.trace.information import information
 
 NOISE = 2e-3  # N
 TRUE = {
@@ -87,7 +88,7 @@ def test_two_pops_get_two_layers():
 def test_information_counts_independent_samples():
     rng = np.random.default_rng(5)
     white = rng.standard_normal(4000)
-    assert effective_samples(white) > 3600
+    assert effective_samples(white) > 3000
     smooth = np.convolve(white, np.ones(20) / 20, "same")
     assert effective_samples(smooth) < 400
     few, many = information(white, 3, 100), information(white, 8, 100)

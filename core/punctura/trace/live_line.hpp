@@ -1,0 +1,70 @@
+// A straight line through the force of the last stretch, with its uncertainty, sample by sample.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace punctura {
+
+/// Recursive least squares for force = level + slope (depth - present depth), with exponential forgetting over depth.
+///
+/// The uncertainty is that of independent noise about the line. A curved force adds to the noise; the bias that it
+/// gives is not included.
+class LiveLine {
+ public:
+  /// memory: length over which samples are forgotten, m. noise: smallest standard deviation of a sample, N.
+  LiveLine(double memory, double noise) noexcept : memory_(memory), noise_(noise) { reset(); }
+
+  void reset() noexcept {
+    level_ = slope_ = squares_ = weight_ = 0;
+    p00_ = 1e4;  // variances over that of a sample: (100)^2, and (1e6 / m)^2
+    p01_ = 0;
+    p11_ = 1e12;
+    samples_ = 0;
+  }
+
+  /// A sample of the force (N), `step` (m, 0 or more) behind the last one.
+  void add(double step, double force) noexcept {
+    const double keep =
+        std::max(std::exp(-step / memory_), 1e-6);  // after a jump of the depth, too, numbers stay finite
+    level_ = samples_ == 0 ? force : level_ + slope_ * step;
+    p00_ = (p00_ + step * (2 * p01_ + step * p11_)) / keep;
+    p01_ = (p01_ + step * p11_) / keep;
+    p11_ /= keep;
+    const double error = force - level_, total = p00_ + 1, gain0 = p00_ / total, gain1 = p01_ / total;
+    if (samples_ >= 2) {  // two samples give the line; the others say how well it fits
+      squares_ = keep * squares_ + error * error / total;
+      weight_ = keep * weight_ + 1;
+    }
+    level_ += gain0 * error;
+    slope_ += gain1 * error;
+    p11_ -= gain1 * p01_;
+    p01_ -= gain0 * p01_;
+    p00_ -= gain0 * p00_;
+    samples_ = std::min(samples_ + 1, 1e9);
+  }
+
+  bool ready() const noexcept { return weight_ >= 5; }  ///< whether the uncertainty is known
+  double level() const noexcept { return level_; }      ///< force at the last sample, N
+  double slope() const noexcept { return slope_; }      ///< N/m
+  double level_error() const noexcept { return sigma() * std::sqrt(std::max(p00_, 0.0)); }  ///< standard deviation, N
+  double slope_error() const noexcept { return sigma() * std::sqrt(std::max(p11_, 0.0)); }  ///< N/m
+  double at(double ahead) const noexcept { return level_ + slope_ * ahead; }  ///< force `ahead` of the last sample, N
+
+  static void archive(auto& self, auto& state) {
+    state.numbers(self.level_, self.slope_, self.p00_, self.p01_, self.p11_, self.squares_, self.weight_,
+                  self.samples_);
+    state.require(self.p00_ >= 0 && self.p11_ >= 0 && self.squares_ >= 0 && self.weight_ >= 0);
+  }
+  void describe(auto& parameters) const { parameters.numbers(memory_, noise_); }
+
+ private:
+  double sigma() const noexcept { return std::max(noise_, weight_ > 0 ? std::sqrt(squares_ / weight_) : noise_); }
+
+  double memory_, noise_;
+  double level_ = 0, slope_ = 0;
+  double p00_ = 0, p01_ = 0, p11_ = 0;  ///< covariance over the variance of a sample
+  double squares_ = 0, weight_ = 0, samples_ = 0;
+};
+
+}  // namespace punctura

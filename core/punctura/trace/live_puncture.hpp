@@ -1,0 +1,116 @@
+// Finds punctures while a needle goes in: a cumulative sum of how far the force has fallen.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace punctura {
+
+/// What the detector of punctures needs to know.
+struct LivePunctureSettings {
+  double noise = 4e-3;        ///< smallest standard deviation of the force from tick to tick, N
+  double least_drop = 0.06;   ///< smallest drop of a puncture, N
+  double least_share = 0.08;  ///< smallest drop as a share of the force before it
+  double limit = 10;          ///< of the cumulative sum, in standard deviations
+  double least_speed = 3e-4;  ///< slower needles make no puncture, m/s
+  double unloading = 2000;    ///< largest stiffness of a tissue or coupling that unloads, N/m
+};
+
+/// A cumulative sum (Page 1954) of (greatest force - force) / noise - slack, with at most 4 a tick, so that a single
+/// wrong tick is no puncture. The slack is half of the smallest drop, which is at least 8 standard deviations.
+///
+/// Two falls of the force are no punctures: when the needle draws back, the elastic unloading is added to the force
+/// again; when it rests, the greatest force follows the force (relaxation).
+class LivePuncture {
+ public:
+  explicit LivePuncture(const LivePunctureSettings& settings = {}) noexcept : settings_(settings) { reset(); }
+
+  void reset() noexcept {
+    started_ = falling_ = false;
+    depth_ = deepest_ = velocity_ = greatest_ = least_ = sum_ = force_ = calm_ = 0;
+    variance_ = settings_.noise * settings_.noise;
+    drop_ = 0;
+  }
+
+  /// One tick. depth: m, growing inwards. force: N, against the insertion. Returns true in the tick in which a puncture
+  /// is found.
+  bool step(double depth, double force, double period) noexcept {
+    if (!started_) {
+      started_ = true;
+      depth_ = deepest_ = depth;
+      force_ = calm_ = greatest_ = least_ = force;
+      return false;
+    }
+    const double share = -std::expm1(-period / smoothing);
+    velocity_ += share * ((depth - depth_) / period - velocity_);
+    const double jump = std::clamp(force - force_, -4 * noise(), 4 * noise());
+    variance_ += -std::expm1(-period / noise_memory) * (jump * jump / 2 - variance_);
+    depth_ = depth;
+    force_ = force;
+    calm_ += calming * (force - calm_);
+    deepest_ = std::max(deepest_, depth);
+
+    const double unloaded = settings_.unloading * (deepest_ - depth), held = force + unloaded;
+    if (falling_) return end_of_fall(force);
+    if (velocity_ < settings_.least_speed) {
+      sum_ = 0;
+      if (velocity_ < 0 && deepest_ - depth > far_back) deepest_ = depth + far_back;  // a withdrawal, not a tremor
+      greatest_ += share * (std::min(calm_, greatest_) - greatest_);
+      return false;
+    }
+    greatest_ = std::max(greatest_, calm_);
+    const double slack = std::max(4 * noise(), 0.5 * std::max(settings_.least_drop, settings_.least_share * greatest_));
+    sum_ = std::max(0.0, sum_ + std::min(4.0, (greatest_ - held - slack) / noise()));
+    if (sum_ < settings_.limit) return false;
+    falling_ = true;
+    least_ = force;
+    sum_ = 0;
+    drop_ = greatest_ - force;
+    return true;
+  }
+
+  bool falling() const noexcept { return falling_; }      ///< whether the drop is still going on
+  double drop() const noexcept { return drop_; }          ///< drop of the last puncture so far, N; 0 before the first
+  double calm_force() const noexcept { return calm_; }    ///< the force, smoothed over about four ticks, N
+  double velocity() const noexcept { return velocity_; }  ///< smoothed, m/s
+  double noise() const noexcept { return std::max(settings_.noise, std::sqrt(variance_)); }  ///< of a tick, N
+  const LivePunctureSettings& settings() const noexcept { return settings_; }
+
+  static void archive(auto& self, auto& state) {
+    state.flag(self.started_);
+    state.flag(self.falling_);
+    state.numbers(self.depth_, self.deepest_, self.velocity_, self.force_, self.calm_, self.greatest_, self.least_,
+                  self.sum_, self.variance_, self.drop_);
+    state.require(self.variance_ >= 0);
+  }
+  void describe(auto& parameters) const {
+    parameters.numbers(settings_.noise, settings_.least_drop, settings_.least_share, settings_.limit,
+                       settings_.least_speed, settings_.unloading);
+  }
+
+ private:
+  static constexpr double smoothing = 0.02;     ///< of the velocity, s
+  static constexpr double calming = 0.25;       ///< of the force, share of a tick
+  static constexpr double noise_memory = 0.25;  ///< s
+  static constexpr double far_back = 2e-4;      ///< more than a tremor, m
+
+  /// The drop ends when the force has risen again by a few standard deviations.
+  bool end_of_fall(double force) noexcept {
+    drop_ = std::max(drop_, greatest_ - force);
+    least_ = std::min(least_, force);
+    if (force > least_ + std::max(5 * noise(), 0.25 * settings_.least_drop) || velocity_ < settings_.least_speed) {
+      falling_ = false;
+      greatest_ = calm_;
+      deepest_ = depth_;
+    }
+    return false;
+  }
+
+  LivePunctureSettings settings_;
+  bool started_ = false, falling_ = false;
+  double depth_ = 0, deepest_ = 0, velocity_ = 0, force_ = 0, calm_ = 0;
+  double greatest_ = 0, least_ = 0, sum_ = 0, variance_ = 0, drop_ = 0;
+};
+
+}  // namespace punctura
