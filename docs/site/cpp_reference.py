@@ -106,7 +106,7 @@ def entry(node: Node, comment: str, owner: str, prefix: str = "") -> Iterator[En
         if body is None or name is None:
             return
         head = squeeze(text[: body.start_byte - node.start_byte])
-        head = re.sub(r"^(class|struct)\s+", "", head)
+        head = re.sub(r"^(class|struct)\s+(alignas\(\w+\)\s+)?", "", head)  # Sphinx does not read alignas
         members = tuple(entries(body, node.type == "struct_specifier", (name.text or b"").decode()))
         yield Entry(CLASSES[node.type], f"{prefix} {head}".strip(), comment, members)
     elif node.type == "enum_specifier":

@@ -41,7 +41,8 @@ inline TissueCase random_tissue(Noise& noise, double thinnest = 1e-4) {
       for (int i = 0; i < points; ++i, grip += between(noise, 0, 0.2))
         t.grip_table.push_back({1.1 * w * i / points, grip});
     } else {
-      for (const Knot& knot : random_profile(noise).used()) t.profile.push_back(knot);
+      const auto profile = random_profile(noise);
+      for (const Knot& knot : profile.used()) t.profile.push_back(knot);
       t.profile[0].depth = 0;
     }
     std::vector<Problem> problems;
