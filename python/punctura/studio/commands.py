@@ -40,6 +40,8 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return lambda session: session.reset()
         case ask.Compare():
             return lambda session: session.set_compare(request.on)
+        case ask.Estimate():
+            return lambda session: session.set_estimate(request.on)
         case ask.Strokes():
             return lambda session: _strokes(session, request.period)
         case ask.PushPlunger():

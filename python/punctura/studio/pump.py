@@ -12,6 +12,7 @@ from punctura import Phase, Scene
 from punctura._core import Fault
 from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
+from punctura.studio.estimating import Estimator
 from punctura.studio.fault_words import fault_words
 from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.laws import TURN, Vector, law_curves, obliquities
@@ -44,6 +45,7 @@ class Pump:
         self._fault = 0
         self._finder = EventFinder(run.loop.scene, run.rate)
         self._other: OtherSolver | None = None
+        self._estimator: Estimator | None = None
         self._tell_scene: Callable[[], None] | None = None  # called when a tick has taken the new scene
         self._axis: Vector = np.array(run.pose[1])
         self._entered: Vector | None = None
@@ -67,6 +69,8 @@ class Pump:
         self._watch_axis(ticks)
         for event in self._finder.add(ticks):
             self._out.say(MembraneEvent(**event.model_dump()))
+        if self._estimator and (told := self._estimator.add(ticks)):
+            self._out.say(told)
         return ticks
 
     def change(self, scene: Scene, tell: Callable[[], None]) -> Ticks | None:
@@ -81,6 +85,10 @@ class Pump:
         """Turns the comparison with the other solver on or off."""
         self._other = OtherSolver(self._run.loop.scene) if on else None
 
+    def estimate(self, on: bool) -> None:
+        """Turns the live estimate on or off."""
+        self._estimator = Estimator(self._run.loop.scene, self._run.rate) if on else None
+
     def laws(self) -> list[LawCurve]:
         """The laws of the present scene, for the present direction of the needle."""
         scene = self._run.loop.scene
@@ -93,6 +101,8 @@ class Pump:
             tell()
             if self._other:
                 self._other.take(self._run.loop.scene)
+            if self._estimator:
+                self._estimator.change(self._run.loop.scene)
 
     def _send(self, part: Ticks) -> None:
         first = int(part.tick[0])

@@ -9,6 +9,7 @@ from punctura.record import RecorderStatus
 from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
 from punctura.studio.defects import Defects
+from punctura.studio.estimating import no_estimate
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
 from punctura.studio.jobs import Jobs
@@ -40,7 +41,7 @@ class Runs:
         self.activities = Activities(out, self.jobs.post)
         self.defects = Defects(out)
         self.recording = ""  # the name of the present recording
-        self.compare = False
+        self.compare = self.estimate = False
         self.takes = Takes()
 
     def watch(self) -> None:
@@ -106,6 +107,12 @@ class Runs:
         self.compare = on
         self.pump.compare(on)
 
+    def set_estimate(self, on: bool) -> None:
+        self.estimate = on
+        self.pump.estimate(on)
+        if not on:
+            self.out.say(no_estimate())
+
     def end_run(self, then: Then | None = None) -> None:
         """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
         self.run.stop()
@@ -131,6 +138,7 @@ class Runs:
         """Starts the present run, which has not ticked yet."""
         self.pump = Pump(self.run, self.out, self.kept_ticks)
         self.pump.compare(self.compare)
+        self.pump.estimate(self.estimate)
         self.hand.take(self.run.loop.device, self.run.pose)
         self.arm()
         self.out.say(no_fault())

@@ -149,6 +149,19 @@ def test_the_other_solver_runs_beside_and_begins_equal(page):
     page.wait(lambda: "other_force" not in page.last.ticks)
 
 
+def test_the_live_estimate_finds_the_pop_that_the_law_tells(page):
+    assert page.ask(do="estimate", on=True)["ok"]
+    assert page.ask(do="strokes", period=2.0)["ok"]
+    found = page.wait(lambda: [f for e in page.of("estimate") for f in e["found"]])
+    pop = page.wait(lambda: next((e for e in page.of("event") if e["what"] == "pop"), None))
+    assert abs(found[0]["tick"] - pop["tick"]) < 160  # 0.1 s
+    told = page.wait(lambda: next((e for e in page.of("estimate") if e["plateau"]), None))
+    assert told["on"] and told["phase"] == "behind" and told["punctures"] >= 1
+    assert told["plateau"]["half"] > 0
+    assert page.ask(do="estimate", on=False)["ok"]
+    page.wait(lambda: page.of("estimate")[-1]["on"] is False)
+
+
 def test_a_scene_is_loaded_by_name_and_by_text_as_a_new_run(page):
     assert page.ask(do="load", scene="venipuncture")["ok"]
     scene = page.of("scene")[-1]

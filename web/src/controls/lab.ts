@@ -1,5 +1,6 @@
 import { element, type Panel } from "../panel.ts";
 import type { ExerciseResult, RecordingEntry } from "../wire/files.ts";
+import { estimatePart } from "./lab/estimate.ts";
 import { compute, type Job } from "./lab/job.ts";
 import { pickRuns } from "./lab/pick.ts";
 import { openComparison } from "./lab/result.ts";
@@ -39,7 +40,7 @@ export const labPanel: Panel = (host, app) => {
   };
   const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
   const vary = varyForm((job) => void start(job, `${job.path} varied`));
-  host.append(picked.root, vary.root, progress, trouble);
+  host.append(picked.root, vary.root, progress, trouble, estimatePart(app));
 
   const refresh = async (): Promise<void> => {
     try {

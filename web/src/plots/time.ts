@@ -123,7 +123,8 @@ export const timePlots: Panel = (host, app) => {
     const { from, to, first, end } = plots.update();
     const { source } = plots;
     const { history } = source;
-    const counts = `${changes} ${surface.sizes} ${history.generation} ${source.events.value.length}`;
+    const marks = source.events.value.length + source.punctures.value.length;
+    const counts = `${changes} ${surface.sizes} ${history.generation} ${marks}`;
     const backState = `${counts} ${from} ${to} ${source.live}`;
     const state = `${backState} ${surface.changes} ${first} ${end} ${source.cursor.value} ${source.pointed.value}`;
     if (state === seen) return;

@@ -13,7 +13,7 @@ import type { Pen, Stroke } from "./kit/pen.ts";
 import { Polyline } from "./kit/polyline.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
 import { drawReading } from "./reading.ts";
-import { drawLimits, drawMarks, drawStates, limitCurve } from "./time_marks.ts";
+import { drawFound, drawLimits, drawMarks, drawStates, foundCurve, limitCurve } from "./time_marks.ts";
 import type { Window } from "./window.ts";
 
 const MM = 1e3;
@@ -46,6 +46,7 @@ export const timeCurves = ({ source, window, comparison }: TimePicture, theme: T
   ...forceCurves(source, window.first, window.end, theme),
   ...thumbCurve(source, theme),
   ...limitCurve(source.history, window, theme),
+  ...foundCurve(source, window, theme),
   ...meanCurve(comparison, theme),
 ];
 
@@ -115,6 +116,7 @@ export class TimeDrawing {
     drawAxes(pen, this.force, theme, { y: "force (N)" });
     drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
     drawMarks(pen, this.force, this.depth, source, window, theme);
+    if (hidden.shows("found")) drawFound(pen, this.force, this.depth, source, window, theme);
     this.drawMeans(pen, picture, theme);
     this.drawLines(pen, picture, window.first, window.end, theme);
   }

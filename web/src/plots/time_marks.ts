@@ -68,6 +68,29 @@ export function limitCurve(history: History, window: Window, theme: Theme): Curv
   return any ? [{ id: "cut", text: "cut by a limit", colour: theme.danger, shade: CUT_SHADE }] : [];
 }
 
+const FOUND_DASH = [1, 3] as const;
+const foundIn = (source: Source, window: Window): readonly number[] =>
+  source.punctures.value.filter((tick) => tick >= window.first && tick < window.end);
+
+/** Marks the punctures that the live estimate found: a dotted line and a triangle at the top of the force pane. */
+export function drawFound(pen: Pen, force: Pane, depth: Pane, source: Source, window: Window, theme: Theme): void {
+  const { left, top, width } = force;
+  pen.within(left, top, width, depth.bottom - top, () => {
+    for (const tick of foundIn(source, window)) {
+      const x = force.x.px(source.history.timeOf(tick));
+      pen.segment(x, top, x, depth.bottom, { colour: theme.accent, width: 1.5, dash: FOUND_DASH });
+      for (let row = 0; row < 5; row++)
+        pen.segment(x - 5 + row, top + row + 0.5, x + 5 - row, top + row + 0.5, { colour: theme.accent, width: 1 });
+    }
+  });
+}
+
+/** The legend entry for drawFound's marks, if the window has any. */
+export const foundCurve = (source: Source, window: Window, theme: Theme): Curve[] =>
+  foundIn(source, window).length > 0
+    ? [{ id: "found", text: "puncture found by the estimate", colour: theme.accent, dash: FOUND_DASH }]
+    : [];
+
 /** Marks pops with the drop of the force, and contact and exit with a notch on the zero line. */
 export function drawMarks(pen: Pen, force: Pane, depth: Pane, source: Source, window: Window, theme: Theme): void {
   const inside = source.events.value.filter((event) => event.tick >= window.first && event.tick < window.end);

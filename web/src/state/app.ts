@@ -3,6 +3,7 @@ import { Api } from "../wire/api.ts";
 import type { GoalLine, LabComparison } from "../wire/files.ts";
 import type {
   Control,
+  EstimateMessage,
   ExerciseStatus,
   FaultMessage,
   Hello,
@@ -33,6 +34,8 @@ export class App {
   readonly control = new Signal<Control>({ kind: "control", holder: null, you: false, hand: null });
   readonly status = new Signal<Status | null>(null);
   readonly fault = new Signal<FaultMessage | null>(null);
+  /** The live estimate; null while it is off. */
+  readonly estimate = new Signal<EstimateMessage | null>(null);
   readonly recording = new Signal<RecordingStatus | null>(null);
   readonly exercise = new Signal<ExerciseStatus | null>(null);
   /** What the running exercise asks to reach; null without one, and in a blind one. */
@@ -110,6 +113,7 @@ export class App {
         if (message.new_run) {
           this.live.history.clear(message.scene.membranes.length);
           this.live.events.value = [];
+          this.live.punctures.value = [];
           this.live.pointed.value = null;
         }
         this.run.value = message.run;
@@ -130,6 +134,13 @@ export class App {
         break;
       case "event":
         this.live.events.value = [...this.live.events.value, message].slice(-500);
+        break;
+      case "estimate":
+        this.estimate.value = message.on ? message : null;
+        if (message.found.length > 0) {
+          const ticks = message.found.map(({ tick }) => tick);
+          this.live.punctures.value = [...this.live.punctures.value, ...ticks].slice(-500);
+        }
         break;
       case "recording":
         this.recording.value = message.name ? message : null;

@@ -14,6 +14,7 @@ export function frozenCopy(source: Source): Source {
   copy.scene.value = source.scene.value;
   copy.laws.value = source.laws.value;
   copy.events.value = source.events.value;
+  copy.punctures.value = source.punctures.value;
   copy.cursor.value = source.present();
   return copy;
 }

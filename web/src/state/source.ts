@@ -17,6 +17,8 @@ export class Source {
   readonly scene = new Signal<SceneView | null>(null);
   readonly laws = new Signal<readonly LawCurve[]>([]);
   readonly events = new Signal<readonly MembraneEvent[]>([]);
+  /** The ticks in which the live estimate found a puncture. */
+  readonly punctures = new Signal<readonly number[]>([]);
   readonly history: History;
   /** The tick at which the timeline stands; null: it follows the last tick. */
   readonly cursor = new Signal<number | null>(null);

@@ -8,6 +8,7 @@ export type Message =
   | Status
   | FaultMessage
   | MembraneEvent
+  | EstimateMessage
   | RecordingStatus
   | ExerciseStatus
   | Reply
@@ -25,6 +26,7 @@ export type Request =
   | Load
   | LoadText
   | Compare
+  | Estimate
   | StartRecording
   | StopRecording
   | StartExercise
@@ -245,6 +247,34 @@ export interface MembraneEvent {
   force_after: number;
   drop: number;
 }
+/**
+ * The live estimate: what depth and force alone tell. Four times a second while it is on.
+ */
+export interface EstimateMessage {
+  kind: "estimate";
+  on: boolean;
+  phase: "free" | "rise" | "behind";
+  slope: Estimated | null;
+  plateau: Estimated | null;
+  punctures: number;
+  drop: number;
+  ignored: number;
+  found: FoundPuncture[];
+}
+/**
+ * A value and half of its 95 % interval, SI.
+ */
+export interface Estimated {
+  value: number;
+  half: number;
+}
+/**
+ * A puncture that the live estimate found.
+ */
+export interface FoundPuncture {
+  tick: number;
+  depth: number;
+}
 export interface RecordingStatus {
   kind: "recording";
   name: string;
@@ -403,6 +433,14 @@ export interface LoadText {
 export interface Compare {
   id: number;
   do: "compare";
+  on: boolean;
+}
+/**
+ * Estimates slope, friction and punctures of the run from depth and force alone, for display only.
+ */
+export interface Estimate {
+  id: number;
+  do: "estimate";
   on: boolean;
 }
 /**

@@ -8,6 +8,7 @@ const KINDS: Readonly<Record<Message["kind"], true>> = {
   status: true,
   fault: true,
   event: true,
+  estimate: true,
   recording: true,
   exercise: true,
   reply: true,

@@ -178,6 +178,16 @@ describe("force and depth against time", () => {
     expect(file).toContain(">fault<");
   });
 
+  it("a puncture that the live estimate found has a mark, and the legend says what it means", () => {
+    const from = source();
+    const found = "puncture found by the estimate";
+    const before = drawn(from).file.split('stroke="navy"').length;
+    expect(drawn(from).names).not.toContain(found);
+    from.punctures.value = [SPIKE];
+    expect(drawn(from).names).toContain(found);
+    expect(drawn(from).file.split('stroke="navy"').length).toBeGreaterThan(before);
+  });
+
   it("a force that a limit cuts has a shade, and the legend says what it means", () => {
     const { file, names } = drawn(source({ limit: (tick) => [tick > 10_000 ? 3 : 1] }));
     expect(file).toContain(">long-run limit<");

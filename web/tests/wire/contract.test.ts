@@ -38,13 +38,15 @@ describe("a frame of the contract", () => {
 
 it("has one of each kind of message and request that the page has a type for", () => {
   const kinds: Record<Message["kind"], true> = {
-    hello: true, scene: true, laws: true, control: true, status: true, fault: true, event: true, recording: true,
+    hello: true, scene: true, laws: true, control: true, status: true, fault: true, event: true,
+    estimate: true, recording: true,
     exercise: true, reply: true, notice: true,
   }; // biome-ignore format: a table
   const requests: Record<Request["do"], true> = {
     take_control: true, arm: true, pause: true, reset: true, target: true, strokes: true,
     push_plunger: true, play_motion: true, edit: true,
-    load: true, load_text: true, compare: true, start_recording: true, stop_recording: true, start_exercise: true,
+    load: true, load_text: true, compare: true, estimate: true,
+    start_recording: true, stop_recording: true, start_exercise: true,
     set_expert: true,
     check_exercise: true,
     try_exercise: true,

@@ -143,6 +143,34 @@ class MembraneEvent(Part):
     drop: Finite  # N
 
 
+class Estimated(Part):
+    """A value and half of its 95 % interval, SI."""
+
+    value: Finite
+    half: Finite
+
+
+class FoundPuncture(Part):
+    """A puncture that the live estimate found."""
+
+    tick: int
+    depth: Finite  # m, below the first surface
+
+
+class EstimateMessage(Part):
+    """The live estimate: what depth and force alone tell. Four times a second while it is on."""
+
+    kind: Literal["estimate"] = "estimate"
+    on: bool
+    phase: Literal["free", "rise", "behind"]  # no force yet; a membrane in contact; behind a puncture
+    slope: Estimated | None  # of the force of the membrane in contact, N/m
+    plateau: Estimated | None  # friction behind the last puncture, N
+    punctures: int  # in this run
+    drop: Finite  # N, of the last puncture
+    ignored: int  # samples that were no numbers
+    found: list[FoundPuncture]  # since the last message
+
+
 class RecordingStatus(Part):
     kind: Literal["recording"] = "recording"
     name: str  # empty without a recording
@@ -192,8 +220,8 @@ class Notice(Part):
 
 
 Message = Annotated[
-    Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | RecordingStatus
-    | ExerciseStatus | Reply | Notice,
+    Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | EstimateMessage
+    | RecordingStatus | ExerciseStatus | Reply | Notice,
     Field(discriminator="kind"),
 ]  # fmt: skip
 

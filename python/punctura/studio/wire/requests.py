@@ -96,6 +96,13 @@ class Compare(_Request):
     on: bool
 
 
+class Estimate(_Request):
+    """Estimates slope, friction and punctures of the run from depth and force alone, for display only."""
+
+    do: Literal["estimate"] = "estimate"
+    on: bool
+
+
 class StartRecording(_Request):
     """Starts a new run and records it, so that it can be replayed bit for bit. The default name is date and scene."""
 
@@ -168,12 +175,12 @@ class TripFault(_Request):
 
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
-    | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip

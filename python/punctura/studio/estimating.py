@@ -1,0 +1,59 @@
+"""The live estimate of a run in the studio: what depth and force alone tell of the membrane in contact."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from punctura import LiveEstimate, Scene
+from punctura.studio.wire.messages import Estimated, EstimateMessage, FoundPuncture
+from punctura.ticks import Ticks
+
+TELL_EVERY_S = 0.25
+INTERVAL = 1.96  # standard deviations on either side of a 95 % interval
+
+
+class Estimator:
+    """Takes the ticks of one run. Depth and force are those of the model: along the first membrane's normal and along
+    the needle."""
+
+    def __init__(self, scene: Scene, rate: float) -> None:
+        self._period = 1 / rate
+        self._live = LiveEstimate()
+        self._told = -np.inf  # time of the last message, s
+        self.change(scene)
+
+    def change(self, scene: Scene) -> None:
+        """The run goes on with another scene."""
+        normal = np.asarray(scene.membranes[0].inward_normal)
+        self._normal = normal / np.linalg.norm(normal)
+        self._point = np.asarray(scene.membranes[0].point)
+
+    def add(self, ticks: Ticks) -> EstimateMessage | None:
+        """The message for the pages, if one is due or a puncture was found."""
+        depth = (ticks.tip - self._point) @ self._normal
+        force = -np.sum(ticks.model_force * ticks.axis, axis=1)
+        found = np.flatnonzero(self._live.run(depth, force, self._period)["punctured"])
+        now = float(ticks.time[-1])
+        if not len(found) and 0 <= now - self._told < TELL_EVERY_S:
+            return None
+        self._told = now
+        live = self._live
+        return EstimateMessage(
+            on=True,
+            phase=live.phase,
+            slope=_estimated(live.slope),
+            plateau=_estimated(live.plateau),
+            punctures=live.punctures,
+            drop=live.drop,
+            ignored=live.ignored,
+            found=[FoundPuncture(tick=int(ticks.tick[i]), depth=float(depth[i])) for i in found],
+        )
+
+
+def no_estimate() -> EstimateMessage:
+    """Nothing is estimated."""
+    return EstimateMessage(on=False, phase="free", slope=None, plateau=None, punctures=0, drop=0.0, ignored=0, found=[])
+
+
+def _estimated(value: tuple[float, float] | None) -> Estimated | None:
+    return None if value is None else Estimated(value=value[0], half=INTERVAL * value[1])
