@@ -54,6 +54,7 @@ ROOMS = (
     "python/punctura/reproduce",
     "python/punctura/rivals",
     "python/punctura/compare",
+    "python/punctura/study",
     "python/punctura/studio/wire",
     "python/punctura/studio",
     "python/punctura/cli",

@@ -13,7 +13,7 @@ PACKAGES = [
     "punctura.exercise", "punctura.reproduce",
     "punctura.rivals", "punctura.trace", "punctura.identify",
     "punctura.mujoco",
-    "punctura.gym",
+    "punctura.gym", "punctura.study",
 ]  # fmt: skip
 
 

@@ -10,13 +10,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from punctura._core import Experiment, Fault, Hand, Plant, RecordedMotion, Scene, Strokes
+from punctura._core import Experiment, Fault, Hand, Plant, RecordedMotion, Scene, SimulatedDevice, Strokes
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 Array = npt.NDArray[np.float64]
 Motion = Strokes | RecordedMotion | Array
+_OF_RUN = ("peak", "felt_peak", "depth", "work", "dwell", "limited")
+_OF_MEMBRANE = ("pops", "first_pop", "drop", "overshoot")
+
+
+def result_names(membranes: int) -> list[str]:
+    """The columns of results in `BatchResult.to_arrow`."""
+    return [*_OF_RUN, *(f"{name}[{j}]" for name in _OF_MEMBRANE for j in range(membranes)), "fault"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,11 +69,26 @@ class BatchResult:
         """Run i alone, to see each of its ticks. Raises ValueError for a run along positions."""
         if not isinstance(self.motion, Strokes | RecordedMotion):
             raise ValueError("a run along positions has no hand: use punctura.simulate(result.scene(i), positions)")
-        motion = self.motion
+        return Experiment(self.scene(i), *self._operator(self.motion, i), int(self.seeds[i]), list(self.axis))
+
+    def device(self, i: int, ticks: int) -> SimulatedDevice:
+        """The simulated device of run i, as fast as possible: a ServoLoop on it makes the ticks of `experiment`.
+
+        ticks: number of ticks after which it ends. Raises ValueError for a run along positions.
+        """
+        if not isinstance(self.motion, Strokes | RecordedMotion):
+            raise ValueError("a run along positions has no device")
+        motion, plant, hand = self._operator(self.motion, i)
+        rate, seed, axis = self.scene(i).servo.rate, int(self.seeds[i]), list(self.axis)
+        return SimulatedDevice(
+            motion, plant, hand, rate=rate, seed=seed, real_time=False, ticks=ticks, axis=axis, priority=0
+        )
+
+    def _operator(self, motion: Strokes | RecordedMotion, i: int) -> tuple[Strokes | RecordedMotion, Plant, Hand]:
         if isinstance(motion, Strokes):
             motion = motion.replace(**self._values("strokes.", i))
         plant, hand = self.plant.replace(**self._values("plant.", i)), self.hand.replace(**self._values("hand.", i))
-        return Experiment(self.scene(i), motion, plant, hand, int(self.seeds[i]), list(self.axis))
+        return motion, plant, hand
 
     def to_arrow(self) -> pa.Table:
         """A table with one row for each run: what differs, the seed, the results. "drop[0]" is that of membrane 0."""
@@ -74,9 +96,9 @@ class BatchResult:
 
         columns: dict[str, npt.NDArray[np.generic]] = dict(self.vary)
         columns["seed"] = self.seeds
-        for name in ("peak", "felt_peak", "depth", "work", "dwell", "limited"):
+        for name in _OF_RUN:
             columns[name] = getattr(self, name)
-        for name in ("pops", "first_pop", "drop", "overshoot"):
+        for name in _OF_MEMBRANE:
             for j, column in enumerate(getattr(self, name).T):
                 columns[f"{name}[{j}]"] = np.ascontiguousarray(column)
         table = {name: pa.array(column, from_pandas=column.dtype.kind == "f") for name, column in columns.items()}

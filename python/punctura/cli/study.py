@@ -1,0 +1,56 @@
+"""`punctura study`: many trials of a scene whose numbers follow a plan file."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from punctura.live import Ended
+from punctura.progress import progress_bar
+
+
+def command(
+    plan: Annotated[Path, typer.Argument(help="The plan of the study, TOML (docs/study.md).", metavar="PLAN")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for the results. Default: PLAN with .study for .toml.", metavar="DIR"),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, help="Number of threads. Default: one for each processor.")
+    ] = None,
+    replay: Annotated[
+        int | None,
+        typer.Option("--replay", min=0, help="Run this row again: its scene and recording go to --out.", metavar="ROW"),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Runs a parameter study: grid, Latin hypercube, Sobol or Monte Carlo.
+
+    Writes one row for each trial and a report. After an interruption, the same command goes on with the missing trials.
+    """
+    from punctura.study import load_plan, replay_row, run_study
+
+    loaded = load_plan(plan)
+    folder = out or plan.with_suffix(".study")
+    if replay is not None:
+        scene, recording = replay_row(loaded, replay, folder)
+        told = {"scene": str(scene), "recording": str(recording)}
+        typer.echo(json.dumps(told, indent=2) if as_json else f"{scene}\n{recording}: punctura replay opens it")
+        return
+    try:
+        with progress_bar("study") as tell:
+            summary = run_study(loaded, folder, workers, tell)
+    except (KeyboardInterrupt, Ended):
+        typer.echo(f"punctura: {folder} keeps the finished chunks: the same command goes on with the others", err=True)
+        raise
+    if as_json:
+        typer.echo(json.dumps(asdict(summary), indent=2))
+        return
+    typer.echo(f"{summary.table}: {summary.trials} trials, of them {summary.kept} from before")
+    if summary.faults:
+        typer.echo(f"  a fault ended {summary.faults} trials: column fault")
+    typer.echo(summary.report)

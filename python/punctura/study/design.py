@@ -1,0 +1,86 @@
+"""The values and the seed of each trial of a plan."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from punctura.batches import grid
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.extras import optional
+from punctura.study.plan import MOST_TRIALS, Plan
+from punctura.study.schema import VariableTable
+
+Array = npt.NDArray[np.float64]
+
+
+class Design(NamedTuple):
+    """The trials: values by path, each (n,), SI, and seeds (n,)."""
+
+    values: dict[str, Array]
+    seeds: npt.NDArray[np.uint64]
+
+    def part(self, begin: int, end: int) -> Design:
+        """The trials from `begin` up to `end`."""
+        return Design({path: column[begin:end] for path, column in self.values.items()}, self.seeds[begin:end])
+
+
+def design(plan: Plan) -> Design:
+    """The trials of a plan. The same plan gives the same trials. Raises ConfigurationError for too many."""
+    file = plan.file
+    seeds = np.uint64(file.seed) + np.arange(trials_of(plan), dtype=np.uint64)
+    if file.method == "grid":
+        values = {one.path: [float(v) for v in one.values or ()] for one in plan.variables}
+        return Design(grid(values), seeds)
+    n, count = file.samples or 0, len(plan.variables)
+    optional("scipy", "study", "punctura study")
+    from scipy.stats import qmc
+
+    if file.method == "monte_carlo":
+        shares = np.random.default_rng(file.seed).random((n, count))
+    elif file.method == "latin_hypercube":
+        shares = qmc.LatinHypercube(count, seed=file.seed).random(n)
+    else:
+        both = qmc.Sobol(2 * count, seed=file.seed).random(n)
+        a, b = both[:, :count], both[:, count:]
+        mixed = [np.where(np.arange(count) == k, b, a) for k in range(count)]
+        shares = np.concatenate([a, b, *mixed])
+        # A trial of a mixed matrix has the hand's randomness of its row in A: it differs from it in one variable only.
+        seeds = np.concatenate([seeds[: 2 * n], *[seeds[:n]] * count])
+    columns = {one.path: _drawn(one, shares[:, k]) for k, one in enumerate(plan.variables)}
+    return Design(columns, seeds)
+
+
+def trials_of(plan: Plan) -> int:
+    """The number of trials. Raises ConfigurationError if there are too many."""
+    count = len(plan.variables)
+    if plan.file.method == "grid":
+        n = int(np.prod([float(len(one.values or ())) for one in plan.variables]))
+    else:
+        n = (plan.file.samples or 0) * (count + 2 if plan.file.method == "sobol" else 1)
+    if n > MOST_TRIALS:
+        raise ConfigurationError([Problem("", MISSING, f"has {n} trials; at most {MOST_TRIALS}")], str(plan.path))
+    return n
+
+
+def _drawn(one: VariableTable, shares: Array) -> Array:
+    """Numbers of a distribution from shares in [0, 1), by its inverse; low and high cut the distribution off."""
+    from scipy import stats
+
+    def number(key: str) -> float:
+        return float(getattr(one, key))
+
+    if one.distribution == "uniform":
+        low, high = number("low"), number("high")
+        return np.ascontiguousarray(low + shares * (high - low))
+    law: Any = (
+        stats.norm(number("mean"), number("sd"))
+        if one.distribution == "normal"
+        else stats.lognorm(number("sigma"), scale=number("median"))
+    )
+    begin = 0.0 if one.low is None else float(law.cdf(number("low")))
+    end = 1.0 if one.high is None else float(law.cdf(number("high")))
+    inside = np.clip(begin + shares * (end - begin), 2.0**-60, 1 - 2.0**-53)
+    return np.ascontiguousarray(law.ppf(inside))

@@ -1,0 +1,104 @@
+"""The folder of a study: its chunks, the table of all trials, and the lock."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from punctura import PuncturaError
+from punctura.files.whole_file import whole_file, write_whole
+from punctura.record.lock import lock
+
+TABLE = "trials.parquet"
+
+
+class StudyError(PuncturaError):
+    """A study cannot be run or replayed; the text says why and what to do."""
+
+
+class Folder:
+    """The files of one study. Every file appears only when it is complete."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.table = path / TABLE
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """Only one run at a time may use the folder. Raises StudyError."""
+        self.path.mkdir(parents=True, exist_ok=True)
+        descriptor = os.open(self.path / "lock", os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            if lock(descriptor) is False:
+                raise StudyError(f"{self.path}: another run of this study is going on; wait for it")
+            yield
+        except OSError as error:
+            if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+                raise
+            raise StudyError(
+                f"{error.filename or self.path}: the disk is full. Finished chunks are kept: free some space and give "
+                "the same command again"
+            ) from None
+        finally:
+            os.close(descriptor)
+
+    def claim(self, digest: str) -> None:
+        """Marks the folder as that of one plan. Raises StudyError if it holds the trials of another one."""
+        mark = self.path / "study.json"
+        if mark.exists():
+            try:
+                known = json.loads(mark.read_bytes()).get("digest")
+            except (ValueError, AttributeError):
+                known = None
+            if known != digest:
+                raise StudyError(
+                    f"{self.path} holds the trials of another plan, scene or version of Punctura: give another --out, "
+                    "or delete this folder"
+                )
+            return
+        write_whole(mark, json.dumps({"digest": digest}).encode())
+
+    def chunk(self, number: int) -> Path:
+        return self.path / f"chunk-{number:06}.parquet"
+
+    def has(self, number: int, rows: int) -> bool:
+        """Whether a chunk is there, complete."""
+        return self._rows(self.chunk(number)) == rows
+
+    def is_complete(self, rows: int) -> bool:
+        """Whether the table of all trials is there."""
+        return self._rows(self.table) == rows
+
+    def save(self, number: int, table: pa.Table) -> None:
+        """Writes a chunk."""
+        sink = pa.BufferOutputStream()
+        pq.write_table(table, sink)
+        write_whole(self.chunk(number), sink.getvalue().to_pybytes())
+
+    def join(self, chunks: int) -> None:
+        """Writes the table of all trials from the chunks, in order, and deletes the chunks."""
+        with (
+            whole_file(self.table) as place,
+            pq.ParquetWriter(place, pq.read_schema(self.chunk(0))) as writer,
+        ):
+            for number in range(chunks):
+                writer.write_table(pq.read_table(self.chunk(number)))
+        self.drop_chunks()
+
+    def drop_chunks(self) -> None:
+        for path in self.path.glob("chunk-*.parquet"):
+            path.unlink()
+
+    @staticmethod
+    def _rows(path: Path) -> int | None:
+        try:
+            return int(pq.read_metadata(path).num_rows)
+        except (OSError, pa.ArrowException):
+            return None

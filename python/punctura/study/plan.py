@@ -1,0 +1,168 @@
+"""Reads and checks plan files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from pydantic import ValidationError
+
+from punctura._core import Hand, Plant, Scene, Strokes
+from punctura.batches.result import result_names
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.toml import Tables, read_tables
+from punctura.live import stroke_ends
+from punctura.scene import load_scene, scene_names
+from punctura.study.schema import SCHEMA, PlanFile, VariableTable
+
+MOST_TRIALS = 100_000_000
+_NEEDED = {"uniform": ("low", "high"), "normal": ("mean", "sd"), "lognormal": ("median", "sigma")}
+_OWNERS = {
+    "hand": ("mass", "damping", "stiffness", "tremor_rms", "tremor_hz"),
+    "plant": ("mass", "friction", "encoder_step", "max_force"),
+    "strokes": ("duration", "rest", "variation"),
+}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A checked plan: what is the same in all trials, and the variables."""
+
+    path: Path
+    file: PlanFile
+    scene: Scene
+    motion: Strokes
+    plant: Plant
+    hand: Hand
+    results: tuple[str, ...]  # columns of the table
+
+    @property
+    def duration(self) -> float | None:
+        """Of each trial, s; None: as long as its strokes."""
+        return None if self.file.duration_s is None else float(self.file.duration_s)
+
+    @property
+    def variables(self) -> list[VariableTable]:
+        """The numbers that differ between the trials."""
+        return self.file.variable
+
+
+def load_plan(path: str | os.PathLike[str]) -> Plan:
+    """Loads a plan file. Raises ConfigurationError with all problems."""
+    path = Path(path)
+    tables = read_tables(path, "plan")
+    problems: list[Problem] = []
+    file: PlanFile | None = None
+    try:
+        file = PlanFile.model_validate(tables)
+    except ValidationError as error:
+        problems += [problem for _, problem in SCHEMA.problems(error)]
+    scene, found = _scene(tables, path)
+    problems += found
+    if file is not None:
+        problems += _numbers(file)
+        problems += [p for i, one in enumerate(file.variable) for p in _variable(i, one, file.method)]
+        problems += _names(file, scene)
+    if problems or file is None or scene is None:
+        raise ConfigurationError(problems, str(path))
+    return _built(path, file, scene)
+
+
+def _scene(tables: Tables, path: Path) -> tuple[Scene | None, list[Problem]]:
+    given = tables.get("scene")
+    if not isinstance(given, str):
+        return None, []
+    try:
+        return load_scene(given if given in scene_names() else str(path.parent / given)), []
+    except ConfigurationError as bad:
+        return None, [Problem("scene", given, "; ".join(str(p) for p in bad.problems))]
+
+
+def _numbers(file: PlanFile) -> Iterator[Problem]:
+    if file.method == "grid":
+        if file.samples is not None:
+            yield Problem("samples", file.samples, "a grid has as many trials as combinations of values; leave it out")
+    elif file.samples is None:
+        yield Problem("samples", MISSING, "is missing; a grid alone does without")
+    elif not 1 <= file.samples <= MOST_TRIALS:
+        yield Problem("samples", file.samples, f"must be from 1 to {MOST_TRIALS}")
+    elif file.method == "sobol" and (file.samples < 2 or file.samples & (file.samples - 1)):
+        yield Problem("samples", file.samples, "must be a power of 2, at least 2, for the method sobol")
+    if file.chunk < 1:
+        yield Problem("chunk", file.chunk, "must be 1 or more")
+    if not 0 <= file.seed < 2**63:
+        yield Problem("seed", file.seed, "must be from 0 to 2^63 - 1")
+    if not 1 <= file.motion.count <= 1000:
+        yield Problem("motion.count", file.motion.count, "must be from 1 to 1000")
+    if file.duration_s is not None and not 0 < file.duration_s <= 3600:
+        yield Problem("duration_s", float(file.duration_s), "must be more than 0 and at most 3600 s")
+    if not file.variable:
+        yield Problem("variable", MISSING, "give at least one; begin each with [[variable]]")
+
+
+def _variable(i: int, one: VariableTable, method: str) -> Iterator[Problem]:
+    at = f"variable[{i}]"
+    if method == "grid":
+        if not one.values:
+            yield Problem(f"{at}.values", MISSING, "is missing; a grid needs the values, as [0.1, 0.2]")
+        return
+    if one.values is not None:
+        yield Problem(f"{at}.values", MISSING, f"is for the method grid; give a distribution for {method}")
+    for key in _NEEDED[one.distribution]:
+        if getattr(one, key) is None:
+            yield Problem(f"{at}.{key}", MISSING, f"is missing; a {one.distribution} distribution needs it")
+    for key in ("mean", "sd", "median", "sigma"):
+        if getattr(one, key) is not None and key not in _NEEDED[one.distribution]:
+            yield Problem(f"{at}.{key}", float(getattr(one, key)), f"is not for a {one.distribution} distribution")
+    for key in ("sd", "median", "sigma"):
+        if getattr(one, key) is not None and not getattr(one, key) > 0:
+            yield Problem(f"{at}.{key}", float(getattr(one, key)), "must be greater than 0")
+    if one.low is not None and one.high is not None and not one.low < one.high:
+        yield Problem(f"{at}.low", float(one.low), f"must be less than high, which is {one.high}")
+    for key in ("low", "high", "mean", "sd", "median", "sigma"):
+        value = getattr(one, key)
+        if value is not None and not np.isfinite(float(value)):
+            yield Problem(f"{at}.{key}", float(value), "must be a finite number")
+
+
+def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
+    if scene is None:
+        return
+    known = {field.path for field in scene.fields()} | {f"{o}.{name}" for o, names in _OWNERS.items() for name in names}
+    seen: set[str] = set()
+    for at, path in [(f"variable[{i}].path", one.path) for i, one in enumerate(file.variable)]:
+        if path not in known:
+            yield Problem(at, path, "is not a number of the scene, the hand, the plant or the strokes (docs/study.md)")
+        if path in seen:
+            yield Problem(at, path, "is given twice; give each path once")
+        seen.add(path)
+    for path in file.values:
+        if path not in known or path.startswith("strokes."):
+            yield Problem(f"values.{path}", path, "is not a number of the scene, the hand or the plant (docs/study.md)")
+    names = result_names(len(scene.membranes))
+    for i, name in enumerate(file.results or ()):
+        if name not in names:
+            yield Problem(f"results[{i}]", name, f"is no result; known here: {', '.join(names)}")
+
+
+def _built(path: Path, file: PlanFile, scene: Scene) -> Plan:
+    def given(owner: str) -> dict[str, float]:
+        head = f"{owner}."
+        return {key.removeprefix(head): float(v) for key, v in file.values.items() if key.startswith(head)}
+
+    own = {key: float(v) for key, v in file.values.items() if key.split(".")[0] not in _OWNERS}
+    start, end = stroke_ends(scene)
+    motion = file.motion
+    extra = {"duration": motion.duration_s, "rest": motion.rest_s, "variation": motion.variation}
+    strokes = {key: float(value) for key, value in extra.items() if value is not None}
+    try:
+        return Plan(
+            path, file, scene.with_values(own), Strokes(start, end, count=motion.count, **strokes),
+            Plant().replace(**given("plant")), Hand().replace(**given("hand")),
+            tuple(dict.fromkeys(file.results or result_names(len(scene.membranes)))),
+        )  # fmt: skip
+    except ConfigurationError as bad:
+        raise ConfigurationError(bad.problems, str(path)) from None

@@ -1,0 +1,49 @@
+"""One trial of a study again, alone, as a scene file and a recording."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+from punctura._core import ServoLoop
+from punctura.record import Recorder
+from punctura.scene.write import save_scene
+from punctura.study.design import design
+from punctura.study.folder import StudyError
+from punctura.study.plan import Plan
+from punctura.study.run import run_part
+
+
+def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Runs the trial of a row again and writes row-N.toml and the recording row-N.parquet to the folder `out`.
+
+    The recording holds each tick of the trial; punctura replay opens it in the studio. Returns the two paths. Raises
+    StudyError for an unknown row or a lost tick, RecordingError, OSError.
+    """
+    trials = design(plan)
+    if not 0 <= row < len(trials.seeds):
+        raise StudyError(f"{plan.path}: there is no row {row}; the rows are 0 to {len(trials.seeds) - 1}")
+    result = run_part(plan, trials, row, row + 1, threads=1, duration=0.0)
+    scene, experiment = result.scene(0), result.experiment(0)
+    duration = plan.duration or experiment.duration
+    ticks = len(experiment.run(duration))
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_path, path = folder / f"row-{row}.toml", folder / f"row-{row}.parquet"
+    path.unlink(missing_ok=True)
+    save_scene(scene, scene_path)
+    device = result.device(0, ticks)
+    loop = ServoLoop(device, scene)
+    recorder = Recorder(loop, path, ticks, about={"study": plan.path.name, "row": row})
+    try:
+        loop.arm()
+        loop.start()
+        while not device.finished:
+            time.sleep(0.005)
+        loop.stop()
+    finally:
+        status = recorder.finish()
+    if status.lost:
+        raise StudyError(f"{path}: the computer was too slow to record {status.lost} of {ticks} ticks; try again")
+    return scene_path, path

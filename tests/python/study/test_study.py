@@ -1,0 +1,132 @@
+"""punctura study: plans, rows that do not depend on threads or interruptions, and one row again, alone."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from punctura import ConfigurationError
+from punctura.cli import main
+from punctura.record import open_recording
+from punctura.study import StudyError, load_plan, replay_row, run_study
+from punctura.study.folder import Folder
+
+GRID = """
+scene = "k06-fig12"
+method = "grid"
+duration_s = 0.3
+chunk = 2
+seed = 5
+[motion]
+duration_s = 0.2
+rest_s = 0.02
+[values]
+"plant.friction" = 0.1
+[[variable]]
+path = "membrane[0].friction"
+values = [0.1, 0.2, 0.3]
+[[variable]]
+path = "hand.stiffness"
+values = [400, 700]
+"""
+SOBOL = """
+scene = "k06-fig12"
+method = "sobol"
+samples = 8
+duration_s = 0.15
+results = ["peak", "drop[1]"]
+[motion]
+duration_s = 0.1
+rest_s = 0.01
+[[variable]]
+path = "membrane[0].friction"
+low = 0.1
+high = 0.3
+[[variable]]
+path = "membrane[0].stiffness"
+distribution = "normal"
+mean = 500
+sd = 100
+low = 300
+"""
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "plan.toml"
+    path.write_text(text)
+    return path
+
+
+def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
+    text = GRID.replace("chunk = 2", "chunk = 0").replace('"hand.stiffness"', '"hand.grip"')
+    with pytest.raises(ConfigurationError) as found:
+        load_plan(written(tmp_path, text.replace("values = [0.1, 0.2, 0.3]", "low = 1")))
+    paths = {problem.path for problem in found.value.problems}
+    assert paths == {"chunk", "variable[0].values", "variable[1].path"}
+    with pytest.raises(ConfigurationError, match="power of 2"):
+        load_plan(written(tmp_path, SOBOL.replace("samples = 8", "samples = 9")))
+    with pytest.raises(ConfigurationError, match="unknown key"):
+        load_plan(written(tmp_path, "trials = 3\n" + GRID))
+
+
+def test_rows_do_not_depend_on_threads_or_interruptions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = load_plan(written(tmp_path, GRID))
+    run_study(plan, tmp_path / "one", threads=1)
+    save, saved = Folder.save, []
+
+    def interrupted(folder: Folder, number: int, table: object) -> None:
+        if number == 1:
+            raise KeyboardInterrupt
+        saved.append(number)
+        save(folder, number, table)
+
+    monkeypatch.setattr(Folder, "save", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_study(plan, tmp_path / "two", threads=2)
+    monkeypatch.undo()
+    summary = run_study(plan, tmp_path / "two", threads=2)
+    assert (saved, summary.kept, summary.trials) == ([0], 2, 6)
+    one, two = (pq.read_table(tmp_path / name / "trials.parquet") for name in ("one", "two"))
+    assert one.equals(two) and one["row"].to_pylist() == list(range(6))
+    assert one["seed"].to_pylist() == list(range(5, 11))
+    assert run_study(plan, tmp_path / "two").kept == 6
+
+
+def test_a_folder_holds_one_study_and_serves_one_run(tmp_path: Path) -> None:
+    plan = load_plan(written(tmp_path, GRID))
+    folder = Folder(tmp_path / "out")
+    with folder.locked(), pytest.raises(StudyError, match="another run"):
+        run_study(plan, tmp_path / "out")
+    run_study(plan, tmp_path / "out")
+    other = load_plan(written(tmp_path, GRID.replace("seed = 5", "seed = 6")))
+    with pytest.raises(StudyError, match="another plan"):
+        run_study(other, tmp_path / "out")
+
+
+def test_a_row_again_is_the_row(tmp_path: Path) -> None:
+    plan = load_plan(written(tmp_path, GRID))
+    run_study(plan, tmp_path / "out")
+    table = pq.read_table(tmp_path / "out" / "trials.parquet")
+    scene, recording = replay_row(plan, 3, tmp_path / "out")
+    assert scene.exists()
+    ticks = open_recording(recording).ticks()
+    assert np.linalg.norm(ticks.model_force, axis=1).max() == table["peak"][3].as_py()
+    with pytest.raises(StudyError, match="no row 6"):
+        replay_row(plan, 6, tmp_path / "out")
+
+
+def test_the_command_writes_sobol_indices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = written(tmp_path, SOBOL)
+    with pytest.raises(SystemExit) as end:
+        main(["study", str(path), "--json", "--workers", "1"])
+    assert end.value.code == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["trials"] == 32
+    table = pq.read_table(told["table"])
+    assert table.column_names == ["row", "membrane[0].friction", "membrane[0].stiffness", "seed", "peak", "drop[1]",
+                                  "fault"]  # fmt: skip
+    assert min(table["membrane[0].stiffness"].to_pylist()) >= 300
+    assert "| peak | membrane[0].stiffness |" in Path(told["report"]).read_text()
