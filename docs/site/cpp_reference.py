@@ -106,7 +106,7 @@ def entry(node: Node, comment: str, owner: str, prefix: str = "") -> Iterator[En
         if body is None or name is None:
             return
         head = squeeze(text[: body.start_byte - node.start_byte])
-        head = re.sub(r"^(class|struct)\s+(alignas\(\w+\)\s+)?", "", head)  # Sphinx does not read alignas
+        head = re.sub(r"^(class|struct)\s+", "", head)
         members = tuple(entries(body, node.type == "struct_specifier", (name.text or b"").decode()))
         yield Entry(CLASSES[node.type], f"{prefix} {head}".strip(), comment, members)
     elif node.type == "enum_specifier":
@@ -126,6 +126,7 @@ def entry(node: Node, comment: str, owner: str, prefix: str = "") -> Iterator[En
     elif node.type == "alias_declaration":
         yield Entry("type", f"{prefix} {squeeze(text).removeprefix('using ')}".strip(), comment)
     elif node.type in ("function_definition", "declaration", "field_declaration"):
+        text = re.sub(r"^alignas\(\w+\)\s+", "", text)  # Sphinx does not read it
         yield from declaration(node, text, comment, owner, prefix)
 
 

@@ -28,7 +28,7 @@ class LivePuncture {
 
   void reset() noexcept {
     started_ = falling_ = false;
-    depth_ = deepest_ = velocity_ = greatest_ = least_ = sum_ = force_ = calm_ = 0;
+    depth_ = deepest_ = velocity_ = greatest_ = least_ = sum_ = force_ = calm_ = low_ = low_at_ = 0;
     variance_ = settings_.noise * settings_.noise;
     drop_ = 0;
   }
@@ -65,6 +65,8 @@ class LivePuncture {
     if (sum_ < settings_.limit) return false;
     falling_ = true;
     least_ = force;
+    low_ = calm_;
+    low_at_ = depth;
     sum_ = 0;
     drop_ = greatest_ - force;
     return true;
@@ -81,7 +83,7 @@ class LivePuncture {
     state.flag(self.started_);
     state.flag(self.falling_);
     state.numbers(self.depth_, self.deepest_, self.velocity_, self.force_, self.calm_, self.greatest_, self.least_,
-                  self.sum_, self.variance_, self.drop_);
+                  self.sum_, self.variance_, self.drop_, self.low_, self.low_at_);
     state.require(self.variance_ >= 0);
   }
   void describe(auto& parameters) const {
@@ -94,12 +96,19 @@ class LivePuncture {
   static constexpr double calming = 0.25;       ///< of the force, share of a tick
   static constexpr double noise_memory = 0.25;  ///< s
   static constexpr double far_back = 2e-4;      ///< more than a tremor, m
+  static constexpr double flat = 3e-4;          ///< way without a fall that ends a drop, m
 
-  /// The drop ends when the force has risen again by a few standard deviations.
+  /// The drop ends when the force has risen again by a few standard deviations, or has not fallen over `flat`, as on
+  /// the plateau behind a wall.
   bool end_of_fall(double force) noexcept {
     drop_ = std::max(drop_, greatest_ - force);
     least_ = std::min(least_, force);
-    if (force > least_ + std::max(5 * noise(), 0.25 * settings_.least_drop) || velocity_ < settings_.least_speed) {
+    if (calm_ < low_ - std::max(2 * noise(), 0.1 * settings_.least_drop)) {
+      low_ = calm_;
+      low_at_ = depth_;
+    }
+    const bool rises = force > least_ + std::max(5 * noise(), 0.25 * settings_.least_drop);
+    if (rises || depth_ - low_at_ > flat || velocity_ < settings_.least_speed) {
       falling_ = false;
       greatest_ = calm_;
       deepest_ = depth_;
@@ -111,6 +120,7 @@ class LivePuncture {
   bool started_ = false, falling_ = false;
   double depth_ = 0, deepest_ = 0, velocity_ = 0, force_ = 0, calm_ = 0;
   double greatest_ = 0, least_ = 0, sum_ = 0, variance_ = 0, drop_ = 0;
+  double low_ = 0, low_at_ = 0;  ///< the last new low of the calm force in a drop, N, and its depth, m
 };
 
 }  // namespace punctura

@@ -22,8 +22,8 @@ struct BandTable {
 };
 
 /// Numbers of a block, one for each lane.
-struct alignas(64) LaneNumbers {
-  double of[block_lanes];
+struct LaneNumbers {
+  alignas(64) double of[block_lanes];
 };
 
 /// A block. Units and symbols are those of LineParams and LineState.
