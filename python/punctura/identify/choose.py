@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from punctura import Needle
-from punctura.identify.fit import Fit, Misfit, best_fit
+from punctura.identify.fit import Fit, Misfit, best_fit, with_pops_moved
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.start import starts
+from punctura.identify.stretch import stretch_starts
 from punctura.trace import Segments, Trace, TraceError
 
 OWN = ("surface", "stiffness", "precompression", "friction", "thickness")  # each membrane's own
@@ -78,6 +79,9 @@ def choose(
     names += ["drift"] * (trace.time is not None and any(f.kind == "drift" for f in trace.findings))
     plain = list(starts(trace, segments, needle, membranes))[:3]
     curved = list(starts(trace, segments, needle, membranes, True))[:2]
+    if membranes > 1 and membranes == sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops):
+        plain += list(stretch_starts(trace, segments, needle, curved=False))[:2]
+        curved = [*list(stretch_starts(trace, segments, needle, curved=True))[:2], *curved[:1]]
     tell("K06")
     current = _candidate("K06", (), Misfit(trace, plain[0]), names, plain)
     tried = [current]
@@ -91,18 +95,45 @@ def choose(
         tell(extension.name)
         here = current.fit.parameters
         from_here = here.with_values(_kept(here, extension))
+        weak = [from_here.with_values({"tissue.tail_floor": 0.98})] if "tissue.tail_floor" in extension.start else []
         fresh = [p.with_values(_kept(p, extension)) for p in curved] if "tissue.growth" in extension.start else []
         try:
             found = _candidate(
                 extension.name, (*current.extensions, extension.name), current.fit.misfit,
-                [*current.fit.free.names, *extension.start], [from_here, *fresh],
+                [*current.fit.free.names, *extension.start], [from_here, *weak, *fresh],
             )  # fmt: skip
         except TraceError:
             continue
         tried.append(found)
         if _better(found, current):
             current = found
+    if membranes > 1:
+        tell("one tissue")
+        tied = _one_tissue(current, membranes)
+        if tied is not None:
+            tried.append(tied)
+            if _better(tied, current):
+                current = tied
     return (current, *(c for c in tried if c is not current))
+
+
+def _one_tissue(current: Candidate, membranes: int) -> Candidate | None:
+    """The same extensions with one stiffness, friction and thickness for all walls. Depth and grip at rest stay own."""
+    own = [f"membrane[{i}].{kind}" for i in range(membranes) for kind in ("surface", "precompression")]
+    shared = ["stiffness", "friction", "thickness"]
+    left_out = {f"membrane[{i}].{kind}" for i in range(membranes) for kind in OWN}
+    names = [*own, *(f"tissue.{kind}" for kind in shared), *(n for n in current.fit.free.names if n not in left_out)]
+    here = current.fit.parameters
+    middle = {
+        f"tissue.{kind}": float(np.median([here.get(f"membrane[{i}].{kind}") for i in range(membranes)]))
+        for kind in shared
+    }
+    try:
+        return _candidate(
+            "one tissue", (*current.extensions, "one tissue"), current.fit.misfit, names, [here.with_values(middle)]
+        )
+    except TraceError:
+        return None
 
 
 def _kept(parameters: Parameters, extension: Extension) -> dict[str, float]:
@@ -121,7 +152,7 @@ def _kept(parameters: Parameters, extension: Extension) -> dict[str, float]:
 def _candidate(
     name: str, extended: tuple[str, ...], misfit: Misfit, names: Sequence[str], from_these: Sequence[Parameters]
 ) -> Candidate:
-    found = best_fit(misfit, names, from_these)
+    found = with_pops_moved(best_fit(misfit, names, from_these))
     return Candidate(name, extended, found, effective_samples(found.residuals, len(names)), held_out_error(found))
 
 

@@ -125,6 +125,28 @@ def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Parameters],
     return best
 
 
+def with_pops_moved(found: Fit) -> Fit:
+    """The fit, or a better one that starts with pops moved by up to two samples: least squares do not jump a sample."""
+    trace, u, least = found.misfit.trace, found.u.copy(), found.sse
+    sample = float(np.median(np.abs(np.diff(trace.depth))))
+    for k, name in enumerate(found.free.names):
+        if not name.endswith("surface"):
+            continue
+        for shift in (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0):
+            trial = u.copy()
+            trial[k] = np.clip(found.u[k] + shift * sample, found.free.low[k], found.free.high[k])
+            left = found.misfit.residuals(found.free, trial)
+            if left @ left < least:
+                u, least = trial, float(left @ left)
+    if least == found.sse:
+        return found
+    try:
+        moved = fit(found.misfit, found.free.names, found.free.parameters(u))
+    except TraceError:
+        return found
+    return moved if moved.sse < found.sse else found
+
+
 def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:
     """The coordinates of the least squares, the number of evaluations, and a message if the search did not end."""
     from scipy.optimize import least_squares

@@ -6,11 +6,13 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.identify import identify
-from punctura.identify.fit import Misfit
+from punctura.identify.choose import OWN
+from punctura.identify.fit import Misfit, fit, with_pops_moved
 from punctura.identify.noise import correlated_gram, effective_samples
 from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
-from punctura.trace import Finding, Trace, TraceError
-from traces import MEMBRANE, NEEDLE, motion, trace
+from punctura.identify.stretch import stretch_starts
+from punctura.trace import Finding, Trace, TraceError, segment
+from traces import MEMBRANE, NEEDLE, force_of, motion, trace
 from typer.testing import CliRunner
 
 TRUTH = {
@@ -114,3 +116,18 @@ def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
     ticks = pn.simulate(scene, depth - 5e-3)
     assert np.abs(ticks.force).max() == pytest.approx(made.force.max(), rel=0.1)
     assert CliRunner().invoke(build_app(), ["identify", str(tmp_path / "a.csv")]).exit_code == 2
+
+
+def test_several_pops_give_starts_near_each_wall():
+    depth = np.linspace(0, 30e-3, 600)
+    force = force_of(depth, 4e-3) + force_of(depth, 16e-3)
+    made = Trace(depth, force + 0.005 * np.random.default_rng(2).normal(size=600))
+    segments = segment(made)
+    assert len(segments.pops) == 2
+    for curved in (False, True):
+        best = next(stretch_starts(made, segments, NEEDLE, curved))
+        found = fit(Misfit(made, best), [f"membrane[{i}].{kind}" for i in range(2) for kind in OWN], best)
+        moved = with_pops_moved(found)
+        assert moved.sse <= found.sse
+        assert moved.rmse < 0.05 * force.max()
+        assert moved.parameters.membranes[:, 0] == pytest.approx([4e-3, 16e-3], abs=1e-3)
