@@ -18,7 +18,7 @@ html_title = f"Punctura {release}"
 extensions = ["myst_nb", "sphinx.ext.autodoc"]
 root_doc = "index"
 include_patterns = ["*.md", "docs/*.md", "docs/notebooks/*.md", "examples/README.md", "reference/**", "gallery/*"]
-exclude_patterns = ["core/**", "runtime/**", "python/**"]
+exclude_patterns = ["capi/**", "core/**", "runtime/**", "python/**"]
 source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
 
 myst_enable_extensions = ["attrs_inline"]

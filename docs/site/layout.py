@@ -18,6 +18,7 @@ LINKED = (
     "docs/images",
     "examples/cpp",
     "examples/python",
+    "capi/include",
     "core",
     "runtime",
     "python/punctura",
