@@ -19,9 +19,11 @@ punctura_status fail(punctura_status status, std::string text);
 /// Keeps the problems of a scene or of limits. Returns PUNCTURA_BAD_SCENE.
 punctura_status fail(std::vector<Problem> problems);
 
-/// Calls f(), which returns a status. An exception becomes a status.
+/// Calls f(), which returns a status. An exception becomes a status. In WebAssembly there are no exceptions: a lack of
+/// memory ends the program.
 template <typename F>
 punctura_status guarded(F&& f) noexcept {
+#if defined(__cpp_exceptions)
   try {
     return f();
   } catch (const std::bad_alloc&) {
@@ -35,6 +37,9 @@ punctura_status guarded(F&& f) noexcept {
   } catch (...) {
     return PUNCTURA_INTERNAL;
   }
+#else
+  return f();
+#endif
 }
 
 inline punctura_status null_pointer() { return fail(PUNCTURA_BAD_ARGUMENT, "a pointer is NULL"); }

@@ -22,8 +22,8 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr std::size_t longest_list = 1000;
 
 /// The types that build() and build_insertion() make.
-using SceneInsertion = decltype(build_insertion(std::declval<const Scene&>()));
-using SceneServo = decltype(build(std::declval<const Scene&>()));
+using SceneInsertion = BasicInsertion<double>;
+using SceneServo = BasicServoStep<double>;
 
 /// A scene whose numbers without default are NaN.
 Scene empty_scene();
