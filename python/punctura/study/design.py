@@ -82,5 +82,8 @@ def _drawn(one: VariableTable, shares: Array) -> Array:
     )
     begin = 0.0 if one.low is None else float(law.cdf(number("low")))
     end = 1.0 if one.high is None else float(law.cdf(number("high")))
+    if not begin < end:
+        reason = f"the {one.distribution} distribution has practically no numbers between low and high; widen them"
+        raise ConfigurationError([Problem(one.path, MISSING, reason)])
     inside = np.clip(begin + shares * (end - begin), 2.0**-60, 1 - 2.0**-53)
     return np.ascontiguousarray(law.ppf(inside))

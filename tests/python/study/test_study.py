@@ -12,6 +12,7 @@ from punctura import ConfigurationError
 from punctura.cli import main
 from punctura.record import open_recording
 from punctura.study import StudyError, load_plan, replay_row, run_study
+from punctura.study.design import design
 from punctura.study.folder import Folder
 
 GRID = """
@@ -68,6 +69,8 @@ def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
     assert paths == {"chunk", "variable[0].values", "variable[1].path"}
     with pytest.raises(ConfigurationError, match="power of 2"):
         load_plan(written(tmp_path, SOBOL.replace("samples = 8", "samples = 9")))
+    with pytest.raises(ConfigurationError, match="practically no numbers"):
+        design(load_plan(written(tmp_path, SOBOL.replace("low = 300", "low = 9000"))))
     with pytest.raises(ConfigurationError, match="unknown key"):
         load_plan(written(tmp_path, "trials = 3\n" + GRID))
 
