@@ -16,6 +16,5 @@ extern "C" void knob_setup() {
 }
 
 /// Call it 1600 times a second. depth: of the tip, m, inward.
-/// Returns the force on the needle, N, positive inward. NaN if
-/// depth is no number.
+/// Returns the force on the needle, N, positive inward. NaN if depth is no number.
 extern "C" float knob_tick(float depth) { return knob->step(depth); }

@@ -33,7 +33,8 @@ export interface Scene {
 
 /** One needle through all membranes of a scene. The force is the model's, without the limits of a device. */
 export interface Insertion {
-  /** One tick. Tip, m, and direction of the needle. Returns the force on the needle, N. RangeError: not finite. */
+  /** One tick. Tip, m, and direction of the needle. Returns the force on the needle, N.
+   *  RangeError: not finite. */
   step(position: Triple, axis: Triple): [number, number, number];
   /** Clears the state. */
   reset(): void;
@@ -43,7 +44,8 @@ export interface Insertion {
 
 /** One membrane on a line, K06 section 3.1. */
 export interface Proxy1d {
-  /** One tick. Depth of the device, m. Returns the force on it, N, positive inward. RangeError: not finite, or beyond 1000 km. */
+  /** One tick. Depth of the device, m. Returns the force on it, N, positive inward.
+   *  RangeError: not finite, or beyond 1000 km. */
   step(depth: number): number;
   reset(): void;
   free(): void;

@@ -109,7 +109,8 @@ export async function load(source) {
       for (const [path, value] of values)
         withText(path, (at) => {
           if (typeof value === "number") must(c.punctura_scene_set(scene, at, value));
-          else if (typeof value === "string") withText(value, (word) => must(c.punctura_scene_set_word(scene, at, word)));
+          else if (typeof value === "string")
+            withText(value, (word) => must(c.punctura_scene_set_word(scene, at, word)));
           else throw new Error(`${path} must be a number or a word, not ${value}`);
         });
     } catch (error) {
@@ -148,7 +149,8 @@ export async function load(source) {
     }
     step(depth) {
       const force = c.punctura_proxy1d_step(this.handle, depth);
-      if (Number.isNaN(force)) throw new RangeError(`depth is ${depth}: it must be a finite number of metres, below 1e6`);
+      if (Number.isNaN(force))
+        throw new RangeError(`depth is ${depth}: it must be a finite number of metres, below 1e6`);
       return force;
     }
     reset() {
