@@ -24,6 +24,6 @@ for level in -O2 -Os; do
 done
 rm -rf library
 bash "$here/pack.sh" library
-g++ ${flags/-I"$root\/core"/} -fsyntax-only -I"$here/stand_in" -Ilibrary/Punctura/src -include Arduino.h -x c++ \
+g++ ${flags/-I"$root/core"/} -fsyntax-only -I"$here/stand_in" -Ilibrary/Punctura/src -include Arduino.h -x c++ \
   library/Punctura/examples/Knob/Knob.ino
 echo "the sketch compiles against the stand-in for Arduino.h"
