@@ -93,6 +93,16 @@ TEST_CASE("a withdrawal, a relaxing hold and a wrong tick are no punctures") {
   CHECK(other.found == 0);
 }
 
+TEST_CASE("a force without any noise: the drop ends, and the plateau is known") {
+  LiveEstimate live;
+  for (int k = 0; k < 1600; ++k) {
+    const double depth = -1e-3 + 5e-3 * k * live_period;
+    live.step(depth, depth < 0 ? 0 : depth < 2e-3 ? 200 * depth : 0.2, live_period);
+  }
+  CHECK(live.reading().punctures == 1);
+  CHECK(live.reading().plateau.value == doctest::Approx(0.2).epsilon(1e-3));
+}
+
 TEST_CASE("two membranes: two punctures, and the slope of each") {
   LiveRun run;
   const auto walls = [](double z, double) {
