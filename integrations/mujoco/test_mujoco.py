@@ -20,6 +20,12 @@ NEEDLE = pn.Needle(1.08e-3, 0.28)
 WALL = pn.Membrane(570, 0.41, 0.2, 1e-3)
 
 
+@pytest.fixture(autouse=True)
+def away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """MuJoCo writes its warnings into MUJOCO_LOG.TXT in the current folder."""
+    monkeypatch.chdir(tmp_path)
+
+
 def scene(*heights: float, coupling: pn.Coupling | None = None) -> pn.Scene:
     """Membranes across z, each at a height of its body's frame, m; the needle goes down."""
     walls = [pn.PlacedMembrane(f"wall {i}", WALL, (0, 0, z), (0, 0, -1)) for i, z in enumerate(heights)]
