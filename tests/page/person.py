@@ -67,10 +67,10 @@ def events(page: Page, what: str = "") -> Locator:
     return page.locator(f".events-list .event{f'.{what}' if what else ''}")
 
 
-def ticks_come(page: Page) -> None:
-    """Waits until the page shows a later tick than it does now."""
-    shown = "document.querySelector('.phases-when').textContent"
-    page.wait_for_function(f"before => {shown} !== before", arg=page.evaluate(shown))
+def ticks_come(page: Page, seconds: float = 0.001) -> None:
+    """Waits until the page shows a tick that is later than the present one by so much time of the servo loop."""
+    shown = "parseFloat(document.querySelector('.phases-when').textContent)"
+    page.wait_for_function(f"end => {shown} >= end", arg=page.evaluate(shown) + seconds)
 
 
 def drag_in(page: Page, pops: int, step: int = 6) -> None:
@@ -95,7 +95,7 @@ def push(page: Page, key: str, times: int) -> None:
     view(page).focus()
     for _ in range(times):
         page.keyboard.press(key)
-        page.wait_for_timeout(25)
+    ticks_come(page, 0.025 * times)  # the hand has followed
 
 
 def newton(words: str) -> float:
