@@ -6,7 +6,9 @@ import signal
 import sys
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
+import pytest
 from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -20,6 +22,29 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 settings.register_profile("punctura", deadline=None, derandomize=True, database=None, max_examples=cases.count(200))
 settings.load_profile("punctura")
+
+
+class Done(NamedTuple):
+    status: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def punctura(capsys):
+    """The command line in this process: punctura(*arguments) returns its exit status and output."""
+    from punctura.cli import main
+
+    def call(*arguments):
+        try:
+            main([str(argument) for argument in arguments])
+            status = 0
+        except SystemExit as end:
+            status = end.code or 0
+        return Done(status, *capsys.readouterr())
+
+    return call
+
 
 _ROOT = Path(__file__).parents[2]
 

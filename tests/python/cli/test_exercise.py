@@ -2,36 +2,13 @@
 
 import csv
 import json
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 from attempts import HEAD, as_a_device_runs_it, goal, motion_of
 from punctura._core import SimulatedDevice
-from punctura.cli import main
 from punctura.exercise import ResultStore, load_exercise, score
 from recorded import recorded
-
-
-class Done(NamedTuple):
-    returncode: int
-    stdout: str
-    stderr: str
-
-
-@pytest.fixture
-def punctura(capsys):
-    """The command line, in this process."""
-
-    def call(*arguments):
-        try:
-            main([str(argument) for argument in arguments])
-            code = 0
-        except SystemExit as end:
-            code = end.code or 0
-        return Done(code, *capsys.readouterr())
-
-    return call
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +31,7 @@ def test_the_ready_exercises_are_listed(punctura):
 
 def test_a_recording_is_scored(punctura, recording):
     done = punctura("exercise", "score", recording, "--exercise", "venipuncture")
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done.stderr
     assert done.stdout.startswith("Venipuncture: not passed\n  You went through the back vein wall ")
     assert "\n  missed       Do not go through the back vein wall" in done.stdout
     assert "\n  not decided  Bring the whole tip" in done.stdout
@@ -68,20 +45,20 @@ def test_a_warning_of_the_exercise_is_printed_beside_the_score(punctura, recordi
     file = tmp_path / "mine.toml"
     file.write_text(HEAD + goal("reach", depth_mm=2), encoding="utf-8")
     done = punctura("exercise", "score", recording, "--exercise", file)
-    assert done.returncode == 0 and done.stdout.startswith("Test: passed")
+    assert done.status == 0 and done.stdout.startswith("Test: passed")
     assert done.stderr.startswith(f"punctura: warning: {file}: goal[0]: is met before the front vein wall pops")
 
 
 def test_what_cannot_be_scored_is_reported(punctura, recording, tmp_path):
     done = punctura("exercise", "score", recording, "--exercise", "epidural")
-    assert (done.returncode, done.stdout) == (2, "")
+    assert (done.status, done.stdout) == (2, "")
     assert f"{recording}: 1 problem" in done.stderr
     assert "has no membrane 'ligamentum flavum' and no 'dura', which the exercise needs; it has skin, " in done.stderr
     assert "choose a recording of the exercise epidural (its scene is 'Epidural" in done.stderr
-    assert punctura("exercise", "score", tmp_path / "none", "--exercise", "epidural").returncode == 1
+    assert punctura("exercise", "score", tmp_path / "none", "--exercise", "epidural").status == 1
     done = punctura("exercise", "score", recording, "--exercise", "none")
-    assert done.returncode == 2 and "ready exercises: steady-push, stop-after-pop, " in done.stderr
-    assert punctura("exercise").returncode == 2
+    assert done.status == 2 and "ready exercises: steady-push, stop-after-pop, " in done.stderr
+    assert punctura("exercise").status == 2
 
 
 def test_the_coach_is_printed_with_the_score(punctura, recording):
@@ -109,13 +86,13 @@ def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording,
     whole = file.read_text(encoding="utf-8")
     assert json.loads(whole)["actor"]["account"]["homePage"] == "https://school.example"
     monkeypatch.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "No space left on device")))
-    assert punctura("exercise", "export", "--format", "csv", "--output", file, *folder).returncode != 0
+    assert punctura("exercise", "export", "--format", "csv", "--output", file, *folder).status != 0
     assert file.read_text(encoding="utf-8") == whole  # a full disk leaves the earlier file
 
 
 def test_an_export_that_is_not_possible_is_refused(punctura, tmp_path):
     assert "must be csv or xapi" in punctura("exercise", "export", "--format", "xls").stderr
     wrong = punctura("exercise", "export", "--format", "csv", "--results", tmp_path / "none")
-    assert wrong.returncode == 2 and "there is no folder" in wrong.stderr
+    assert wrong.status == 2 and "there is no folder" in wrong.stderr
     wrong = punctura("exercise", "export", "--format", "xapi", "--home-page", "school")
-    assert wrong.returncode == 2 and "must begin with http" in wrong.stderr
+    assert wrong.status == 2 and "must begin with http" in wrong.stderr

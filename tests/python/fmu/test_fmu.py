@@ -2,7 +2,6 @@
 
 import ctypes
 import re
-import sys
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,7 +9,6 @@ from xml.etree import ElementTree
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.cli import main
 from punctura.fmu import export_fmu
 from punctura.fmu.units import base_units
 from punctura.fmu.variables import variables
@@ -89,19 +87,12 @@ def test_the_binary_gives_the_forces_of_the_core(tmp_path):
     assert np.abs(forces).max() > 0.5
 
 
-def test_the_verb_writes_an_fmu_and_says_what_is_wrong(tmp_path, capsys):
+def test_the_verb_writes_an_fmu_and_says_what_is_wrong(tmp_path, punctura):
     file = tmp_path / "x.fmu"
-    main_status(["export-fmu", SCENE, "-o", str(file), "--fmi", "2"], 0)
-    assert file.is_file() and "FMI 2.0" in capsys.readouterr().out
-    main_status(["export-fmu", SCENE, "-o", str(tmp_path / "x.zip")], 1)
-    assert "must end in .fmu" in capsys.readouterr().err
-
-
-def main_status(arguments, status):
-    with pytest.raises(SystemExit) as end:
-        main(arguments)
-        sys.exit(0)
-    assert (end.value.code or 0) == status
+    done = punctura("export-fmu", SCENE, "-o", file, "--fmi", "2")
+    assert done.status == 0 and file.is_file() and "FMI 2.0" in done.stdout
+    done = punctura("export-fmu", SCENE, "-o", tmp_path / "x.zip")
+    assert done.status == 1 and "must end in .fmu" in done.stderr
 
 
 def test_the_same_scene_gives_the_same_file(tmp_path):

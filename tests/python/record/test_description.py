@@ -8,7 +8,6 @@ import re
 from pathlib import Path
 
 import pytest
-from punctura.cli._app import main
 from punctura.record import RecordingError, open_recording
 from punctura.studio.shelf import Shelf
 
@@ -122,15 +121,14 @@ def test_a_bad_recording_is_left_out_of_the_list_and_the_good_one_stays(tool, re
 
 
 @pytest.mark.parametrize("verb", [("replay",), ("export", "--out", "out.csv"), ("run", "--headless", "--device")])
-def test_the_command_line_says_so_in_one_sentence(tool, recorded, tmp_path, verb, capsys, monkeypatch):
+def test_the_command_line_says_so_in_one_sentence(tool, recorded, tmp_path, verb, punctura, monkeypatch):
     monkeypatch.chdir(tmp_path)
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", tool.changed(data, ("summary", "lost"), "many"))
     file = "replay:bad.parquet" if verb[0] == "run" else "bad.parquet"
-    with pytest.raises(SystemExit) as end:
-        main([*verb, file] if verb[0] == "run" else [verb[0], file, *verb[1:]])
-    said = " ".join(capsys.readouterr().err.replace("│", " ").split())
-    assert end.value.code in (1, 2) and "summary.lost = 'many': input should be a valid integer" in said
+    done = punctura(*([*verb, file] if verb[0] == "run" else [verb[0], file, *verb[1:]]))
+    said = " ".join(done.stderr.replace("│", " ").split())
+    assert done.status in (1, 2) and "summary.lost = 'many': input should be a valid integer" in said
 
 
 def test_a_fault_that_this_version_does_not_know_is_counted_by_its_number(start, tmp_path):

@@ -12,7 +12,6 @@ import pyarrow.parquet as pq
 import pytest
 from mcap.reader import make_reader
 from punctura import ConfigurationError, load_scene
-from punctura.cli import main
 from punctura.record import export, open_recording
 from recorded import assert_same_table
 
@@ -66,20 +65,17 @@ def test_mcap_holds_every_tick_as_json_and_every_scene(killed, tmp_path):
     assert json.loads(metadata.metadata["json"])["device"]["backend"] == "simulated"
 
 
-def test_without_the_mcap_package_the_error_says_what_to_install(killed, tmp_path, monkeypatch, capsys):
+def test_without_the_mcap_package_the_error_says_what_to_install(killed, tmp_path, monkeypatch, punctura):
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
-    with pytest.raises(SystemExit) as end:
-        main(["export", str(killed), "--out", str(tmp_path / "out.mcap")])
-    assert end.value.code == 1 and "pip install 'punctura[mcap]'" in capsys.readouterr().err
+    done = punctura("export", killed, "--out", tmp_path / "out.mcap")
+    assert done.status == 1 and "pip install 'punctura[mcap]'" in done.stderr
     assert not (tmp_path / "out.mcap").exists()
 
 
-def test_the_command_tells_what_it_wrote(killed, tmp_path, capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["export", str(killed), "--out", str(tmp_path / "out.csv"), "--json"])
-    said = capsys.readouterr()
-    assert end.value.code == 0 and json.loads(said.out)["ticks"] == 3000
-    assert "was not finished; it is complete up to tick 2999" in said.err
+def test_the_command_tells_what_it_wrote(killed, tmp_path, punctura):
+    done = punctura("export", killed, "--out", tmp_path / "out.csv", "--json")
+    assert done.status == 0 and json.loads(done.stdout)["ticks"] == 3000
+    assert "was not finished; it is complete up to tick 2999" in done.stderr
 
 
 def test_places_that_cannot_be_are_told_all_at_once(killed, tmp_path):

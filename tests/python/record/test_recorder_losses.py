@@ -9,7 +9,6 @@ import shlex
 import sys
 
 import pytest
-from punctura.cli import main
 from punctura.record import Recorder, RecordingError, finish, open_recording
 from punctura.record.stream import Decoder, Encoder
 
@@ -185,7 +184,7 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells 
 
 
 @on_linux
-def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works(begun):
+def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works(begun, punctura):
     run = begun(lambda run: run.part.rename(run.part.with_name("first")))
     aside = run.part.with_name("put aside.parquet.part")
     run.wait(lambda: f"recording continues in {run.part.with_name('first')}" in run.recorder.status().trouble)
@@ -195,8 +194,7 @@ def test_a_file_that_is_renamed_is_told_by_its_present_name_and_the_remedy_works
     assert not status.finished and (status.rows, status.lost) == (4000, 0) and status.file == aside
     remedy = re.search(r"run: punctura (export .+) --out FILE.parquet", status.trouble)
     assert remedy and str(run.part) not in remedy[0]
-    with pytest.raises(SystemExit, match="0"):
-        main([*shlex.split(remedy[1]), "--out", str(run.path)])
+    assert punctura(*shlex.split(remedy[1]), "--out", run.path).status == 0
     assert open_recording(run.path).rows == 4000
 
 

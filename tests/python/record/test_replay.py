@@ -11,7 +11,6 @@ import pyarrow.parquet as pq
 import pytest
 from punctura import ConfigurationError, load_scene
 from punctura._core import GateLimits
-from punctura.cli import main
 from punctura.record import RecordingError, export, open_recording, replay
 from punctura.record.header import to_metadata
 from punctura.ticks.fields import file_column
@@ -153,36 +152,30 @@ def test_a_file_without_the_inputs_is_refused(start):
         replay(path)
 
 
-def test_the_command_says_identical_and_writes_the_computed_ticks(start, tmp_path, capsys):
+def test_the_command_says_identical_and_writes_the_computed_ticks(start, tmp_path, punctura):
     run = start().record()
-    with pytest.raises(SystemExit) as end:
-        main(["replay", str(run.path), "--out", str(tmp_path / "again.parquet")])
-    assert end.value.code == 0 and "3000 ticks, identical" in capsys.readouterr().out
+    done = punctura("replay", run.path, "--out", tmp_path / "again.parquet")
+    assert done.status == 0 and "3000 ticks, identical" in done.stdout
     again, first = open_recording(tmp_path / "again.parquet"), open_recording(run.path)
     assert_same_table(again.table(), first.table())
     assert again.rows == 3000
 
 
-def test_the_command_says_what_differs(start, capsys):
+def test_the_command_says_what_differs(start, punctura):
     path = changed(start().record().path, "fy_N", 7, lambda x: 1.0)
-    with pytest.raises(SystemExit) as end:
-        main(["replay", str(path)])
-    assert end.value.code == 1 and "differs first at tick 7: fy_N was 1.0" in capsys.readouterr().out
-    with pytest.raises(SystemExit):
-        main(["replay", str(path), "--json"])
-    assert json.loads(capsys.readouterr().out)["first_difference"]["tick"] == 7
+    done = punctura("replay", path)
+    assert done.status == 1 and "differs first at tick 7: fy_N was 1.0" in done.stdout
+    assert json.loads(punctura("replay", path, "--json").stdout)["first_difference"]["tick"] == 7
 
 
-def test_a_recording_without_a_tick_is_not_called_identical(start, capsys):
+def test_a_recording_without_a_tick_is_not_called_identical(start, punctura):
     run = start(ticks=0, capacity=64)
     assert run.recorder.finish().finished
     result = replay(run.path)
     assert result.ticks == 0 and not result.complete and "nothing to replay" in result.notes[-1]
-    with pytest.raises(SystemExit, match="1"):
-        main(["replay", str(run.path)])
-    said = capsys.readouterr()
-    assert "nothing was compared" in said.out and "identical" not in said.out
-    assert "holds no ticks; nothing to replay" in said.err
+    done = punctura("replay", run.path)
+    assert done.status == 1 and "nothing was compared" in done.stdout and "identical" not in done.stdout
+    assert "holds no ticks; nothing to replay" in done.stderr
 
 
 def test_a_file_that_is_damaged_inside_is_not_called_identical(start, tmp_path):

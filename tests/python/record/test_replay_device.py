@@ -9,7 +9,6 @@ import pyarrow.parquet as pq
 import pytest
 from punctura import ConfigurationError, load_scene
 from punctura._core import DeviceError, GateLimits, ReplayDevice, ServoLoop
-from punctura.cli import main
 from punctura.live import fit_conditioning, open_for, run_live
 from punctura.record import RecordingError, open_recording, replay_device
 from recorded import run_to_end
@@ -76,24 +75,21 @@ def test_a_live_run_on_it_ends_by_itself_and_has_every_tick(start):
     assert summary.statements[0] == "the force has no effect on a recorded motion"
 
 
-def test_the_command_line_runs_a_recorded_motion_and_records_the_same_forces(start, tmp_path, capsys):
+def test_the_command_line_runs_a_recorded_motion_and_records_the_same_forces(start, tmp_path, punctura):
     run = start(ticks=1600).record()
     again = tmp_path / "again.parquet"
     command = ["run", "k06-fig12", "--headless", "--scene-filter", "--device", f"replay:{run.path}", "--json"]
-    with pytest.raises(SystemExit) as end:
-        main([*command, "--record", str(again)])
-    said = capsys.readouterr()
-    assert end.value.code == 0, said.err
-    assert json.loads(said.out)["device"] == "replay: PHANTOM Omni, simulated, recorded"
+    done = punctura(*command, "--record", again)
+    assert done.status == 0, done.stderr
+    assert json.loads(done.stdout)["device"] == "replay: PHANTOM Omni, simulated, recorded"
     assert np.array_equal(forces(open_recording(again)), forces(open_recording(run.path)))
 
 
-def test_what_cannot_be_replayed_is_reported(start, tmp_path, capsys):
+def test_what_cannot_be_replayed_is_reported(start, tmp_path, punctura):
     with pytest.raises(DeviceError, match=r"replay:FILE\.parquet"):
         open_for(load_scene("k06-fig10"), "replay")
-    with pytest.raises(SystemExit) as end:
-        main(["run", "--headless", "--device", "replay:" + str(tmp_path / "none.parquet")])
-    assert end.value.code == 2 and "there is no such file" in " ".join(capsys.readouterr().err.split())
+    done = punctura("run", "--headless", "--device", f"replay:{tmp_path / 'none.parquet'}")
+    assert done.status == 2 and "there is no such file" in " ".join(done.stderr.split())
     with pytest.raises(RecordingError, match="holds no tick"):
         replay_device(start(ticks=0, capacity=64, name="empty.parquet").recorder.finish().file)
     path = start().record().path
@@ -102,10 +98,8 @@ def test_what_cannot_be_replayed_is_reported(start, tmp_path, capsys):
         replay_device(path)
 
 
-def test_devices_says_that_replay_needs_a_recording(capsys):
-    with pytest.raises(SystemExit):
-        main(["devices", "--json"])
-    entry = next(e for e in json.loads(capsys.readouterr().out) if e["backend"] == "replay")
+def test_devices_says_that_replay_needs_a_recording(punctura):
+    entry = next(e for e in json.loads(punctura("devices", "--json").stdout) if e["backend"] == "replay")
     assert entry["state"] == "no_device" and "replay:FILE.parquet" in entry["detail"]
 
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from attempts import HEAD, goal
 from punctura import ConfigurationError, save_scene
-from punctura.cli import main
 from punctura.exercise import exercise_names, load_exercise
 from punctura.studio.catalog import Exercises
 from punctura.studio.client import StudioClient
@@ -93,40 +92,37 @@ def test_names_must_tell_exercises_apart(tmp_path):
     assert Exercises(["venipuncture"]).names() == exercise_names()
 
 
-def told(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        main(["run", "--no-browser", "--device", "simulated", *arguments])
-    return end.value.code, capsys.readouterr().err
+COMMAND = ["run", "--no-browser", "--device", "simulated"]
 
 
-def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(tmp_path, capsys):
+def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(tmp_path, punctura):
     bad = own_file(tmp_path, HEAD.replace("front vein wall", "vein") + goal("reach", depth_mm=-3))
-    code, said = told(capsys, "--exercise", str(bad))
-    assert code == 2 and "mine.toml" in said and "Traceback" not in said
-    assert "goal[0].depth_mm" in said and "-3" in said and "must be at least 0.1 mm" in said
+    done = punctura(*COMMAND, "--exercise", bad)
+    assert done.status == 2 and "mine.toml" in done.stderr and "Traceback" not in done.stderr
+    assert all(words in done.stderr for words in ("goal[0].depth_mm", "-3", "must be at least 0.1 mm"))
     bad.write_text("a = " + 500 * "[" + 500 * "]", encoding="utf-8")
-    code, said = told(capsys, "--exercise", str(bad))
-    assert code == 2 and "nested more than" in said
-    code, said = told(capsys, "--exercise", str(tmp_path / "none.toml"))
-    assert code == 2 and "no such file" in said
-    code, said = told(capsys, "--headless", "--exercise", str(bad))
-    assert code == 2 and "is of the page" in said
+    done = punctura(*COMMAND, "--exercise", bad)
+    assert done.status == 2 and "nested more than" in done.stderr
+    done = punctura(*COMMAND, "--exercise", tmp_path / "none.toml")
+    assert done.status == 2 and "no such file" in done.stderr
+    done = punctura(*COMMAND, "--headless", "--exercise", bad)
+    assert done.status == 2 and "is of the page" in done.stderr
 
 
-def test_a_warning_is_printed_and_listed(tmp_path, own, capsys, monkeypatch):
+def test_a_warning_is_printed_and_listed(tmp_path, own, punctura, monkeypatch):
     from punctura.studio import serve as serving
 
     (tmp_path / "index.html").write_text("page")
     own.write_text(own.read_text(encoding="utf-8") + goal("reach", depth_mm=2), encoding="utf-8")
     monkeypatch.setattr(serving, "run_studio", lambda *_: None)
-    _, said = told(capsys, "--exercise", str(own), "--page", str(tmp_path))
+    said = punctura(*COMMAND, "--exercise", own, "--page", tmp_path).stderr
     assert f"punctura: warning: {own}: goal[2]: is met before the front vein wall pops" in said
     (entry, *_) = Exercises([own]).overviews()
     assert [warning.path for warning in entry.warnings] == ["goal[2]"] and entry.problems == []
 
 
 @pytest.mark.parametrize(("scene", "runs"), [((), "Somebody"), (("k06-fig12",), "K06 Fig. 12")])
-def test_without_a_scene_that_of_the_exercise_runs(tmp_path, own, monkeypatch, scene, runs):
+def test_without_a_scene_that_of_the_exercise_runs(tmp_path, own, punctura, monkeypatch, scene, runs):
     from punctura.studio import serve as serving
 
     page = tmp_path / "page"
@@ -141,9 +137,7 @@ def test_without_a_scene_that_of_the_exercise_runs(tmp_path, own, monkeypatch, s
 
     monkeypatch.setattr(serving, "run_studio", look)
     asked = ["run", *scene, "--no-browser", "--device", "simulated", "--exercise", str(own), "--page", str(page)]
-    with pytest.raises(SystemExit) as end:
-        main([*asked, "--recordings", str(tmp_path / "kept")])
-    assert end.value.code in (0, None) and seen == [(runs, "mine")]
+    assert punctura(*asked, "--recordings", tmp_path / "kept").status == 0 and seen == [(runs, "mine")]
 
 
 def test_the_depths_of_the_space_are_listed(tmp_path):

@@ -9,7 +9,6 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from punctura import ConfigurationError
-from punctura.cli import main
 from punctura.record import open_recording
 from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.design import design
@@ -121,12 +120,11 @@ def test_a_row_again_is_the_row(tmp_path: Path) -> None:
         replay_row(plan, 6, tmp_path / "out")
 
 
-def test_the_command_writes_sobol_indices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_sobol_indices(tmp_path: Path, punctura) -> None:
     path = written(tmp_path, SOBOL)
-    with pytest.raises(SystemExit) as end:
-        main(["study", str(path), "--json", "--workers", "1"])
-    assert end.value.code == 0
-    told = json.loads(capsys.readouterr().out)
+    done = punctura("study", path, "--json", "--workers", "1")
+    assert done.status == 0, done.stderr
+    told = json.loads(done.stdout)
     assert told["trials"] == 32
     table = pq.read_table(told["table"])
     assert table.column_names == ["row", "membrane[0].friction", "membrane[0].stiffness", "seed", "peak", "drop[1]",
