@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from punctura import ConfigurationError, Coupling, MaxwellBranch, Membrane, PlacedMembrane, Scene, Tissue
+from punctura import (
+    ConfigurationError,
+    Coupling,
+    DisplaySettings,
+    MaxwellBranch,
+    Membrane,
+    PlacedMembrane,
+    Scene,
+    Tissue,
+)
 from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters
 
 DAMPING = 1.0  # N s/m, of the coupling: a servo loop needs some, and slow traces do not show it
@@ -31,7 +40,8 @@ def _scene(parameters: Parameters, name: str, as_table: bool) -> Scene:
         membranes.append(PlacedMembrane(f"membrane {i + 1}", membrane, place, (0, -1, 0), tissue=tissue))
     coupling = Coupling(shared["coupling_stiffness"], max(shared["coupling_damping"], DAMPING))
     relaxation = [MaxwellBranch(stiffness, time) for stiffness, time in branches if stiffness > 0]
-    return Scene(name, parameters.needle, coupling, membranes, relaxation=relaxation)
+    display = DisplaySettings("automatic")  # measured tissue often resists with more than a device can give
+    return Scene(name, parameters.needle, coupling, membranes, display=display, relaxation=relaxation)
 
 
 def _tissue(value: dict[str, float], diameter: float, as_table: bool) -> Tissue:

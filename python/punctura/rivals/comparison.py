@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from punctura._core import Needle, Scene
 from punctura.errors import ConfigurationError, Problem
+from punctura.identify import Identification
 from punctura.identify.noise import effective_samples
 from punctura.progress import Tell
 from punctura.rivals.chatter import Chatter, places_of, rival_chatter
@@ -68,8 +69,11 @@ def compare_trace(
     needle: Needle | None = None,
     with_chatter: bool = True,
     progress: Tell | None = None,
+    identified: Identification | None = None,
 ) -> TraceComparison:
     """Fits rivals to a trace, and K06 if the needle is told, and compares them. names: default: all.
+
+    identified: the identification of this trace with this needle, if there is one; K06 is then not fitted again.
 
     Needs SciPy. Raises ConfigurationError for an unknown name, TraceError for a trace without an insertion.
     """
@@ -92,7 +96,7 @@ def compare_trace(
             if first is not None:
                 shares[name] = _share(fit_rival(known[name], first).residuals, first)
         elif needle is not None:
-            fits += fit_k06(trace, needle)
+            fits += fit_k06(trace, needle, identified)
             shares |= {} if first is None else _k06_shares(first, needle)
     return _comparison(trace, segments, fits, shares, with_chatter)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import Experiment, Insertion, Needle, Scene
-from punctura.identify import identify
+from punctura.identify import Identification, identify
 from punctura.identify.choose import Candidate
 from punctura.identify.fit import Misfit
 from punctura.identify.scene import scene_of
@@ -34,9 +34,12 @@ class K06Fit:
     scene: Scene  # its membranes, without extensions
 
 
-def fit_k06(trace: Trace, needle: Needle) -> tuple[K06Fit, ...]:
-    """K06 as printed, and the extended law if identification chooses one. Needs SciPy. Raises TraceError."""
-    found = identify(trace, needle)
+def fit_k06(trace: Trace, needle: Needle, known: Identification | None = None) -> tuple[K06Fit, ...]:
+    """K06 as printed, and the extended law if identification chooses one. known: of this trace, if there is one.
+
+    Needs SciPy. Raises TraceError.
+    """
+    found = known or identify(trace, needle)
     chosen = found.candidates[0]
     printed = next((one for one in found.candidates if not one.extensions), None)
     fits = [] if printed is None else [_fit(trace, PRINTED, "K06", printed)]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import asdict
 from pathlib import Path
 from urllib.parse import quote
@@ -22,14 +22,17 @@ from punctura.exercise.xapi import to_xapi
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
 from punctura.studio.catalog import scene_outlines
+from punctura.studio.computing import LabError
 from punctura.studio.download import Download
-from punctura.studio.lab import Lab, LabError
+from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import overview, tick_frames
+from punctura.studio.security import TooLarge
 from punctura.studio.session import Session
 from punctura.studio.shelf import SUFFIX, Busy, Missing
 from punctura.studio.trace import FEWEST, MOST, USUAL, thinned_trace
+from punctura.studio.traces import FILE, IDENTIFY, Late, Traces
 
 FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}
 # By format: the media type, the ending of the file, and the function that writes it.
@@ -41,6 +44,8 @@ RESULT_FORMATS: dict[str, tuple[str, str, Callable[[list[Result]], str]]] = {
 _STATUS: dict[type[Exception], int] = {
     BadName: 400,
     LabError: 422,
+    Late: 408,
+    TooLarge: 413,
     Missing: 404,
     Busy: 409,
     ResultsError: 404,
@@ -55,7 +60,8 @@ class Api:
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
         self._exporting = threading.BoundedSemaphore(MOST_EXPORTS)
-        self._lab = Lab(session)
+        one = threading.BoundedSemaphore(1)  # computation at a time
+        self._lab, self._traces = Lab(session, one), Traces(one)
 
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"
@@ -70,6 +76,8 @@ class Api:
             Route("/api/lab/fields", _told(self._lab.fields)),
             Route("/api/lab/compare", _told(self._lab.compare)),
             Route("/api/lab/bundle", _told(self._lab.bundle)),
+            Route(FILE, _told_later(self._traces.file), methods=["POST"]),
+            Route(IDENTIFY, _told_later(self._traces.identify), methods=["POST"]),
             Route("/api/exercises", _told(self.exercises)),
             Route("/api/scenes", _told(self.scenes)),
             Route("/api/results", _told(self.results)),
@@ -200,8 +208,24 @@ def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Respon
         try:
             return endpoint(request)
         except tuple(_STATUS) as error:
-            status = next(code for kind, code in _STATUS.items() if isinstance(error, kind))
-            text = str(error)
-            return _sentence(status, text[:1].upper() + text[1:] + ("" if text.endswith(".") else "."))
+            return _refusal(error)
 
     return told
+
+
+def _told_later(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
+    """The same for an endpoint that takes the request's body while it comes."""
+
+    async def told(request: Request) -> Response:
+        try:
+            return await endpoint(request)
+        except tuple(_STATUS) as error:
+            return _refusal(error)
+
+    return told
+
+
+def _refusal(error: Exception) -> Response:
+    status = next(code for kind, code in _STATUS.items() if isinstance(error, kind))
+    text = str(error)
+    return _sentence(status, text[:1].upper() + text[1:] + ("" if text.endswith(".") else "."))

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import collections
 import json
-import os
 import re
-import signal
-import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO
 
 import numpy as np
 from starlette.datastructures import QueryParams
@@ -24,6 +20,7 @@ from punctura.compare.comparison import On
 from punctura.compare.vary import MOST_RUNS
 from punctura.compare.worker import Job, Variation
 from punctura.scene import scene_text
+from punctura.studio.computing import LabError, lines_of, take_place
 from punctura.studio.download import Download
 from punctura.studio.session import Session
 
@@ -33,20 +30,15 @@ COMMAND = [sys.executable, "-m", "punctura.compare.worker"]
 CHUNK = 1 << 16
 KEPT_SCENES = 32  # of the last variations, for their zip files
 LONGEST_ID = 64
-MOST_ERRORS = 4096  # bytes of the worker's last error messages
-
-
-class LabError(ValueError):
-    """A job that is not possible; the text says why and what to do."""
 
 
 class Lab:
-    """One job at a time, for all pages together."""
+    """One job at a time, for all pages together: `place` is shared with the other computations."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, place: threading.BoundedSemaphore) -> None:
         self._session, self._shelf = session, session.shelf
         self._scenes: dict[str, str] = {}  # scene texts by the id of their variation, the oldest first
-        self._place = threading.BoundedSemaphore(1)
+        self._place = place
 
     def fields(self, request: Request) -> Response:
         """The fields of the present scene that can be varied, with their present values, SI."""
@@ -61,7 +53,7 @@ class Lab:
     def compare(self, request: Request) -> Response:
         """The comparison as JSON lines: first the progress, then the result or the error."""
         job = self._job(request.query_params)
-        self._take_place()
+        take_place(self._place)
         if job.variation:
             self._keep(request.query_params.get("id", ""), job.variation.scene)
         return Download(_lines(job), self._place, media_type="application/x-ndjson")
@@ -74,7 +66,7 @@ class Lab:
                 raise LabError("the studio no longer has the scene of this variation; simulate it again")
             same = job.variation.model_copy(update={"scene": self._scenes[name]})
             job = job.model_copy(update={"variation": same})
-        self._take_place()
+        take_place(self._place)
         headers = {"content-disposition": 'attachment; filename="punctura-comparison.zip"'}
         return Download(_zipped(job), self._place, media_type="application/zip", headers=headers)
 
@@ -85,10 +77,6 @@ class Lab:
         self._scenes[name] = scene
         while len(self._scenes) > KEPT_SCENES:
             del self._scenes[next(iter(self._scenes))]
-
-    def _take_place(self) -> None:
-        if not self._place.acquire(blocking=False):
-            raise LabError("another comparison is being computed; try again when it is done, or cancel it")
 
     def _job(self, asked: QueryParams) -> Job:
         """Raises LabError, BadName, Missing."""
@@ -129,39 +117,8 @@ def _number(asked: QueryParams, name: str) -> float:
 
 
 def _lines(job: Job) -> Iterator[bytes]:
-    """The worker's lines as they come. Closing the iterator ends the worker."""
-    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as asked:
-        asked.write(job.model_dump_json().encode())
-        asked.seek(0)
-        worker = subprocess.Popen(
-            COMMAND, stdin=asked, stdout=subprocess.PIPE, stderr=errors, env=environment, start_new_session=True
-        )
-        assert worker.stdout
-        try:
-            ended = False
-            for line in worker.stdout:
-                ended = not line.startswith(b'{"share"')
-                yield line
-            if not ended:
-                yield json.dumps({"error": _why(worker.wait(), errors)}).encode() + b"\n"
-        finally:
-            worker.kill()
-            worker.stdout.close()
-            worker.wait()
-
-
-def _why(code: int, errors: IO[bytes]) -> str:
-    """Why a worker ended without a result. code: its exit status."""
-    errors.seek(max(0, errors.seek(0, os.SEEK_END) - MOST_ERRORS))
-    lines = errors.read().decode("utf-8", "replace").strip().splitlines()[-5:]
-    if code == -signal.SIGKILL or (
-        lines and lines[-1].startswith(("MemoryError", "numpy._core._exceptions._ArrayMem"))
-    ):
-        return "the computation ended early; is there enough memory?"
-    return (
-        f"the computation ended early (status {code}); a defect, please report it: {'; '.join(lines) or 'no message'}"
-    )
+    """The worker's lines as they come."""
+    return lines_of(COMMAND, job.model_dump_json().encode(), lambda why: json.dumps({"error": why}).encode() + b"\n")
 
 
 def _zipped(job: Job) -> Iterator[bytes]:

@@ -20,6 +20,7 @@ from punctura.studio.limits import (
     HTTP_A_SECOND,
     HTTP_AT_ONCE,
     MOST_BODY,
+    MOST_TRACE,
     REFUSED_A_SECOND,
     REFUSED_AT_ONCE,
     Bucket,
@@ -30,6 +31,7 @@ PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
 FREE = ("/assets/", "/figures/")  # public folders
 FREE_FILES = ("/icon.svg", "/favicon.ico")
+FILES = ("/api/lab/file", "/api/lab/identify")  # a POST may have a file of MOST_TRACE as its body
 NO_TOKEN = "This needs the token of this run: open the address that the studio printed."
 
 _COMMON = {
@@ -61,6 +63,9 @@ class Refused(Exception):
 
 class TooLarge(Exception):
     """A body that exceeded its limit while it was read."""
+
+    def __init__(self) -> None:
+        super().__init__("The request is too large.")
 
 
 class Guard:
@@ -125,8 +130,8 @@ class Guard:
             if not self._is_token(_socket_tokens(scope)):
                 raise Refused(401, NO_TOKEN)
             return True
-        if scope["method"] not in ("GET", "HEAD", "DELETE"):
-            raise Refused(405, "The studio knows GET, HEAD and DELETE.")
+        if scope["method"] not in ("GET", "HEAD", "DELETE") and not _sends_a_file(scope):
+            raise Refused(405, "The studio knows GET, HEAD and DELETE, and POST for the file of a trace.")
         if self._is_token(_tokens(scope, headers)):
             return True
         path = scope["path"]
@@ -139,13 +144,14 @@ class Guard:
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
         size = 0
+        most = MOST_TRACE if _sends_a_file(scope) else MOST_BODY
         begun = False
 
         async def counted() -> Message:
             nonlocal size
             message = await receive()
             size += len(message.get("body", b""))
-            if size > MOST_BODY:
+            if size > most:
                 raise TooLarge
             return message
 
@@ -158,12 +164,16 @@ class Guard:
 
         try:
             length = Headers(scope=scope).get("content-length", "0")
-            if not length.isdigit() or int(length[:20]) > MOST_BODY:
+            if not length.isdigit() or int(length[:20]) > most:
                 raise TooLarge
             await self._app(scope, counted, dressed)
         except TooLarge:
             if not begun:
-                await _refuse(scope, send, Refused(413, "The request is too large."))
+                await _refuse(scope, send, Refused(413, str(TooLarge())))
+
+
+def _sends_a_file(scope: Scope) -> bool:
+    return scope["method"] == "POST" and scope["path"] in FILES
 
 
 def _socket_tokens(scope: Scope) -> list[str]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from typing import Literal
 
 from punctura.trace.trace import TraceError
 
@@ -35,43 +36,64 @@ def split_name(name: str) -> tuple[str, str]:
     return re.sub(r"[\s_-]+", "_", text.strip().lower()), unit
 
 
+class ColumnError(TraceError):
+    """A column or its unit is not clear. what: "column" or "unit". role: of ROLES, or empty."""
+
+    def __init__(self, text: str, what: Literal["column", "unit"] = "column", role: str = "") -> None:
+        super().__init__(text, what, role)
+        self.what, self.role = what, role
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def candidates(role: str, names: Sequence[str], taken: Collection[int] = ()) -> list[int]:
+    """The columns that could be this one by their names. One if it is clear, none if no name is known."""
+    matches = [i for i, name in enumerate(names) if split_name(name)[0] in _NAMES[role] and i not in taken]
+    exact = [i for i in matches if split_name(names[i])[0] == role]
+    return exact if len(exact) == 1 else matches
+
+
 def choose_columns(names: Sequence[str], columns: Mapping[str, str | int] | None, source: str) -> dict[str, int]:
-    """The index of the column for each role. Raises TraceError that lists the names if a role is unclear."""
+    """The index of the column for each role. columns: {"time": ""} means that no column is the time.
+
+    Raises ColumnError that lists the names if a role is unclear.
+    """
     listed = ", ".join(repr(name) for name in names)
     chosen: dict[str, int] = {}
     for role, wanted in (columns or {}).items():
         if role not in ROLES:
-            raise TraceError(f"{source}: {role!r} is no role of a column; the roles are {', '.join(ROLES)}")
+            raise ColumnError(f"{source}: {role!r} is no role of a column; the roles are {', '.join(ROLES)}")
+        if wanted == "" and role not in REQUIRED:
+            continue
         if isinstance(wanted, str) and wanted in names:
             chosen[role] = list(names).index(wanted)
         elif str(wanted).isdigit() and 1 <= int(wanted) <= len(names):
             chosen[role] = int(wanted) - 1
         else:
-            raise TraceError(f"{source}: there is no column {wanted!r} for the {role}; the columns are {listed}")
+            text = f"{source}: there is no column {wanted!r} for the {role}; the columns are {listed}"
+            raise ColumnError(text, "column", role)
     for role in ROLES:
-        if role in chosen:
+        if role in chosen or role in (columns or {}):
             continue
-        matches = [
-            i for i, name in enumerate(names) if split_name(name)[0] in _NAMES[role] and i not in chosen.values()
-        ]
-        exact = [i for i in matches if split_name(names[i])[0] == role]
-        if len(exact) == 1 or len(matches) == 1:
-            chosen[role] = (exact or matches)[0]
+        matches = candidates(role, names, chosen.values())
+        if len(matches) == 1:
+            chosen[role] = matches[0]
         elif matches or role in REQUIRED:
             problem = f"more than one column could be the {role}" if matches else f"no column is known to be the {role}"
-            raise TraceError(f"{source}: {problem}; the columns are {listed}. Name one: --column {role}=NAME")
+            text = f"{source}: {problem}; the columns are {listed}. Name one (--column {role}=NAME)"
+            raise ColumnError(text, "column", role)
     return chosen
 
 
 def unit_size(role: str, name: str, units: Mapping[str, str] | None, source: str) -> float:
-    """The size of a column's unit in SI units, from `units` or from the column's name. Raises TraceError."""
+    """The size of a column's unit in SI units, from `units` or from the column's name. Raises ColumnError."""
     written = split_name(name)[1]
     unit = (units or {}).get(role, written)
     known = ", ".join(UNITS[role])
     if not unit:
-        raise TraceError(
-            f"{source}: the unit of the {role} column {name!r} is not stated: give --unit {role}=UNIT ({known})"
-        )
+        text = f"{source}: the unit of the {role} column {name!r} is not stated: state it (--unit {role}=UNIT)"
+        raise ColumnError(f"{text}; the units are {known}", "unit", role)
     if unit not in UNITS[role]:
-        raise TraceError(f"{source}: {unit!r} is no unit of the {role}; the units are {known}")
+        raise ColumnError(f"{source}: {unit!r} is no unit of the {role}; the units are {known}", "unit", role)
     return UNITS[role][unit]

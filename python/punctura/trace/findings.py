@@ -65,7 +65,7 @@ def _units(trace: Trace) -> Iterator[Finding]:
         if not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
-            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; state the unit: --unit {what}=UNIT"
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; state the unit (--unit {what}=UNIT)"
             yield Finding("wrong_unit", text, severe=True)
 
 
@@ -110,7 +110,7 @@ def _depth_axis(trace: Trace, segments: Segments) -> Iterator[Finding]:
         if fast > _FASTEST:
             reasons.append(f"the needle would move at {fast:.3g} m/s; perhaps the axis is 10 or 1000 times too large")
     if trace.time is None and float(np.mean(steps < 0)) > 0.1 and len(segments.strokes) == 1:
-        reasons.append(f"{int((steps < 0).sum())} depths go back; for a digitised curve give --order depth")
+        reasons.append(f"{int((steps < 0).sum())} depths go back; sort a digitised curve by depth (--order depth)")
     if reasons:
         yield Finding("depth_doubtful", "the depth axis is doubtful: " + "; ".join(reasons))
 

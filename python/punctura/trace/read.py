@@ -37,7 +37,7 @@ def read_trace(
     path = Path(path)
     with path.open("rb") as file:
         head = file.read(4)
-    if head != b"PAR1" or _is_recording(path):
+    if head != b"PAR1" or is_recording(path):
         try:
             return examine(_from_recording(path))
         except RecordingError:
@@ -47,7 +47,8 @@ def read_trace(
     return examine(_from_table(table, str(path), columns, units, order))
 
 
-def _is_recording(path: Path) -> bool:
+def is_recording(path: Path) -> bool:
+    """Whether the file is a recording of Punctura. Raises OSError."""
     try:
         open_recording(path)
     except RecordingError:

@@ -37,10 +37,12 @@ export type Request =
   | SaveExercise
   | DeleteExercise
   | TripFault;
+export type IdentifyLine = FileLine | StepLine | TraceLine | FitLine | RivalsLine | ReportLine | ErrorLine;
 
 export interface Wire {
   message: Message;
   request: Request;
+  identify_line: IdentifyLine;
 }
 /**
  * First on every connection.
@@ -526,4 +528,152 @@ export interface DeleteExercise {
 export interface TripFault {
   id: number;
   do: "trip_fault";
+}
+/**
+ * What a file holds. A recording of Punctura states everything, so it has no roles.
+ */
+export interface FileLine {
+  kind: "file";
+  name: string;
+  rows: number;
+  columns: ColumnPart[];
+  roles: RolePart[];
+  needle: NeedlePart | null;
+}
+/**
+ * A column of a file.
+ */
+export interface ColumnPart {
+  name: string;
+  examples: number[];
+}
+/**
+ * What must be known of a quantity. An empty column or unit is not stated in the file.
+ */
+export interface RolePart {
+  role: "depth" | "force" | "time";
+  needed: boolean;
+  column: string;
+  unit: string;
+  units: string[];
+}
+export interface NeedlePart {
+  diameter: number;
+  tip_angle: number;
+}
+/**
+ * The step that is computed now.
+ */
+export interface StepLine {
+  kind: "step";
+  words: string;
+  share: number | null;
+}
+/**
+ * The trace as it was read, before a fit.
+ */
+export interface TraceLine {
+  kind: "trace";
+  name: string;
+  samples: number;
+  peak: number;
+  contact: number | null;
+  pops: number[];
+  curves: CurvesPart;
+  findings: FindingPart[];
+}
+/**
+ * Samples of a trace, thinned so that every peak stays. All lists have the same length.
+ */
+export interface CurvesPart {
+  depth: number[];
+  force: number[];
+  time: number[] | null;
+  model: number[] | null;
+}
+/**
+ * Something unusual in the trace.
+ */
+export interface FindingPart {
+  kind: string;
+  text: string;
+  repaired: boolean;
+  severe: boolean;
+}
+/**
+ * The identified membranes.
+ */
+export interface FitLine {
+  kind: "fit";
+  membranes: number;
+  extensions: string[];
+  rmse: number;
+  rmse_share: number;
+  effective_samples: number;
+  curves: CurvesPart;
+  estimates: EstimatePart[];
+  not_told: string[];
+  tried: TriedPart[];
+  scene: string;
+  no_scene: string;
+}
+/**
+ * A parameter and its 95 % interval; null where the trace sets no bound.
+ */
+export interface EstimatePart {
+  name: string;
+  value: number;
+  low: number | null;
+  high: number | null;
+  unit: string;
+  identifiable: boolean;
+}
+/**
+ * A model that was tried. The criteria count independent samples.
+ */
+export interface TriedPart {
+  extensions: string[];
+  parameters: number;
+  rmse: number;
+  held_out_rmse: number | null;
+  aicc: number;
+  bic: number;
+}
+/**
+ * All models on the trace, the one with the least AIC first.
+ */
+export interface RivalsLine {
+  kind: "rivals";
+  rows: RivalRow[];
+  notes: string[];
+}
+/**
+ * A force model on the trace. null: no value.
+ */
+export interface RivalRow {
+  name: string;
+  title: string;
+  parameters: number;
+  rmse: number;
+  rmse_share: number;
+  aic: number | null;
+  bic: number | null;
+  held_out_rmse: number | null;
+  rest: number | null;
+  own: boolean;
+}
+/**
+ * The one-page report, as the text of an HTML file.
+ */
+export interface ReportLine {
+  kind: "report";
+  html: string;
+}
+/**
+ * The computation has ended without a result. field: the field of the page with the wrong value, or empty.
+ */
+export interface ErrorLine {
+  kind: "error";
+  text: string;
+  field?: string;
 }

@@ -7,6 +7,7 @@ import json
 from pydantic import TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
 
+from punctura.studio.wire.identified import IdentifyLine
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.requests import Request, Target
 
@@ -15,7 +16,8 @@ def wire_schema() -> JsonSchemaValue:
     """JSON Schema (2020-12) with a definition for every message and request; `kind` and `do` tell them apart."""
     sent = TypeAdapter(Message).json_schema(mode="serialization", ref_template="#/$defs/{model}")
     asked = TypeAdapter(Request | Target).json_schema(ref_template="#/$defs/{model}")
-    definitions = {**asked.pop("$defs"), **sent.pop("$defs")}
+    lines = TypeAdapter(IdentifyLine).json_schema(mode="serialization", ref_template="#/$defs/{model}")
+    definitions = {**asked.pop("$defs"), **sent.pop("$defs"), **lines.pop("$defs")}
     for definition in definitions.values():
         for key, entry in definition.get("properties", {}).items():
             entry.pop("title", None)  # it only repeats the key
@@ -26,10 +28,11 @@ def wire_schema() -> JsonSchemaValue:
         "title": "Wire",
         "type": "object",
         "additionalProperties": False,
-        "required": ["message", "request"],
+        "required": ["message", "request", "identify_line"],
         "properties": {
             "message": {"title": "Message", **_union(sent)},
             "request": {"title": "Request", **_union(asked)},
+            "identify_line": {"title": "IdentifyLine", **_union(lines)},
         },
         "$defs": definitions,
     }

@@ -1,0 +1,92 @@
+"""A computation in a process of its own, whose lines are sent to the page as they come. One at a time."""
+
+from __future__ import annotations
+
+import os
+import queue
+import signal
+import subprocess
+import tempfile
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO
+
+MOST_ERRORS = 4096  # bytes of the worker's last error messages
+
+
+class LabError(ValueError):
+    """A job that is not possible; the text says why and what to do."""
+
+
+def take_place(place: threading.BoundedSemaphore) -> None:
+    """Takes the place of the one computation that may run. Raises LabError if it is taken."""
+    if not place.acquire(blocking=False):
+        raise LabError("the Lab is computing something else; try again when it is done, or cancel it")
+
+
+def lines_of(
+    command: list[str],
+    asked: bytes,
+    failed: Callable[[str], bytes],
+    folder: Path | None = None,
+    alive: float | None = None,
+) -> Iterator[bytes]:
+    """The lines of a worker that reads `asked` from standard input. Closing the iterator ends the worker.
+
+    failed: the line for a worker that ended early, from the reason. folder: where it works. alive: an empty line comes
+    after so many seconds without another, so that a client that has gone is noticed.
+    """
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as given:
+        given.write(asked)
+        given.seek(0)
+        worker = subprocess.Popen(
+            command,
+            stdin=given,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            env=environment,
+            cwd=folder,
+            start_new_session=True,
+        )
+        assert worker.stdout
+        lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        reader = threading.Thread(target=_read, args=(worker.stdout, lines), name="punctura-lab", daemon=True)
+        reader.start()
+        try:
+            while line := _next(lines, alive):
+                yield line
+            if code := worker.wait():
+                yield failed(_why(code, errors))
+        finally:
+            worker.kill()
+            reader.join()
+            worker.stdout.close()
+            worker.wait()
+
+
+def _read(output: IO[bytes], lines: queue.SimpleQueue[bytes]) -> None:
+    for line in output:
+        lines.put(line)
+    lines.put(b"")
+
+
+def _next(lines: queue.SimpleQueue[bytes], alive: float | None) -> bytes:
+    try:
+        return lines.get(timeout=alive)
+    except queue.Empty:
+        return b"\n"
+
+
+def _why(code: int, errors: IO[bytes]) -> str:
+    """Why a worker ended without a result. code: its exit status."""
+    errors.seek(max(0, errors.seek(0, os.SEEK_END) - MOST_ERRORS))
+    lines = errors.read().decode("utf-8", "replace").strip().splitlines()[-5:]
+    if code == -signal.SIGKILL or (
+        lines and lines[-1].startswith(("MemoryError", "numpy._core._exceptions._ArrayMem"))
+    ):
+        return "the computation ended early; is there enough memory?"
+    return (
+        f"the computation ended early (status {code}); a defect, please report it: {'; '.join(lines) or 'no message'}"
+    )

@@ -1,0 +1,124 @@
+"""Files of measured traces that a page sends: what they hold, and their identification, in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+import sys
+import tempfile
+import threading
+import unicodedata
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import QueryParams
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import Response
+
+from punctura.studio.computing import LabError, lines_of, take_place
+from punctura.studio.download import Download
+from punctura.studio.limits import UNREAD_S
+from punctura.studio.names import LONGEST, BadName, safe_name
+from punctura.studio.security import FILES
+from punctura.studio.trace_job import TraceJob
+from punctura.studio.wire.identified import ErrorLine
+
+FILE, IDENTIFY = FILES
+COMMAND = [sys.executable, "-m", "punctura.studio.trace_worker"]
+ALIVE_S = 0.25  # after which a client that has gone is noticed
+LONGEST_WORD = 200  # characters of a value
+
+
+class Late(Exception):
+    """The file did not arrive in time."""
+
+
+class Traces:
+    """One computation at a time, for all pages together: `place` is shared with the other computations."""
+
+    def __init__(self, place: threading.BoundedSemaphore) -> None:
+        self._place = place
+
+    async def file(self, request: Request) -> Response:
+        """What a file holds: its columns, and what it does not state."""
+        return await self._answer("look", request)
+
+    async def identify(self, request: Request) -> Response:
+        """The identification of a file as lines: the trace, steps, the fit, other models, the report."""
+        return await self._answer("identify", request)
+
+    async def _answer(self, task: Literal["look", "identify"], request: Request) -> Response:
+        job = _job(task, request.query_params)
+        take_place(self._place)
+        folder = Path(tempfile.mkdtemp(prefix="punctura-"))
+        try:
+            await _receive(request, folder / job.file)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            self._place.release()
+            raise
+        media = "application/x-ndjson"
+        return await run_in_threadpool(lambda: Download(_lines(job, folder), self._place, media_type=media))
+
+
+def _job(task: Literal["look", "identify"], asked: QueryParams) -> TraceJob:
+    """Raises LabError."""
+    if any(len(value) > LONGEST_WORD for value in asked.values()):
+        raise LabError(f"a value has at most {LONGEST_WORD} characters")
+    return TraceJob(
+        task=task,
+        file=file_name(asked.get("name", "")),
+        columns=_pairs(asked.getlist("column")),
+        units=_pairs(asked.getlist("unit")),
+        order=asked.get("order", "recorded"),
+        diameter_mm=asked.get("diameter_mm", ""),
+        tip_angle_deg=asked.get("tip_angle_deg", ""),
+        membranes=asked.get("membranes", "auto"),
+    )
+
+
+def _pairs(words: list[str]) -> dict[str, str]:
+    """{"depth": "z"} of ["depth=z"]. Raises LabError."""
+    if any("=" not in word for word in words):
+        raise LabError("column and unit are ROLE=VALUE, for example depth=mm")
+    return {role: value for role, _, value in (word.partition("=") for word in words)}
+
+
+def file_name(name: str) -> str:
+    """The name as that of a file in one folder. Its ending stays, because it tells the format."""
+    kept = "".join("_" if c in '/\\:*?"<>|' or unicodedata.category(c)[0] == "C" else c for c in name)
+    try:
+        return safe_name(kept[-LONGEST:].strip(" ."))
+    except BadName:
+        ending = "".join(c for c in Path(kept).suffix if c.isalnum())[:10]
+        return f"trace.{ending}" if ending else "trace"
+
+
+async def _receive(request: Request, path: Path) -> None:
+    """Writes the body to a file while it comes. Raises Late, LabError, TooLarge, OSError."""
+    pieces = aiter(request.stream())
+    with path.open("wb") as file:
+        try:
+            while True:
+                piece = await asyncio.wait_for(anext(pieces), UNREAD_S)
+                await run_in_threadpool(file.write, piece)
+        except StopAsyncIteration:
+            return
+        except asyncio.TimeoutError:
+            raise Late("the file did not arrive in time; send it again") from None
+        except ClientDisconnect:
+            raise LabError("the file did not arrive whole") from None
+
+
+def _lines(job: TraceJob, folder: Path) -> Iterator[bytes]:
+    """The worker's lines as they come; then the folder with the file is removed."""
+
+    def failed(why: str) -> bytes:
+        return ErrorLine(text=why[:1].upper() + why[1:]).model_dump_json().encode() + b"\n"
+
+    try:
+        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, folder, ALIVE_S)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,64 @@
+"""What a file seems to hold, before it is read as a trace: for a program that asks its user what is not stated."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from punctura import Needle
+from punctura.record import open_recording
+from punctura.trace.columns import ROLES, UNITS, candidates, split_name
+from punctura.trace.read import is_recording
+from punctura.trace.tables import read_table
+
+EXAMPLES = 3  # numbers of a column that are shown
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a file: its name and its first numbers, in the unit of the file."""
+
+    name: str
+    examples: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Guess:
+    """The column that is known by its name to be the role, and the unit in its name; empty if it is not stated."""
+
+    role: str
+    column: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Look:
+    """What a file holds. A recording of Punctura states its columns, its units and its needle."""
+
+    rows: int
+    columns: tuple[Column, ...]
+    guesses: tuple[Guess, ...]  # one for each of ROLES; none for a recording
+    needle: Needle | None
+
+
+def look_at(path: str | os.PathLike[str]) -> Look:
+    """Reads the names and the first numbers of a trace file. Nothing is guessed. Raises TraceError, OSError."""
+    path = Path(path)
+    if is_recording(path):
+        recording = open_recording(path)
+        return Look(recording.rows, (), (), recording.info.scene.needle)
+    table = read_table(path)
+    names = list(table)
+    columns = tuple(Column(name, tuple(cells[np.isfinite(cells)][:EXAMPLES].tolist())) for name, cells in table.items())
+    found = {role: candidates(role, names) for role in ROLES}
+    clear = {role: names[at[0]] if len(at) == 1 else "" for role, at in found.items()}
+    guesses = tuple(Guess(role, name, _unit(role, name)) for role, name in clear.items())
+    return Look(len(next(iter(table.values()))), columns, guesses, None)
+
+
+def _unit(role: str, name: str) -> str:
+    unit = split_name(name)[1] if name else ""
+    return unit if unit in UNITS[role] else ""
