@@ -93,7 +93,7 @@ def table(runs: list[Run]) -> str:
             f"{run.speed * 1e3:g} mm/s",
             f"{loss.model_before:.2f} N, {loss.model_after:.2f} N",
             f"{loss.before:.2f} N, {loss.after:.2f} N",
-            f"{loss.drop:.2f} N",
+            f"{max(loss.drop, 0.0):.2f} N",
             f"{loss.needed:.2g} N",
             f"{run.cut_s:.1f} s",
             "yes" if loss.felt else "**no**",

@@ -97,7 +97,7 @@ TEST_CASE("at rest, the line fit leaves at most 0.016 N rms from tick to tick fo
 }
 
 TEST_CASE("where three or five membranes hold the needle, the line fit leaves at most 0.016 N rms, too") {
-  // The couplings of the ready scenes venipuncture and epidural. While all membranes stick, their forces are equal.
+  // The coupling of the ready scene venipuncture, and a stiffer one. While all membranes stick, their forces are equal.
   struct Hold {
     Coupling coupling;
     int membranes;

@@ -25,9 +25,12 @@ def scene_of(membrane, solver="exact"):
 
 def offline(scene, index, obliquity):
     """Largest resistance and shaft friction of the law, N."""
-    law = pn.ThickLaw(scene.needle, scene.membranes[index].membrane, obliquity)
-    lower, _ = law.bounds(np.linspace(0, law.X + law.U, 200_001))
-    return -float(lower.min()), -float(law.bounds(law.X + law.U + 1e-3)[0])
+    placed = scene.membranes[index]
+    tissue = placed.tissue or pn.Tissue()
+    law = pn.TissueLaw(scene.needle, placed.membrane, tissue, obliquity)
+    end = law.X + placed.membrane.thickness / math.cos(obliquity) + tissue.tail_length
+    lower, _ = law.bounds(np.linspace(0, end, 200_001))
+    return -float(lower.min()), -float(law.bounds(end + 1e-3)[0])
 
 
 @pytest.mark.parametrize("solver", ["exact", "paper"])

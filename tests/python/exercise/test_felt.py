@@ -111,7 +111,7 @@ def test_a_weak_device_is_known_before_the_attempt():
     assert cannot_show(exercise, automatic, weak) == ""
     (loss,) = expected_losses(exercise, automatic, weak)
     assert loss.before < weak.max_force and loss.force_scale < 0.4
-    assert "larger force_scale" in cannot_show(exercise, whole.replace(display=pn.DisplaySettings(0.05)), weak)
+    assert "larger force_scale" in cannot_show(exercise, whole.replace(display=pn.DisplaySettings(0.005)), weak)
 
 
 def test_what_is_expected_is_what_a_hand_gets():

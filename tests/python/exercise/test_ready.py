@@ -97,7 +97,7 @@ def test_epidural_can_be_passed(seed):
     assert "ligamentum flavum" in [e.name for e in result.events if e.what == "pop"]
     assert "dura" not in [e.name for e in result.events if e.what == "pop"]
     assert max(one.distance for one in result.metrics.overshoot if one.name == "ligamentum flavum") < 2.5e-3
-    assert result.metrics.peak_force < 3.3  # what a desktop device can give
+    assert 11 < result.metrics.peak_force < 13 and result.metrics.peak_felt_force < 0.76  # what an Omni can hold
 
 
 def test_through_the_back_wall():
