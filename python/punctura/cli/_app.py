@@ -77,7 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except (PuncturaError, ValueError, OSError) as error:
             if isinstance(error, StdoutError):
                 give_up_stdout()
-            _fail(f"{error}{_where()}", FAILED)
+            _fail(f"{_words(error)}{_where()}", FAILED)
         except Ended as end:
             leave(end)
         finally:
@@ -85,6 +85,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 sys.exc_info()[1], SystemExit | None
             ):  # else there is a traceback, which must not wait for its reader
                 wait_for_stderr_again()
+
+
+def _words(error: Exception) -> str:
+    """The sentence of an error; an error of the system names its file first and has no number."""
+    if not isinstance(error, OSError) or error.filename is None or not error.strerror:
+        return str(error)
+    what = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
+    return f"{os.fsdecode(error.filename)}: {what}"
 
 
 def _where() -> str:

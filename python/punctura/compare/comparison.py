@@ -95,6 +95,12 @@ class Collector:
         self._curves: list[dict[str, tuple[Array, Array]]] = []
 
     def add(self, run: Run) -> None:
+        """Raises TypeError for something else than a Run."""
+        if not isinstance(run, Run):
+            raise TypeError(
+                f"a run to compare must be a Run, not {type(run).__name__}; "
+                "Run.of_ticks(name, scene, ticks) makes one of Ticks, recorded_run(path) one of a recording"
+            )
         places = tuple(placed.name for placed in run.scene.membranes)
         self._numbers.append(statistics(run))
         self._places.append(places)
@@ -115,7 +121,7 @@ class Collector:
 
 
 def compare(runs: Iterable[Run], on: On = "depth", points: int = POINTS) -> Comparison:
-    """Compares runs. Raises ValueError for no runs.
+    """Compares runs. Raises ValueError for no runs, TypeError for something else than a Run.
 
     on "time": the time since the first contact, s. on "depth": the depth, m; a curve has the values at the moment when
     the tip first came to each depth, so that there is one value for each depth.

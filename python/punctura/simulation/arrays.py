@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import numpy.typing as npt
 
 from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.progress import Progress
+from punctura.simulation.depth_note import depth_note
 from punctura.simulation.even import Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.rate import resampler_for
@@ -52,6 +54,9 @@ def simulate_arrays(
     names = [placed.name for placed in scene.membranes]
     insertion = Insertion(scene) if rivals is None else RivalInsertion(scene, rivals)
     ticks = insertion.run(p, b, progress=progress)
+    deepest = ticks.depth.max(axis=0) if len(p) else np.zeros(1)
+    if note := depth_note(names[int(deepest.argmax())], float(deepest.max())):
+        warnings.warn(note, UserWarning, stacklevel=3)  # the line that calls simulate
     return Ticks({"tick": np.arange(len(p), dtype=np.uint64), "time": stamps, **dict(ticks.items())}, names)
 
 

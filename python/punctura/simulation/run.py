@@ -17,6 +17,7 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.progress import Progress, Tell, reporting
 from punctura.scene import load_scene, scene_text
 from punctura.simulation.arrays import simulate_arrays
+from punctura.simulation.depth_note import depth_note
 from punctura.simulation.even import Evenness
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.motion_file import MotionFile
@@ -73,7 +74,7 @@ def simulate(
     In memory: motion is an array of positions (n, 3), m, or of depths (n,), m, below the first membrane's surface along
     its inward normal. time (n,), s, evenly sampled: the motion is resampled linearly if its rate is not the servo rate.
     Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
-    inward normal. Raises ConfigurationError or ValueError.
+    inward normal. Raises ConfigurationError or ValueError. A depth of more than 0.5 m gives a UserWarning: the unit is m.
 
     progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. rivals: force models of other
     authors instead of the scene's law (punctura.rivals), one, or one for each membrane.
@@ -116,6 +117,8 @@ def _simulate_file(
             trace = insertion.run(part.position, default_axis if part.axis is None else part.axis)
             output.write(output_table(schema, part.time, part.position, part.axis, trace))
             _add(summary, part, trace)
+    deepest = max(summary.membranes, key=lambda membrane: membrane.deepest_m)
+    summary.notes += filter(None, [depth_note(deepest.name, deepest.deepest_m)])
     summary.elapsed_s = perf_counter() - began
     return summary
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Fault, TickArrays, describe
+from punctura.extras import optional
 from punctura.ticks.columns import Array, membrane_count
 from punctura.ticks.fields import FIELDS
 
@@ -117,14 +118,12 @@ class Ticks(TickArrays):
 
     def to_pandas(self) -> pandas.DataFrame:
         """The same table as a pandas DataFrame. Needs the package pandas."""
+        optional("pandas", "frames", "Ticks.to_pandas")
         return self.to_arrow().to_pandas()
 
     def to_polars(self) -> polars.DataFrame:
         """The same table as a Polars DataFrame. Needs the package polars."""
-        import polars
-
-        frame = polars.from_arrow(self.to_arrow())
-        assert isinstance(frame, polars.DataFrame)
+        frame: polars.DataFrame = optional("polars", "frames", "Ticks.to_polars").from_arrow(self.to_arrow())
         return frame
 
     def save(self, path: str | os.PathLike[str]) -> None:

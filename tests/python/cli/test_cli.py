@@ -172,6 +172,12 @@ def test_missing_files_and_a_wrong_ending_are_called_wrongly(tmp_path):
     )
 
 
+@pytest.mark.parametrize("verb", [["identify", "--needle", "diameter_mm=1,tip_angle_deg=20"], ["compare"]])
+def test_a_missing_trace_is_named_without_the_systems_number(verb, tmp_path):
+    done = punctura(*verb, "none.csv", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (FAILED, "punctura: none.csv: there is no such file\n")
+
+
 def test_missing_options_are_a_usage_error():
     done = punctura("simulate", "k06-fig10")
     assert done.returncode == 2 and "Missing option '--motion'" in done.stderr

@@ -114,6 +114,12 @@ def test_runs_with_different_membranes_have_no_curves_for_each_membrane(runs):
     assert comparison.difference(1)["peak"] == second.peak - first.peak
 
 
+def test_ticks_are_refused_with_the_way_to_make_a_run(scene):
+    ticks = pn.simulate(scene, np.linspace(0, 5e-3, 20))
+    with pytest.raises(TypeError, match=r"must be a Run, not Ticks; Run.of_ticks"):
+        compare([ticks])
+
+
 @pytest.mark.parametrize(
     "path, values, words",
     [

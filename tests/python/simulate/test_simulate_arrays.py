@@ -69,3 +69,13 @@ def test_a_file_and_an_array_take_different_arguments(write):
         simulate(SCENE, "motion.csv", "out.csv", axis=[0, -1, 0])
     with pytest.raises(TypeError, match="needs out_path"):
         simulate(SCENE, "motion.csv")
+
+
+@pytest.mark.filterwarnings("error")
+def test_depths_in_millimetres_give_a_warning_and_those_in_metres_none():
+    depths = np.linspace(-5e-3, 11e-3, 500)
+    simulate(SCENE, depths)
+    simulate(SCENE, depths[:0])
+    with pytest.warns(UserWarning, match=r"11 m deep into 'first membrane'.*in millimetres, divide") as told:
+        ticks = simulate(SCENE, 1e3 * depths)
+    assert len(ticks) == 500 and told[0].filename == __file__

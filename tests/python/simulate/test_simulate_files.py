@@ -70,3 +70,11 @@ def test_numbers_in_the_csv_read_back_as_the_same_doubles(write, tmp_path):
         fields = line.split(",")[:-1]
         assert float(fields[0]) == t
         assert all(len(field.lstrip("-0.").split("e")[0].replace(".", "")) <= 17 for field in fields)
+
+
+def test_a_motion_in_millimetres_is_noted(write, tmp_path):
+    time, position = strokes(1000)
+    right = simulate("k06-fig10", write([HEADER, *rows_of(time, position)]), tmp_path / "out.csv")
+    wrong = simulate("k06-fig10", write([HEADER, *rows_of(time, 1e3 * position)]), tmp_path / "out.csv")
+    assert right.notes == []
+    assert len(wrong.notes) == 1 and "m deep into 'thin membrane'" in wrong.notes[0]

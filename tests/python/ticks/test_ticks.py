@@ -139,6 +139,13 @@ def test_polars_gets_the_arrow_table(monkeypatch):
     assert isinstance(ticks.to_polars(), polars.DataFrame) and given == [ticks.to_arrow()]
 
 
+@pytest.mark.parametrize("package", ["pandas", "polars"])
+def test_without_the_package_of_a_frame_it_is_said_how_to_install_it(monkeypatch, package):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ModuleNotFoundError, match=rf"Ticks.to_{package} needs the package.*punctura\[frames\]"):
+        getattr(simulated(), f"to_{package}")()
+
+
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_a_saved_file_holds_the_same_numbers(tmp_path, suffix):
     ticks, path = simulated(), tmp_path / f"ticks{suffix}"
