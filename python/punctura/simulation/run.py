@@ -74,7 +74,7 @@ def simulate(
     In memory: motion is an array of positions (n, 3), m, or of depths (n,), m, below the first membrane's surface along
     its inward normal. time (n,), s, evenly sampled: the motion is resampled linearly if its rate is not the servo rate.
     Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
-    inward normal. Raises ConfigurationError or ValueError. A depth of more than 0.5 m gives a UserWarning: the unit is m.
+    inward normal. Raises ConfigurationError or ValueError. Warns of a depth of more than 0.5 m: the unit is m.
 
     progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. rivals: force models of other
     authors instead of the scene's law (punctura.rivals), one, or one for each membrane.
