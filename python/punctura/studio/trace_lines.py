@@ -47,7 +47,6 @@ def file_line(name: str, look: Look) -> FileLine:
             role=role,
             needed=role in REQUIRED,
             column=guesses[role].column,
-            unit=guesses[role].unit,
             units=list(UNITS[role]),
         )
         for role in ROLES
@@ -55,7 +54,7 @@ def file_line(name: str, look: Look) -> FileLine:
     ]
     known = look.needle
     needle = None if known is None else NeedlePart(diameter=known.diameter, tip_angle=known.tip_angle)
-    columns = [ColumnPart(name=one.name, examples=list(one.examples)) for one in look.columns]
+    columns = [ColumnPart(name=one.name, unit=one.unit, examples=list(one.examples)) for one in look.columns]
     return FileLine(name=name, rows=look.rows, columns=columns, roles=roles, needle=needle)
 
 
@@ -136,6 +135,7 @@ def _row(row: Row) -> RivalRow:
         bic=_finite(row.bic),
         held_out_rmse=_finite(row.held_out_rmse),
         rest=None if row.chatter is None else _finite(row.chatter.rest),
+        converged=row.converged,
         own=row.name in (PRINTED, CHOSEN),
     )
 

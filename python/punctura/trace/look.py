@@ -10,7 +10,7 @@ import numpy as np
 
 from punctura import Needle
 from punctura.record import open_recording
-from punctura.trace.columns import ROLES, UNITS, candidates, split_name
+from punctura.trace.columns import ROLES, candidates, split_name
 from punctura.trace.read import is_recording
 from punctura.trace.tables import read_table
 
@@ -19,19 +19,19 @@ EXAMPLES = 3  # numbers of a column that are shown
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a file: its name and its first numbers, in the unit of the file."""
+    """A column of a file: its name, the unit in the name (empty if it is not stated), and its first numbers."""
 
     name: str
+    unit: str
     examples: tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Guess:
-    """The column that is known by its name to be the role, and the unit in its name; empty if it is not stated."""
+    """The column that is known by its name to be the role; empty if none is, or more than one."""
 
     role: str
     column: str
-    unit: str
 
 
 @dataclass(frozen=True)
@@ -52,13 +52,10 @@ def look_at(path: str | os.PathLike[str]) -> Look:
         return Look(recording.rows, (), (), recording.info.scene.needle)
     table = read_table(path)
     names = list(table)
-    columns = tuple(Column(name, tuple(cells[np.isfinite(cells)][:EXAMPLES].tolist())) for name, cells in table.items())
+    columns = tuple(
+        Column(name, split_name(name)[1], tuple(cells[np.isfinite(cells)][:EXAMPLES].tolist()))
+        for name, cells in table.items()
+    )
     found = {role: candidates(role, names) for role in ROLES}
-    clear = {role: names[at[0]] if len(at) == 1 else "" for role, at in found.items()}
-    guesses = tuple(Guess(role, name, _unit(role, name)) for role, name in clear.items())
+    guesses = tuple(Guess(role, names[at[0]] if len(at) == 1 else "") for role, at in found.items())
     return Look(len(next(iter(table.values()))), columns, guesses, None)
-
-
-def _unit(role: str, name: str) -> str:
-    unit = split_name(name)[1] if name else ""
-    return unit if unit in UNITS[role] else ""

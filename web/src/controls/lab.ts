@@ -4,10 +4,11 @@ import { estimatePart } from "./lab/estimate.ts";
 import { compute, type Job } from "./lab/job.ts";
 import { pickRuns } from "./lab/pick.ts";
 import { openComparison } from "./lab/result.ts";
+import { tracePart } from "./lab/trace/part.ts";
 import { varyForm } from "./lab/vary.ts";
 import { wordsOf } from "./recordings/library.ts";
 
-/** Compares recordings, and varies a parameter of the scene through simulated runs. */
+/** Identifies measured traces, compares recordings, and varies a parameter of the scene through simulated runs. */
 export const labPanel: Panel = (host, app) => {
   const bar = element("progress", { max: 1, value: 0, "aria-label": "Progress of the computation" });
   const words = element("span", { class: "quiet" });
@@ -40,7 +41,7 @@ export const labPanel: Panel = (host, app) => {
   };
   const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
   const vary = varyForm((job) => void start(job, `${job.path} varied`));
-  host.append(picked.root, vary.root, progress, trouble, estimatePart(app));
+  host.append(tracePart(app), picked.root, vary.root, progress, trouble, estimatePart(app));
 
   const refresh = async (): Promise<void> => {
     try {

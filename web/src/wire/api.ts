@@ -45,6 +45,11 @@ export class Api {
     await this.get(path, { method: "DELETE" });
   }
 
+  /** Sends a file. The signal ends the request, also while the answer comes. */
+  send(path: string, body: Blob, signal: AbortSignal): Promise<Response> {
+    return this.get(path, { method: "POST", body, signal });
+  }
+
   /** The URL of a link that the browser itself opens or saves. */
   address(path: string): string {
     return `${path}${path.includes("?") ? "&" : "?"}token=${encodeURIComponent(this.token)}`;

@@ -545,16 +545,16 @@ export interface FileLine {
  */
 export interface ColumnPart {
   name: string;
+  unit: string;
   examples: number[];
 }
 /**
- * What must be known of a quantity. An empty column or unit is not stated in the file.
+ * What must be known of a quantity. column: that is clear by its name; empty if none is.
  */
 export interface RolePart {
   role: "depth" | "force" | "time";
   needed: boolean;
   column: string;
-  unit: string;
   units: string[];
 }
 export interface NeedlePart {
@@ -660,6 +660,7 @@ export interface RivalRow {
   bic: number | null;
   held_out_rmse: number | null;
   rest: number | null;
+  converged: boolean;
   own: boolean;
 }
 /**

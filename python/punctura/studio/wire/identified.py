@@ -15,16 +15,16 @@ class ColumnPart(Part):
     """A column of a file."""
 
     name: str
+    unit: str  # that its name states, or empty
     examples: list[Finite]  # its first numbers, in the unit of the file
 
 
 class RolePart(Part):
-    """What must be known of a quantity. An empty column or unit is not stated in the file."""
+    """What must be known of a quantity. column: that is clear by its name; empty if none is."""
 
     role: Role
     needed: bool
     column: str
-    unit: str
     units: list[str]  # that can be stated
 
 
@@ -134,6 +134,7 @@ class RivalRow(Part):
     bic: Finite | None
     held_out_rmse: Finite | None  # N
     rest: Finite | None  # N, how much its force shakes while the hand rests
+    converged: bool  # false: the fit ended at its limit of steps
     own: bool  # K06, not a model of other authors
 
 

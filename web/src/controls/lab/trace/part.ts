@@ -1,0 +1,105 @@
+import { element } from "../../../panel.ts";
+import type { App } from "../../../state/app.ts";
+import { wordsOf } from "../../recordings/library.ts";
+import { dropZone } from "./drop_zone.ts";
+import { type Form, questions } from "./form.ts";
+import { type Answers, FieldError, identify, lookAt, refusalOf } from "./job.ts";
+import { type TraceDialog, traceDialog } from "./result.ts";
+
+/** "Identify a measured trace": a file is dropped, looked at, asked about and identified. */
+export function tracePart(app: App): HTMLElement {
+  const zone = dropZone((file) => void look(file));
+  const bar = element("progress", { "aria-label": "Progress of the identification" });
+  const step = element("span", { class: "quiet" });
+  const cancel = element("button", { type: "button", class: "small" }, "Cancel");
+  const progress = element("div", { class: "tools progress", role: "status", hidden: true }, bar, step, cancel);
+  const trouble = element("p", { class: "error", role: "alert" });
+  const known = element("p", { class: "quiet" });
+  const asked = element("div");
+  const again = element("button", { type: "button", class: "small", hidden: true }, "Show the result");
+  const place = element("div", {}, progress);
+  let running: AbortController | null = null;
+  let form: Form | null = null;
+  let dialog: TraceDialog | null = null;
+  cancel.addEventListener("click", () => running?.abort());
+  again.addEventListener("click", () => dialog?.open());
+
+  /** Runs one job at a time. Returns why it ended early; empty if it did not. */
+  const run = async (words: string, job: (signal: AbortSignal) => Promise<void>): Promise<string> => {
+    const stop = new AbortController();
+    running = stop;
+    trouble.textContent = "";
+    show(words, null);
+    progress.hidden = false;
+    form?.lock(true);
+    try {
+      await job(stop.signal);
+      return "";
+    } catch (error) {
+      if (stop.signal.aborted) return "Cancelled.";
+      const at = error instanceof FieldError && (form?.complain(error.field, error.message) ?? false);
+      if (!at) trouble.textContent = wordsOf(error);
+      return wordsOf(error);
+    } finally {
+      running = null;
+      progress.hidden = true;
+      form?.lock(false);
+    }
+  };
+  const show = (words: string, share: number | null): void => {
+    step.textContent = words;
+    if (share === null) bar.removeAttribute("value");
+    else bar.value = share;
+  };
+
+  const look = async (file: File): Promise<void> => {
+    if (running) {
+      trouble.textContent = "Something else is being computed; cancel it first.";
+      return;
+    }
+    form = null;
+    asked.replaceChildren();
+    known.textContent = "";
+    trouble.textContent = refusalOf(file);
+    if (trouble.textContent) return;
+    await run(`reading ${file.name}…`, async (signal) => {
+      const found = await lookAt(app.api, file, signal);
+      const states = found.needle ? "a recording: it states everything" : `${found.columns.length} columns`;
+      known.textContent = `${found.name}: ${found.rows} rows, ${states}.`;
+      form = questions(app, found, (answers) => void start(file, found.name, answers));
+      asked.replaceChildren(form.root);
+      form.root.querySelector<HTMLElement>("select, input")?.focus();
+    });
+  };
+
+  const start = async (file: File, name: string, answers: Answers): Promise<void> => {
+    if (running) return;
+    const made = traceDialog(app, name, progress, () => place.append(progress));
+    let opened = false;
+    const why = await run("starting…", async (signal) => {
+      for await (const line of identify(app.api, file, answers, signal)) {
+        made.take(line);
+        if (line.kind === "step") show(line.words, line.share);
+        else if (!opened) {
+          opened = true;
+          dialog = made;
+          again.hidden = false;
+          made.open();
+        }
+      }
+    });
+    made.end(why);
+  };
+
+  return element(
+    "section",
+    { class: "trace-part" },
+    element("h3", {}, "Identify a measured trace"),
+    zone,
+    trouble,
+    known,
+    asked,
+    place,
+    again,
+  );
+}

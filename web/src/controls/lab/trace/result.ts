@@ -1,0 +1,121 @@
+import { element } from "../../../panel.ts";
+import { download } from "../../../plots/save.ts";
+import type { App } from "../../../state/app.ts";
+import type { FitLine, IdentifyLine } from "../../../wire/messages.ts";
+import { blockLine, watchBlock } from "../../blocked.ts";
+import { fileName } from "../../download.ts";
+import { findingsPart, fitParts, rivalsPart } from "./parts.ts";
+import { tracePlot } from "./plot.ts";
+import { fitWords, rankWords } from "./words.ts";
+
+const READY = "The scene begins a new run, as every scene that you load.";
+
+/** The dialog of an identification. It fills while the lines come. */
+export interface TraceDialog {
+  take(line: IdentifyLine): void;
+  /** The computation has ended; why, if it ended without all results. */
+  end(why: string): void;
+  open(): void;
+}
+
+/** progress: the line with the present step, shown while the dialog is open. closed: the dialog gives it back. */
+export function traceDialog(app: App, name: string, progress: HTMLElement, closed: () => void): TraceDialog {
+  const verdict = element("p", { class: "why", role: "status" });
+  const trouble = element("p", { class: "error", role: "alert" });
+  const place = element("div", { class: "trace-place" });
+  const [numbers, models] = [element("div"), element("div")];
+  let report = "";
+  let scene = "";
+  const button = (label: string, help: string, act: () => void, kind = ""): HTMLButtonElement =>
+    element("button", { type: "button", class: `small ${kind}`, title: help, onclick: act }, label);
+  const feel = button("Feel this tissue", "Load the scene of these membranes", () => void load(), "primary");
+  const saveScene = button("Save scene", "Save the scene as a TOML file for punctura run", () =>
+    download(fileName(name, "toml"), [scene], "application/toml"),
+  );
+  const saveReport = button("Save report", "Save the one-page report as an HTML file", () =>
+    download(fileName(`${name}-report`, "html"), [report], "text/html"),
+  );
+  let blocked = false;
+  const mark = (): void => {
+    feel.disabled = blocked || !scene;
+    saveScene.disabled = !scene;
+    saveReport.disabled = !report;
+  };
+  watchBlock(
+    app,
+    (block) => {
+      blocked = block !== null;
+      mark();
+    },
+    "scene",
+  );
+  const load = async (): Promise<void> => {
+    trouble.textContent = "";
+    const reply = await app.ask({ do: "load_text", toml: scene });
+    const problems = (reply?.problems ?? []).map(({ path, reason }) => `${path}: ${reason}`);
+    if (!reply?.ok) trouble.textContent = [reply?.text ?? "No connection.", ...problems].join(" ");
+    else {
+      dialog.close();
+      document.querySelector<HTMLElement>(".panel.view [role=application]")?.focus();
+    }
+  };
+  const dialog = element(
+    "dialog",
+    { class: "result tab lab-result", "aria-labelledby": "trace-title" },
+    element("header", {}, element("h2", { id: "trace-title", tabindex: -1 }, name)),
+    verdict,
+    trouble,
+    place,
+    numbers,
+    models,
+    element(
+      "footer",
+      { class: "trace-footer" },
+      blockLine(app, READY, "scene"),
+      element(
+        "div",
+        { class: "tools" },
+        feel,
+        saveScene,
+        saveReport,
+        element("span", { class: "gap" }),
+        button("Close", "Close", () => dialog.close()),
+      ),
+    ),
+  );
+  dialog.addEventListener("close", () => {
+    dialog.remove();
+    closed();
+  });
+  let redraw: (line: FitLine) => void = () => {};
+  let fitted: FitLine | null = null;
+  return {
+    take: (line) => {
+      if (line.kind === "trace") {
+        redraw = tracePlot(place, line);
+        numbers.replaceChildren(findingsPart(line));
+      } else if (line.kind === "fit") {
+        fitted = line;
+        redraw(line);
+        scene = line.scene;
+        if (line.no_scene) trouble.textContent = `These membranes make no scene: ${line.no_scene}`;
+        numbers.prepend(...fitParts(line));
+        verdict.textContent = fitWords(line);
+      } else if (line.kind === "rivals") {
+        models.replaceChildren(rivalsPart(line));
+        if (fitted) verdict.textContent = `${fitWords(fitted)} ${rankWords(line)}`;
+      } else if (line.kind === "report") report = line.html;
+      mark();
+    },
+    end: (why) => {
+      trouble.textContent = why;
+      mark();
+    },
+    open: () => {
+      dialog.querySelector("header")!.after(progress);
+      document.body.append(dialog);
+      dialog.showModal();
+      dialog.querySelector<HTMLElement>("h2")!.focus();
+    },
+  };
+}
