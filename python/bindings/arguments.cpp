@@ -51,7 +51,8 @@ void Arguments::refuse(const std::string& faults) const {
   std::string takes;
   for (const Argument& a : wanted_)
     takes += std::string(takes.empty() ? "" : ", ") + a.name + ": " + a.type + (a.otherwise ? " (optional)" : "");
-  throw nb::type_error((call_ + "(): " + faults + ". It takes (" + takes + ")").c_str());
+  const char* end = faults.ends_with('?') ? " It takes (" : ". It takes (";
+  throw nb::type_error((call_ + "(): " + faults + end + takes + ")").c_str());
 }
 
 namespace {
@@ -64,9 +65,10 @@ struct Usual {
   double factor;
 };
 constexpr Usual usual[] = {
-    {"needle.diameter", 1e-5, 0.05, "m", "mm", 1e-3},   {"coupling.stiffness", 5, 1e6, "N/m", "N/mm", 1e3},
-    {"membrane.stiffness", 1, 1e6, "N/m", "N/mm", 1e3}, {"membrane.precompression", 1e-4, 100, "N", "mN", 1e-3},
-    {"membrane.thickness", 1e-9, 0.1, "m", "mm", 1e-3},
+    {"needle.diameter", 1e-5, 0.05, "m", "mm", 1e-3},        {"needle.diameter", 1e-5, 0.05, "m", "um", 1e-6},
+    {"coupling.stiffness", 5, 1e6, "N/m", "N/mm", 1e3},      {"membrane.stiffness", 1, 1e6, "N/m", "N/mm", 1e3},
+    {"membrane.thickness", 1e-9, 0.1, "m", "mm", 1e-3},      {"membrane.thickness", 1e-9, 0.1, "m", "um", 1e-6},
+    {"membrane.precompression", 1e-4, 100, "N", "mN", 1e-3},
 };
 
 /// "membrane[0].stiffness" without the number.
@@ -89,6 +91,7 @@ void warn_unusual(const std::string& path, double value) {
     std::snprintf(text, sizeof text, "%s = %g %s is unusual. If you meant %g %s, write %g: all numbers are in SI units",
                   path.c_str(), value, n.unit, value, n.other_unit, meant);
     if (PyErr_WarnEx(PyExc_UserWarning, text, 1) != 0) throw nb::python_error();
+    return;  // the first unit that fits
   }
 }
 

@@ -67,8 +67,8 @@ void def_init(nb::class_<T>& cls, std::vector<Argument> wanted, T (*make)(A...),
       nb::sig(signature.c_str()), doc);
 }
 
-/// Emits a UserWarning if a number lies outside the usual range of its field in SI units, but inside it in mm, N/mm or
-/// mN: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
+/// Emits a UserWarning if a number lies outside the usual range of its field in SI units, but inside it in mm, um, N/mm
+/// or mN: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
 void warn_unusual(const std::string& path, double value);
 
 }  // namespace punctura::bindings

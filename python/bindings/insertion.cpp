@@ -1,6 +1,7 @@
 // core/punctura/insertion: the complete model of a scene, from position to force.
 #include "punctura/insertion/insertion.hpp"
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/servo/record.hpp"
@@ -53,6 +54,11 @@ nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb:
   return columns.to_ticks();
 }
 
+SceneInsertion make_insertion(Scene scene) {
+  raise_if(check(scene));
+  return SceneInsertion(scene);
+}
+
 }  // namespace
 
 void bind_insertion(nb::module_& m) {
@@ -63,15 +69,9 @@ void bind_insertion(nb::module_& m) {
       "Gives the model's force without safety limits.");
   def_state(insertion);
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
-  insertion
-      .def(
-          "__init__",
-          [](SceneInsertion* self, const Scene& scene) {
-            raise_if(check(scene));
-            new (self) SceneInsertion(scene);
-          },
-          nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.")
-      .def_ro("scene", &SceneInsertion::scene)
+  def_init(insertion, {{"scene", "Scene"}}, make_insertion,
+           "Raises ConfigurationError with all problems of the scene.");
+  insertion.def_ro("scene", &SceneInsertion::scene)
       .def(
           "reset",
           [](SceneInsertion& self) {

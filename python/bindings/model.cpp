@@ -1,4 +1,7 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
+#include <cstdio>
+#include <numbers>
+
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "law_bounds.hpp"
@@ -7,10 +10,22 @@
 namespace punctura::bindings {
 namespace {
 
+/// Adds the angle in radians to the problem of an angle that can be meant in degrees.
+void tell_radians(std::vector<Problem>& problems) {
+  for (Problem& problem : problems) {
+    if (problem.path != "needle.tip_angle" || !(problem.value > 0 && problem.value < 90)) continue;
+    char text[80];
+    std::snprintf(text, sizeof text, ". If you meant %g degrees, write %.4g: the angle is in rad", problem.value,
+                  problem.value * std::numbers::pi / 180);
+    problem.reason += text;
+  }
+}
+
 Needle make_needle(double diameter, double tip_angle) {
   const Needle made{diameter, tip_angle};
   std::vector<Problem> problems;
   check(made, "needle", problems);
+  tell_radians(problems);
   raise_if(problems);
   warn_unusual("needle.diameter", diameter);
   return made;

@@ -51,7 +51,7 @@ def command(
     from punctura.trace import read_trace
 
     if plot is not None and plot.suffix.lower() not in SUFFIXES:
-        raise typer.BadParameter(f"must end in {', '.join(SUFFIXES)}", param_hint="--plot")
+        raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--plot")
     if out is not None and out.exists() and not out.is_dir():
         raise typer.BadParameter(f"{out} is not a folder", param_hint="--out")
     if order not in ("recorded", "depth"):

@@ -11,7 +11,9 @@ from punctura.fmu import export_fmu
 
 
 def command(
-    scene: Annotated[str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")],
+    scene: Annotated[
+        str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", metavar="SCENE")
+    ],
     out: Annotated[Path, typer.Option("-o", "--out", help="File to write.", metavar="FILE.fmu")],
     fmi: Annotated[int, typer.Option("--fmi", help="The version of FMI, 2 or 3.", min=2, max=3)] = 3,
 ) -> None:

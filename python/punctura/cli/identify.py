@@ -22,10 +22,13 @@ from punctura.trace import read_trace
 
 def command(
     trace: Annotated[
-        Path, typer.Argument(help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.")
+        Path,
+        typer.Argument(
+            help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.", metavar="TRACE"
+        ),
     ],
     needle: Annotated[
-        str, typer.Option("--needle", help="The needle: diameter_mm=2,tip_angle_deg=45.", metavar="KEY=VALUE,...")
+        str, typer.Option("--needle", help="The needle: diameter_mm=2,tip_angle_deg=45.", metavar="NAME=VALUE,...")
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
     column: Annotated[
@@ -124,7 +127,9 @@ def number_of(membranes: str) -> int | Literal["auto"]:
 def needle_of(text: str) -> Needle:
     """The needle of `diameter_mm=2,tip_angle_deg=45`."""
     if not text:
-        raise typer.BadParameter("state the needle: --needle diameter_mm=2,tip_angle_deg=45", param_hint="--needle")
+        raise typer.BadParameter(
+            "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45", param_hint="--needle"
+        )
     values = pairs(text.split(","), "--needle")
     unknown = set(values) - {"diameter_mm", "tip_angle_deg", "tip_angle_rad"}
     if unknown or "diameter_mm" not in values or not {"tip_angle_deg", "tip_angle_rad"} & set(values):

@@ -18,7 +18,7 @@ IN_FRONT = 20e-3  # m in front of the first membrane: the user holds the tip the
 
 
 def command(
-    scene: Annotated[str, typer.Argument(help="The scene to place the device in.")] = "k06-fig10",
+    scene: Annotated[str, typer.Argument(help="The scene to place the device in.", metavar="SCENE")] = "k06-fig10",
     device: Annotated[str, typer.Option("--device", help="Device name (punctura devices).")] = "",
     tip_offset_mm: Annotated[
         float,

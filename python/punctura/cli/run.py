@@ -22,7 +22,11 @@ from punctura.live.signals import ends_on_signals
 def command(
     scene: Annotated[
         str,
-        typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", show_default=USUAL_SCENE),
+        typer.Argument(
+            help="A scene file, or the name of a ready scene (punctura scenes).",
+            metavar="SCENE",
+            show_default=USUAL_SCENE,
+        ),
     ] = "",
     headless: Annotated[bool, typer.Option("--headless", help="Run in the terminal, without the studio.")] = False,
     port: Annotated[

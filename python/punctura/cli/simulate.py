@@ -15,7 +15,9 @@ from punctura.simulation import SimulationSummary, simulate
 
 
 def command(
-    scene: Annotated[str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).")],
+    scene: Annotated[
+        str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", metavar="SCENE")
+    ],
     motion: Annotated[
         Path, typer.Option("--motion", help="CSV file: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
     ],

@@ -14,7 +14,7 @@ def check_target(source: Path, target: Path, suffixes: Sequence[str]) -> None:
     """Raises ConfigurationError for an invalid path or an existing recording. Recordings are never overwritten."""
     problems = []
     if target.suffix.lower() not in suffixes:
-        problems.append(f"must end in {', '.join(suffixes)}")
+        problems.append(f"must end in {' or '.join(suffixes)}")
     if target.is_dir():
         problems.append("is a folder")
     elif not target.parent.is_dir():

@@ -23,7 +23,7 @@ def save_figure(comparison: TraceComparison, file: str | os.PathLike[str]) -> No
     """Writes a PNG, SVG or PDF file. Raises ValueError for another suffix, OSError."""
     file = Path(file)
     if file.suffix.lower() not in SUFFIXES:
-        raise ValueError(f"{file}: a plot must end in {', '.join(SUFFIXES)}")
+        raise ValueError(f"{file}: a plot must end in {' or '.join(SUFFIXES)}")
     with figure_style():
         figure(comparison).savefig(file)
 

@@ -60,7 +60,7 @@ def test_a_wrong_argument_is_named(make, says):
     with pytest.raises(TypeError) as error:
         make()
     assert says in str(error.value)
-    assert "It takes (" in str(error.value)
+    assert "It takes (" in str(error.value) and "?." not in str(error.value)
     assert "incompatible function arguments" not in str(error.value)
 
 
@@ -68,6 +68,8 @@ def test_a_wrong_argument_is_named(make, says):
     ("make", "says"),
     [
         (lambda: pn.Needle(1.08, 0.28), "needle.diameter = 1.08 m is unusual. If you meant 1.08 mm, write 0.00108"),
+        (lambda: pn.Needle(1080, 0.28), "needle.diameter = 1080 m is unusual. If you meant 1080 um, write 0.00108"),
+        (lambda: pn.Membrane(570, 0.41, 0.2, 500), "If you meant 500 um, write 0.0005"),
         (lambda: pn.Membrane(0.57, 0.41, 0.2, 1e-4), "If you meant 0.57 N/mm, write 570"),
         (lambda: pn.Membrane(570, 410, 0.2, 1e-4), "If you meant 410 mN, write 0.41"),
         (lambda: pn.Membrane(570, 0.41, 0.2, 1.0), "If you meant 1 mm, write 0.001"),
@@ -79,6 +81,16 @@ def test_a_number_in_another_unit_gives_a_warning_that_names_the_unit(make, says
         made = make()
     assert says in str(told[0].message)
     assert made is not None
+
+
+def test_an_angle_in_degrees_is_refused_with_its_value_in_radians():
+    with pytest.raises(
+        pn.ConfigurationError, match=r"pi/2.*If you meant 16 degrees, write 0.2793: the angle is in rad"
+    ):
+        pn.Needle(1.08e-3, 16)
+    with pytest.raises(pn.ConfigurationError) as error:
+        pn.Needle(1.08e-3, 160)
+    assert "degrees" not in str(error.value)
 
 
 def test_usual_numbers_give_no_warning():
