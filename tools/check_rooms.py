@@ -33,6 +33,7 @@ ROOMS = (
     "python/punctura/results.py",
     "python/punctura/progress.py",
     "python/punctura/errors.py",
+    "python/punctura/call_errors.py",
     "python/punctura/extras.py",
     "python/punctura/paths.py",
     "python/punctura/files",

@@ -114,7 +114,7 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
   options.code = &code_named(instructions);
   const Progress told(progress);
   options.watch = [&](std::size_t done, std::size_t all) {
-    const nb::gil_scoped_acquire acquire;
+    const WithLock lock;
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     told.tell(done, all);
     return true;

@@ -50,6 +50,8 @@ void bind_devices(nb::module_&);
 void bind_replay(nb::module_&);
 void bind_batch(nb::module_&);
 void bind_scene_batch(nb::module_&);
+/// Makes the TypeErrors of all functions of the module name the wrong argument.
+void explain_calls(nb::module_&);
 
 /// A read-only view of an array. No copy is made if the array is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;

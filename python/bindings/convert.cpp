@@ -9,7 +9,14 @@ Input input(const nb::object& array_like, const char* name) {
   const nb::object numpy = nb::module_::import_("numpy");
   if (nb::hasattr(array_like, "_mask") && nb::cast<bool>(numpy.attr("ma").attr("is_masked")(array_like)))
     throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
-  return nb::cast<Input>(numpy.attr("ascontiguousarray")(array_like, numpy.attr("float64")));
+  // Otherwise NumPy reads text and times as numbers, and drops the imaginary part of complex ones.
+  const nb::object given = numpy.attr("asarray")(array_like), type = given.attr("dtype");
+  const auto kind = nb::cast<std::string>(type.attr("kind"));
+  if (std::string("biufO").find(kind) == std::string::npos) {
+    const std::string held = kind == "U" || kind == "S" ? "text" : nb::cast<std::string>(nb::str(type));
+    throw nb::type_error((std::string(name) + " must hold real numbers, not " + held).c_str());
+  }
+  return nb::cast<Input>(numpy.attr("ascontiguousarray")(given, numpy.attr("float64")));
 }
 
 bool is_numpy_array(nb::handle object) noexcept {

@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "punctura_runtime/backends/registry.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 nb::list enumerated() {
   std::vector<BackendStatus> all;
   {
-    nb::gil_scoped_release release;
+    const WithoutLock release;
     all = enumerate_devices();
   }
   nb::list list;
@@ -27,7 +28,7 @@ nb::list enumerated() {
 
 std::shared_ptr<Device> opened(const std::string& backend, double rate, const std::string& device,
                                const std::string& library, int priority, int processor) {
-  nb::gil_scoped_release release;
+  const WithoutLock release;
   OpenOptions options{rate, device, library};
   options.realtime.priority = priority;
   options.realtime.processor = processor;

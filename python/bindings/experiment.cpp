@@ -58,7 +58,7 @@ class AnyExperiment : public OneThread {
   }
 
   nb::object run(double duration, const nb::object& progress) {
-    if (!(duration >= 0 && std::isfinite(duration))) throw nb::value_error("duration must be 0 s or more");
+    if (!(duration >= 0 && duration <= 1e9)) throw nb::value_error("duration must be from 0 to 1e9 s");
     const auto n = static_cast<std::size_t>(std::llround(duration * scene_.servo.rate));
     return visit(*this, [&](auto& experiment) { return made(experiment, n, progress); });
   }

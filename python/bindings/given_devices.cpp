@@ -144,7 +144,7 @@ void bind_given_devices(nb::module_& m) {
       .def(
           "make_realtime",
           [](FedDevice& device, int priority, int processor) {
-            nb::gil_scoped_release release;
+            const WithoutLock release;
             return device.make_realtime(asked(priority, processor));
           },
           nb::arg("priority") = os::RealtimeSettings{}.priority,
@@ -157,7 +157,7 @@ void bind_given_devices(nb::module_& m) {
 
   m.def(
       "make_realtime", &make_realtime, nb::arg("priority") = os::RealtimeSettings{}.priority,
-      nb::arg("processor") = os::RealtimeSettings{}.processor, nb::call_guard<nb::gil_scoped_release>(),
+      nb::arg("processor") = os::RealtimeSettings{}.processor, nb::call_guard<WithoutLock>(),
       "Requests real-time scheduling for the calling thread. For the feeding thread use FedDevice.make_realtime().\n\n"
       "Threads that mostly wait can use a low priority, such as 10. Then a thread that holds the GIL does not wait\n"
       "for a CPU, and the feeding thread does not wait for the GIL. Returns one line for each request: granted, or\n"

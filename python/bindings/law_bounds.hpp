@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 
@@ -15,7 +16,7 @@ nb::tuple bounds(const L& law, const nb::object& depths) {
   const std::size_t n = depth.size();
   std::vector<double> lower(n), upper(n);
   {
-    nb::gil_scoped_release release;
+    const WithoutLock release;
     for (std::size_t i = 0; i < n; ++i) {
       const auto band = law.band(depth.data()[i]);
       lower[i] = band.lower;

@@ -36,4 +36,5 @@ NB_MODULE(_core, m) {
   bind_replay(m);
   bind_batch(m);
   bind_scene_batch(m);
+  explain_calls(m);  // the last: it goes through everything above
 }

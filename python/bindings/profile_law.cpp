@@ -8,6 +8,7 @@
 #include "law_bounds.hpp"
 #include "punctura/model/validity.hpp"
 #include "value.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -39,7 +40,7 @@ nb::object weights(const GivenProfileLaw& law, const nb::object& depths) {
   const std::size_t n = depth.size(), knots = law.depth.size();
   std::vector<double> all(n * knots);
   {
-    nb::gil_scoped_release release;
+    const WithoutLock release;
     const double cos_beta = std::cos(law.obliquity);
     for (std::size_t i = 0; i < n; ++i)
       profile_weights<double>(law.depth, law.thickness(), cos_beta, depth.data()[i],

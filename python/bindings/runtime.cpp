@@ -32,7 +32,7 @@ struct Listener : OneThread {
     SnapshotColumns columns;
     const Running running(*this);
     {
-      nb::gil_scoped_release release;
+      const WithoutLock release;
       const std::size_t most = limit.value_or(std::numeric_limits<std::size_t>::max());
       columns.reserve(std::min<std::size_t>(most, 4096));
       ring->pop(most, [&](const Snapshot& s) { columns.add(s); });
@@ -86,7 +86,7 @@ void bind_runtime(nb::module_& m) {
       .def(
           "go_on_from", [](Device& d, const Device& previous) { d.motor_use = previous.motor_use; },
           nb::arg("previous"), "Takes over the motor load of `previous`, an object for the same physical device.")
-      .def("trouble", &Device::trouble, nb::call_guard<nb::gil_scoped_release>(),
+      .def("trouble", &Device::trouble, nb::call_guard<WithoutLock>(),
            "Description of the problem; empty if there is none.")
       .def("statements", &Device::statements,
            "Notes for the user on how the device runs. Available after the loop's start.");
@@ -174,15 +174,14 @@ void bind_runtime(nb::module_& m) {
           nb::arg("placement") = Placement{}, nb::arg("thumb") = nb::none(),
           "A device can be in one running loop at a time. The period is the device's own. Its force ratings tighten\n"
           "the limits. thumb: a second device, which holds the plunger of the scene's syringe.")
-      .def("start", &ServoLoop::start, nb::call_guard<nb::gil_scoped_release>(),
-           "Starts the ticks, disarmed. Raises DeviceError.")
-      .def("stop", &ServoLoop::stop, nb::call_guard<nb::gil_scoped_release>(), "Sets zero force, then ends the ticks.")
+      .def("start", &ServoLoop::start, nb::call_guard<WithoutLock>(), "Starts the ticks, disarmed. Raises DeviceError.")
+      .def("stop", &ServoLoop::stop, nb::call_guard<WithoutLock>(), "Sets zero force, then ends the ticks.")
       .def(
           "__enter__", [](ServoLoop& loop) -> ServoLoop& { return loop; }, nb::rv_policy::reference)
       .def(
           "__exit__",
           [](ServoLoop& loop, const nb::args&) {
-            nb::gil_scoped_release release;
+            const WithoutLock release;
             loop.stop();
           },
           nb::sig("def __exit__(self, *how: object) -> None"), "Calls stop(), also after an exception.")
@@ -202,7 +201,7 @@ void bind_runtime(nb::module_& m) {
           "exchange",
           [](ServoLoop& loop, const Scene& scene) {
             raise_if(check(scene));
-            nb::gil_scoped_release release;
+            const WithoutLock release;
             loop.exchange(scene);
           },
           nb::arg("scene"),
@@ -248,11 +247,14 @@ void bind_runtime(nb::module_& m) {
   // device.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] {
     {
-      nb::gil_scoped_release release;
+      const WithoutLock release;
       ServoLoop::stop_all();
     }
     WithoutLock::end_program();
   }));
+  const nb::module_ os = nb::module_::import_("os");
+  if (nb::hasattr(os, "register_at_fork"))  // not on Windows
+    os.attr("register_at_fork")(nb::arg("after_in_child") = nb::cpp_function([] { WithoutLock::begin_child(); }));
 }
 
 }  // namespace punctura::bindings

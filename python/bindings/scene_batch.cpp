@@ -75,7 +75,7 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
   batch::RunOptions options;
   options.threads = threads;
   options.watch = [&](std::size_t done, std::size_t of) {
-    const nb::gil_scoped_acquire acquire;
+    const WithLock lock;
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     told.tell(done, of);
     return true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <new>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -65,6 +66,17 @@ constexpr T absent() noexcept {
     return std::numeric_limits<T>::max();
 }
 
+/// Python gets it as a MemoryError.
+class NoRoom : public std::bad_alloc {
+ public:
+  explicit NoRoom(std::size_t rows)
+      : text_("not enough memory for the columns of " + std::to_string(rows) + " ticks: make the run in parts") {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
 /// Collects snapshots without the GIL, then returns a punctura.Ticks with one row per snapshot.
 template <typename Table, typename Extra = std::monostate>
 class TickColumns {
@@ -77,9 +89,13 @@ class TickColumns {
   }
   void reserve(std::size_t rows, std::size_t membranes = 0) {
     most_ = std::max(most_, membranes);
-    each([&](const auto& field, auto& column) {
-      column.reserve(rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width);
-    });
+    try {
+      each([&](const auto& field, auto& column) {
+        column.reserve(rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width);
+      });
+    } catch (const std::exception&) {  // std::bad_alloc or std::length_error
+      throw NoRoom(rows);
+    }
   }
 
   void add(const Snapshot& record, const Extra& extra = {}) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "bindings.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 
@@ -42,7 +44,7 @@ void make_ticks(std::size_t n, Tick&& tick, const nb::object& given = nb::none()
   const Progress progress(given);
   for (std::size_t i = 0; i < n;) {
     {
-      nb::gil_scoped_release release;
+      const WithoutLock release;
       const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
       do {
         for (const std::size_t end = std::min(n, i + chunk); i < end; ++i) tick(i);
@@ -61,8 +63,9 @@ void check_numbers(const double* values, std::size_t n, const char* name, std::s
   if (bad == values + n) return;
   const std::size_t at = static_cast<std::size_t>(bad - values);
   const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
-  throw nb::value_error(
-      (std::string(name) + place + says + std::to_string(*bad) + remedy + ". No tick was made").c_str());
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", *bad);
+  throw nb::value_error((std::string(name) + place + says + number + remedy + ". No tick was made").c_str());
 }
 
 /// Requires finite numbers. row_length: numbers per row of an array; 0 for a single value.

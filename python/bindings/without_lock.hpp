@@ -17,11 +17,7 @@ class WithoutLock {
   WithoutLock() noexcept : state_(PyEval_SaveThread()) {}
   WithoutLock(const WithoutLock&) = delete;
   ~WithoutLock() {
-    taking_.fetch_add(1);
-    if (ends_.load() && std::this_thread::get_id() != last_) {
-      taking_.fetch_sub(1);
-      for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
-    }
+    begin_to_take();
     PyEval_RestoreThread(state_);
     taking_.fetch_sub(1);
   }
@@ -36,11 +32,38 @@ class WithoutLock {
     PyEval_RestoreThread(state);
   }
 
+  /// Call in the child of a fork: its other threads do not exist, those that were about to take the GIL included.
+  static void begin_child() noexcept { taking_.store(0); }
+
  private:
+  friend class WithLock;
+
+  static void begin_to_take() noexcept {
+    taking_.fetch_add(1);
+    if (!ends_.load() || std::this_thread::get_id() == last_) return;
+    taking_.fetch_sub(1);
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+
   inline static std::atomic<bool> ends_{false};
   inline static std::atomic<int> taking_{0};  ///< threads that take the GIL back now
   inline static std::thread::id last_{};
   PyThreadState* state_;
+};
+
+/// Takes the GIL inside a WithoutLock block until the end of this block, with the same answer at program exit.
+class WithLock {
+ public:
+  WithLock() noexcept {
+    WithoutLock::begin_to_take();
+    state_ = PyGILState_Ensure();
+    WithoutLock::taking_.fetch_sub(1);
+  }
+  WithLock(const WithLock&) = delete;
+  ~WithLock() { PyGILState_Release(state_); }
+
+ private:
+  PyGILState_STATE state_{};
 };
 
 }  // namespace punctura::bindings

@@ -1,0 +1,89 @@
+// Plain words for a call with wrong arguments, in place of nanobind's list of signatures.
+#include <array>
+#include <string_view>
+
+#include "bindings.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+using Call = PyObject* (*)(PyObject*, PyObject* const*, std::size_t, PyObject*);
+
+/// How a function of nanobind begins. hook() compares it with what the function itself tells.
+struct Function {
+  PyObject_VAR_HEAD Call call;
+};
+
+constexpr std::size_t most_kinds = 12;
+std::array<Call, most_kinds> calls{};  // nanobind has a few, one for each kind of signature
+
+/// Replaces the TypeError of nanobind by one with the text of punctura.call_errors. Keeps any other exception.
+void explain(PyObject* function, PyObject* const* given, std::size_t count, PyObject* words) noexcept {
+  nb::python_error error;  // takes the exception
+  try {
+    const std::string_view marks = "(): incompatible function arguments. The following";
+    if (error.matches(PyExc_TypeError)) {
+      const auto text = nb::cast<std::string>(nb::str(error.value()));
+      if (text.find(marks) != std::string::npos) {
+        nb::list arguments;
+        for (std::size_t i = 0; i < count; ++i) arguments.append(nb::handle(given[i]));
+        nb::dict named;
+        if (words)
+          for (const nb::handle word : nb::borrow<nb::tuple>(words)) named[word] = nb::handle(given[count++]);
+        const nb::object told = nb::module_::import_("punctura.call_errors")
+                                    .attr("explained")(nb::handle(function), arguments, named, text);
+        PyErr_SetObject(PyExc_TypeError, told.ptr());
+        return;
+      }
+    }
+  } catch (...) {
+    PyErr_Clear();
+  }
+  error.restore();
+}
+
+template <std::size_t kind>
+PyObject* call(PyObject* function, PyObject* const* given, std::size_t flags_and_count, PyObject* words) {
+  PyObject* result = calls[kind](function, given, flags_and_count, words);
+  if (!result) explain(function, given, flags_and_count & 0xffffffff, words);  // the upper bits are flags
+  return result;
+}
+
+template <std::size_t... kind>
+constexpr std::array<Call, most_kinds> all_calls(std::index_sequence<kind...>) {
+  return {&call<kind>...};
+}
+
+/// Does nothing if the function is not one of nanobind, or not laid out as expected.
+void hook(nb::handle object) {
+  constexpr auto ours = all_calls(std::make_index_sequence<most_kinds>());
+  if (!nb::hasattr(object, "__nb_signature__")) return;
+  auto* const function = reinterpret_cast<Function*>(object.ptr());
+  const nb::object place = nb::getattr(object, "__vectorcalloffset__", nb::none());
+  if (place.is_none() || nb::cast<std::intptr_t>(place) != reinterpret_cast<std::intptr_t>(function->call)) return;
+  for (std::size_t kind = 0; kind < most_kinds; ++kind) {
+    if (!calls[kind]) calls[kind] = function->call;
+    if (function->call == ours[kind]) return;
+    if (function->call == calls[kind]) {
+      function->call = ours[kind];
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void explain_calls(nb::module_& m) {
+  const nb::dict all = nb::borrow<nb::dict>(m.attr("__dict__"));
+  for (const auto& [name, value] : all) {
+    hook(value);
+    if (!PyType_Check(value.ptr())) continue;
+    for (const nb::handle member : nb::module_::import_("builtins").attr("vars")(value).attr("values")()) {
+      hook(member);
+      for (const char* accessor : {"fget", "fset"})
+        if (nb::hasattr(member, accessor)) hook(nb::object(member.attr(accessor)));
+    }
+  }
+}
+
+}  // namespace punctura::bindings

@@ -1,0 +1,98 @@
+"""A wrong argument of any function or method of the core is named, and the right word is suggested."""
+
+import numpy as np
+import punctura as pn
+import punctura._core as core
+import pytest
+
+SCENE = pn.load_scene("k06-fig10")
+MEMBRANE = SCENE.membranes[0].membrane
+INSERTION = pn.Insertion(SCENE)
+LINE = pn.Proxy1d(pn.ThickLaw(SCENE.needle, MEMBRANE), SCENE.coupling, 1 / 1600)
+DOWN = (0, -1, 0)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: LINE.step(positon=1e-3), "Proxy1d.step(): there is no argument positon; did you mean p?."),
+        (
+            lambda: INSERTION.step((0, 0, 0), aixs=DOWN),
+            "Insertion.step(): there is no argument aixs; did you mean axis?.",
+        ),
+        (
+            lambda: INSERTION.run([(0, 0, 0)], DOWN, progres=True),
+            "there is no argument progres; did you mean progress?.",
+        ),
+        (lambda: INSERTION.step((0, 0, 0)), "Insertion.step(): axis is missing."),
+        (lambda: INSERTION.step((0, 0), DOWN), "p must be three numbers, not tuple of length 2."),
+        (lambda: INSERTION.peek(np.zeros((3, 1)), DOWN), "p must be three numbers, not ndarray of shape (3, 1)."),
+        (lambda: LINE.step("1 mm"), "Proxy1d.step(): p must be a number, not str. It takes (p: float)"),
+        (lambda: LINE.run([0], True), "takes 1 argument by place, not 2; name the others: progress."),
+        (lambda: LINE.run([0], p=[0]), "p is given twice."),
+        (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene?."),
+        (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness?."),
+        (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
+        (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
+        (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be a bytes, not int."),
+        (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
+        (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),
+        (lambda: pn.ThinLaw(SCENE.needle, MEMBRANE).bounds(deth=0), "there is no argument deth; did you mean depth?."),
+    ],
+)
+def test_the_wrong_argument_of_a_call_is_named(call, says):
+    with pytest.raises(TypeError) as error:
+        call()
+    assert says in str(error.value)
+    assert "incompatible function arguments" not in str(error.value)
+
+
+def functions():
+    """Every function and method of the core, accessors of properties included."""
+    for value in vars(core).values():
+        members = vars(value).values() if isinstance(value, type) else ()
+        for found in (value, *members):
+            for function in (found, getattr(found, "fget", None), getattr(found, "fset", None)):
+                if hasattr(function, "__nb_signature__"):
+                    yield function
+
+
+def test_every_function_explains_a_wrong_number_of_arguments():
+    nothing = object()
+    told = [f for f in functions() if not getattr(f, "__name__", "").startswith("__")]
+    assert len(told) > 300
+    for function in told:
+        try:
+            function(*[nothing] * 40)
+        except TypeError as error:
+            assert "incompatible function arguments" not in str(error), function
+
+
+@pytest.mark.parametrize("numbers", [["1e-3"], [1e-3j], np.zeros(1, "M8[s]"), np.zeros(1, [("x", float)])])
+def test_only_real_numbers_are_taken_as_positions(numbers):
+    before = LINE.state
+    with pytest.raises(TypeError, match="p must hold real numbers, not"):
+        LINE.run(numbers)
+    assert LINE.state == before
+
+
+def test_an_object_whose_constructor_did_not_run_is_told():
+    class Own(pn.Needle):
+        def __init__(self):
+            pass
+
+    with pytest.warns(RuntimeWarning), pytest.raises(TypeError, match="its __init__ has not run"):
+        _ = Own().diameter
+
+
+def test_a_huge_number_is_shown_short():
+    with pytest.raises(ValueError, match=r"p holds 1e\+308 m: positions must be within 1000 km"):
+        LINE.step(1e308)
+
+
+def test_a_run_without_end_is_refused():
+    made = pn.Experiment(SCENE, pn.Target((0, 5e-3, 0)))
+    with pytest.raises(ValueError, match="duration must be from 0 to 1e9 s"):
+        made.run(1e18)
+    with pytest.raises(MemoryError, match=r"not enough memory for the columns of \d+ ticks: make the run in parts"):
+        made.run(1e9)
