@@ -31,7 +31,10 @@ from websockets.sync.client import connect
 # A server thread keeps the memory of its largest request, so the memory settles during the first half of a run.
 WARMING_UP, MOST_GROWTH = 0.5, 0.05
 CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
-PATHS = ("/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x")
+PATHS = (
+    "/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x",
+    "/api/lab/file", "/api/lab/identify",
+)  # fmt: skip
 
 
 class Fuzzer(threading.Thread):

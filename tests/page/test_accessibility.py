@@ -1,27 +1,10 @@
 """axe-core finds nothing serious or moderate in the states of the page, light and dark; and no address is missing."""
 
-import json
-from pathlib import Path
-
 import pytest
+from axe import AXE, check
 from person import PATIENCE, ready, tab
 from playwright.sync_api import Browser, Page, expect
 from studio_process import StudioProcess
-
-AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
-COLOURS = ["color-contrast", "link-in-text-block"]
-RUN = """async (only) => (await axe.run(document, {resultTypes: ['violations'], ...only})).violations
-  .filter(({impact}) => impact !== 'minor')
-  .map(({id, impact, nodes}) => ({id, impact, nodes: nodes.map(({html, failureSummary}) => [html.slice(0, 200),
-    failureSummary])}))"""
-
-
-def check(page: Page, state: str) -> None:
-    """Light with all rules. Dark, which differs only in its colours, with the rules about colours."""
-    for scheme, only in (("light", {}), ("dark", {"runOnly": {"type": "rule", "values": COLOURS}})):
-        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-        found = page.evaluate(RUN, only)
-        assert not found, f"{state}, {scheme}: {json.dumps(found, indent=1)}"
 
 
 @pytest.fixture
@@ -61,7 +44,7 @@ def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address
     expect(page.locator(".tour")).to_be_visible()
     check(page, "the tour")
     ready(page)
-    for name in ("Hand", "Scene", "Recordings", "Exercises", "Health"):
+    for name in ("Hand", "Scene", "Recordings", "Exercises", "Lab", "Health"):
         tab(page, name)
         check(page, f"the tab {name}")
     page.get_by_role("button", name="Try a fault").click()

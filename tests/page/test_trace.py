@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import punctura as pn
+from axe import AXE, check
 from person import drag_in, events, ready, saved
 from playwright.sync_api import Page, expect
 
@@ -38,6 +39,11 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     unit.select_option("mm")
     form.get_by_label("Diameter, mm").fill("1.2")
     form.get_by_label("Tip angle, °").fill("22,918")
+    page.route("**/api/lab/identify?*", lambda route: None)  # an answer that does not come
+    form.get_by_role("button", name="Identify").click()
+    page.get_by_role("button", name="Cancel").click()
+    expect(form.get_by_role("button", name="Identify")).to_be_enabled()
+    page.unroute_all(behavior="ignoreErrors")
     form.get_by_role("button", name="Identify").click()
 
     dialog = page.get_by_role("dialog")
@@ -46,6 +52,10 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     expect(dialog).to_contain_text("insert a second time at the same place")
     expect(dialog.get_by_role("region", name="Models").get_by_role("row")).to_have_count(11)
     expect(dialog).to_contain_text("it explains the trace best")
+    dialog.get_by_label("Another model").select_option("dahl")
+    expect(dialog.locator(".plot-legend")).to_contain_text("Dahl with viscosity")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    check(page, "an identified trace")
     report = saved(page, dialog.get_by_role("button", name="Save report"), tmp_path)
     assert report.read_text(encoding="utf-8").startswith("<!doctype html>")
     scene = saved(page, dialog.get_by_role("button", name="Save scene"), tmp_path)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO
 
+WAIT_S = 2.0
 MOST_ERRORS = 4096  # bytes of the worker's last error messages
 
 
@@ -20,8 +21,11 @@ class LabError(ValueError):
 
 
 def take_place(place: threading.BoundedSemaphore) -> None:
-    """Takes the place of the one computation that may run. Raises LabError if it is taken."""
-    if not place.acquire(blocking=False):
+    """Takes the place of the one computation that may run. Raises LabError if it is taken.
+
+    Waits for WAIT_S: a computation that was cancelled ends a moment later.
+    """
+    if not place.acquire(timeout=WAIT_S):
         raise LabError("the Lab is computing something else; try again when it is done, or cancel it")
 
 

@@ -119,12 +119,13 @@ def _scene(found: Identification) -> tuple[str, str]:
     return text, ""
 
 
-def rivals_line(comparison: TraceComparison) -> RivalsLine:
-    """All models on the trace."""
-    return RivalsLine(rows=[_row(row) for row in comparison.rows], notes=notes(comparison))
+def rivals_line(comparison: TraceComparison, found: Identification) -> RivalsLine:
+    """All models on the trace of an identification."""
+    kept = kept_samples([found.trace.force, found.fit.misfit.forces(found.parameters)])
+    return RivalsLine(rows=[_row(row, kept) for row in comparison.rows], notes=notes(comparison))
 
 
-def _row(row: Row) -> RivalRow:
+def _row(row: Row, kept: npt.NDArray[np.int64]) -> RivalRow:
     return RivalRow(
         name=row.name,
         title=row.title,
@@ -137,6 +138,7 @@ def _row(row: Row) -> RivalRow:
         rest=None if row.chatter is None else _finite(row.chatter.rest),
         converged=row.converged,
         own=row.name in (PRINTED, CHOSEN),
+        force=_numbers(row.force[kept]),
     )
 
 

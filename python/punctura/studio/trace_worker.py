@@ -98,7 +98,8 @@ def _compare(found: Identification, say: Say) -> None:
 
     needle = found.parameters.needle
     try:
-        say(rivals_line(compare_trace(found.trace, needle=needle, identified=found, progress=tell)))
+        compared = compare_trace(found.trace, needle=needle, identified=found, progress=tell)
+        say(rivals_line(compared, found))
     except PuncturaError as error:
         say(RivalsLine(rows=[], notes=[words_of(f"the other models could not be fitted: {error}")]))
 

@@ -51,12 +51,10 @@ class Traces:
 
     async def _answer(self, task: Literal["look", "identify"], request: Request) -> Response:
         job = _job(task, request.query_params)
-        take_place(self._place)
-        folder = Path(tempfile.mkdtemp(prefix="punctura-"))
+        await run_in_threadpool(take_place, self._place)
         try:
-            await _receive(request, folder / job.file)
+            folder = await _received(request, job.file)
         except BaseException:
-            shutil.rmtree(folder, ignore_errors=True)
             self._place.release()
             raise
         media = "application/x-ndjson"
@@ -96,8 +94,19 @@ def file_name(name: str) -> str:
         return f"trace.{ending}" if ending else "trace"
 
 
+async def _received(request: Request, name: str) -> Path:
+    """A new folder with the body as a file. Raises Late, LabError, TooLarge, OSError."""
+    folder = Path(tempfile.mkdtemp(prefix="punctura-"))
+    try:
+        await _receive(request, folder / name)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    return folder
+
+
 async def _receive(request: Request, path: Path) -> None:
-    """Writes the body to a file while it comes. Raises Late, LabError, TooLarge, OSError."""
+    """Writes the body to a file while it comes."""
     pieces = aiter(request.stream())
     with path.open("wb") as file:
         try:

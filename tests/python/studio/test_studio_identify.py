@@ -1,9 +1,10 @@
 """A measured trace in the studio: a file is sent, looked at and identified, while the run goes on."""
 
+import contextlib
 import http.client
 import json
+import os
 import sys
-import threading
 import urllib.parse
 
 import numpy as np
@@ -11,7 +12,8 @@ import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice
 from punctura.record import RecordingError
-from punctura.studio import security, traces
+from punctura.studio import computing, security, traces
+from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_TRACE
 from punctura.studio.loaded import from_text
 from punctura.studio.trace_job import TraceJob
@@ -68,9 +70,13 @@ def test_a_trace_is_identified_while_the_run_goes_on_and_its_scene_can_be_felt(s
     assert any("second time" in words for words in fit["not_told"])
     rows = told["rivals"]["rows"]
     assert rows[0]["own"] and len(rows) >= 10
+    assert {len(row["force"]) for row in rows} == {trace_line["samples"]}
     assert told["report"]["html"].startswith("<!doctype html>")
     # The scene goes the way of every other scene.
     assert from_text(fit["scene"]).scene.display.force_scale == "automatic"
+    with StudioClient(served.address.url) as another:
+        refusal = another.ask(do="load_text", toml=fit["scene"])
+        assert not refusal["ok"] and "another page has control" in refusal["text"]
     assert page.ask(do="load_text", toml=fit["scene"])["ok"]
     page.wait(lambda: [m for m in page.of("scene") if m["scene"]["name"] == "a.csv"])
     assert served.session.pump.lost == 0
@@ -161,6 +167,7 @@ def test_one_computation_runs_at_a_time_and_one_that_is_left_ends(served, monkey
     mark = tmp_path / "pid"
     program = f"import os, pathlib, time; pathlib.Path({str(mark)!r}).write_text(str(os.getpid())); time.sleep(600)"
     monkeypatch.setattr(traces, "COMMAND", [sys.executable, "-c", program])
+    monkeypatch.setattr(computing, "WAIT_S", 0.0)
     answer, connection = send(served, IDENTIFY, csv(), **NEEDLE)
     assert answer.status == 200
     for path in (FILE, IDENTIFY):
@@ -169,8 +176,15 @@ def test_one_computation_runs_at_a_time_and_one_that_is_left_ends(served, monkey
     wait_until(mark.exists)
     connection.close()  # as the page's Cancel does
     monkeypatch.undo()
-    wait_until(lambda: send(served, FILE, csv())[0].status == 200)
-    wait_until(lambda: not [t for t in threading.enumerate() if t.name == "punctura-lab"])
+    wait_until(lambda: send(served, FILE, csv())[0].status == 200)  # the place is free again
+    wait_until(lambda: not alive(int(mark.read_text())))
+
+
+def alive(process):
+    with contextlib.suppress(OSError):
+        os.kill(process, 0)
+        return True
+    return False
 
 
 def test_a_worker_that_ends_early_tells_why(served, monkeypatch):

@@ -662,6 +662,7 @@ export interface RivalRow {
   rest: number | null;
   converged: boolean;
   own: boolean;
+  force: number[];
 }
 /**
  * The one-page report, as the text of an HTML file.

@@ -136,6 +136,7 @@ class RivalRow(Part):
     rest: Finite | None  # N, how much its force shakes while the hand rests
     converged: bool  # false: the fit ended at its limit of steps
     own: bool  # K06, not a model of other authors
+    force: list[Finite]  # N, at the samples of the fit's curves
 
 
 class RivalsLine(Part):

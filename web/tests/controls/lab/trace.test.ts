@@ -6,7 +6,7 @@ import {
   sceneNeedle,
   statedUnit,
 } from "../../../src/controls/lab/trace/asked.ts";
-import { drawTrace, traceCurves } from "../../../src/controls/lab/trace/drawing.ts";
+import { drawTrace, type Other, traceCurves } from "../../../src/controls/lab/trace/drawing.ts";
 import { type FieldError, identify, LARGEST, lookAt, queryOf, refusalOf } from "../../../src/controls/lab/trace/job.ts";
 import {
   doubtWords,
@@ -125,7 +125,7 @@ const estimate = (more: Partial<EstimatePart>): EstimatePart => ({
 });
 const rival = (title: string, aic: number | null, own = false): RivalRow => ({
   name: title, title, parameters: 7, rmse: 0.01, rmse_share: 0.012, aic, bic: null, held_out_rmse: null, rest: null,
-  converged: true, own,
+  converged: true, own, force: [],
 }); // biome-ignore format: a row
 
 describe("the result in words", () => {
@@ -172,21 +172,35 @@ describe("the plot of a trace", () => {
     time: [0, 1, 2, 3],
     model: [0, 1.1, 0.5, -0.4],
   };
-  const drawn = (against: "depth" | "time", model = true, off: string[] = []): string => {
+  const drawn = (against: "depth" | "time", model = true, off: string[] = [], other: Other | null = null): string => {
     const pen = new SvgPen();
     const shown = { ...curves, model: model ? curves.model : null };
-    drawTrace(pen, 600, 400, CSS_THEME, { contact: 0, pops: [1e-3] }, shown, against, new Hidden("test", off));
+    const trace = { contact: 0, pops: [1e-3] };
+    drawTrace(pen, 600, 400, CSS_THEME, { trace, curves: shown, other, against }, new Hidden("test", off));
     return pen.file(600, 400, "none", "", "");
   };
 
   it("has the trace, then the fit and what is left, each of which the legend switches off", () => {
-    expect(traceCurves({ ...curves, model: null }, CSS_THEME).map(({ id }) => id)).toEqual(["measured"]);
-    expect(traceCurves(curves, CSS_THEME).map(({ id }) => id)).toEqual(["measured", "model", "residual"]);
+    expect(traceCurves({ curves: { ...curves, model: null }, other: null }, CSS_THEME).map(({ id }) => id)).toEqual([
+      "measured",
+    ]);
+    expect(traceCurves({ curves, other: null }, CSS_THEME).map(({ id }) => id)).toEqual([
+      "measured",
+      "model",
+      "residual",
+    ]);
     expect(drawn("depth", false)).not.toContain("model − measured");
     expect(drawn("depth")).toContain("model − measured (N)");
     expect(drawn("depth")).toContain(">pop<");
     expect(drawn("time")).toContain(">time (s)<");
     const lines = (file: string): number => file.match(/<path /g)?.length ?? 0;
     expect(lines(drawn("depth")) - lines(drawn("depth", true, ["model", "residual"]))).toBe(2);
+  });
+
+  it("can have another model beside the fit", () => {
+    const other = { title: "Dahl", force: [0, 2, 0, 0] };
+    expect(traceCurves({ curves, other }, CSS_THEME).map(({ text }) => text)).toContain("Dahl");
+    expect(drawn("depth", true, [], other)).toContain('stroke-dasharray="6 4"');
+    expect(drawn("depth", true, ["other"], other)).not.toContain('stroke-dasharray="6 4"');
   });
 });

@@ -12,19 +12,35 @@ export type Against = "depth" | "time";
 const MM = 1e3;
 const ROW = 14; // px, for the labels above the plot
 
-const strokes = (theme: Theme): Readonly<Record<"measured" | "model" | "residual", Stroke>> => ({
+/** Another model, drawn beside the fit. */
+export interface Other {
+  readonly title: string;
+  readonly force: readonly number[];
+}
+
+/** What is drawn. */
+export interface Shown {
+  readonly trace: Pick<TraceLine, "contact" | "pops">;
+  readonly curves: CurvesPart;
+  readonly other: Other | null;
+  readonly against: Against;
+}
+
+const strokes = (theme: Theme): Readonly<Record<"measured" | "model" | "other" | "residual", Stroke>> => ({
   measured: { colour: colourOf(theme, 0), width: 1.4, alpha: 0.8 },
   model: { colour: colourOf(theme, 1), width: 2 },
+  other: { colour: colourOf(theme, 3), width: 1.6, dash: [6, 4] },
   residual: { colour: colourOf(theme, 2), width: 1.2 },
 });
 
-export function traceCurves(curves: CurvesPart, theme: Theme): Curve[] {
-  const { measured, model, residual } = strokes(theme);
+export function traceCurves({ curves, other }: Pick<Shown, "curves" | "other">, theme: Theme): Curve[] {
+  const { measured, model, other: beside, residual } = strokes(theme);
   const trace = { id: "measured", text: "measured", colour: measured.colour, width: measured.width };
   if (!curves.model) return [trace];
   return [
     trace,
     { id: "model", text: "model", colour: model.colour, width: model.width },
+    ...(other ? [{ id: "other", text: other.title, ...beside }] : []),
     { id: "residual", text: "model − measured", colour: residual.colour, width: residual.width },
   ];
 }
@@ -35,9 +51,7 @@ export function drawTrace(
   width: number,
   height: number,
   theme: Theme,
-  trace: Pick<TraceLine, "contact" | "pops">,
-  curves: CurvesPart,
-  against: Against,
+  { trace, curves, other, against }: Shown,
   hidden: Hidden,
 ): void {
   const { model } = curves;
@@ -52,10 +66,10 @@ export function drawTrace(
   const [from, to] = extent(xs);
   const name = { x: onTime ? "time (s)" : "depth of the needle (mm)" };
   for (const pane of [force, residual]) pane.rangeX(from, Math.max(to, from + 1e-6));
-  fit(force, [curves.force, ...(model ? [model] : [])]);
+  fit(force, [curves.force, ...(model ? [model] : []), ...(other ? [other.force] : [])]);
   drawAxes(pen, force, theme, { y: "force that resists (N)", ...(left ? {} : name) });
   if (!onTime) drawPops(pen, force, left ? residual.bottom : force.bottom, trace, theme);
-  const { measured, model: fitted, residual: rest } = strokes(theme);
+  const { measured, model: fitted, other: beside, residual: rest } = strokes(theme);
   const line = (pane: Pane, values: readonly number[], stroke: Stroke): void => {
     const path = new Polyline();
     const [px, py] = [Float32Array.from(xs, (x) => pane.x.px(x)), Float32Array.from(values, (y) => pane.y.px(y))];
@@ -64,6 +78,7 @@ export function drawTrace(
   };
   if (hidden.shows("measured")) line(force, curves.force, measured);
   if (!model || !left) return;
+  if (other && hidden.shows("other")) line(force, other.force, beside);
   if (hidden.shows("model")) line(force, model, fitted);
   fit(residual, [left]);
   drawAxes(pen, residual, theme, { y: "model − measured (N)", ...name });

@@ -4,7 +4,7 @@ import { wordsOf } from "../../recordings/library.ts";
 import { dropZone } from "./drop_zone.ts";
 import { type Form, questions } from "./form.ts";
 import { type Answers, FieldError, identify, lookAt, refusalOf } from "./job.ts";
-import { type TraceDialog, traceDialog } from "./result.ts";
+import { traceDialog } from "./result.ts";
 
 /** "Identify a measured trace": a file is dropped, looked at, asked about and identified. */
 export function tracePart(app: App): HTMLElement {
@@ -20,9 +20,9 @@ export function tracePart(app: App): HTMLElement {
   const place = element("div", {}, progress);
   let running: AbortController | null = null;
   let form: Form | null = null;
-  let dialog: TraceDialog | null = null;
+  const dialog = traceDialog(app, progress, () => place.append(progress));
   cancel.addEventListener("click", () => running?.abort());
-  again.addEventListener("click", () => dialog?.open());
+  again.addEventListener("click", () => dialog.open());
 
   /** Runs one job at a time. Returns why it ended early; empty if it did not. */
   const run = async (words: string, job: (signal: AbortSignal) => Promise<void>): Promise<string> => {
@@ -74,21 +74,19 @@ export function tracePart(app: App): HTMLElement {
 
   const start = async (file: File, name: string, answers: Answers): Promise<void> => {
     if (running) return;
-    const made = traceDialog(app, name, progress, () => place.append(progress));
-    let opened = false;
+    dialog.begin(name);
+    again.hidden = true;
     const why = await run("starting…", async (signal) => {
       for await (const line of identify(app.api, file, answers, signal)) {
-        made.take(line);
+        dialog.take(line);
         if (line.kind === "step") show(line.words, line.share);
-        else if (!opened) {
-          opened = true;
-          dialog = made;
+        else if (line.kind === "trace") {
           again.hidden = false;
-          made.open();
+          dialog.open();
         }
       }
     });
-    made.end(why);
+    dialog.end(why);
   };
 
   return element(

@@ -5,13 +5,15 @@ import type { FitLine, IdentifyLine } from "../../../wire/messages.ts";
 import { blockLine, watchBlock } from "../../blocked.ts";
 import { fileName } from "../../download.ts";
 import { findingsPart, fitParts, rivalsPart } from "./parts.ts";
-import { tracePlot } from "./plot.ts";
+import { type TracePlot, tracePlot } from "./plot.ts";
 import { fitWords, rankWords } from "./words.ts";
 
-const READY = "The scene begins a new run, as every scene that you load.";
+const READY = "The scene begins a new run.";
 
 /** The dialog of an identification. It fills while the lines come. */
 export interface TraceDialog {
+  /** Removes the last result. */
+  begin(name: string): void;
   take(line: IdentifyLine): void;
   /** The computation has ended; why, if it ended without all results. */
   end(why: string): void;
@@ -19,21 +21,22 @@ export interface TraceDialog {
 }
 
 /** progress: the line with the present step, shown while the dialog is open. closed: the dialog gives it back. */
-export function traceDialog(app: App, name: string, progress: HTMLElement, closed: () => void): TraceDialog {
+export function traceDialog(app: App, progress: HTMLElement, closed: () => void): TraceDialog {
   const verdict = element("p", { class: "why", role: "status" });
   const trouble = element("p", { class: "error", role: "alert" });
   const place = element("div", { class: "trace-place" });
   const [numbers, models] = [element("div"), element("div")];
-  let report = "";
-  let scene = "";
+  const title = element("h2", { id: "trace-title", tabindex: -1 });
+  let [name, report, scene] = ["", "", ""];
   const button = (label: string, help: string, act: () => void, kind = ""): HTMLButtonElement =>
     element("button", { type: "button", class: `small ${kind}`, title: help, onclick: act }, label);
   const feel = button("Feel this tissue", "Load the scene of these membranes", () => void load(), "primary");
+  const named = (more: string, ending: string): string => fileName(name.replace(/\.\w+$/, "") + more, ending);
   const saveScene = button("Save scene", "Save the scene as a TOML file for punctura run", () =>
-    download(fileName(name, "toml"), [scene], "application/toml"),
+    download(named("", "toml"), [scene], "application/toml"),
   );
   const saveReport = button("Save report", "Save the one-page report as an HTML file", () =>
-    download(fileName(`${name}-report`, "html"), [report], "text/html"),
+    download(named("-report", "html"), [report], "text/html"),
   );
   let blocked = false;
   const mark = (): void => {
@@ -62,7 +65,7 @@ export function traceDialog(app: App, name: string, progress: HTMLElement, close
   const dialog = element(
     "dialog",
     { class: "result tab lab-result", "aria-labelledby": "trace-title" },
-    element("header", {}, element("h2", { id: "trace-title", tabindex: -1 }, name)),
+    element("header", {}, title),
     verdict,
     trouble,
     place,
@@ -87,21 +90,30 @@ export function traceDialog(app: App, name: string, progress: HTMLElement, close
     dialog.remove();
     closed();
   });
-  let redraw: (line: FitLine) => void = () => {};
+  let plot: TracePlot | null = null;
   let fitted: FitLine | null = null;
   return {
+    begin: (of) => {
+      [name, report, scene] = [of, "", ""];
+      [plot, fitted] = [null, null];
+      title.textContent = name;
+      verdict.textContent = trouble.textContent = "";
+      for (const part of [place, numbers, models]) part.replaceChildren();
+      mark();
+    },
     take: (line) => {
       if (line.kind === "trace") {
-        redraw = tracePlot(place, line);
+        plot = tracePlot(place, line);
         numbers.replaceChildren(findingsPart(line));
       } else if (line.kind === "fit") {
         fitted = line;
-        redraw(line);
+        plot?.fit(line);
         scene = line.scene;
         if (line.no_scene) trouble.textContent = `These membranes make no scene: ${line.no_scene}`;
         numbers.prepend(...fitParts(line));
         verdict.textContent = fitWords(line);
       } else if (line.kind === "rivals") {
+        plot?.others(line);
         models.replaceChildren(rivalsPart(line));
         if (fitted) verdict.textContent = `${fitWords(fitted)} ${rankWords(line)}`;
       } else if (line.kind === "report") report = line.html;
@@ -115,7 +127,7 @@ export function traceDialog(app: App, name: string, progress: HTMLElement, close
       dialog.querySelector("header")!.after(progress);
       document.body.append(dialog);
       dialog.showModal();
-      dialog.querySelector<HTMLElement>("h2")!.focus();
+      title.focus();
     },
   };
 }

@@ -61,16 +61,16 @@ export function rivalsTable({ rows }: Pick<RivalsLine, "rows">): HTMLElement {
   const least = Math.min(...rows.map(({ aic }) => aic ?? Number.POSITIVE_INFINITY));
   return table(
     "Models",
-    ["model", "numbers", "rms, mN", "% of peak", "held out, mN", "AIC − least", "shakes at rest, mN"],
+    ["model", "% of peak", "rms, mN", "held out, mN", "AIC − least", "numbers", "shakes at rest, mN"],
     rows.map((one) =>
       row(
         one.own ? "mean" : "",
         one.converged ? one.title : `${one.title} *`,
-        String(one.parameters),
-        number(one.rmse, 1e3, 1),
         number(one.rmse_share, 100, 2),
+        number(one.rmse, 1e3, 1),
         number(one.held_out_rmse, 1e3, 1),
         number(one.aic === null ? null : one.aic - least, 1, 0),
+        String(one.parameters),
         number(one.rest, 1e3, 1),
       ),
     ),
