@@ -52,7 +52,7 @@ def main() -> int:
     width, height = (int(part) for part in arguments.size.split("x"))
     with (
         tempfile.TemporaryDirectory() as folder,
-        StudioProcess(Path(folder), arguments.scene, page=arguments.page) as studio,
+        StudioProcess(Path(folder), arguments.scene, page=arguments.page and arguments.page.resolve()) as studio,
         StudioClient(studio.url) as hand,  # connects before the page, and so has control
     ):
         hand.ask(do="strokes", period=STROKE_S)

@@ -9,6 +9,8 @@ from types import TracebackType
 from chromium import launch
 from playwright.sync_api import sync_playwright
 
+PATIENCE_MS = 120_000  # long enough for a busy computer
+
 # Counts the draw calls, so that a frame without new content does not count.
 COUNT = """
 window.drawn = { frames: 0, plots: 0, view: 0 };
@@ -36,10 +38,11 @@ class WatchedPage:
         self._playwright = sync_playwright().start()
         self._browser = launch(self._playwright)
         self._page = self._browser.new_page(viewport={"width": width, "height": height})
+        self._page.set_default_timeout(PATIENCE_MS)
         self._page.on("pageerror", lambda error: self.errors.append(str(error)))
         self._page.add_init_script(COUNT)
-        self._page.goto(url, timeout=120_000)
-        self._page.wait_for_function("window.drawn.plots > 0", timeout=120_000)
+        self._page.goto(url)
+        self._page.wait_for_function("window.drawn.plots > 0")
         self._page.get_by_role("button", name="Skip the tour").click()
         self._tools = self._page.context.new_cdp_session(self._page)
         self._before, self._at = self._drawn(), time.monotonic()

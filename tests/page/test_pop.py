@@ -1,5 +1,7 @@
 """A person drags the needle through a membrane and sees the pop."""
 
+import re
+
 import numpy as np
 import punctura as pn
 import pytest
@@ -39,4 +41,5 @@ def test_the_phase_is_told_in_words(page):
     expect(page.locator(".phases thead")).to_contain_text("model force, N")
     drag_in(page, pops=1)
     expect(page.locator(".phases")).to_contain_text("through")
-    expect(page.locator(".phases")).to_contain_text("sticking")
+    # A slow push may end at the edge of the band, where the needle still slides.
+    expect(page.locator(".phases")).to_contain_text(re.compile("sticking|sliding in"))

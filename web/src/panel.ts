@@ -1,5 +1,7 @@
 import type { App } from "./state/app.ts";
 
+export { everyFrame } from "./frames.ts";
+
 /** A part of the page: fills `host`, and updates itself from the app. */
 export type Panel = (host: HTMLElement, app: App) => void;
 
@@ -22,19 +24,4 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   }
   made.append(...children);
   return made;
-}
-
-/** Calls once per animation frame while the page is visible. The returned function ends that, also within a call. */
-export function everyFrame(draw: (now: number) => void): () => void {
-  let handle = 0;
-  let ended = false;
-  const step = (now: number): void => {
-    draw(now);
-    if (!ended) handle = requestAnimationFrame(step);
-  };
-  handle = requestAnimationFrame(step);
-  return () => {
-    ended = true;
-    cancelAnimationFrame(handle);
-  };
 }

@@ -5,7 +5,7 @@ import { badge } from "./badge.ts";
 import { eventList } from "./events.ts";
 import { phaseWords } from "./phase_words.ts";
 
-const INTERVAL = 60; // ms between updates; faster ones cannot be read
+const INTERVAL = 100; // ms between updates; faster ones cannot be read
 
 const fixed = (value: number, places: number): string => {
   if (!Number.isFinite(value)) return "–";

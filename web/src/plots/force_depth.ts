@@ -1,4 +1,5 @@
 import { mm, newton } from "../format.ts";
+import { turns } from "../frames.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { hiddenOf } from "./curves.ts";
@@ -159,7 +160,9 @@ export const forceDepthPlot: Panel = (host, app) => {
       `at ${history.timeOf(tick).toFixed(4)} s`;
     readout.textContent = at.replaceAll("-", "−");
   };
+  const turn = turns();
   let seen = "";
+  let still = "";
   let told = 0;
   let back = "";
   let backEnd = 0;
@@ -174,9 +177,11 @@ export const forceDepthPlot: Panel = (host, app) => {
       ...[changes, surface.sizes, history.generation, source.events.value.length, laws, source.title, plots.span.value],
       ...[plots.zoom.value?.from, plots.zoom.value?.to, source.live ? "" : source.cursor.value],
     ].join(" ");
-    const state = `${backState} ${surface.changes} ${history.end} ${source.pointed.value}`;
-    if (state === seen) return;
+    const held = `${backState} ${surface.changes} ${source.pointed.value}`;
+    const state = `${held} ${history.end}`;
+    if (state === seen || (held === still && !turn(time))) return; // new ticks alone wait for their turn
     seen = state;
+    still = held;
     const now = picture();
     // The fading history is costly to draw. The longer one drawing takes, the longer the wait before the next.
     if (backState !== back || (history.end !== backEnd && time - backAt > wait)) {

@@ -29,6 +29,7 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
   const box = element("div", { class: "pop-callout", hidden: true }, words, again);
   host.append(box);
   let shown = "";
+  let [wide, high] = [0, 0]; // px
   return (pane) => {
     pop = poppedIn(plots.source, plots.window);
     if (!pop) {
@@ -37,15 +38,17 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
       return;
     }
     const text = popLabel(pop, plots.source.history);
-    if (text !== shown) {
-      shown = text;
-      words.textContent = text;
-    }
     box.hidden = false;
+    if (`${text} ${pane.width}` !== shown) {
+      shown = `${text} ${pane.width}`;
+      words.textContent = text;
+      wide = box.offsetWidth;
+      high = box.offsetHeight;
+    }
     const x = pane.x.px(plots.source.history.timeOf(pop.tick));
-    const right = x + BESIDE + box.offsetWidth <= pane.left + pane.width;
-    const left = right ? x + BESIDE : Math.max(pane.left, x - BESIDE - box.offsetWidth);
-    const top = pane.top + pane.height - box.offsetHeight - 3; // the curve of a push is above
+    const right = x + BESIDE + wide <= pane.left + pane.width;
+    const left = right ? x + BESIDE : Math.max(pane.left, x - BESIDE - wide);
+    const top = pane.top + pane.height - high - 3; // the curve of a push is above
     box.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   };
 }

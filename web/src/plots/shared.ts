@@ -1,3 +1,4 @@
+import { busy } from "../frames.ts";
 import type { App } from "../state/app.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
@@ -6,6 +7,7 @@ import { Window } from "./window.ts";
 
 export const SPANS = [2, 5, 20, 80] as const; // s
 export type Span = (typeof SPANS)[number];
+const BUSY_STEP = 4; // px
 
 /** State shared by all plots of a page: the shown window of ticks, and who points at a tick. */
 export class Plots {
@@ -44,8 +46,13 @@ export class Plots {
     const { excerpt, history } = source;
     if (zoom) window.set(history, zoom.from, zoom.to);
     else if (excerpt) window.set(history, history.timeOf(excerpt.first), history.timeOf(excerpt.last));
-    else window.follow(history, source.present(), this.span.value, source.live, this.span.value / this.width);
+    else window.follow(history, source.present(), this.span.value, source.live, this.step());
     return window;
+  }
+
+  /** The step in which a live window moves, s: some pixels, because each step draws the whole background again. */
+  private step(): number {
+    return ((this.source.live && busy() ? BUSY_STEP : 1) * this.span.value) / this.width;
   }
 
   /** Points at a tick; null: at none. */

@@ -1,3 +1,4 @@
+import { turns } from "../frames.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { hiddenOf } from "./curves.ts";
 import { keyTick } from "./keys.ts";
@@ -114,7 +115,9 @@ export const timePlots: Panel = (host, app) => {
     } else if (plots.pointedBy === "time") plots.point(null, "time");
   };
 
+  const turn = turns();
   let seen = "";
+  let still = "";
   let back = "";
   let backEnd = 0;
   everyFrame((time) => {
@@ -126,9 +129,11 @@ export const timePlots: Panel = (host, app) => {
     const marks = source.events.value.length + source.punctures.value.length;
     const counts = `${changes} ${surface.sizes} ${history.generation} ${marks}`;
     const backState = `${counts} ${from} ${to} ${source.live}`;
-    const state = `${backState} ${surface.changes} ${first} ${end} ${source.cursor.value} ${source.pointed.value}`;
-    if (state === seen) return;
+    const held = `${counts} ${source.live} ${surface.changes} ${source.cursor.value} ${source.pointed.value}`;
+    const state = `${held} ${from} ${to} ${first} ${end}`;
+    if (state === seen || (held === still && !turn(time))) return; // new ticks alone wait for their turn
     seen = state;
+    still = held;
     if (backState !== back || end - backEnd > TAIL) {
       back = backState;
       backEnd = end;

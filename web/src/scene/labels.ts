@@ -54,11 +54,14 @@ export class Labels {
     this.size = size;
     const label = this.labelOf(id, kind);
     if (label.text !== text || label.width === 0) {
+      const asWide = label.width > 0 && label.text.length === text.length; // only digits have changed
       label.text = text;
       label.node.textContent = text;
-      label.node.hidden = false;
-      label.width = label.node.offsetWidth;
-      label.height = label.node.offsetHeight;
+      if (!asWide) {
+        label.node.hidden = false;
+        label.width = label.node.offsetWidth;
+        label.height = label.node.offsetHeight;
+      }
     }
     const x = Math.max(0, Math.min(((on.x + 1) / 2) * size[0], size[0]));
     const y = Math.max(0, Math.min(((1 - on.y) / 2) * size[1], size[1]));

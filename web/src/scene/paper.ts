@@ -3,7 +3,7 @@ import {
   DataTexture,
   DoubleSide,
   LinearFilter,
-  LinearMipmapLinearFilter,
+  LinearMipmapNearestFilter,
   RepeatWrapping,
   RGBAFormat,
   ShaderMaterial,
@@ -54,7 +54,7 @@ export class Paper {
     texture.wrapS = RepeatWrapping;
     if (sheet.tiles) texture.wrapT = RepeatWrapping;
     texture.magFilter = LinearFilter;
-    texture.minFilter = LinearMipmapLinearFilter;
+    texture.minFilter = LinearMipmapNearestFilter;
     texture.generateMipmaps = true;
     texture.needsUpdate = true;
     return texture;

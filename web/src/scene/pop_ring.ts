@@ -9,17 +9,26 @@ import { MM } from "./moment.ts";
 const CORNERS = 48;
 const SVG = "http://www.w3.org/2000/svg";
 
+/** width, height: of the view, px. */
+type DrawRing = (source: Source, scene: SceneView, camera: Camera, width: number, height: number) => void;
+
 /** Draws a ring on the membrane, around the needle, when it pops, with the drop of the force. */
-export function popRing(host: HTMLElement): (source: Source, scene: SceneView, camera: Camera) => void {
+export function popRing(host: HTMLElement): DrawRing {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const layer = document.createElementNS(SVG, "svg");
   layer.setAttribute("class", "pop-ring");
   layer.setAttribute("aria-hidden", "true"); // the list of events speaks the pop
-  const path = document.createElementNS(SVG, "path");
-  layer.append(path);
+  // A halo as a line of its own: a filter over the whole view is slow without a graphics card.
+  const lines = ["halo", "ring"].map((name) => {
+    const line = document.createElementNS(SVG, "path");
+    line.setAttribute("class", name);
+    return line;
+  });
+  layer.append(...lines);
   const words = element("span", { class: "view-label pop-words", "aria-hidden": "true", hidden: true });
   host.append(layer, words);
   let drawn = "";
+  let wide = 0; // px, of the words
   const hide = (): void => {
     if (drawn === "") return;
     drawn = "";
@@ -28,13 +37,11 @@ export function popRing(host: HTMLElement): (source: Source, scene: SceneView, c
   };
   hide();
   layer.style.display = "none";
-  return (source, scene, camera) => {
+  return (source, scene, camera, width, height) => {
     const ring = ringOf(source, still.matches);
     const at = ring && hole(source, ring.event.tick, ring.event.membrane);
     const normal = ring && scene.membranes[ring.event.membrane]?.inward_normal;
     if (!ring || !at || !normal) return hide();
-    const width = host.clientWidth;
-    const height = host.clientHeight;
     const radius = (ring.radius * scene.diameter * MM) / 2;
     const points = circle(at, new Vector3(...normal), radius).map((point) => {
       const on = point.project(camera);
@@ -43,15 +50,18 @@ export function popRing(host: HTMLElement): (source: Source, scene: SceneView, c
     const d = `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}Z`;
     if (d + ring.alpha === drawn) return;
     drawn = d + ring.alpha;
-    path.setAttribute("d", d);
+    for (const line of lines) line.setAttribute("d", d);
     layer.style.opacity = ring.alpha.toFixed(2);
     layer.style.display = "";
     const text = popLabel(ring.event, source.history);
-    if (words.textContent !== text) words.textContent = text;
     words.hidden = false;
+    if (words.textContent !== text) {
+      words.textContent = text;
+      wide = words.offsetWidth;
+    }
     const right = Math.max(...points.map(([x]) => x));
     const top = Math.min(...points.map(([, y]) => y));
-    const x = Math.max(8, Math.min(right + 4, width - words.offsetWidth - 8));
+    const x = Math.max(8, Math.min(right + 4, width - wide - 8));
     words.style.transform = `translate(${x.toFixed(1)}px, ${Math.max(4, top - 20).toFixed(1)}px)`;
   };
 }

@@ -1,4 +1,4 @@
-const LATE_MS = 40; // a picture that takes longer than this is late: fewer than 25 a second
+const LATE_MS = 36; // a picture that takes longer than this is late: fewer than 28 a second
 const QUICK_MS = 22;
 const LATE_PICTURES = 12;
 const QUICK_PICTURES = 120;
@@ -10,7 +10,7 @@ const IDLE_MS = 400;
 /**
  * Sharpness of a moving picture. If pictures come late, they get fewer pixels, because fewer pixels are better than
  * fewer pictures. If they come early for a while, sharpness comes back; each attempt that fails doubles that while.
- * Only pictures in consecutive animation frames count: the others come late because nobody asked for them earlier.
+ * A picture takes the time until the browser asks for the next one, whether there is something new to draw or not.
  */
 export class Quality {
   ratio: number;
@@ -19,8 +19,10 @@ export class Quality {
   private quick = 0;
   private patience = QUICK_PICTURES;
   private raised = false;
-  /** When the last animation frame drew a picture, ms; NaN if it drew none. */
-  private drawn = Number.NaN;
+  /** When the last picture was begun, ms; NaN if its time is known already. */
+  private begun = Number.NaN;
+  /** Whether the browser has painted since then. */
+  private painted = false;
 
   /** best: device pixels per CSS pixel of the sharpest picture. */
   constructor(readonly best: number) {
@@ -32,17 +34,20 @@ export class Quality {
     return this.ratio < this.best;
   }
 
-  /** An animation frame draws no moving picture. */
-  skip(): void {
-    this.drawn = Number.NaN;
+  /**
+   * The browser asks for a picture at the time `now`, ms. draws: whether a new one is drawn. painted: whether the
+   * browser paints next. Returns whether the sharpness changes.
+   */
+  step(now: number, draws: boolean, painted: boolean): boolean {
+    const took = this.painted ? now - this.begun : Number.NaN;
+    if (this.painted) this.begun = Number.NaN;
+    if (draws) this.begun = now;
+    this.painted = painted && !Number.isNaN(this.begun);
+    return took <= IDLE_MS && this.judge(took); // otherwise the page was hidden
   }
 
-  /** An animation frame draws a picture at the time `now`, ms. Returns whether the sharpness changes. */
-  draw(now: number): boolean {
-    const took = now - this.drawn;
-    this.drawn = now;
-    if (!(took <= IDLE_MS)) return false; // the first picture, or the page was hidden
-    this.late = took > LATE_MS ? this.late + 1 : Math.max(0, this.late - 2);
+  private judge(took: number): boolean {
+    this.late = took > LATE_MS ? this.late + 1 : Math.max(0, this.late - 1);
     this.quick = took < QUICK_MS ? this.quick + 1 : took > LATE_MS ? 0 : this.quick;
     if (this.late >= LATE_PICTURES && this.ratio > this.lowest) {
       if (this.raised) this.patience = Math.min(2 * this.patience, MOST_PATIENCE);

@@ -79,17 +79,18 @@ export class Stage {
     this.stale = true;
   }
 
-  draw(camera: Camera, now: number): void {
+  /** now: ms. painted: whether the browser paints next. */
+  draw(camera: Camera, now: number, painted: boolean): void {
     this.drawn = now;
-    if (this.quality.draw(now)) this.coarser(this.quality.words());
+    if (this.quality.step(now, true, painted)) this.coarser(this.quality.words());
     this.setRatio(this.quality.ratio);
     this.renderer.render(this.scene, camera);
     this.stale = false;
   }
 
   /** Called in frames without a change: after a while the picture is drawn once more, at full sharpness. */
-  rest(camera: Camera, now: number): void {
-    this.quality.skip();
+  rest(camera: Camera, now: number, painted: boolean): void {
+    if (this.quality.step(now, false, painted)) this.coarser(this.quality.words());
     if (this.ratio >= this.resting || now - this.drawn < REST_MS) return;
     this.setRatio(this.resting);
     this.renderer.render(this.scene, camera);

@@ -74,6 +74,10 @@ export const view: Panel = (host, app) => {
   const look = (preset: Preset): void => orbit.preset(preset, world.moment.axis, world.moment.tip);
   const bar = presets(host, look, (factor) => orbit.zoom(factor));
   const free = sidewaysButton(bar, hand);
+  let covered = 0; // height under the toolbar, px
+  new ResizeObserver(() => {
+    covered = bar.offsetTop + bar.offsetHeight;
+  }).observe(bar);
   const drawRing = popRing(host);
   const sliceFrame = new SliceFrame(theme, stage.scene);
   const probe = probeOf(app);
@@ -98,7 +102,7 @@ export const view: Panel = (host, app) => {
   };
 
   let before = performance.now();
-  everyFrame((now) => {
+  everyFrame((now, painted) => {
     const elapsed = Math.min(100, now - before);
     before = now;
     const source = app.source.value;
@@ -109,16 +113,16 @@ export const view: Panel = (host, app) => {
     const ghost = source.live ? hand.target.value : poseBeside(source, app.overlay.value, source.shown() ?? 0);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
     const changed = world.update(source, ghost, orbit.camera, pixel);
-    drawRing(source, scene, orbit.camera);
+    drawRing(source, scene, orbit.camera, stage.width, stage.height);
     canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     const framed = sliceFrame.update(scene, probe);
     if (!turned && !changed && !framed && !stage.stale) {
-      stage.rest(orbit.camera, now);
+      stage.rest(orbit.camera, now, painted);
       return;
     }
-    showHub(world.hiddenHub(orbit.camera, (bar.offsetTop + bar.offsetHeight) / Math.max(1, stage.height)));
-    stage.draw(orbit.camera, now);
+    showHub(world.hiddenHub(orbit.camera, covered / Math.max(1, stage.height)));
+    stage.draw(orbit.camera, now, painted);
     world.name(orbit.camera);
     drawScale(pixel);
     speak(world.moment, scene, now);

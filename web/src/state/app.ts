@@ -1,4 +1,5 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
+import { ticksCame } from "../frames.ts";
 import { Api } from "../wire/api.ts";
 import type { GoalLine, LabComparison } from "../wire/files.ts";
 import type {
@@ -102,6 +103,7 @@ export class App {
 
   private takeTicks(batch: TickBatch): void {
     this.live.history.push(batch);
+    ticksCame();
   }
 
   private take(message: Exclude<Message, Reply>): void {

@@ -9,7 +9,7 @@ beforeEach(() => {
 const pictures = (quality: Quality, count: number, took: number): void => {
   for (let i = 0; i < count; i++) {
     clock += took;
-    quality.draw(clock);
+    quality.step(clock, true, true);
   }
 };
 /** Animation frames while the needle stands still and its trail fades. took: ms for each frame. */
@@ -17,8 +17,7 @@ const fading = (quality: Quality, count: number, took: number): void => {
   const fade = new Fade();
   for (let i = 0; i < count; i++) {
     clock += took;
-    if (fade.step(clock / 1e3, i === 0)) quality.draw(clock);
-    else quality.skip();
+    quality.step(clock, fade.step(clock / 1e3, i === 0), true);
   }
 };
 
@@ -71,6 +70,19 @@ it("a trail that fades asks for few pictures, and these are not late", () => {
   expect(quality.words()).toBe("");
   fading(quality, 30, 80);
   expect(quality.lowered).toBe(true); // here the frames themselves come late
+});
+
+it("a picture between two frames takes until the frame after that which shows it", () => {
+  const quality = new Quality(1);
+  const drawnBetween = (took: number): void => {
+    quality.step(clock, true, false);
+    quality.step(clock + 1, false, true);
+    clock += took;
+  };
+  for (let i = 0; i < 50; i++) drawnBetween(30);
+  expect(quality.lowered).toBe(false);
+  for (let i = 0; i < 14; i++) drawnBetween(40);
+  expect(quality.lowered).toBe(true);
 });
 
 it("the wait for sharpness has an end, however many attempts failed", () => {

@@ -8,6 +8,7 @@ const number = (metres: number | undefined): string =>
     ? "–"
     : (Math.round(metres * 1e5) / 100 + 0).toFixed(2).replace("-", "−");
 
+const INTERVAL = 100; // ms between updates; faster ones cannot be read
 const LAG_UNKNOWN = "– mm";
 
 /** The lag of the tip behind the hand as text; unknown without a target. */
@@ -34,7 +35,10 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
   );
   const button = (label: string, title: string, act: () => void): HTMLElement =>
     element("button", { type: "button", class: "button", title, onclick: act }, label);
-  everyFrame(() => {
+  let last = 0;
+  everyFrame((now) => {
+    if (now - last < INTERVAL) return;
+    last = now;
     if (table.offsetParent === null) return; // another tab is open
     const target = hand.target.value?.position;
     const { history } = app.live;

@@ -2,6 +2,8 @@ import { FIRM, thumbOf } from "../../hand/thumb.ts";
 import { element, everyFrame } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 
+const INTERVAL = 100; // ms between updates; faster ones cannot be read
+
 const number = (value: number | undefined, digits: number): string =>
   value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits).replace("-", "−");
 
@@ -44,8 +46,11 @@ export function plungerRows(app: App): HTMLElement {
   const put = (where: HTMLElement, text: string): void => {
     if (where.textContent !== text) where.textContent = text;
   };
+  let last = 0;
   everyFrame((now) => {
     thumb.renew(now);
+    if (now - last < INTERVAL) return;
+    last = now;
     const source = app.source.value;
     host.hidden = !source.scene.value?.syringe;
     const tick = host.hidden ? null : source.shown();
