@@ -43,8 +43,10 @@ export function placeLabels(
 ): Place[] {
   const column = wishes.filter(({ how }) => how === "column").sort((a, b) => a.y - b.y || a.x - b.x);
   const places = columnPlaces(column, width, height, obstacles);
-  for (const wish of wishes) {
-    if (wish.how === "column") continue;
+  const placed = new Set(places.map(({ id }) => id));
+  // A label for which the column has no room goes wherever there is some.
+  for (const wish of [...column, ...wishes.filter(({ how }) => how !== "column")]) {
+    if (placed.has(wish.id)) continue;
     const place = besidePlace(wish, width, height, [...obstacles, ...places]);
     if (place) places.push(place);
   }
@@ -127,11 +129,12 @@ function stacked(column: readonly Wish[], free: readonly (readonly [number, numb
   return tops;
 }
 
-/** Next to the point: right or left of it, then above or below these places. */
+/** Next to the point: right or left of it, or at a border of the view, then above or below these places. */
 function besidePlace(wish: Wish, width: number, height: number, taken: readonly Rect[]): Place | null {
   const right = wish.x + BESIDE;
   const left = wish.x - BESIDE - wish.width;
-  const sides = wish.how === "left" ? [left, right] : [right, left];
+  const borders = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  const sides = [...(wish.how === "left" ? [left, right] : [right, left]), ...borders];
   for (let step = 0; step <= 2 * Math.ceil(height / 8); step++) {
     const shift = (step % 2 ? -1 : 1) * 8 * Math.ceil(step / 2);
     for (const side of sides) {

@@ -55,6 +55,19 @@ describe.each([
   });
 });
 
+it("a label for which the column has no room goes wherever there is some", () => {
+  const [width, height] = [374, 250];
+  const full: Rect[] = [
+    ...around(width, height),
+    { left: 8, top: 8, right: 366, bottom: 66 }, // a toolbar of two rows
+    { left: 250, top: 74, right: 366, bottom: 190 }, // the magnifier
+  ];
+  const wishes = EPIDURAL.map((name) => label(name, 262, 125));
+  const places = placeLabels(wishes, width, height, full);
+  expect(places.map(({ id }) => id).sort()).toEqual([...EPIDURAL].sort());
+  clear(places, width, height, full);
+});
+
 it("whatever the points, no label overlaps another one or an obstacle", () => {
   let state = 7;
   const next = (): number => {
