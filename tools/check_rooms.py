@@ -60,6 +60,7 @@ ROOMS = (
     "python/punctura/studio",
     "python/punctura/cli",
     "web/src/format.ts",
+    "web/src/frames.ts",
     "web/src/wire",
     "web/src/engine",
     "web/src/state",

@@ -59,7 +59,7 @@ it("when nobody draws any more, no frame is asked for", () => {
   expect(asked).toBeNull();
 });
 
-it("while pictures come late, parts that can wait take turns; when they come in time again, each is always drawn", () => {
+it("while pictures come late, parts that can wait take turns; in time again, each is always drawn", () => {
   const had = [0, 0];
   const parts = [turns(), turns()];
   ends.push(
