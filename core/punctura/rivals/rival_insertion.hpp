@@ -1,6 +1,7 @@
 // A needle through several layers, each with a rival: the same interface as InsertionOf, so a servo step can run it.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -13,7 +14,8 @@
 
 namespace punctura {
 
-/// The force of rivals at the places of a scene's membranes. Positions pass the same conditioning as for K06.
+/// The force of rivals at the places of a scene's membranes. Positions pass the same conditioning and the same sub-steps
+/// as for K06.
 ///
 /// `ServoStepOf<RivalInsertion>` is a whole tick: the same gate and the same force limits as for K06.
 class RivalInsertion {
@@ -25,9 +27,10 @@ class RivalInsertion {
 
   /// rivals: one for each membrane of a scene that has passed check().
   RivalInsertion(const Scene& scene, std::span<const AnyRival> rivals)
-      : conditioner_(scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, 1 / scene.servo.rate) {
-    const double period = 1 / scene.servo.rate;
-    if (scene.direction == Direction::motion) from_motion_.emplace(period);
+      : conditioner_(scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, 1 / scene.servo.rate),
+        sub_steps_(static_cast<std::uint32_t>(scene.servo.sub_steps)) {
+    if (scene.direction == Direction::motion) from_motion_.emplace(1 / scene.servo.rate);
+    const double period = 1 / scene.servo.rate / scene.servo.sub_steps;
     for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
       const PlacedMembrane& at = scene.membranes[i];
       proxies_.emplace_back(rivals[i], to_vector(at.point), to_vector(at.inward_normal).stableNormalized(), period);
@@ -45,6 +48,7 @@ class RivalInsertion {
   void resume(RivalInsertion& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) from_motion_->resume(*previous.from_motion_);
+    tip_ = previous.tip_;
     match_by_place(proxies_, previous.proxies_, [](RivalProxy& proxy, const RivalProxy& old) { proxy.resume(old); });
   }
 
@@ -52,8 +56,11 @@ class RivalInsertion {
   Vector step(const Vector& position, const Vector& axis) noexcept {
     if (!is_place(position) || (uses_axis() && !axis.allFinite()))
       return Vector::Constant(std::numeric_limits<double>::quiet_NaN());
+    const bool first = !conditioner_.started();
+    const Vector before = tip_;
     tip_ = conditioner_.step(position);
     const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
+    if (sub_steps_ > 1 && !first) step_between(before, direction);
     force_.setZero();
     for (RivalProxy& proxy : proxies_) force_ += proxy.step_finite(tip_, direction);
     return force_;
@@ -69,6 +76,7 @@ class RivalInsertion {
     conditioner_.describe(parameters);
     parameters.flag(uses_axis());
     if (from_motion_) from_motion_->describe(parameters);
+    parameters.index(sub_steps_, 0);
     for (const RivalProxy& proxy : proxies_) proxy.describe(parameters);
   }
 
@@ -86,8 +94,17 @@ class RivalInsertion {
   }
 
  private:
+  /// The sub-steps of a tick without the last one. before: the conditioned position of the last tick, m.
+  void step_between(const Vector& before, const Vector& direction) noexcept {
+    for (std::uint32_t i = 1; i < sub_steps_; ++i) {
+      const Vector between = before + (static_cast<double>(i) / sub_steps_) * (tip_ - before);
+      for (RivalProxy& proxy : proxies_) proxy.step_finite(between, direction);
+    }
+  }
+
   PositionConditioner<double> conditioner_;
   std::optional<EntryDirection<double>> from_motion_;
+  std::uint32_t sub_steps_;
   Proxies proxies_;
   Vector tip_ = Vector::Zero(), force_ = Vector::Zero();
 };
@@ -99,9 +116,11 @@ using RivalServoStep = ServoStepOf<RivalInsertion>;
 /// the scene has with K06. rivals: one for each membrane. The scene has passed check().
 inline RivalServoStep build_rivals(const Scene& scene, std::span<const AnyRival> rivals, const GateLimits& gate = {},
                                    const ForceLimits& limits = {}) {
-  std::vector<Problem> problems;
-  const auto k06 = try_build_insertion(scene, problems);
-  const double scale = force_scale(scene, *k06, limits);
+  double scale = scene.display.force_scale;
+  if (scene.display.automatic) {  // from the largest force of K06
+    std::vector<Problem> problems;
+    scale = force_scale(scene, *try_build_insertion(scene, problems), limits);
+  }
   RivalServoStep step(RivalInsertion(scene, rivals), 1 / scene.servo.rate, gate, limits, scale);
   if (scene.syringe) detail::put_syringe(scene, step);
   return step;

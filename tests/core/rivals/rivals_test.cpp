@@ -137,6 +137,28 @@ TEST_CASE("a servo step runs each rival behind the same gate and limits, without
   });
 }
 
+TEST_CASE("sub-steps give rivals the positions between two ticks") {
+  Scene often = rival_scene(), seldom = often;
+  often.servo.low_pass = seldom.servo.low_pass = 0;
+  seldom.servo.rate = often.servo.rate / 4;
+  Scene divided = seldom;
+  divided.servo.sub_steps = 4;
+  const std::vector<AnyRival> rivals(often.membranes.size(), AnyRival(RivalRun<Dahl>{{1e4, 0.1, 500}, {}}));
+  RivalInsertion a(often, rivals), b(divided, rivals), c(seldom, rivals);
+  const auto place = [](int k) { return Vector3d(0, 1e-3 - 5e-6 * k, 0); };
+  const Vector3d down(0, -1, 0);
+  double largest = 0;
+  for (int k = 0; k <= 2000; ++k) {
+    a.step(place(k), down);
+    if (k % 4 != 0) continue;
+    b.step(place(k), down);
+    c.step(place(k), down);
+    CHECK(b.force().y() == doctest::Approx(a.force().y()).epsilon(1e-9));
+    largest = std::max(largest, std::abs(c.force().y() - a.force().y()));
+  }
+  CHECK(largest > 1e-4);
+}
+
 TEST_CASE("a saved run with rivals continues with the same bits, and refuses the state of other numbers") {
   const Scene scene = rival_scene();
   AnyRival::for_each_kind([&]<typename R>(R rival) {
