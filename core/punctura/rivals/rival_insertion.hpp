@@ -14,8 +14,7 @@
 
 namespace punctura {
 
-/// The force of rivals at the places of a scene's membranes. Positions pass the same conditioning and the same sub-steps
-/// as for K06.
+/// The force of rivals at the places of a scene's membranes. Conditioning and sub-steps are those of K06.
 ///
 /// `ServoStepOf<RivalInsertion>` is a whole tick: the same gate and the same force limits as for K06.
 class RivalInsertion {

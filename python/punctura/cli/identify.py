@@ -5,26 +5,26 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from punctura import Needle
 from punctura.files.whole_file import write_whole
-from punctura.identify import Identification, identify
-from punctura.identify.folder import Task, identify_folder
-from punctura.identify.plan import plans
-from punctura.identify.report import report_html
 from punctura.progress import progress_bar
-from punctura.scene.write import scene_text
-from punctura.trace import read_trace
+
+if TYPE_CHECKING:
+    from punctura.identify import Identification
+    from punctura.identify.folder import Task
 
 
 def command(
     trace: Annotated[
         Path,
         typer.Argument(
-            help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.", metavar="TRACE"
+            exists=True,
+            help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.",
+            metavar="TRACE",
         ),
     ],
     needle: Annotated[
@@ -58,6 +58,12 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Identifies membranes from a trace: values, 95 % intervals, and what the trace cannot tell."""
+    from punctura.identify import identify
+    from punctura.identify.folder import Task
+    from punctura.identify.report import report_html
+    from punctura.scene.write import scene_text
+    from punctura.trace import read_trace
+
     if order not in ("recorded", "depth"):
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
     task = Task(
@@ -83,6 +89,8 @@ def command(
 
 
 def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json: bool) -> None:
+    from punctura.identify.folder import identify_folder
+
     with progress_bar("identify") as tell:
         told = identify_folder(folder, out, task, processes, tell)
     if as_json:
@@ -98,6 +106,8 @@ def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json:
 
 
 def _plan(path: Path, found: Identification) -> None:
+    from punctura.identify.plan import plans
+
     deepest = float(found.trace.depth.max())
     best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
     write_whole(path, best.csv())

@@ -1,69 +1,26 @@
-"""Chooses the extensions of K06 that a trace asks for."""
+"""Chooses the model that a trace asks for: the extensions of K06, and the number of its membranes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from itertools import islice
 
 import numpy as np
 
 from punctura import Needle
-from punctura.identify.fit import Fit, Misfit, best_fit, with_pops_moved
-from punctura.identify.noise import effective_samples
-from punctura.identify.parameters import Parameters
+from punctura.identify.criteria import Candidate, Rule, candidate
+from punctura.identify.fit import Misfit, Start, best_fit
+from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
+from punctura.identify.pops_moved import noise_limit, with_pops_moved
+from punctura.identify.rises import rise_starts
 from punctura.identify.start import starts
-from punctura.identify.stretch import stretch_starts
+from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace, TraceError
 
-OWN = ("surface", "stiffness", "precompression", "friction", "thickness")  # each membrane's own
 SEARCHED = 600  # samples of a search; the last fit uses all
-FOLDS = 4
-
-
-@dataclass(frozen=True)
-class Extension:
-    """An addition to K06 that all membranes share: its parameters with start values, and when it can be seen."""
-
-    name: str
-    start: dict[str, float]  # SI; a stiffness as a part of the coupling's
-    needs_hold: bool = False
-    needs_insertions: int = 1
-
-
-def extensions(needle: Needle) -> tuple[Extension, ...]:
-    """Every extension that identification tries, in this order."""
-    w, tip = needle.diameter, needle.diameter / np.tan(needle.tip_angle)
-    return (
-        Extension("curved grip", {"tissue.growth": 1 / w, "tissue.tip_length": tip}),
-        Extension("tip length", {"tissue.tip_length": 1.02 * tip}),
-        Extension("tail", {"tissue.tail_length": 0.3 * tip, "tissue.tail_floor": 0.8}),
-        Extension("relaxation", {"relaxation_1_stiffness": 0.4, "relaxation_1_time": 1.0}, needs_hold=True),
-        Extension("second relaxation", {"relaxation_2_stiffness": 0.3, "relaxation_2_time": 10.0}, needs_hold=True),
-        Extension("cutting", {"tissue.cutting": 0.05}, needs_insertions=2),
-        Extension("set", {"tissue.set": 0.1}, needs_insertions=2),
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A model that was tried, fitted to the samples of the search."""
-
-    name: str
-    extensions: tuple[str, ...]
-    fit: Fit
-    effective: float
-    held_out: float | None = None  # N, rms of samples that the fit did not use
-
-    @property
-    def aicc(self) -> float:
-        """Akaike's criterion, corrected for few samples, with the effective number of samples."""
-        n, k = self.effective, len(self.fit.u) + 1
-        return float(n * np.log(self.fit.sse / len(self.fit.residuals)) + 2 * k + 2 * k * (k + 1) / max(n - k - 1, 1))
-
-    def bic(self, effective: float) -> float:
-        """The Bayesian criterion with this number of independent samples."""
-        size = len(self.fit.residuals)
-        return float(effective * np.log(self.fit.sse / size) + (len(self.fit.u) + 1) * np.log(effective))
+PASSES = 3  # over the extensions, at most: one may be worth it only after another
+WHITE = 0.8  # of the samples are independent: the residuals have no shape, so no wall is missing
 
 
 def thinned(trace: Trace) -> Trace:
@@ -71,110 +28,133 @@ def thinned(trace: Trace) -> Trace:
     return trace[:: max(1, -(-len(trace) // SEARCHED))]
 
 
-def choose(
-    trace: Trace, segments: Segments, needle: Needle, membranes: int, tell: Callable[[str], None] = lambda _: None
-) -> tuple[Candidate, ...]:
-    """All models that were tried, the chosen one first: extensions are added while BIC and held-out error fall."""
-    names = [f"membrane[{i}].{kind}" for i in range(membranes) for kind in OWN] + ["coupling_stiffness", "offset"]
-    names += ["drift"] * (trace.time is not None and any(f.kind == "drift" for f in trace.findings))
-    plain = list(starts(trace, segments, needle, membranes))[:3]
-    curved = list(starts(trace, segments, needle, membranes, True))[:2]
-    if membranes > 1 and membranes == sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops):
-        plain += list(stretch_starts(trace, segments, needle, curved=False))[:2]
-        curved = [*list(stretch_starts(trace, segments, needle, curved=True))[:2], *curved[:1]]
-    tell("K06")
-    current = _candidate("K06", (), Misfit(trace, plain[0]), names, plain)
-    tried = [current]
-    for extension in extensions(needle):
-        if extension.needs_hold and not segments.holds:
-            continue
-        if segments.insertions < extension.needs_insertions or any(
-            n in current.fit.free.names for n in extension.start
-        ):
-            continue
-        tell(extension.name)
-        here = current.fit.parameters
-        from_here = here.with_values(_kept(here, extension))
-        weak = [from_here.with_values({"tissue.tail_floor": 0.98})] if "tissue.tail_floor" in extension.start else []
-        fresh = [p.with_values(_kept(p, extension)) for p in curved] if "tissue.growth" in extension.start else []
+@dataclass(eq=False)
+class _Search:
+    """What all fits of a trace share, and all candidates so far."""
+
+    trace: Trace
+    segments: Segments
+    needle: Needle
+    tell: Callable[[str], None]
+    rule: Rule = field(init=False)
+    tried: list[Candidate] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.rule = Rule(self.trace, self.segments)
+
+    def fitted(self, name: str, model: Model, from_these: Sequence[Start]) -> Candidate | None:
+        """The model's best fit from any of these; None if none ends."""
+        self.tell(name)
+        misfit = self.tried[0].fit.misfit if self.tried else Misfit(self.trace, from_these[0].parameters)
+        enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
         try:
-            found = _candidate(
-                extension.name, (*current.extensions, extension.name), current.fit.misfit,
-                [*current.fit.free.names, *extension.start], [from_here, *weak, *fresh],
-            )  # fmt: skip
+            found = candidate(name, model, with_pops_moved(best_fit(misfit, model.names, from_these, enough)))
         except TraceError:
-            continue
-        tried.append(found)
-        if _better(found, current):
-            current = found
-    if membranes > 1:
-        tell("one tissue")
-        tied = _one_tissue(current, membranes)
-        if tied is not None:
-            tried.append(tied)
-            if _better(tied, current):
-                current = tied
-    return (current, *(c for c in tried if c is not current))
-
-
-def _one_tissue(current: Candidate, membranes: int) -> Candidate | None:
-    """The same extensions with one stiffness, friction and thickness for all walls. Depth and grip at rest stay own."""
-    own = [f"membrane[{i}].{kind}" for i in range(membranes) for kind in ("surface", "precompression")]
-    shared = ["stiffness", "friction", "thickness"]
-    left_out = {f"membrane[{i}].{kind}" for i in range(membranes) for kind in OWN}
-    names = [*own, *(f"tissue.{kind}" for kind in shared), *(n for n in current.fit.free.names if n not in left_out)]
-    here = current.fit.parameters
-    middle = {
-        f"tissue.{kind}": float(np.median([here.get(f"membrane[{i}].{kind}") for i in range(membranes)]))
-        for kind in shared
-    }
-    try:
-        return _candidate(
-            "one tissue", (*current.extensions, "one tissue"), current.fit.misfit, names, [here.with_values(middle)]
-        )
-    except TraceError:
-        return None
-
-
-def _kept(parameters: Parameters, extension: Extension) -> dict[str, float]:
-    """The start values of an extension where these parameters have none of their own. A branch takes its part of K."""
-    spring = parameters.get("coupling_stiffness")
-    values = {}
-    for name, value in extension.start.items():
-        branch = name.startswith("relaxation") and name.endswith("stiffness")
-        if branch:
-            values[name] = value * spring
-        elif parameters.get(name) in (0.0, 1.0) or name.startswith("relaxation"):
-            values[name] = value
-    return values
-
-
-def _candidate(
-    name: str, extended: tuple[str, ...], misfit: Misfit, names: Sequence[str], from_these: Sequence[Parameters]
-) -> Candidate:
-    found = with_pops_moved(best_fit(misfit, names, from_these))
-    return Candidate(name, extended, found, effective_samples(found.residuals, len(names)), held_out_error(found))
-
-
-def _better(new: Candidate, old: Candidate) -> bool:
-    effective = max(new.effective, old.effective)  # of the residuals that are nearer to noise
-    held_out = new.held_out is None or old.held_out is None or new.held_out < 1.02 * old.held_out
-    return new.bic(effective) < old.bic(effective) - 2 and held_out
-
-
-def held_out_error(fit: Fit) -> float | None:
-    """The rms error, N, in parts of the trace that the fit did not use: whole insertions, or blocks of samples."""
-    trace, n = fit.misfit.trace, len(fit.misfit.trace)
-    groups = trace.strokes if trace.strokes.max() > 0 else np.arange(n) * 5 * FOLDS // n
-    squares = []
-    for fold in range(min(FOLDS, int(groups.max()) + 1)):
-        out = groups % FOLDS == fold
-        if out.all() or not out.any():
-            continue
-        part = Misfit(trace, fit.parameters, ~out)
-        try:
-            kept = best_fit(part, [n for n in fit.free.names], [fit.parameters], quick=True)
-        except TraceError:
+            if not self.tried:
+                raise
             return None
-        squares.append((part.forces(kept.parameters) - trace.force)[out] ** 2)
-    return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else None
+        self.tried.append(found)
+        return found
+
+    def starts(self, membranes: int, curved: bool, most: int) -> list[Start]:
+        """Start values of K06, or of a curved grip, for this number of walls: those with the least errors."""
+        walls = starts(self.trace, self.segments, self.needle, membranes, curved)
+        found = list(islice(walls, most) if curved else walls)
+        if membranes > 1:
+            found += islice(rise_starts(self.trace, self.segments, self.needle, membranes, curved), most)
+        misfit = Misfit(self.trace, found[0])
+        found.sort(key=lambda p: float(np.sum((misfit.forces(p) - self.trace.force) ** 2)))
+        return [Start(parameters, blurred=True) for parameters in found[:most]]
+
+
+def choose(
+    trace: Trace,
+    segments: Segments,
+    needle: Needle,
+    membranes: int,
+    tell: Callable[[str], None] = lambda _: None,
+    *,
+    most: int | None = None,
+) -> tuple[Candidate, ...]:
+    """All models that were tried, the chosen one first. docs/identify.md has the rule.
+
+    most: if given, one membrane fewer and one more (up to this number) are tried, too.
+    """
+    search = _Search(trace, segments, needle, tell)
+    drift = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
+    plain = search.fitted("K06", Model(membranes, drift=drift), search.starts(membranes, False, 3))
+    assert plain is not None
+    current = _extended(search, plain)
+    if membranes > 1:
+        tied = _of_one_tissue(search, current)
+        if tied is not current:
+            current = _extended(search, tied)
+    if most is not None:
+        current = _other_number(search, current, most)
+    told = {current: search.rule.held_out_error(current), plain: search.rule.held_out_error(plain)}
+    rest = [c for c in search.tried if c is not current]
+    return tuple(replace(c, held_out=told.get(c)) for c in (current, *rest))
+
+
+def _extended(search: _Search, current: Candidate) -> Candidate:
+    """Adds extensions, one after the other, as long as one is worth it."""
+    for _ in range(PASSES):
+        before = current
+        for extension in extensions(search.needle):
+            if not _seen(search.segments, extension, current.model):
+                continue
+            model = current.model.extended(extension)
+            if any(one.model == model for one in search.tried):
+                continue  # it was not worth it
+            here = current.fit.parameters
+            from_these = [Start(model.start(here, weak)) for weak in (True, False)]
+            if "tissue.growth" in extension.start:
+                fresh = search.starts(model.membranes, True, 2)
+                from_these += [replace(one, parameters=model.start(one.parameters)) for one in fresh]
+            found = search.fitted(extension.name, model, from_these)
+            if found is not None and search.rule.prefers(found, current):
+                current = found
+        if current is before:
+            break
+    return current
+
+
+def _seen(segments: Segments, extension: Extension, model: Model) -> bool:
+    """Whether the trace can show an extension that the model has not yet."""
+    return not (
+        all(name in model.names for name in extension.start)
+        or (extension.needs_hold and not segments.holds)
+        or (extension.needs_withdrawal and not any(stroke.kind == "out" for stroke in segments.strokes))
+        or segments.insertions < extension.needs_insertions
+        or (extension.after and extension.after not in model.words)
+    )
+
+
+def _of_one_tissue(search: _Search, current: Candidate) -> Candidate:
+    """The same model with one stiffness, friction and thickness for all walls, if the rule prefers it."""
+    model = replace(current.model, one_tissue=True)
+    from_these = [Start(model.start(current.fit.parameters), blurred=True)]
+    if "tissue.growth" in model.names:
+        fresh = search.starts(model.membranes, True, 3)
+        from_these += [replace(one, parameters=model.start(one.parameters)) for one in fresh]
+    found = search.fitted(ONE_TISSUE, model, from_these)
+    return found if found is not None and search.rule.prefers(found, current) else current
+
+
+def _other_number(search: _Search, current: Candidate, most: int) -> Candidate:
+    """One membrane fewer, and one more where the residuals still have a shape: the rule decides."""
+    count, best = current.model.membranes, current
+    if count > 1:
+        fewer = replace(current.model, membranes=count - 1, one_tissue=current.model.one_tissue and count > 2)
+        from_these = [Start(p, blurred=True) for p in without_a_wall(current.fit, search.segments)]
+        from_these += [replace(s, parameters=fewer.start(s.parameters)) for s in search.starts(count - 1, False, 1)]
+        found = search.fitted(f"{count - 1} membrane(s)", fewer, from_these)
+        if found is not None and search.rule.prefers(found, best):
+            best = found
+    if count < most and current.effective < WHITE * len(search.trace):
+        more = replace(current.model, membranes=count + 1)
+        from_these = [Start(p) for p in with_a_wall_more(current.fit)]
+        found = search.fitted(f"{count + 1} membranes", more, from_these) if from_these else None
+        if found is not None and search.rule.prefers(found, best):
+            best = found
+    return best

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,9 @@ from punctura.identify.parameters import Free, Parameters
 from punctura.trace import Trace, TraceError
 
 Array = NDArray[np.float64]
+
+NEARLY = 30.0  # variances of a sample by which another search may be worse and still count
+FURTHER, LITTLE = 30, 0.1  # evaluations after the last one, and what they must gain
 
 
 class Misfit:
@@ -59,7 +62,10 @@ def blurred(columns: Array, width: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The result of a fit. u: coordinates; jacobian: (used samples, free), by the coordinates."""
+    """The result of a fit. u: coordinates; jacobian: (used samples, free), by the coordinates.
+
+    others: ends of other searches that are nearly as good, as parameters.
+    """
 
     misfit: Misfit
     free: Free
@@ -67,6 +73,7 @@ class Fit:
     residuals: Array
     jacobian: Array
     evaluations: int
+    others: tuple[Parameters, ...] = ()
 
     @property
     def parameters(self) -> Parameters:
@@ -89,6 +96,7 @@ def fit(
 ) -> Fit:
     """The parameters `names` that fit best, from `start`. blurs: widths in samples, one search after the other.
 
+    A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
     Raises TraceError if the last search does not end.
     """
     free = Free(names, start)
@@ -98,53 +106,50 @@ def fit(
         u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
     if message and blurs[-1] == 0:
-        raise TraceError(f"the fit did not end after {evaluations} evaluations: {message}")
+        before = _cost(misfit, free, u)
+        u, more, message = _search(misfit, free, u, 0, FURTHER)
+        count += more
+        if message and before - _cost(misfit, free, u) > LITTLE * before / len(misfit.trace):
+            raise TraceError(f"the fit did not end after {count} evaluations: {message}")
     return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
 
 
-def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Parameters], quick: bool = False) -> Fit:
-    """The best of several fits: from each start, with narrow and with wide blurs. Raises TraceError if none ends.
+def _cost(misfit: Misfit, free: Free, u: Array) -> float:
+    left = misfit.residuals(free, u)
+    return float(left @ left)
 
-    quick: without blurs, for a start that is nearly the solution.
-    """
+
+@dataclass(frozen=True)
+class Start:
+    """Where a search begins. blurred: a second search begins with blurred residuals, for pops at the wrong samples."""
+
+    parameters: Parameters
+    blurred: bool = False
+
+
+def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Start], enough: float = 0.0) -> Fit:
+    """The best of several fits. One with an rms error below `enough`, N, ends the search. Raises TraceError."""
     n = int(misfit.used.sum())
+    wide = (max(n // 20, 5), max(n // 80, 3), 0)
     best: Fit | None = None
+    ends: list[Fit] = []
     reason = "there is no start"
-    for k, start in enumerate(starts):
-        wide = (max(n // 20, 5), max(n // 80, 3), 0)
-        for blurs in ((0,), wide) if k < 2 and not quick else ((0,),):
+    for start in starts:
+        for blurs in ((0,), wide) if start.blurred else ((0,),):
             try:
-                found = fit(misfit, names, start, blurs)
+                found = fit(misfit, names, start.parameters, blurs)
             except TraceError as error:
                 reason = str(error)
                 continue
+            ends.append(found)
             if best is None or found.sse < best.sse:
                 best = found
+            if best.rmse < enough:
+                return best
     if best is None:
         raise TraceError(reason)
-    return best
-
-
-def with_pops_moved(found: Fit) -> Fit:
-    """The fit, or a better one that starts with pops moved by up to two samples: least squares do not jump a sample."""
-    trace, u, least = found.misfit.trace, found.u.copy(), found.sse
-    sample = float(np.median(np.abs(np.diff(trace.depth))))
-    for k, name in enumerate(found.free.names):
-        if not name.endswith("surface"):
-            continue
-        for shift in (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0):
-            trial = u.copy()
-            trial[k] = np.clip(found.u[k] + shift * sample, found.free.low[k], found.free.high[k])
-            left = found.misfit.residuals(found.free, trial)
-            if left @ left < least:
-                u, least = trial, float(left @ left)
-    if least == found.sse:
-        return found
-    try:
-        moved = fit(found.misfit, found.free.names, found.free.parameters(u))
-    except TraceError:
-        return found
-    return moved if moved.sse < found.sse else found
+    limit = best.sse * (1 + NEARLY / n)
+    return replace(best, others=tuple(end.parameters for end in ends if end is not best and end.sse < limit))
 
 
 def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:

@@ -9,12 +9,14 @@ from typing import Any, Literal
 import numpy as np
 
 from punctura import Needle, Scene
-from punctura.identify.choose import Candidate, choose, thinned
-from punctura.identify.fit import Fit, Misfit, best_fit
-from punctura.identify.intervals import Estimate, Uncertainty, estimates
+from punctura.identify.choose import choose, thinned
+from punctura.identify.criteria import Candidate
+from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.scene import scene_of
+from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
 from punctura.trace import Segments, Trace, TraceError, segment
 
@@ -76,8 +78,9 @@ class Identification:
             "not_told": list(self.verdicts),
             "models": [
                 {"name": c.name, "extensions": list(c.extensions), "rmse_N": c.fit.rmse, "parameters": len(c.fit.u),
-                 "AICc": c.aicc, "BIC": c.bic(chosen.effective), "held_out_rmse_N": c.held_out}
-                for c in self.candidates
+                 "membranes": c.model.membranes, "AICc": worth.aic if np.isfinite(worth.aic) else None,
+                 "BIC": worth.bic, "held_out_rmse_N": c.held_out}
+                for c in self.candidates for worth in [c.worth(chosen.effective)]
             ],
         }  # fmt: skip
 
@@ -90,27 +93,28 @@ def identify(
 ) -> Identification:
     """Identifies membranes of a trace that was made with this needle.
 
-    membranes: their number; "auto" takes that of the pops. tell: gets a word about each step. Raises TraceError for a
-    trace with a severe finding, and if no fit succeeds.
+    membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. tell: gets a word
+    about each step. Raises TraceError for a trace with a severe finding, and if no fit succeeds.
     """
     severe = [finding for finding in trace.findings if finding.severe]
     if severe:
         raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
     segments = segment(trace)
-    count = membranes if isinstance(membranes, int) else _number_of_membranes(trace, segments)
     few = thinned(trace)
-    candidates = choose(few, segment(few), needle, count, tell)
-    chosen = candidates[0].fit
-    tell("all samples")
-    whole = Misfit(trace, chosen.parameters)
-    final = chosen if len(few) == len(trace) else best_fit(whole, chosen.free.names, [chosen.parameters], quick=True)
+    all_used = len(few) == len(trace)
+    count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
+    candidates = choose(few, segments if all_used else segment(few), needle, count, tell, most=most)
+    final = few_fit = candidates[0].fit
+    if not all_used:
+        tell("all samples")
+        final = fit(Misfit(trace, final.parameters), final.free.names, final.parameters)
     tell("intervals")
-    found = estimates(final)
+    found = estimates(final, few_fit.others)
     effective = effective_samples(final.residuals, len(final.u))
     return Identification(trace, segments, final, found, verdicts(found, trace, segments), candidates, effective)
 
 
-def _number_of_membranes(trace: Trace, segments: Segments) -> int:
+def _pops(trace: Trace, segments: Segments) -> int:
     """One membrane for each pop of the first insertion."""
     pops = sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
     return min(max(pops, 1), MOST_MEMBRANES)

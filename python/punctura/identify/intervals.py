@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
-from punctura.identify.noise import autocorrelation, correlated_gram
-from punctura.identify.parameters import UNITS, kind_of
+from punctura.identify.fit import fit as fitted
+from punctura.identify.parameters import UNITS, Parameters, kind_of
+from punctura.identify.profile import bound
+from punctura.identify.uncertainty import CHI2_95, Uncertainty
+from punctura.trace import TraceError
 
 Array = NDArray[np.float64]
 
-CHI2_95 = 3.841458820694124  # 95 % of chi-squared with one degree of freedom
-FARTHEST = 12.0  # standard errors; an interval that goes on beyond is open
+SEARCHES, OUTWARDS = 8, 1.5  # of a bound that moves outwards: how often, and by which factor
 
 
 @dataclass(frozen=True)
@@ -37,124 +40,85 @@ class Estimate:
         return self.high < 10 * max(self.low, 0.02 * self.high)
 
 
-class Uncertainty:
-    """The covariance of a fit's coordinates, (p, p), for noise whose correlation the residuals show."""
+def estimates(fit: Fit, others: Sequence[Parameters] = ()) -> tuple[Estimate, ...]:
+    """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one.
 
-    def __init__(self, fit: Fit) -> None:
-        n, p = fit.jacobian.shape
-        self.fit = fit
-        self.variance = fit.sse / max(n - p, 1)
-        gram = fit.jacobian.T @ fit.jacobian
-        scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-        values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
-        kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
-        inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
-        rho = autocorrelation(fit.residuals, p)
-        correlated = inverse @ correlated_gram(fit.jacobian, rho) @ inverse
-        plain = np.maximum(np.diag(inverse), 1e-300)
-        self.inflation = np.maximum(np.diag(correlated) / plain, 1.0)  # of each parameter's variance
-        grown = np.sqrt(self.inflation)
-        self.covariance = self.variance * inverse * np.outer(grown, grown)
-
-    @property
-    def correlations(self) -> Array:
-        """Correlations of the coordinates, (p, p)."""
-        spread = np.sqrt(np.diag(self.covariance))
-        return np.asarray(self.covariance / np.outer(spread, spread))
-
-
-def estimates(fit: Fit) -> tuple[Estimate, ...]:
-    """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one."""
-    uncertainty = Uncertainty(fit)
+    others: ends of other searches. One that explains the trace nearly as well as the fit has an interval of its own,
+    and each estimate's interval reaches over all of them.
+    """
+    main = Uncertainty(fit)
+    modes = [main, *_modes(main, others)]
     found = []
     values = fit.free.values(fit.u)
-    by_u = fit.free.derivatives(fit.u)
     for j, name in enumerate(fit.free.names):
-        value = float(values[j])
-        if kind_of(name) == "surface":
-            row = by_u[fit.free.place(j)]
-            spread = float(np.sqrt(max(row @ uncertainty.covariance @ row, 0.0) * CHI2_95))
-            low: float | None = value - spread
-            high: float | None = value + spread
-        else:
-            low, high = (_wider(fit, uncertainty, j, side) for side in (-1, 1))
-        found.append(Estimate(name, value, low, high, UNITS[kind_of(name)]))
-    return tuple(found)
+        bounds = [_bounds(mode, j, mode.fit.sse - fit.sse) for mode in modes]
+        lows, highs = [low for low, _ in bounds], [high for _, high in bounds]
+        low = None if None in lows else min(low for low in lows if low is not None)
+        high = None if None in highs else max(high for high in highs if high is not None)
+        found.append(Estimate(name, float(values[j]), low, high, UNITS[kind_of(name)]))
+    if all(estimate.identifiable for estimate in found):
+        return tuple(found)
+    return tuple(_searched_again(main, j, estimate, others) for j, estimate in enumerate(found))
 
 
-def _wider(fit: Fit, uncertainty: Uncertainty, j: int, side: int) -> float | None:
-    """The bound of the profile, or that of a linear model if the profile's is less than half as far.
+def _searched_again(main: Uncertainty, j: int, estimate: Estimate, others: Sequence[Parameters]) -> Estimate:
+    """The estimate with bounds moved outwards as long as a full search for the other parameters fits there as well.
 
-    A profile rises too early where the search for the other parameters stops on the way, which a rough misfit causes.
+    Where some parameters cannot be told, the others follow a long, curved valley, which few steps do not follow.
     """
-    bound = _bound(fit, uncertainty, j, side)
-    if bound is None:
+    if not estimate.identifiable or kind_of(estimate.name) in ("surface", "offset", "drift"):
+        return estimate
+    low, high = (_outwards(main, j, edge, others) for edge in (estimate.low, estimate.high))
+    return replace(estimate, low=low, high=high)
+
+
+def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[Parameters]) -> float | None:
+    fit, free = main.fit, main.fit.free
+    if value is None:
         return None
-    u = float(np.log(bound)) if fit.free.logarithmic(j) else bound
-    far = float(np.sqrt(CHI2_95 * uncertainty.covariance[j, j]))
-    if abs(u - fit.u[j]) >= 0.5 * far:
-        return bound
-    u = fit.u[j] + side * far
-    if not fit.free.low[j] < u < fit.free.high[j]:
-        return None
-    return float(np.exp(u)) if fit.free.logarithmic(j) else float(u)
+    limit = CHI2_95 * main.variance * main.inflation[j]
+    names = [name for name in free.names if name != free.names[j]]
+    at = float(np.log(value)) if free.logarithmic(j) else value
+    starts = [fit.parameters, *others]
+    for _ in range(SEARCHES):
+        value = float(np.exp(at) if free.logarithmic(j) else at)
+        ends = []
+        for start in starts:
+            try:
+                ends.append(fitted(fit.misfit, names, start.with_values({free.names[j]: value}), evaluations=60))
+            except TraceError:
+                continue
+        best = min(ends, key=lambda end: end.sse, default=None)
+        if best is None or best.sse - fit.sse > 0.8 * limit:
+            return value
+        starts = [best.parameters]
+        at = fit.u[j] + OUTWARDS * (at - fit.u[j])
+        if not free.low[j] < at < free.high[j]:
+            return None
+    return None
 
 
-def _bound(fit: Fit, uncertainty: Uncertainty, j: int, side: int) -> float | None:
-    """Where the profile of parameter j rises by chi-squared; None if it does not within its range."""
-    free, start = fit.free, fit.u
-    limit = CHI2_95 * uncertainty.variance * uncertainty.inflation[j]
-    error = float(np.sqrt(uncertainty.covariance[j, j]))
-    room = (free.high[j] - start[j]) if side > 0 else (start[j] - free.low[j])
-    follow = uncertainty.covariance[:, j] / uncertainty.covariance[j, j]  # how the others move along
-    step, below, above = min(1.96 * error, room), (0.0, 0.0), None
-    if not error > 0 or not np.isfinite(error):
-        return None
-    at = start
-    for _ in range(6):
-        guess = np.clip(at + follow * (start[j] + side * step - at[j]), free.low, free.high)
-        at, rise = _constrained(fit, guess, j, start[j] + side * step)
-        height = float(np.sqrt(max(rise, 0.0) / limit))
-        if abs(height - 1) < 0.03:
-            below = (step, 1.0)
-            break
-        if height > 1:
-            above = (step, height)
-        else:
-            below = (step, height)
-            if step >= room or step > FARTHEST * max(error, 1e-3):
-                return None
-        if above is None:
-            step = min(step * min(max(1.05 / max(height, 0.2), 1.3), 3.0), room)
-        else:
-            step = below[0] + (above[0] - below[0]) * (1 - below[1]) / (above[1] - below[1])
-    u = start.copy()
-    u[j] = start[j] + side * (below[0] if above is None or below[1] == 1.0 else step)
-    return float(np.exp(u[j]) if free.logarithmic(j) else u[j])
+def _modes(main: Uncertainty, others: Sequence[Parameters]) -> Iterator[Uncertainty]:
+    """Other optima within the confidence region: far from the fit, and with nearly its sum of squares."""
+    seen = [main.fit.u]
+    spread = np.sqrt(np.diag(main.covariance))
+    limit = CHI2_95 * main.variance * float(main.inflation.max())
+    for other in others:
+        try:
+            found = fitted(main.fit.misfit, main.fit.free.names, other)
+        except TraceError:
+            continue
+        if found.sse - main.fit.sse < limit and all(np.any(np.abs(found.u - u) > spread) for u in seen):
+            seen.append(found.u)
+            yield Uncertainty(found)
 
 
-def _constrained(fit: Fit, guess: Array, j: int, fixed: float) -> tuple[Array, float]:
-    """The least squares of the other parameters with parameter j fixed, by Gauss-Newton steps; and the rise of SSE."""
-    others = np.arange(len(guess)) != j
-    at = guess.copy()
-    at[j] = fixed
-    left = fit.misfit.residuals(fit.free, at)
-    best = float(left @ left)
-    for _ in range(3):
-        jacobian = fit.misfit.jacobian(fit.free, at)[:, others]
-        scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
-        gram = (jacobian / scale).T @ (jacobian / scale)
-        move = np.linalg.solve(gram + 1e-9 * np.eye(len(gram)), -(jacobian / scale).T @ left) / scale
-        trial = at.copy()
-        for share in (1.0, 0.3, 0.1):
-            trial[others] = np.clip(at[others] + share * move, fit.free.low[others], fit.free.high[others])
-            moved = fit.misfit.residuals(fit.free, trial)
-            if moved @ moved < best:
-                break
-        gained = best - float(moved @ moved)
-        if gained <= 0:
-            break
-        at, left, best = trial.copy(), moved, float(moved @ moved)
-        if gained < 1e-3 * fit.sse / len(left):
-            break
-    return at, best - fit.sse
+def _bounds(uncertainty: Uncertainty, j: int, used: float) -> tuple[float | None, float | None]:
+    """The interval of parameter j at one optimum, whose sum of squares is `used` (N^2) above that of the best one."""
+    fit = uncertainty.fit
+    if kind_of(fit.free.names[j]) == "surface":
+        row = fit.free.derivatives(fit.u)[fit.free.place(j)]
+        spread = float(np.sqrt(max(row @ uncertainty.covariance @ row, 0.0) * CHI2_95))
+        value = float(fit.free.values(fit.u)[j])
+        return value - spread, value + spread
+    return bound(uncertainty, j, -1, used), bound(uncertainty, j, 1, used)

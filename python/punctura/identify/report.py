@@ -57,10 +57,11 @@ def _models(told: dict[str, Any]) -> str:
     rows = []
     for m in told["models"]:
         held_out = "-" if m["held_out_rmse_N"] is None else f"{m['held_out_rmse_N']:.3g}"
+        aicc = "-" if m["AICc"] is None else f"{m['AICc']:.0f}"
         name = " + ".join(m["extensions"]) or "K06"
-        rows.append(f"<tr><td>{escape(name)}<td>{m['parameters']}<td>{m['rmse_N']:.3g}<td>{held_out}<td>{m['AICc']:.0f}"
-                    f"<td>{m['BIC']:.0f}")  # fmt: skip
-    head = "<tr><th>model<th>parameters<th>rms, N<th>held out, N<th>AICc<th>BIC"
+        rows.append(f"<tr><td>{escape(name)}<td>{m['membranes']}<td>{m['parameters']}<td>{m['rmse_N']:.3g}"
+                    f"<td>{held_out}<td>{aicc}<td>{m['BIC']:.0f}")  # fmt: skip
+    head = "<tr><th>model<th>membranes<th>parameters<th>rms, N<th>held out, N<th>AICc<th>BIC"
     return (
         f"<table>{head}{''.join(rows)}</table><p>The first one was chosen. The criteria count independent samples.</p>"
     )

@@ -15,6 +15,7 @@ from punctura.trace import Segments, Trace
 Array = NDArray[np.float64]
 
 KNOTS = 12  # a wall
+PLACES = (0.5, 0.3, 0.7, 0.9)  # of a wall without a pop, shares of the way
 LEAST_STIFFNESS, STIFFEST = 50.0, 2e5  # N/m, of a series spring
 
 
@@ -75,7 +76,11 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
     insertion = first_insertion(trace, segments)
     insertion = insertion[:: max(1, len(insertion) // 400)]
     contact = float(trace.depth[segments.contact] if segments.contact is not None else insertion.depth[0])
-    ends, own = _pops(insertion, trace, segments, contact, membranes)
+    for share in PLACES if _seen_pops(trace, segments) < membranes else PLACES[:1]:
+        yield from _around(insertion, contact, *_pops(insertion, trace, segments, contact, membranes, share), needle)
+
+
+def _around(insertion: Trace, contact: float, ends: Array, own: Array, needle: Needle) -> Iterator[ProfileFit]:
     tip = needle.diameter / np.tan(needle.tip_angle)
     way = max(float(ends[0]) - contact, 1e-4)
     left = way - tip  # of the way from contact to the pop: the spring gives
@@ -85,12 +90,21 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
         for length in (tip, max(way - own[0] / stiffness, 0.1 * way)):
             for thickness in (0.1 * length, 0.5 * length):
                 surfaces = ends - own / stiffness - length - 0.5 * thickness
-                lengths = np.full(membranes, 1.3 * length + thickness)
+                lengths = np.full(len(ends), 1.3 * length + thickness)
                 yield profile_fit(insertion, surfaces, lengths, thickness, stiffness)
 
 
-def _pops(insertion: Trace, trace: Trace, segments: Segments, contact: float, membranes: int) -> tuple[Array, Array]:
-    """The depth where each wall gives way, m, and its own force there, N: at the greatest pops, else spread evenly."""
+def _seen_pops(trace: Trace, segments: Segments) -> int:
+    return sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
+
+
+def _pops(
+    insertion: Trace, trace: Trace, segments: Segments, contact: float, membranes: int, share: float
+) -> tuple[Array, Array]:
+    """The depth where each wall gives way, m, and its own force there, N: at the greatest pops.
+
+    A wall without a pop gives way at this share of the longest way without one.
+    """
     first = [pop for pop in segments.pops if trace.strokes[pop.start] == 0]
     greatest = sorted(sorted(first, key=lambda pop: -pop.drop)[:membranes], key=lambda pop: pop.depth)
     ends = [pop.depth for pop in greatest]
@@ -98,10 +112,10 @@ def _pops(insertion: Trace, trace: Trace, segments: Segments, contact: float, me
     for i in range(1, len(greatest)):
         own[i] = max(greatest[i].force - (greatest[i - 1].force - greatest[i - 1].drop), greatest[i].drop)
     deepest = float(insertion.depth.max())
-    while len(ends) < membranes:  # halve the longest way without a pop
+    while len(ends) < membranes:
         edges = [contact, *ends, deepest]
         widest = int(np.argmax(np.diff(edges)))
-        ends.insert(widest, (edges[widest] + edges[widest + 1]) / 2)
+        ends.insert(widest, edges[widest] + share * (edges[widest + 1] - edges[widest]))
         own.insert(widest, float(insertion.force.max()) / membranes)
     return np.array(ends), np.maximum(own, 1e-3)
 

@@ -18,7 +18,7 @@ _EXPERIMENTS = {
     "tail_length": "go on by two tip lengths behind the pop",
     "tail_floor": "go on by two tip lengths behind the pop",
     "cutting": "insert a second time at the same place",
-    "set": "insert a second time at the same place",
+    "set": "record the withdrawal, and a second insertion at the same place",
     "coupling_stiffness": "reverse inside the tissue: the unloading shows the spring",
     "relaxation_1_stiffness": "rest for 10 s inside the tissue",
     "relaxation_1_time": "rest for 10 s inside the tissue",
@@ -43,10 +43,10 @@ def _not_identifiable(estimates: Sequence[Estimate]) -> Iterator[str]:
 
 def _not_seen(trace: Trace, segments: Segments) -> Iterator[str]:
     if segments.insertions < 2:
-        yield "cutting and set are not identifiable from one insertion: insert a second time at the same place."
+        yield "cutting is not identifiable from one insertion: insert a second time at the same place."
     if trace.time is None:
         yield "damping and relaxation are not identifiable without time: record it."
     elif not segments.holds:
         yield "relaxation is not identifiable without a hold: rest for 10 s inside the tissue."
     if not any(stroke.kind == "out" for stroke in segments.strokes):
-        yield "friction on the way out is not identifiable without a withdrawal: record it."
+        yield "friction on the way out and set are not identifiable without a withdrawal: record it."

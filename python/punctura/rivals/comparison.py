@@ -107,7 +107,7 @@ def _k06_shares(first: Trace, needle: Needle) -> dict[str, float]:
         found = {fit.name: _share(fit.residuals, first) for fit in fit_k06(first, needle)}
     except TraceError:  # a stretch that is too short for an identification
         return {}
-    return {CHOSEN: found[PRINTED]} | found if PRINTED in found else found
+    return found | {CHOSEN: min(found.values())} if found else {}
 
 
 def _share(residuals: Array, trace: Trace) -> float:

@@ -25,7 +25,8 @@ def save_figure(comparison: TraceComparison, file: str | os.PathLike[str]) -> No
     if file.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{file}: a plot must end in {' or '.join(SUFFIXES)}")
     with figure_style():
-        figure(comparison).savefig(file)
+        undated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(file.suffix.lower())
+        figure(comparison).savefig(file, metadata=undated)  # a second run writes an identical file
 
 
 def figure(comparison: TraceComparison) -> Figure:

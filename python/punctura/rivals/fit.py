@@ -14,11 +14,11 @@ from punctura.rivals.path import Path, path_of
 from punctura.rivals.problem import Problem, Wall
 from punctura.rivals.walls import walls_of
 from punctura.trace import Segments, Trace, segment
+from punctura.trace.blocks import held_out
 
 Array = NDArray[np.float64]
 STARTS = 6
 SEARCHED = 600  # samples while the fit searches; the last step uses all
-BLOCKS, FOLDS = 40, 5
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class RivalFit:
     converged: bool  # the solver ended at an optimum
     agreeing: int  # of the starts, how many ended within 1 % of the least error
     starts: int
-    held_out_rmse: float  # N, of blocks of samples that the fit did not see
+    held_out_rmse: float  # N, of samples that the fit did not see
     surface: float  # m, of the first layer
 
     @property
@@ -70,6 +70,7 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
     force = every.force(x, at)
     layers = every.layers(x, at)
     best = min(costs)
+    masks = [mask[rows] for mask in held_out(len(trace), segments)]
     return RivalFit(
         kind=kind,
         layers=layers,
@@ -79,7 +80,7 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
         converged=converged,
         agreeing=sum(cost <= 1.01 * best + 1e-12 for cost in costs),
         starts=len(costs),
-        held_out_rmse=_held_out(few, trace.force[rows], few.inside(x * every.scale / few.scale), punctured),
+        held_out_rmse=_held_out(few, trace.force[rows], few.inside(x * every.scale / few.scale), punctured, masks),
         surface=layers[0].surface,
     )
 
@@ -150,15 +151,13 @@ def _best_punctures(problem: Problem, force: Array, x: Array, at: Sequence[int |
     return best
 
 
-def _held_out(problem: Problem, force: Array, x: Array, at: Sequence[int | None]) -> float:
-    """Root mean square error of blocks of samples that the fit did not see, N: five fits without eight blocks each."""
-    block = np.minimum(np.arange(len(force)) * BLOCKS // len(force), BLOCKS - 1)
-    squares = 0.0
-    for fold in range(FOLDS):
-        seen = block % FOLDS != fold
-        found, _ = _solve(problem, force, x, at, 10, seen)
-        squares += float(np.sum((problem.force(found, at) - force)[~seen] ** 2))
-    return float(np.sqrt(squares / len(force)))
+def _held_out(problem: Problem, force: Array, x: Array, at: Punctures, masks: Sequence[NDArray[np.bool_]]) -> float:
+    """Root mean square error, N, of samples that the fit did not see."""
+    squares = []
+    for out in masks:
+        found, _ = _solve(problem, force, x, at, 10, ~out)
+        squares.append((problem.force(found, at) - force)[out] ** 2)
+    return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else float("nan")
 
 
 def _searched(trace: Trace, walls: Sequence[Wall]) -> NDArray[np.int64]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from punctura._core import Experiment, Insertion, Needle, Scene
 from punctura.identify import Identification, identify
-from punctura.identify.choose import Candidate
+from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Misfit
 from punctura.identify.scene import scene_of
 from punctura.rivals.chatter import DOWN, Chatter, chatter, device_settings

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from punctura.trace.segment import Segments, baseline, segment, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
+
+Array = NDArray[np.float64]
 
 # A needle insertion outside these bounds points to a wrong unit.
 _DEPTHS = (5e-4, 0.5)  # m, range of the depth
@@ -20,43 +23,34 @@ _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matte
 
 def examine(trace: Trace) -> Trace:
     """The trace with its findings. A reversed sign and an offset are repaired, and the findings say so."""
-    repaired, found = _repair(trace)
-    segments = segment(repaired)
-    found += [
-        *_units(repaired),
-        *_drift(repaired, segments),
-        *_depth_axis(repaired, segments),
-        *_missing(repaired, segments),
-    ]
-    return replace(repaired, findings=(*trace.findings, *found))
-
-
-def _repair(trace: Trace) -> tuple[Trace, list[Finding]]:
     found: list[Finding] = []
-    depth = trace.depth
-    if depth[0] - depth.min() > 2 * (depth.max() - depth[0]):
-        trace = replace(trace, depth=-depth)
+    if trace.depth[0] - trace.depth.min() > 2 * (trace.depth.max() - trace.depth[0]):
+        trace = replace(trace, depth=-trace.depth)
         found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
-    going_in = next((stroke for stroke in segment(trace).strokes if stroke.kind == "in"), None)
-    if going_in is None:
-        return trace, found
-    force = trace.force[going_in.start : going_in.end]
-    zero = baseline(force)
-    calm = smooth(force - zero, max(1, len(force) // 200) | 1)
-    if -calm.min() > 2 * calm.max():
+    segments = segment(trace)
+    going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
+    if going_in is not None and _pushed(trace.force[going_in.start : going_in.end]):
         trace = replace(trace, force=-trace.force)
-        zero = -zero
+        segments = segment(trace)
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
         )
-    contact = segment(trace).contact
-    if contact is not None:
-        before = trace.force[going_in.start : contact + 1]
+    if going_in is not None and segments.contact is not None:
+        before = trace.force[going_in.start : segments.contact + 1]
         zero, height = float(np.median(before)), float(np.max(np.abs(trace.force - np.median(before))))
         if abs(zero) > max(_SMALL * height, 3 * noise_of(trace.force)):
             trace = replace(trace, force=trace.force - zero)
+            segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N before contact; this is subtracted", True))
-    return trace, found
+    found += [*_units(trace), *_drift(trace, segments), *_depth_axis(trace, segments), *_missing(trace, segments)]
+    return replace(trace, findings=(*trace.findings, *found))
+
+
+def _pushed(force: Array) -> bool:
+    """Whether the force of an insertion (n,), N, is that of the tissue on the needle: negative."""
+    zero = baseline(force)
+    calm = smooth(force - zero, max(1, len(force) // 200) | 1)
+    return bool(-calm.min() > 2 * calm.max())
 
 
 def _units(trace: Trace) -> Iterator[Finding]:

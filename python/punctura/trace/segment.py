@@ -98,18 +98,19 @@ def contact_sample(depth: Array, force: Array) -> int | None:
         return None
     top = int(np.argmax(risen)) + 1
     used = np.unique(np.linspace(0, top - 1, min(top, 400)).astype(int))
-    errors = {
-        int(i): _hinge_error(depth[used], force[used], float(depth[i])) for i in used[:: max(1, len(used) // 100)]
-    }
-    best = min(errors, key=errors.__getitem__, default=0)
+    tried = used[:: max(1, len(used) // 100)]
+    best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
     return best if best >= 5 else None
 
 
-def _hinge_error(depth: Array, force: Array, contact: float) -> float:
-    behind = np.maximum(depth - contact, 0)
-    shapes = np.column_stack((np.ones_like(behind), behind, behind**2))
-    left = force - shapes @ np.linalg.lstsq(shapes, force, rcond=None)[0]
-    return float(left @ left)
+def _hinge_errors(depth: Array, force: Array, contacts: Array) -> Array:
+    """Sum of the squared errors of the best hinge for each depth of contact (c,), N^2."""
+    behind = np.maximum(depth - contacts[:, None], 0) / max(float(np.ptp(depth)), 1e-12)
+    shapes = np.stack((np.ones_like(behind), behind, behind**2), axis=1)  # (c, 3, n)
+    gram = shapes @ shapes.transpose(0, 2, 1) + 1e-12 * len(depth) * np.eye(3)
+    aim = shapes @ force
+    best = np.linalg.solve(gram, aim[:, :, None])[:, :, 0]
+    return np.asarray(np.sum((force - np.einsum("ckn,ck->cn", shapes, best)) ** 2, axis=1))
 
 
 def calm_noise(force: Array) -> float:

@@ -1,0 +1,82 @@
+"""Which of two models a trace prefers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.model import Model
+from punctura.identify.noise import effective_samples
+from punctura.trace import Segments, Trace, TraceError
+from punctura.trace.blocks import held_out
+from punctura.trace.information import Information, information
+
+EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
+WORSE = 1.02  # a held-out error that is higher by less than this factor is not worse
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A model that was tried, fitted to the samples of the search. effective: the independent ones of its residuals."""
+
+    name: str
+    model: Model
+    fit: Fit
+    effective: float
+    held_out: float | None = None  # N, rms of samples that the fit did not use; None if it was not measured
+
+    @property
+    def extensions(self) -> tuple[str, ...]:
+        """The extensions of K06, with "one tissue" if all walls share stiffness, friction and thickness."""
+        return self.model.words
+
+    def worth(self, effective: float) -> Information:
+        """AIC (the corrected form) and BIC with this number of independent samples."""
+        return information(self.fit.residuals, len(self.fit.u), effective)
+
+
+def candidate(name: str, model: Model, fit: Fit) -> Candidate:
+    """A fitted model with the effective number of its samples."""
+    return Candidate(name, model, fit, effective_samples(fit.residuals, len(fit.u)))
+
+
+class Rule:
+    """Compares candidates of one trace. BIC decides; a larger model must also predict samples that it did not see."""
+
+    def __init__(self, trace: Trace, segments: Segments) -> None:
+        self._masks = held_out(len(trace), segments)
+        self._errors: dict[int, tuple[Candidate, float | None]] = {}
+
+    def prefers(self, new: Candidate, old: Candidate) -> bool:
+        """Whether `new` is the better model.
+
+        Both BIC count the independent samples of the candidate with the smaller error. The smaller model wins unless
+        the larger one's BIC is smaller by more than EVIDENCE.
+        """
+        effective = min(new, old, key=lambda one: one.fit.sse).effective
+        gain = old.worth(effective).bic - new.worth(effective).bic
+        if len(new.fit.u) <= len(old.fit.u):
+            return gain >= -EVIDENCE if len(new.fit.u) < len(old.fit.u) else gain > 0
+        if gain <= EVIDENCE:
+            return False
+        after, before = self.held_out_error(new), self.held_out_error(old)
+        return after is not None and (before is None or after <= WORSE * before)
+
+    def held_out_error(self, one: Candidate) -> float | None:
+        """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""
+        if id(one) not in self._errors:
+            self._errors[id(one)] = (one, self._held_out_error(one.fit))
+        return self._errors[id(one)][1]
+
+    def _held_out_error(self, found: Fit) -> float | None:
+        squares = []
+        for out in self._masks:
+            part = Misfit(found.misfit.trace, found.parameters, ~out)
+            try:
+                kept = fit(part, found.free.names, found.parameters)
+            except TraceError:
+                return None
+            squares.append((part.forces(kept.parameters) - found.misfit.trace.force)[out] ** 2)
+        return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else None
