@@ -95,14 +95,16 @@ def fit_line(found: Identification) -> FitLine:
         not_told=list(found.verdicts),
         tried=[
             TriedPart(
+                membranes=one.model.membranes,
                 extensions=list(one.extensions),
                 parameters=len(one.fit.u),
                 rmse=one.fit.rmse,
                 held_out_rmse=one.held_out,
-                aicc=one.aicc,
-                bic=one.bic(chosen.effective),
+                aicc=worth.aic if math.isfinite(worth.aic) else None,
+                bic=worth.bic,
             )
             for one in found.candidates
+            for worth in [one.worth(chosen.effective)]
         ],
         scene=scene,
         no_scene=no_scene,

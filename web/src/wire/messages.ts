@@ -632,11 +632,12 @@ export interface EstimatePart {
  * A model that was tried. The criteria count independent samples.
  */
 export interface TriedPart {
+  membranes: number;
   extensions: string[];
   parameters: number;
   rmse: number;
   held_out_rmse: number | null;
-  aicc: number;
+  aicc: number | null;
   bic: number;
 }
 /**

@@ -97,11 +97,12 @@ class EstimatePart(Part):
 class TriedPart(Part):
     """A model that was tried. The criteria count independent samples."""
 
+    membranes: int
     extensions: list[str]
     parameters: int
     rmse: Finite  # N
-    held_out_rmse: Finite | None  # N, in parts of the trace that the fit did not see
-    aicc: Finite
+    held_out_rmse: Finite | None  # N, at samples that the fit did not see; None if it was not measured
+    aicc: Finite | None  # None: more parameters than independent samples
     bic: Finite
 
 

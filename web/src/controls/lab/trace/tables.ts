@@ -77,15 +77,16 @@ export function rivalsTable({ rows }: Pick<RivalsLine, "rows">): HTMLElement {
   );
 }
 
-/** K06 and the extensions that were tried, the chosen one first. */
+/** The models that were tried, the chosen one first. */
 export function triedTable(tried: readonly TriedPart[]): HTMLElement {
   return table(
-    "Extensions that were tried",
-    ["K06 with", "numbers", "rms, mN", "held out, mN", "AICc", "BIC"],
+    "Models that were tried",
+    ["K06 with", "membranes", "numbers", "rms, mN", "held out, mN", "AICc", "BIC"],
     tried.map((one, i) =>
       row(
         i ? "" : "mean",
         one.extensions.join(", ") || "no extension",
+        String(one.membranes),
         String(one.parameters),
         number(one.rmse, 1e3, 1),
         number(one.held_out_rmse, 1e3, 1),
