@@ -75,6 +75,7 @@ ROOMS = (
     "web/src/controls",
     "web/src/layout.ts",
     "web/src/main.ts",
+    "web/src/static.ts",
 )
 WITH_ROOMS = ("core/", "runtime/", "capi/", PACKAGE, PAGE)  # every source file in these folders belongs to a room
 OUTSIDE = {"tests", "benchmarks", "tools", "examples", "oracles"}  # the package must not import these

@@ -1,7 +1,18 @@
 import { defineConfig } from "vite";
 
 // The page is served by the studio alone, under /: python/punctura/studio/page is what the wheel carries.
-export default defineConfig({
+// `vite build --mode static --outDir DIR` makes the page without a server: tools/build_backend/static_page.py.
+export default defineConfig(({ mode }) => ({
+  plugins: [
+    {
+      name: "static-entry",
+      transformIndexHtml: {
+        order: "pre",
+        handler: (html) => (mode === "static" ? html.replace("src/main.ts", "src/static.ts") : html),
+      },
+    },
+  ],
+  worker: { format: "es" },
   base: "./",
   build: {
     outDir: "../python/punctura/studio/page",
@@ -13,4 +24,4 @@ export default defineConfig({
     modulePreload: { polyfill: false },
   },
   server: { proxy: { "/api": "http://127.0.0.1:8765", "/ws": { target: "ws://127.0.0.1:8765", ws: true } } },
-});
+}));

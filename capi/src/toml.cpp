@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "decimal.hpp"
 #include "punctura/scene/values.hpp"
 #include "scene.hpp"
 #include "scene_keys.hpp"
@@ -48,7 +49,7 @@ double scaled(double value, std::string_view digits, int exponent) {
   std::reverse(all.begin(), all.end());
   all += "e" + std::to_string(power + exponent);
   double result = 0;
-  if (std::from_chars(all.data(), all.data() + all.size(), result).ec == std::errc::result_out_of_range)
+  if (read_decimal(all, result) == std::errc::result_out_of_range)
     result = power > 0 ? std::numeric_limits<double>::infinity() : 0;
   return value < 0 ? -result : result;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "decimal.hpp"
 #include "punctura/scene/values.hpp"
 #include "scene.hpp"
 
@@ -62,11 +63,11 @@ void read_lines(std::string_view text, Scene& scene, std::vector<Problem>& probl
     }
     const auto place = places.find(path);
     double number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const std::errc error = read_decimal(value, number);
     const std::string where = "line " + std::to_string(line);
     if (place == places.end())
       problems.push_back({where, not_given, "the scene has no number \"" + path + "\""});
-    else if (error != std::errc() || end != value.data() + value.size())
+    else if (error != std::errc())
       problems.push_back({where, not_given, "must be PATH = NUMBER or PATH = \"WORD\""});
     else
       *place->second = number;

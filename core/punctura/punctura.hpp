@@ -22,4 +22,5 @@
 #if defined(__cpp_exceptions)
 #include "punctura/plant/check.hpp"
 #include "punctura/plant/experiment.hpp"
+#include "punctura/plant/stroke_ends.hpp"
 #endif

@@ -1,21 +1,36 @@
 #!/usr/bin/env bash
-# Compiles the C library without its TOML reader, and without the servo step, to WebAssembly.
+# Compiles the C library and the run of the page (live/) to WebAssembly.
 #   integrations/wasm/build.sh        writes integrations/wasm/punctura.wasm
-# Needs clang, lld, wasi-libc and libc++ for wasm32: test.sh names the packages of Debian 12.
+# Needs clang, lld, wasi-libc and libc++ for wasm32, and toml++: test.sh names the packages of Debian 12.
 # The stack is 1 MiB, because a scene is built on it.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd -P)
 root=$(cd "$here/../.." && pwd -P)
+objects=$root/build/integrations/wasm-objects
+mkdir -p "$objects/include"
 version=$(sed -n 's/^ *"version": "\(.*\)",/\1/p' "$here/package.json")
-exports=malloc,free
-objects='scene|setup|membrane|insertion|proxy1d'
-for name in $(grep -ohE "punctura_($objects)_[a-z_]+\(|punctura_(version|last_error|status_text)\(" \
-  "$root/capi/include/punctura.h" | tr -d '(' | grep -vE '_from_|_field|_get$|_copy$' | sort -u); do
-  exports=$exports,$name
+
+# Only toml++ is taken from /usr/include: the other headers there belong to this machine.
+toml=${PUNCTURA_TOML_DIR:-/usr/include}/toml++
+[ -f "$toml/toml.h" ] || { echo "toml++ is missing. Debian: apt-get install libtomlplusplus-dev" >&2; exit 1; }
+ln -sfn "$toml" "$objects/include/toml++"
+
+flags="--target=wasm32-wasi --sysroot=/usr -std=c++20 -O2 -ffp-contract=off -fno-exceptions
+  -fno-rtti -fno-threadsafe-statics -fno-c++-static-destructors -DPUNCTURA_STATIC -DPUNCTURA_C_TOML
+  -DPUNCTURA_VERSION=\"$version\" -isystem $objects/include -I$root/core -I$root/capi/include -I$root/capi/src"
+compiled=()
+for source in "$root"/capi/src/{errors,scene,values,toml,insertion,proxy,servo}.cpp "$here"/live/*.cpp; do
+  object=$objects/$(basename "$source" .cpp).o
+  compiled+=("$object")
+  # shellcheck disable=SC2086  # the flags are several words
+  ${CMAKE_CXX_COMPILER_LAUNCHER:-} clang++ $flags -c "$source" -o "$object"
 done
-clang++ --target=wasm32-wasi --sysroot=/usr -mexec-model=reactor -std=c++20 -O2 -ffp-contract=off -fno-exceptions \
-  -fno-rtti -fno-threadsafe-statics -fno-c++-static-destructors -DPUNCTURA_STATIC -DPUNCTURA_VERSION="\"$version\"" \
-  -I"$root/core" -I"$root/capi/include" \
-  "$root"/capi/src/{errors,scene,insertion,proxy}.cpp \
-  -Wl,-z,stack-size=1048576 -Wl,--strip-all,--gc-sections,"--export=${exports//,/,--export=}" -o "$here/punctura.wasm"
+exported=$(grep -ohE "punctura_[a-z0-9_]+\(" "$root/capi/include/punctura.h" "$here"/live/exports.cpp |
+  grep -vE "punctura_check_abi" | tr -d '(' | sort -u)
+exported+=" $(grep -oE "^[a-zA-Z].* \*?live_[a-z_]+\(" "$here/live/exports.cpp" | grep -oE "live_[a-z_]+" | sort -u)"
+links=--export=malloc,--export=free
+for name in $exported; do links=$links,--export=$name; done
+# shellcheck disable=SC2086
+clang++ $flags -mexec-model=reactor "${compiled[@]}" -Wl,-z,stack-size=1048576 -Wl,--strip-all,--gc-sections,"$links" \
+  -o "$here/punctura.wasm"
 cp "$root/LICENSE" "$here/"

@@ -143,14 +143,12 @@ nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
   std::vector<Problem> problems;
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);
-  const double cos_beta = std::cos(obliquity), thickness = placed.membrane.thickness;
-  const TissueLaw law(scene.needle, placed.membrane, placed.tissue, cos_beta);
-  const LawCurve curve = law_curve(law.pieces());
+  const auto [far_face, through, curve] = membrane_law(scene, i, obliquity);
   nb::dict d;
   d["name"] = placed.name;
   d["obliquity"] = obliquity;
-  d["far_face"] = thickness / cos_beta;
-  d["through"] = detail::passed(law, law.pieces(), thickness / cos_beta);
+  d["far_face"] = far_face;
+  d["through"] = through;
   d["depth"] = curve.depth;
   d["lower"] = curve.lower;
   d["upper"] = curve.upper;

@@ -3,6 +3,8 @@
 
 #include "bindings.hpp"
 #include "punctura/plant/check.hpp"
+#include "punctura/plant/stroke_ends.hpp"
+#include "punctura/scene/check.hpp"
 #include "state.hpp"
 #include "value.hpp"
 
@@ -113,6 +115,35 @@ void bind_plant(nb::module_& m) {
       .def_ro("rest", &Strokes::rest, "s")
       .def_ro("variation", &Strokes::variation, "Relative standard deviation of depth and duration");
   def_value(strokes_class, {"start", "end", "count", "duration", "rest", "variation"});
+
+  const auto pair = [](const Vector3d& a, const Vector3d& b) {
+    return nb::make_tuple(as_tuple(to_array(a)), as_tuple(to_array(b)));
+  };
+  m.def(
+      "stroke_ends",
+      [pair](const Scene& scene) {
+        raise_if(check(scene));
+        const StrokeEnds ends = stroke_ends(scene);
+        return pair(ends.start, ends.end);
+      },
+      nb::arg("scene"),
+      nb::sig("def stroke_ends(scene: Scene) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
+      "The two ends of the hand's strokes along the first membrane's normal, m: in front of all membranes, and behind\n"
+      "the last.\n\n"
+      "The far end adds the lag of the tip under the membranes' largest forces F: F / K of each in the coupling, and\n"
+      "sum(F) / k in the hand's spring k. So the tip itself comes out behind. Raises ConfigurationError.");
+  m.def(
+      "resting_pose",
+      [pair](const Scene& scene) {
+        raise_if(check(scene));
+        const HandPose pose = resting_pose(scene);
+        return pair(pose.position, pose.axis);
+      },
+      nb::arg("scene"),
+      nb::sig("def resting_pose(scene: Scene) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
+      "The first pose of a hand, position (m) and axis: in front of all membranes, pointing into the first.\n\n"
+      "In a scene with blood, the needle is close to the skin, at 30 degrees to it, and points to the middle of the\n"
+      "scene: the slanted tip of an upright needle is longer than a vein is wide. Raises ConfigurationError.");
 
   auto recorded_class =
       nb::class_<RecordedMotion>(m, "RecordedMotion", "A motion given by samples, with linear interpolation.");

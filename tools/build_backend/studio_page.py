@@ -89,6 +89,12 @@ def build(root: Path = ROOT, keep_modules: bool = True) -> None:
     (page(root) / ".sources").write_text(before + "\n")
 
 
+def build_static(folder: Path, root: Path = ROOT) -> None:
+    """The page without a server, into an absolute folder, which is emptied first. Raises PageError."""
+    modules(root)
+    _npm(root, "run", "build", "--", "--mode", "static", "--outDir", str(folder), "--emptyOutDir")
+
+
 def modules(root: Path = ROOT) -> None:
     """Installs web/node_modules by package-lock.json, if it is not up to date. Does not run scripts of packages."""
     lock = hashlib.sha256((root / "web" / "package-lock.json").read_bytes()).hexdigest()

@@ -8,6 +8,7 @@ import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";
 import { labPanel } from "./controls/lab.ts";
 import { momentLine } from "./controls/moment_line.ts";
+import { withStudio } from "./controls/needs_studio.ts";
 import { notices } from "./controls/notices.ts";
 import { phasesPanel } from "./controls/phases.ts";
 import { playerBar } from "./controls/recordings/player.ts";
@@ -50,8 +51,8 @@ export function layout(root: HTMLElement, app: App): void {
       tabs([
         ["hand", "Hand", handPanel],
         ["scene", "Scene", editorPanel],
-        ["recordings", "Recordings", recordingsPanel],
-        ["exercises", "Exercises", exercisesPanel],
+        ["recordings", "Recordings", withStudio("Recordings are files on a disk. They need", recordingsPanel)],
+        ["exercises", "Exercises", withStudio("Exercises and their results need", exercisesPanel)],
         ["lab", "Lab", labPanel],
         ["health", "Health", both(healthPanel, faultTrial)],
       ]),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "punctura/events/crossing.hpp"
+#include "punctura/model/tissue_law.hpp"
 #include "punctura/scene/scene.hpp"
 
 namespace punctura {
@@ -41,6 +42,21 @@ LawCurve law_curve(const Pieces& law) {
     curve.upper.push_back(band.upper);
   }
   return curve;
+}
+
+/// The law of one membrane of a scene for one direction of the needle.
+struct MembraneLaw {
+  double far_face;  ///< depth at which the tip's point is behind the membrane, m: U = H / cos(beta), K06 (17)
+  double through;   ///< depth at which the whole tip is behind it, m: X + U, K06 (18)
+  LawCurve curve;
+};
+
+/// obliquity: beta, rad, between the needle and the inward normal; less than pi / 2.
+inline MembraneLaw membrane_law(const Scene& scene, std::size_t membrane, double obliquity) {
+  const PlacedMembrane& placed = scene.membranes[membrane];
+  const double cos_beta = std::cos(obliquity), far_face = placed.membrane.thickness / cos_beta;
+  const TissueLaw law(scene.needle, placed.membrane, placed.tissue, cos_beta);
+  return {far_face, detail::passed(law, law.pieces(), far_face), law_curve(law.pieces())};
 }
 
 /// The largest obliquity that is drawn, rad, because 1 / cos(beta) grows without bound.

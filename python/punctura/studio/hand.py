@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura import Scene
-from punctura._core import Device, SimulatedDevice
+from punctura._core import Device, SimulatedDevice, resting_pose
 from punctura.live import stroke_ends
+
+__all__ = ["LEAD_S", "REST_SHARE", "Hand", "Mode", "Pose", "resting_pose"]
 
 Mode = Literal["target", "strokes", "motion", "device"]
 Triple = tuple[float, float, float]
@@ -21,26 +23,6 @@ SCRIPT_PERIOD_S = 1 / 250  # between two targets of strokes or a motion; the sim
 REST_SHARE = 0.15  # share of a stroke's period for which the hand rests at each end
 LEAD_S = 1.0  # time in which the hand moves to the start of a motion
 FARTHEST = 0.5  # m from the origin
-VESSEL_ANGLE = math.radians(30)  # to the skin; illustrative
-VESSEL_GAP = 3e-3  # m along the needle to the skin; illustrative
-
-
-def resting_pose(scene: Scene) -> Pose:
-    """The first pose of a hand: in front of all membranes, pointing into the first.
-
-    In a scene with blood, the needle is close to the skin, at 30 degrees to it, and points to the middle of the scene:
-    the slanted tip of an upright needle is longer than a vein is wide.
-    """
-    first = scene.membranes[0]
-    inward = np.array(first.inward_normal) / np.linalg.norm(first.inward_normal)
-    if scene.lumen is None:
-        return stroke_ends(scene)[0], _triple(inward)
-    right = np.array([0.0, 0.0, 1.0] if abs(inward[0]) > 0.9 else [1.0, 0.0, 0.0])
-    along = right - (right @ inward) * inward
-    axis = math.sin(VESSEL_ANGLE) * inward + math.cos(VESSEL_ANGLE) * along / np.linalg.norm(along)
-    behind = max(float((np.array(m.point) - first.point) @ inward) + m.membrane.thickness for m in scene.membranes)
-    ahead = behind / 2 / math.sin(VESSEL_ANGLE) + VESSEL_GAP
-    return _triple(np.array(first.point) + behind / 2 * inward - ahead * axis), _triple(axis)
 
 
 class Hand:

@@ -24,7 +24,7 @@ export function connectionLine(app: App): HTMLElement {
     }
     const silent = now.state === "open" && performance.now() - Math.max(lastTick, since) > SILENT_MS;
     const left = now.state === "lost" ? now.retryInMs - (performance.now() - since) : 0;
-    const text = connectionWords(now, silent, left);
+    const text = connectionWords(now, silent, left, app.engine.studio);
     if (words.textContent !== text) words.textContent = text;
     const state = now.state === "lost" ? "No connection; retrying" : text;
     const steady = now.state === "connecting" && now.attempt > 1 ? spoken.textContent : state;

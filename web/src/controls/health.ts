@@ -32,10 +32,12 @@ export const healthPanel: Panel = (host, app) => {
     };
     return [element("div", { title: help }, element("dt", {}, label), value), set];
   };
-  const [rateBox, setRate] = figure("rate", "Ticks per second, by the loop's clock");
+  const [rateBox, setRate] = figure("rate", "Ticks per second");
   const [ticksBox, setTicks] = figure("ticks", "Ticks of this run");
   const [lateBox, setLate] = figure("late ticks", "Ticks that began later than the loop allows");
-  const [lostBox, setLost] = figure("lost", "Ticks that the studio was too slow to read");
+  const [lostBox, setLost] = app.engine.studio
+    ? figure("lost", "Ticks that the studio was too slow to read")
+    : figure("left out", "Ticks for which the browser gave this page no time");
   const [droppedBox, setDropped] = figure(
     "skipped by this page",
     "Groups of ticks that this page was too slow to show",
@@ -43,6 +45,7 @@ export const healthPanel: Panel = (host, app) => {
   const [viewersBox, setViewers] = figure("pages", "Connected pages");
   const [forceBox, setForce] = figure("force", "Whether the force is turned on");
   const [handBox, setHand] = figure("hand", "Who moves the needle");
+  for (const box of [lateBox, droppedBox, viewersBox]) box.hidden = !app.engine.studio;
   const period = spread("Period", "Time from the start of one tick to the next");
   const compute = spread("Compute time", "Computing time of a tick");
   const limits = limitList();
@@ -79,8 +82,10 @@ export const healthPanel: Panel = (host, app) => {
     if (!status) return;
     const nominal = app.source.value.scene.value?.rate ?? app.hello.value?.device.rate ?? 1000;
     const { history } = app.live;
-    // By the times of the ticks; their arrival at this page says nothing about the loop.
-    const measured = history.length ? rate.add(history.timeOf(history.end - 1), history.end) : null;
+    // By the times of the ticks; their arrival at this page says nothing about a studio's loop. Without a studio, the
+    // ticks have a time of their own, and only the page's clock tells how fast they are made.
+    const time = app.engine.studio ? history.timeOf(history.end - 1) : performance.now() / 1e3;
+    const measured = history.length ? rate.add(time, history.end) : null;
     setRate(
       measured === null ? "–" : `${measured.toFixed(0)} of ${nominal.toFixed(0)} Hz`,
       measured !== null && measured < 0.98 * nominal,
@@ -122,6 +127,8 @@ function spread(title: string, help: string): { box: HTMLElement; show(spread: S
     figure.root,
   );
   const show = (now: Spread, nominal: number): void => {
+    box.hidden = now.counts.length === 0; // not measured
+    if (box.hidden) return;
     [now.p50, now.p99, now.p99_9, now.largest].forEach((value, i) => {
       values[i]!.textContent = duration(value);
     });

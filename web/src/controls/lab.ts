@@ -6,10 +6,17 @@ import { pickRuns } from "./lab/pick.ts";
 import { openComparison } from "./lab/result.ts";
 import { tracePart } from "./lab/trace/part.ts";
 import { varyForm } from "./lab/vary.ts";
+import { needsStudio } from "./needs_studio.ts";
 import { wordsOf } from "./recordings/library.ts";
 
 /** Identifies measured traces, compares recordings, and varies a parameter of the scene through simulated runs. */
 export const labPanel: Panel = (host, app) => {
+  if (app.engine.studio) comparisons(host, app);
+  else host.append(needsStudio("Identifying a measured trace, comparing recordings and varying a parameter need"));
+  host.append(estimatePart(app));
+};
+
+const comparisons: Panel = (host, app) => {
   const bar = element("progress", { max: 1, value: 0, "aria-label": "Progress of the computation" });
   const words = element("span", { class: "quiet" });
   const cancel = element("button", { type: "button", class: "small" }, "Cancel");
@@ -41,7 +48,7 @@ export const labPanel: Panel = (host, app) => {
   };
   const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
   const vary = varyForm((job) => void start(job, `${job.path} varied`));
-  host.append(tracePart(app), picked.root, vary.root, progress, trouble, estimatePart(app));
+  host.append(tracePart(app), picked.root, vary.root, progress, trouble);
 
   const refresh = async (): Promise<void> => {
     try {

@@ -20,16 +20,18 @@ export const CUT = {
   why: "The device gives less than the model's force. Limits protect the hand and the motors: see docs/safety.md.",
 } as const;
 
-/** The state of the connection in a few words. leftMs: time until the next attempt. */
-export function connectionWords(now: Connection, silent: boolean, leftMs: number): string {
+/** The state of the connection in a few words. leftMs: time until the next attempt. studio: see Engine. */
+export function connectionWords(now: Connection, silent: boolean, leftMs: number, studio = true): string {
   switch (now.state) {
     case "open":
+      if (!studio) return silent ? "No ticks" : "Runs in this page";
       return silent ? "Connected, but no ticks" : "Connected";
     case "connecting":
+      if (!studio) return "Loading the core";
       return now.attempt > 1 ? `Connecting, attempt ${now.attempt}` : "Connecting";
     case "lost":
       return `No connection; retry in ${Math.max(0, Math.ceil(leftMs / 1000))} s`;
     case "refused":
-      return `Refused: ${now.reason}`;
+      return studio ? `Refused: ${now.reason}` : `Cannot run: ${now.reason}`;
   }
 }

@@ -22,10 +22,12 @@ export interface EngineListener {
 }
 
 /**
- * A source of ticks: the studio's server over a socket is one, a core in WebAssembly can be another.
+ * A source of ticks: the studio's server over a socket, or the core as WebAssembly in a worker of the page.
  * SI units; axes right-handed, x right, y up, z towards the user.
  */
 export interface Engine {
+  /** Whether a studio's server is behind it: devices, recordings and results on its disk, computations in Python. */
+  readonly studio: boolean;
   start(listener: EngineListener): void;
   stop(): void;
   /** Resolves with the reply, also with a refusal (`ok` false); rejects if the connection is lost before it. */

@@ -30,6 +30,7 @@ const BROWSER: Surroundings = {
 
 /** The studio's server over a WebSocket; reconnects by itself. */
 export class SocketEngine implements Engine {
+  readonly studio = true;
   private readonly url: string;
   private readonly token: string;
   private readonly api: Api;

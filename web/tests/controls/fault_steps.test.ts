@@ -23,6 +23,7 @@ const tipAt = (y: number): void => server.ticks(batch(app.live.history.end, 1, 1
 beforeEach(() => {
   asked = [];
   const engine: Engine = {
+    studio: true,
     start: (listener) => {
       server = listener;
     },

@@ -54,6 +54,7 @@ const run = (number: number): void =>
 beforeEach(() => {
   sent = [];
   app = new App({
+    studio: true,
     start: (listener) => {
       server = listener;
     },

@@ -5,7 +5,7 @@ import { App } from "../../src/state/app.ts";
 import { Source } from "../../src/state/source.ts";
 import { batch } from "../support/fill_history.ts";
 
-const engine: Engine = { start: () => {}, stop: () => {}, ask: () => Promise.reject(), target: () => {} };
+const engine: Engine = { studio: true, start: () => {}, stop: () => {}, ask: () => Promise.reject(), target: () => {} };
 
 function running(): App {
   const app = new App(engine);

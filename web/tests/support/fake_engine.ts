@@ -13,6 +13,7 @@ const COLUMNS = [
 
 /** An engine without a server: a hand that strokes through three membranes at 1600 Hz. For looking at the page only. */
 export class FakeEngine implements Engine {
+  readonly studio = true;
   readonly membranes: FakeMembrane[];
   /** Adds the other solver's force. */
   compare = false;

@@ -44,6 +44,6 @@ export function scriptRows(app: App, hand: Hand): HTMLElement {
       element("span", {}, "s"),
       button,
     ),
-    element("p", { class: "hint" }, "For a recorded motion, see the Recordings tab."),
+    element("p", { class: "hint", hidden: !app.engine.studio }, "For a recorded motion, see the Recordings tab."),
   );
 }

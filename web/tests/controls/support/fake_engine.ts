@@ -8,6 +8,7 @@ type Table = Record<string, number>;
  * about the right size, and keeps what it was asked.
  */
 export class FakeEngine implements Engine {
+  readonly studio = true;
   readonly asked: Ask[] = [];
   private listener: EngineListener | null = null;
   private number = 0;

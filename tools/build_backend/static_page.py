@@ -1,0 +1,83 @@
+"""Builds the studio's page without a server: one folder of files for any web server.
+
+    python tools/build_backend/static_page.py FOLDER
+
+The core runs in the page as WebAssembly. Needs Node, punctura in this Python, and the tools of integrations/wasm.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from studio_page import ROOT, PageError, build_static
+
+PACKAGE = ROOT / "integrations" / "wasm"
+FIRST = "venipuncture"  # as in `punctura run`
+MARK = "studio.json"
+
+
+class StaticPageError(Exception):
+    """The folder cannot be made. The message says why and what to do."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("folder", type=Path, help="new, empty, or made by this program before")
+    parser.add_argument("--keep-wasm", action="store_true", help="use integrations/wasm/punctura.wasm as it is")
+    chosen = parser.parse_args(arguments)
+    try:
+        make(chosen.folder, build_wasm=not chosen.keep_wasm)
+    except (StaticPageError, PageError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    size = sum(file.stat().st_size for file in chosen.folder.rglob("*") if file.is_file())
+    print(f"{chosen.folder}: {size / 1e6:.1f} MB. To look at it: python -m http.server -d {chosen.folder}")
+    return 0
+
+
+def make(folder: Path, build_wasm: bool = True) -> None:
+    """Raises StaticPageError, PageError, OSError."""
+    if folder.exists() and any(folder.iterdir()) and not (folder / MARK).is_file():
+        raise StaticPageError(f"{folder} has files that are not of a static page. Name a new or an empty folder")
+    if build_wasm and subprocess.run(["bash", str(PACKAGE / "build.sh")], check=False).returncode:
+        raise StaticPageError("The core cannot be compiled to WebAssembly: integrations/wasm/README.md has the tools")
+    files = json.loads((PACKAGE / "package.json").read_text(encoding="utf-8"))["files"]
+    missing = [name for name in files if not (PACKAGE / name).is_file()]
+    if missing:
+        raise StaticPageError(f"{', '.join(missing)} is missing in {PACKAGE}: leave out --keep-wasm")
+    build_static(folder.absolute())
+    library = folder / "punctura"
+    library.mkdir()
+    for name in files:
+        shutil.copy(PACKAGE / name, library)
+    write_data(folder)
+
+
+def write_data(folder: Path) -> None:
+    """What the studio's server would tell the page: scenes, the schema of scenes, and the words of faults."""
+    from punctura import __version__
+    from punctura._core import Fault
+    from punctura.scene import scene_json_schema, scene_names
+    from punctura.studio.fault_words import fault_words
+    from punctura.studio.loaded import from_name
+    from punctura.studio.wire.messages import PROTOCOL
+
+    scenes = [(name, from_name(name)) for name in scene_names()]
+    data = {
+        "version": __version__,
+        "protocol": PROTOCOL,
+        "first": FIRST,
+        "scenes": [{"name": n, "title": loaded.scene.name, "tables": loaded.tables()} for n, loaded in scenes],
+        "faults": {fault.name: fault_words(fault) for fault in Fault if fault is not Fault.none},
+    }
+    (folder / MARK).write_text(json.dumps(data), encoding="utf-8")
+    (folder / "schema.json").write_text(json.dumps(scene_json_schema()), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
