@@ -65,7 +65,7 @@ struct PiecewiseBand {
   /// Index of the piece that contains depth q (m). It counts comparisons, so that no branch depends on the depth.
   constexpr std::size_t index(Scalar q) const noexcept {
     std::size_t i = q >= breaks[0] ? 1 : 0;
-    for (std::size_t k = 1; k < N - 1; ++k) i += q > breaks[k] ? 1 : 0;
+    for (std::size_t k = 1; k < N - 1; ++k) i += q > breaks[k] ? 1U : 0U;
     return i;
   }
 

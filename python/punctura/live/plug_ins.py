@@ -14,6 +14,7 @@ from punctura._core import Device, DeviceError
 from punctura.results import BackendState
 
 GROUP = "punctura.devices"
+LONGEST = 500  # characters of a text that a package gives
 
 
 def enumerate_devices() -> list[BackendState]:
@@ -45,6 +46,13 @@ def _found() -> dict[str, EntryPoint]:
     return {found.name: found for found in entry_points(group=GROUP)}
 
 
+def _printable(text: object) -> str:
+    """One line that every terminal and the page can show, whatever a package says."""
+    words = " ".join(str(text).split())
+    shown = "".join(character if character.isprintable() else "?" for character in words)
+    return shown if len(shown) <= LONGEST else shown[:LONGEST] + " ..."
+
+
 def _status(found: EntryPoint, taken: set[str]) -> BackendState:
     """A package that fails must not hide the other devices."""
     entry = BackendState(backend=found.name, state="fault", detail="", devices=[])
@@ -55,10 +63,10 @@ def _status(found: EntryPoint, taken: set[str]) -> BackendState:
         said = found.load().status()
         return BackendState(
             backend=found.name,
-            state=str(said["state"]),
-            detail=str(said.get("detail", "")),
-            devices=[str(name) for name in said.get("devices", [])],
+            state=_printable(said["state"]),
+            detail=_printable(said.get("detail", "")),
+            devices=[_printable(name) for name in said.get("devices", [])],
         )
     except (Exception, SystemExit) as error:
-        entry["detail"] = f"{found.value}: {type(error).__name__}: {error}"
+        entry["detail"] = _printable(f"{found.value}: {type(error).__name__}: {error}")
         return entry

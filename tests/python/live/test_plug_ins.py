@@ -94,6 +94,15 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
 
 
+def test_unprintable_and_endless_words_of_a_package_hide_no_other_device(tmp_path):
+    text = r"def status(): return {'state': 'available', 'detail': '\ud800\x1b[2J' + 9999 * 'x', 'devices': ['a\nb']}"
+    package(tmp_path, "loud", text, name="loud")
+    done = punctura(tmp_path, "devices")
+    assert done.returncode == 0 and "simulated" in done.stdout, done.stderr
+    assert "??[2J" in done.stdout and "a b" in done.stdout and len(done.stdout) < 9000
+    assert "\x1b" not in done.stdout
+
+
 def test_a_name_of_punctura_s_own_is_not_taken_over(tmp_path):
     package(tmp_path, "other", "def status(): return {'state': 'available'}", name="simulated")
     listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
