@@ -8,6 +8,8 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+from punctura import _core
+
 
 def explained(function: Any, given: Sequence[Any], named: dict[str, Any], otherwise: str) -> str:
     """The message of a TypeError. otherwise: nanobind's message, for a signature that cannot be read."""
@@ -111,7 +113,12 @@ _NAMED = {"str": str, "bytes": bytes, "bool": bool, "dict": dict, "None": type(N
 
 
 def _known(kind: str) -> bool:
-    return kind in _WORDS or kind.split("[")[0] in _NAMED or kind.isidentifier() or kind.startswith("typing.Literal[")
+    return (
+        kind in _WORDS
+        or kind.split("[")[0] in _NAMED
+        or isinstance(getattr(_core, kind, None), type)
+        or kind.startswith("typing.Literal[")
+    )
 
 
 def _fits(kind: str, value: Any) -> bool:

@@ -36,6 +36,8 @@ def simulate_arrays(
     for name, given in (("position", position), ("time", time), ("axis", axis)):
         if np.ma.is_masked(given):
             raise ValueError(f"{name} has masked elements: fill them in, or leave these rows out")
+        if given is not None and (kind := np.asarray(given).dtype).kind not in "biufO":
+            raise TypeError(f"{name} must hold real numbers, not {'text' if kind.kind in 'US' else kind}")
     p = np.asarray(position, dtype=np.float64)
     if p.ndim == 1:  # depths below the first membrane's surface
         p = np.asarray(scene.membranes[0].point) + p[:, None] * normal

@@ -34,6 +34,7 @@ DOWN = (0, -1, 0)
         (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness?."),
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
+        (lambda: pn.batch(SCENE, motion=np.zeros((5, 3)), threads=-1), "run_scenes(): an argument has a wrong type or"),
         (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be a bytes, not int."),
         (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
         (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),
@@ -74,6 +75,8 @@ def test_only_real_numbers_are_taken_as_positions(numbers):
     with pytest.raises(TypeError, match="p must hold real numbers, not"):
         LINE.run(numbers)
     assert LINE.state == before
+    with pytest.raises(TypeError, match="position must hold real numbers, not"):
+        pn.simulate(SCENE, numbers)
 
 
 def test_an_object_whose_constructor_did_not_run_is_told():
