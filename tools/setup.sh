@@ -73,8 +73,9 @@ pip_build_tools() {
     pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
 }
 
-# Builds in a permanent folder instead of pip's temporary one, so that only changed files are compiled again.
-pip_project() { pip install --progress-bar off --no-build-isolation "$@"; }
+# Builds in a permanent folder instead of pip's temporary one, so that only changed files are compiled again. Python
+# compiles a module at its first import: compiling all modules of all dependencies here would take half a minute.
+pip_project() { pip install --progress-bar off --no-build-isolation --no-compile "$@"; }
 
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {

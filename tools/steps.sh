@@ -130,22 +130,29 @@ tsan_makers() { "${tsan_tests[@]}" --source-file='*force_dimension*,*haply*'; }
 tsan_others() { "${tsan_tests[@]}" --source-file-exclude='*force_dimension*,*haply*'; }
 
 # An external project: with the core installed, with core, runtime and C library installed, with the Python package,
-# and with Punctura as a subfolder.
+# and with Punctura as a subfolder. Most of the time is one compiler at a time, so the ways go side by side.
 step_consumer() {
-  local way prefix=$root/build/consumer/prefix
   rm -rf build/consumer
-  cmake -S . -B build/consumer/core -G Ninja && cmake --install build/consumer/core --prefix "$prefix/core" &&
-    compile dev && cmake --install build/dev --prefix "$prefix/runtime" &&
-    use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
-    use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON -DWITH_C=ON &&
-    use_it from-wheel -Dpunctura_DIR="$(punctura paths --cmake)" &&
-    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON || return
-  for way in from-core from-runtime from-wheel subfolder; do "build/consumer/$way/consumer" || return; done
-  for way in from-runtime subfolder; do "build/consumer/$way/own_device" || return; done
-  build/consumer/from-runtime/devices &&
-    build/consumer/from-runtime/insert python/punctura/scenes/k06-fig12.toml
+  compile dev && side_by_side consumer_installed consumer_in_tree
 }
-use_it() { cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1"; }
+consumer_installed() {
+  local prefix=$root/build/consumer/prefix built=$root/build/consumer/from-runtime
+  cmake --install build/dev --prefix "$prefix/runtime" &&
+    use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON -DWITH_C=ON &&
+    "$built/own_device" && "$built/devices" && "$built/insert" python/punctura/scenes/k06-fig12.toml &&
+    use_it from-wheel -Dpunctura_DIR="$(punctura paths --cmake)"
+}
+consumer_in_tree() {
+  local prefix=$root/build/consumer/prefix
+  cmake -S . -B build/consumer/core -G Ninja && cmake --install build/consumer/core --prefix "$prefix/core" &&
+    use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
+    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON &&
+    build/consumer/subfolder/own_device
+}
+use_it() {
+  cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1" &&
+    "build/consumer/$1/consumer"
+}
 
 step_python() {
   local but=()
@@ -196,13 +203,20 @@ docs_site() { python docs/site/build.py; }
 
 # Runs every example, each in its own folder.
 step_examples() {
-  local example
   compile dev || return
-  mkdir -p build/examples && cd build/examples || return
+  mkdir -p build/examples/cpp build/examples/python && side_by_side examples_cpp examples_python
+}
+examples_cpp() {
+  local example
+  cd build/examples/cpp || return
   for example in "$root"/examples/cpp/*.cpp; do
     example=$(basename "$example" .cpp)
     echo "examples/cpp/$example.cpp" && "$root/build/dev/examples/$example" || return
   done
+}
+examples_python() {
+  local example
+  cd build/examples/python || return
   for example in "$root"/examples/python/*.py; do
     echo "${example#"$root"/}" && python "$example" || return
   done
