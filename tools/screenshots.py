@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "page"))
 
 from person import PATIENCE, drag_in, push, ready, tab  # noqa: E402
+from traced import answer, dropped  # noqa: E402
 
 LAPTOP, TABLET, PHONE = (1440, 900), (900, 1200), (390, 844)
 
@@ -108,6 +109,17 @@ def in_the_epidural(page: Page) -> None:
     push(page, "Shift+ArrowDown", 30)
 
 
+def identified(page: Page) -> None:
+    ready(page)
+    form = dropped(page)
+    answer(form)
+    form.get_by_role("button", name="Identify").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("button", name="Save report")).to_be_enabled(timeout=PATIENCE)
+    if page.viewport_size == {"width": PHONE[0], "height": PHONE[1]}:
+        dialog.get_by_role("region", name="Parameters").evaluate("e => e.scrollIntoView({block: 'center'})")
+
+
 def projector(page: Page) -> None:
     in_the_epidural(page)
     page.keyboard.press("Alt+p")
@@ -128,6 +140,10 @@ STATES: tuple[tuple[str, str, Callable[[Page], None], tuple[int, int], str], ...
     ("slice", "venipuncture", sliced, LAPTOP, "light"),
     ("epidural", "epidural", in_the_epidural, LAPTOP, "light"),
     ("projector", "epidural", projector, LAPTOP, "dark"),
+    ("trace", "k06-fig10", identified, LAPTOP, "light"),
+    ("trace-dark", "k06-fig10", identified, LAPTOP, "dark"),
+    ("trace-phone", "k06-fig10", identified, PHONE, "light"),
+    ("trace-phone-dark", "k06-fig10", identified, PHONE, "dark"),
     ("phone", "venipuncture", popped, PHONE, "light"),
     ("tablet", "venipuncture", popped, TABLET, "light"),
     ("tablet-dark", "epidural", popped, TABLET, "dark"),
@@ -148,7 +164,8 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
             page.goto(studio.url, timeout=PATIENCE)
             act(page)
             page.wait_for_timeout(1500)  # until plots and view are drawn
-            shot = page.screenshot(full_page=width < 1080)
+            whole = width < 1080 and not page.get_by_role("dialog").count()  # a dialog covers what the page shows
+            shot = page.screenshot(full_page=whole)
             Image.open(io.BytesIO(shot)).quantize(256).save(out / f"studio-{name}.png", optimize=True)
             context.close()
             studio.end()

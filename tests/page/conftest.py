@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +18,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from studio_process import StudioProcess
 
 expect.set_options(timeout=PATIENCE)
+os.environ["PUNCTURA_LAB_NICE"] = "0"  # other tests run at the same time; a computation must not wait for them
 
 
 @pytest.fixture

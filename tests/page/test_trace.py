@@ -2,43 +2,21 @@
 
 import re
 
-import numpy as np
 import punctura as pn
 from axe import AXE, check
 from person import drag_in, events, ready, saved
 from playwright.sync_api import Page, expect
-
-# Drops a file into the page, as a browser does.
-DROP = """([name, text]) => {
-  const data = new DataTransfer();
-  data.items.add(new File([text], name));
-  for (const kind of ['dragover', 'drop'])
-    document.body.dispatchEvent(new DragEvent(kind, {bubbles: true, cancelable: true, dataTransfer: data}));
-}"""
-
-
-def measured() -> str:
-    """A trace that the core makes, as CSV: one wall, in and out, with noise; the depth has no unit."""
-    depth = np.concatenate([np.arange(0, 15e-3, 50e-6), np.arange(15e-3, 0, -50e-6)])
-    wall = pn.ThickLaw(pn.Needle(1.2e-3, 0.4), pn.Membrane(600, 0.3, 0.2, 0.5e-3))
-    force = -pn.Proxy1d(wall, pn.Coupling(4000, 1.0), 0.01).run(depth - 5e-3).force
-    force = force + 0.01 * np.random.default_rng(1).standard_normal(len(depth))
-    rows = zip(0.01 * np.arange(len(depth)), 1e3 * depth, force, strict=True)
-    return "\n".join(["time_s,depth,force_N", *(f"{t:.2f},{q:.6g},{f:.6g}" for t, q, f in rows)])
+from traced import answer, dropped
 
 
 def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     ready(page)
-    page.evaluate(DROP, ["liver.csv", measured()])
-    form = page.get_by_role("form", name="What the studio must know of liver.csv")
+    form = dropped(page)
     expect(form.get_by_label("Column of the depth")).to_have_value("depth")
     form.get_by_role("button", name="Identify").click()
-    unit = form.get_by_label("Unit of the depth")
-    expect(unit).to_have_attribute("aria-invalid", "true")
+    expect(form.get_by_label("Unit of the depth")).to_have_attribute("aria-invalid", "true")
     expect(form).to_contain_text("Choose the unit of the depth")
-    unit.select_option("mm")
-    form.get_by_label("Diameter, mm").fill("1.2")
-    form.get_by_label("Tip angle, °").fill("22,918")
+    answer(form)
     page.route("**/api/lab/identify?*", lambda route: None)  # an answer that does not come
     form.get_by_role("button", name="Identify").click()
     page.get_by_role("button", name="Cancel").click()
@@ -59,7 +37,7 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     report = saved(page, dialog.get_by_role("button", name="Save report"), tmp_path)
     assert report.read_text(encoding="utf-8").startswith("<!doctype html>")
     scene = saved(page, dialog.get_by_role("button", name="Save scene"), tmp_path)
-    assert pn.load_scene(scene).name == "liver.csv"
+    assert pn.load_scene(scene).name == "insertion.csv"
 
     dialog.get_by_role("button", name="Feel this tissue").click()
     expect(dialog).to_be_hidden()

@@ -7,7 +7,6 @@ Reads one job as JSON from standard input. Writes JSON lines: {"share", "run"} b
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 from pydantic import BaseModel, Field
 
 from punctura import PuncturaError
+from punctura.compare.background import step_back
 from punctura.compare.comparison import Band, Collector, Comparison
 from punctura.compare.motion import recorded_motion, stroke
 from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
@@ -120,8 +120,7 @@ def _numbers(values: Array) -> list[float | None]:
 
 def main() -> None:
     """Does the job on standard input."""
-    if hasattr(os, "nice"):
-        os.nice(19)  # the loop and the page come first
+    step_back()
 
     def say(**words: Any) -> None:
         print(json.dumps(words), flush=True)

@@ -7,7 +7,6 @@ wire/identified.py.
 from __future__ import annotations
 
 import math
-import os
 import re
 import sys
 import warnings
@@ -15,6 +14,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from punctura import ConfigurationError, Needle, PuncturaError
+from punctura.compare.background import step_back
 from punctura.identify import Identification, identify
 from punctura.rivals import compare_trace
 from punctura.studio.trace_job import TraceJob
@@ -119,8 +119,7 @@ def words_of(text: str, file: str = "") -> str:
 
 def main() -> None:
     """Does the job on standard input."""
-    if hasattr(os, "nice"):
-        os.nice(19)  # the loop and the page come first
+    step_back()
     warnings.simplefilter("ignore")  # of the libraries that read files; what matters is in the findings
 
     def say(line: IdentifyLine) -> None:

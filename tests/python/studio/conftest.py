@@ -1,10 +1,14 @@
 """A studio with the simulated device, its own folder and a minimal page."""
 
+import os
+
 import pytest
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioServer
+
+os.environ["PUNCTURA_LAB_NICE"] = "0"  # other tests run at the same time; a computation must not wait for them
 
 
 def serve(folder, scene="k06-fig12", settings=None, **more):

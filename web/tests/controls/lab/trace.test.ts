@@ -135,10 +135,10 @@ describe("the result in words", () => {
     expect(parameterWords("coupling_stiffness")).toBe("Spring between needle and tissue");
     expect(estimateWords(estimate({}))).toEqual({
       value: "0.6057 N/mm",
-      interval: "0.5985 to 0.6129 N/mm",
+      interval: "0.5985 to 0.6129",
       relative: "± 1.2 %",
     });
-    expect(estimateWords(estimate({ low: null })).interval).toBe("less than 0.6129 N/mm");
+    expect(estimateWords(estimate({ low: null })).interval).toBe("less than 0.6129");
     expect(estimateWords(estimate({ low: null, high: null })).interval).toBe("any value");
     expect(estimateWords(estimate({ name: "offset", value: -3e-4, low: -9e-4, high: 3e-4 })).value).toBe("−0.30 mN");
   });

@@ -64,7 +64,7 @@ export function traceDialog(app: App, progress: HTMLElement, closed: () => void)
   };
   const dialog = element(
     "dialog",
-    { class: "result tab lab-result", "aria-labelledby": "trace-title" },
+    { class: "result tab lab-result trace-dialog", "aria-labelledby": "trace-title" },
     element("header", {}, title),
     verdict,
     trouble,

@@ -45,7 +45,7 @@ export function digitsOf(low: number | null, high: number | null, value: number)
   return Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(width))));
 }
 
-/** The value, its interval in words, and half the interval as a part of the value, in percent. */
+/** The value with its unit, its interval in the same unit, and half the interval as a part of the value, in percent. */
 export function estimateWords(estimate: EstimatePart): { value: string; interval: string; relative: string } {
   const kind = estimate.name.split(".").at(-1)!;
   const [, unit, gain] = QUANTITIES[kind] ?? [kind, estimate.unit === "-" ? "" : estimate.unit, 1];
@@ -56,11 +56,11 @@ export function estimateWords(estimate: EstimatePart): { value: string; interval
   const behind = unit && ` ${unit}`;
   const interval =
     low !== null && high !== null
-      ? `${text(low)} to ${text(high)}${behind}`
+      ? `${text(low)} to ${text(high)}`
       : low !== null
-        ? `more than ${text(low)}${behind}`
+        ? `more than ${text(low)}`
         : high !== null
-          ? `less than ${text(high)}${behind}`
+          ? `less than ${text(high)}`
           : "any value";
   const known = low !== null && high !== null && value !== 0 && !["offset", "drift", "surface"].includes(kind);
   const share = known ? (50 * (high - low)) / Math.abs(value) : null;
