@@ -39,7 +39,8 @@ def explained(function: Any, given: Sequence[Any], named: dict[str, Any], otherw
         types = ", ".join(f"{name}: {type(value).__name__}" for name, value in got.items())
         faults = [f"an argument has a wrong type or value ({types})"]
     takes = ", ".join(f"{n}: {_plain(text)}{' (optional)' if more else ''}" for n, (text, more) in parameters.items())
-    return f"{call}(): {'; '.join(faults)}. It takes ({takes})"
+    told = "; ".join(faults)
+    return f"{call}(): {told}{'' if told.endswith('?') else '.'} It takes ({takes})"
 
 
 def _parsed(text: str) -> ast.FunctionDef | None:

@@ -15,14 +15,14 @@ DOWN = (0, -1, 0)
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: LINE.step(positon=1e-3), "Proxy1d.step(): there is no argument positon; did you mean p?."),
+        (lambda: LINE.step(positon=1e-3), "Proxy1d.step(): there is no argument positon; did you mean p? It takes ("),
         (
             lambda: INSERTION.step((0, 0, 0), aixs=DOWN),
-            "Insertion.step(): there is no argument aixs; did you mean axis?.",
+            "Insertion.step(): there is no argument aixs; did you mean axis? It takes (",
         ),
         (
             lambda: INSERTION.run([(0, 0, 0)], DOWN, progres=True),
-            "there is no argument progres; did you mean progress?.",
+            "there is no argument progres; did you mean progress? It takes (",
         ),
         (lambda: INSERTION.step((0, 0, 0)), "Insertion.step(): axis is missing."),
         (lambda: INSERTION.step((0, 0), DOWN), "p must be three numbers, not tuple of length 2."),
@@ -30,15 +30,18 @@ DOWN = (0, -1, 0)
         (lambda: LINE.step("1 mm"), "Proxy1d.step(): p must be a number, not str. It takes (p: float)"),
         (lambda: LINE.run([0], True), "takes 1 argument by place, not 2; name the others: progress."),
         (lambda: LINE.run([0], p=[0]), "p is given twice."),
-        (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene?."),
-        (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness?."),
+        (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene? It takes ("),
+        (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
         (lambda: pn.batch(SCENE, motion=np.zeros((5, 3)), threads=-1), "run_scenes(): an argument has a wrong type or"),
         (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be a bytes, not int."),
         (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
         (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),
-        (lambda: pn.ThinLaw(SCENE.needle, MEMBRANE).bounds(deth=0), "there is no argument deth; did you mean depth?."),
+        (
+            lambda: pn.ThinLaw(SCENE.needle, MEMBRANE).bounds(deth=0),
+            "there is no argument deth; did you mean depth? It takes (",
+        ),
     ],
 )
 def test_the_wrong_argument_of_a_call_is_named(call, says):

@@ -16,7 +16,7 @@ THIN = pn.load_scene("k06-fig10")
 def test_a_curve_is_the_law_at_every_point_and_has_its_extremes(name, obliquity):
     scene = pn.load_scene(name)
     for placed, curve in zip(scene.membranes, law_curves(scene, [obliquity] * len(scene.membranes)), strict=True):
-        law = pn.ThickLaw(scene.needle, placed.membrane, obliquity)
+        law = pn.TissueLaw(scene.needle, placed.membrane, placed.tissue or pn.Tissue(), obliquity)
         lower, upper = law.bounds(np.array(curve.depth))
         assert np.array_equal(curve.lower, lower) and np.array_equal(curve.upper, upper)
         assert np.all(np.diff(curve.depth) > 0) and curve.depth[0] < 0 < curve.through < curve.depth[-1]
