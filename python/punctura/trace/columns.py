@@ -15,13 +15,27 @@ REQUIRED = ("depth", "force")
 UNITS: dict[str, dict[str, float]] = {
     "depth": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
     "force": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "gf": 9.80665e-3, "kgf": 9.80665, "lbf": 4.4482216152605},
-    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0},
+    "time": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0},
 }
+# English and German, as programs of testing machines write them.
 _NAMES = {
-    "depth": {"depth", "displacement", "position", "extension", "travel", "insertion", "insertion_depth", "z", "x"},
-    "force": {"force", "load", "axial_force", "needle_force", "insertion_force", "f", "fz"},
-    "time": {"time", "t", "elapsed", "timestamp"},
-}
+    "depth": {
+        "depth", "displacement", "position", "extension", "travel", "stroke", "crosshead", "insertion", "penetration",
+        "insertion_depth", "penetration_depth", "needle_depth", "compressive_extension", "compressive_displacement",
+        "z", "x", "weg", "standardweg", "traversenweg", "tiefe", "eindringtiefe", "einstichtiefe",
+    },
+    "force": {
+        "force", "load", "axial_force", "axial_load", "needle_force", "insertion_force", "compressive_force",
+        "compressive_load", "standard_force", "f", "fz", "kraft", "standardkraft", "nadelkraft",
+    },
+    "time": {"time", "t", "elapsed", "elapsed_time", "test_time", "timestamp", "zeit", "prüfzeit", "testzeit"},
+}  # fmt: skip
+
+
+def known_unit(text: str) -> str:
+    """The unit in a cell of its own, `mm`, `(mm)` or `[mm]`; empty if it is none."""
+    unit = text.strip().strip("()[]{}").strip()
+    return unit if any(unit in units for units in UNITS.values()) else ""
 
 
 def split_name(name: str) -> tuple[str, str]:
@@ -49,8 +63,9 @@ class ColumnError(TraceError):
 
 def candidates(role: str, names: Sequence[str], taken: Collection[int] = ()) -> list[int]:
     """The columns that could be this one by their names. One if it is clear, none if no name is known."""
-    matches = [i for i, name in enumerate(names) if split_name(name)[0] in _NAMES[role] and i not in taken]
-    exact = [i for i in matches if split_name(names[i])[0] == role]
+    plain = [split_name(re.sub(r" \d+$", "", name))[0] for name in names]  # a repeated name has its column's number
+    matches = [i for i, name in enumerate(plain) if name in _NAMES[role] and i not in taken]
+    exact = [i for i in matches if plain[i] == role]
     return exact if len(exact) == 1 else matches
 
 

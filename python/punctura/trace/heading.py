@@ -1,0 +1,81 @@
+"""Where the numbers of a table begin, and the names of its columns above them, as testing machines write them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from punctura.trace.columns import known_unit
+
+Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
+
+
+def is_number(cell: Any, decimal: str = ".") -> bool:
+    """Whether a cell holds a number, as text with this decimal point or as such."""
+    if isinstance(cell, str):
+        try:
+            float(cell.strip().replace(decimal, "."))
+        except ValueError:
+            return False
+        return True
+    return isinstance(cell, (int, float)) and not isinstance(cell, bool)
+
+
+def first_row(rows: Sequence[Row], width: int, decimal: str = ".") -> int:
+    """The index of the first row of numbers: it and the next row have `width` cells and at least two numbers.
+
+    len(rows) if there is none. A report above the table may contain single numbers.
+    """
+    least = min(2, width)
+    full = [len(row) == width and sum(is_number(cell, decimal) for cell in row) >= least for row in rows]
+    for i, good in enumerate(full):
+        if good and (i + 1 == len(full) or full[i + 1]):
+            while i > 0 and _has_gaps(rows[i - 1], width, decimal):
+                i -= 1
+            return i
+    return len(rows)
+
+
+def _has_gaps(row: Row, width: int, decimal: str) -> bool:
+    """Whether a row of the table lacks numbers: some cells are empty, and no cell is text."""
+    cells = [cell for cell in row if not _empty(cell)]
+    return len(row) == width and bool(cells) and all(is_number(cell, decimal) for cell in cells)
+
+
+def column_names(above: Sequence[Row], width: int) -> list[str]:
+    """Names for `width` columns from the rows above the numbers: the last row, with the units of a row below it.
+
+    Without names, the columns have their numbers, from 1.
+    """
+    fitting = [_texts(row, width) for row in above[-2:]]
+    names = next(iter(fitting[-1:]), None)
+    if names is not None and len(fitting) == 2 and fitting[0] is not None and _are_units(names):
+        units = [known_unit(cell) for cell in names]
+        names = [f"{name} [{unit}]" if unit else name for name, unit in zip(fitting[0], units, strict=True)]
+    return unique(names if names is not None else [str(i + 1) for i in range(width)])
+
+
+def unique(names: Iterable[str]) -> list[str]:
+    """Names, each different: a repeated or empty name gets the number of its column."""
+    seen: list[str] = []
+    for i, name in enumerate(names):
+        seen.append(name if name and name not in seen else f"{name or 'column'} {i + 1}")
+    return seen
+
+
+def _texts(row: Row, width: int) -> list[str] | None:
+    """The cells as texts if they can be names: as many as columns, some text, no number."""
+    cells = ["" if cell is None else str(cell).strip() for cell in row]
+    while len(cells) > width and not cells[-1]:
+        cells.pop()
+    named = len(cells) == width and any(cells) and not any(is_number(cell) for cell in row)
+    return cells if named else None
+
+
+def _are_units(cells: Sequence[str]) -> bool:
+    written = [cell for cell in cells if cell]
+    return sum(bool(known_unit(cell)) for cell in written) >= min(2, len(written))
+
+
+def _empty(cell: Any) -> bool:
+    return cell is None or (isinstance(cell, str) and not cell.strip())

@@ -1,0 +1,92 @@
+"""Files as testing machines and other programs write them: reports above the table, rows of units, other encodings."""
+
+import numpy as np
+import pytest
+import scipy.io
+from openpyxl import Workbook
+from punctura.trace import TraceError, read_trace
+from traces import trace
+
+MADE = trace()
+
+
+def lines(pattern, comma=False):
+    """One line for each sample, with time in s, depth in mm and force in N."""
+    rows = zip(MADE.time, MADE.depth * 1e3, MADE.force, strict=True)
+    texts = [[repr(float(cell)) for cell in row] for row in rows]
+    return [pattern.format(*(text.replace(".", ",") if comma else text for text in row)) for row in texts]
+
+
+def text_of(head, pattern, comma=False):
+    return "\n".join([*head, *lines(pattern, comma)]) + "\n"
+
+
+FILES = {
+    "units below the names": text_of(['"Time","Extension","Load"', '"(sec)","(mm)","(N)"'], '"{}","{}","{}"').encode(),
+    "report above the table": text_of(
+        ["Results Table 1", "Label,liver 3", "Speed,300,mm/min", "", "Time (sec),Extension (mm),Load (N)"], "{},{},{}"
+    ).encode(),
+    "German, of a Windows program": text_of(
+        ["Prüfbericht;12", "Datum;23.11.2026", "", "Prüfzeit;Standardweg;Standardkraft", "s;mm;N"], "{};{};{}", True
+    ).encode("cp1252"),
+    "decimal commas in quotes": text_of(['"Zeit [s]","Weg [mm]","Kraft [N]"'], '"{}","{}","{}"', True).encode(),
+    "decimal commas between spaces": text_of(["time_s depth_mm force_N"], " {}   {}  {}", True).encode(),
+    "UTF-16": text_of(["Time (s)\tPosition (mm)\tForce (N)"], "{}\t{}\t{}").encode("utf-16"),
+    "names in a comment": text_of(["# made by a robot", "# time_s,depth_mm,force_N"], "{},{},{}").encode(),
+    "a last line that was cut": (text_of(["Elapsed Time (s),depth_mm,force_N"], "{},{},{}") + "9.9").encode(),
+    "a line of text at the end": (text_of(["t_s;depth_mm;force_N"], "{};{};{}") + "End of test\n").encode(),
+}
+
+
+@pytest.mark.parametrize("what", FILES)
+def test_what_machines_write_is_read(tmp_path, what):
+    path = tmp_path / "a.csv"
+    path.write_bytes(FILES[what])
+    read = read_trace(path)
+    assert read.depth == pytest.approx(MADE.depth, rel=1e-12) and read.force == pytest.approx(MADE.force, rel=1e-12)
+    assert read.time == pytest.approx(MADE.time, rel=1e-12)
+    broken = [f"{len(MADE) + 1}"] if "last line" in what or "at the end" in what else []
+    assert [f.text.split("row ")[1].split(";")[0] for f in read.findings] == broken
+
+
+def test_a_row_with_other_cells_is_named_by_its_place(tmp_path):
+    rows = lines("{},{},{}")
+    rows[6] = "stopped"
+    (tmp_path / "a.csv").write_text("\n".join(["time_s,depth_mm,force_N", *rows]))
+    read = read_trace(tmp_path / "a.csv")
+    assert read.depth == pytest.approx(np.delete(MADE.depth, 6))
+    [finding] = read.findings
+    assert finding.kind == "rows_without_numbers" and "1 of" in finding.text and "row 7" in finding.text
+
+
+def test_a_report_in_a_workbook_is_skipped(tmp_path):
+    book = Workbook()
+    for row in (["Test report", None, 3], [], ["Time", "Displacement", "Force"], ["s", "mm", "N"]):
+        book.active.append(row)
+    for row in zip(MADE.time, MADE.depth * 1e3, MADE.force, strict=True):
+        book.active.append([float(cell) for cell in row])
+    book.save(tmp_path / "a.xlsx")
+    assert read_trace(tmp_path / "a.xlsx").force == pytest.approx(MADE.force)
+
+
+def test_a_matrix_in_a_mat_file_has_numbered_columns(tmp_path):
+    scipy.io.savemat(tmp_path / "a.mat", {"data": np.column_stack((MADE.time, MADE.depth, MADE.force))})
+    columns, units = {"time": 1, "depth": 2, "force": 3}, {"time": "s", "depth": "m", "force": "N"}
+    assert read_trace(tmp_path / "a.mat", columns, units).force == pytest.approx(MADE.force)
+
+
+def test_two_tables_side_by_side_are_asked_for(tmp_path):
+    (tmp_path / "a.csv").write_text(
+        text_of(["time_s,depth_mm,force_N,force_N"], "{},{},{},1")
+    )  # the second force is of another specimen
+    with pytest.raises(TraceError, match="more than one column could be the force"):
+        read_trace(tmp_path / "a.csv")
+
+
+def test_a_file_that_is_no_text_is_named(tmp_path):
+    (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
+    with pytest.raises(TraceError, match="is no text, Parquet, MAT or XLSX file; export the table as CSV"):
+        read_trace(tmp_path / "a.csv")
+    (tmp_path / "b.csv").write_text("only,words\nare,here\n")
+    with pytest.raises(TraceError, match="holds no rows of numbers"):
+        read_trace(tmp_path / "b.csv")
