@@ -35,9 +35,9 @@ def test_the_header_names_the_limit_that_cuts_the_force(browser: Browser, tmp_pa
 def test_the_scale_stands_where_a_force_is_and_a_loss_that_cannot_be_felt_is_told_before_the_start(
     browser: Browser, tmp_path: Path
 ):
-    weak = ForceLimits(max_force=0.15)
+    weak = ForceLimits(max_force=0.1)
     felt = felt_force(force_scale(pn.load_scene("epidural"), weak)).replace("(x ", "(\u00d7 ")
-    more = ["--max-force-N", "0.15"]
+    more = ["--max-force-N", "0.1"]
     with StudioProcess(tmp_path, "epidural", more=more) as studio, opened(browser, studio.url) as page:
         ready(page)
         expect(page.locator(".phases thead")).to_contain_text(f"{felt}, N")

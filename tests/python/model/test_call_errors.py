@@ -30,7 +30,7 @@ DOWN = (0, -1, 0)
         (lambda: LINE.step("1 mm"), "Proxy1d.step(): p must be a number, not str. It takes (p: float)"),
         (lambda: LINE.run([0], True), "takes 1 argument by place, not 2; name the others: progress."),
         (lambda: LINE.run([0], p=[0]), "p is given twice."),
-        (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene? It takes ("),
+        (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene?"),
         (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
