@@ -87,7 +87,8 @@ def _refuse_severe(trace: Trace) -> None:
     for finding in trace.findings:
         if finding.severe:
             role = "depth" if "depth" in finding.text else "force"
-            raise FieldError(f"unit.{role}" if finding.kind == "wrong_unit" else "", str(finding))
+            what = {"wrong_unit": f"unit.{role}", "constant": f"column.{role}"}
+            raise FieldError(what.get(finding.kind, ""), str(finding))
 
 
 def _compare(found: Identification, say: Say) -> None:

@@ -55,8 +55,12 @@ def _pushed(force: Array) -> bool:
 
 def _units(trace: Trace) -> Iterator[Finding]:
     span, peak = float(np.ptp(trace.depth)), float(np.max(np.abs(trace.force)))
+    peak = 0.0 if np.ptp(trace.force) == 0 else peak
     for what, value, unit, (least, most) in (("depth", span, "m", _DEPTHS), ("force", peak, "N", _FORCES)):
-        if not least <= value <= most:
+        if value == 0:
+            text = f"the {what} is the same in every sample; name another column (--column {what}=NAME)"
+            yield Finding("constant", text, severe=True)
+        elif not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
             text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; state the unit (--unit {what}=UNIT)"

@@ -135,6 +135,14 @@ def test_a_wrong_unit_is_severe(tmp_path):
     assert finding.severe and "1000 times too large" in finding.text and "--unit depth=UNIT" in finding.text
 
 
+@pytest.mark.parametrize("name, what", [("depth_m", "depth"), ("force_N", "force")])
+def test_a_column_that_never_changes_is_severe(tmp_path, name, what):
+    made = trace()
+    columns = {"time_s": made.time, "depth_m": made.depth, "force_N": made.force} | {name: np.full(len(made), 0.3)}
+    severe = [finding for finding in read_trace(write_csv(tmp_path / "a.csv", columns)).findings if finding.severe]
+    assert [finding.kind for finding in severe] == ["constant"] and f"the {what} is the same" in severe[0].text
+
+
 def test_time_that_goes_back_is_named(tmp_path):
     made = trace()
     time = made.time.copy()
