@@ -3,9 +3,10 @@
     python integrations/wasm/live_reference.py FOLDER
 
 FOLDER/NAME.toml     the scene; NAME.other.toml: the scene that replaces it in the middle of the run
-FOLDER/NAME.json     what the studio's server tells its pages of this run: scenes, events, the first bytes
+FOLDER/NAME.json     what the studio's server tells its pages of this run: scene, events, estimates
 FOLDER/NAME.poses    one row a tick, 6 doubles, little-endian: position (m), axis
-FOLDER/NAME.frames   the frame of each tick, each with the size of a frame before it (u32, little-endian)
+FOLDER/NAME.frames   the frame of each tick, with the force of the other solver; before each, its size in bytes (u32,
+                     little-endian)
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ from punctura._core import (
 from punctura.events import EventFinder
 from punctura.live import fit_conditioning, stroke_ends
 from punctura.scene import scene_names, scene_text
+from punctura.studio.compare import OtherSolver
+from punctura.studio.estimating import Estimator
 from punctura.studio.laws import law_curves
 from punctura.studio.loaded import from_text
 from punctura.studio.view import scene_view
@@ -38,7 +41,7 @@ from punctura.studio.wire.messages import MembraneEvent
 from punctura.ticks import Ticks
 
 TICKS = 4000
-EXCHANGE = 2100  # tick from which the other scene runs
+EXCHANGE = 2700  # tick from which the other scene runs, in tissue
 FAULT = 3900  # tick whose position is not a number
 
 
@@ -89,14 +92,26 @@ def run(name: str, folder: Path) -> None:
         device.feed(np.full(3, np.nan) if k == FAULT else pose[:3], pose[3:])
     parts.append(listener.read())
     loop.stop()
-    frames = [encode_ticks(part[k : k + 1], 7, 0, None) for part in parts for k in range(len(part))]
+    other_solver, estimator = OtherSolver(fitted), Estimator(fitted, info.rate)
+    frames, estimates = [], []
+    for i, part in enumerate(parts):
+        if i == 1:  # as the studio does at an exchange of the scene
+            other_solver.take(loop.scene)
+            estimator.change(loop.scene)
+        for k in range(len(part)):
+            tick = part[k : k + 1]
+            frames.append(encode_ticks(tick, 7, 0, other_solver.run(tick)))
+            if told := estimator.add(tick):
+                estimates.append(told)
     assert len(frames) == TICKS
+    assert estimates[-1].punctures > 0
     events = [MembraneEvent(**event.model_dump()) for part in parts for event in finder.add(part)]
     assert {event.what for event in events} == {"touch", "pop", "out"}
     axis = np.array(resting_pose(scene)[1])
     view = scene_view(loaded, 0, info.rate, scale, law_curves(scene, obliquities(scene, axis)))
     about = {
         "scene": view.model_dump(mode="json"),
+        "estimates": [told.model_dump(mode="json") for told in estimates],
         "events": [event.model_dump(mode="json") for event in events],
         "exchange": EXCHANGE,
         "fault": FAULT,

@@ -31,7 +31,7 @@ let ticks = 0;
 for (const file of readdirSync(folder).filter((name) => name.endsWith(".json"))) {
   const name = file.replace(/\.json$/, "");
   const read = (ending) => readFileSync(`${folder}/${name}.${ending}`);
-  const { scene, events, exchange, fault } = JSON.parse(read("json").toString());
+  const { scene, events, estimates, exchange, fault } = JSON.parse(read("json").toString());
   const bytes = read("poses");
   const poses = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
   const frames = read("frames");
@@ -41,6 +41,8 @@ for (const file of readdirSync(folder).filter((name) => name.endsWith(".json")))
   const { tables: _, ...view } = scene;
   close(run.scene, view, name);
   run.arm();
+  run.compare(true);
+  run.estimate(true);
   const found = [];
   for (let k = 0, at = 0; at < frames.length; ++k) {
     if (k === exchange) run.exchange(read("other.toml").toString());
@@ -49,12 +51,15 @@ for (const file of readdirSync(folder).filter((name) => name.endsWith(".json")))
     const pose = poses.slice(6 * k, 6 * k + 6);
     const made = run.feed(k === fault ? [NaN, NaN, NaN] : pose.slice(0, 3), pose.slice(3));
     sameFrame(made, wanted, words, `${name}, tick ${k}`);
-    found.push(...run.messages().filter(({ kind }) => kind === "event"));
+    found.push(...run.messages());
     at += 4 + size;
     ++ticks;
   }
   strictEqual(poses.length / 6, ticks % 4000 || 4000);
-  deepStrictEqual(found, events, name);
+  const kinds = (kind) => found.filter((message) => message.kind === kind);
+  deepStrictEqual(kinds("event"), events, name);
+  close(kinds("estimate"), estimates, `${name}, estimates`);
+  ok(kinds("laws").length > 1, "the direction of the needle changes, and the laws with it");
   run.free();
 }
 

@@ -34,6 +34,7 @@ export class LocalStudio {
   private estimating = false;
   private ticks = 0;
   private busyMs = 0;
+  private hasSyringe = false;
   private thumbEnds = Number.POSITIVE_INFINITY;
   private clock = new BlockClock(1);
 
@@ -126,7 +127,7 @@ export class LocalStudio {
         this.run.strokes(Math.min(60, Math.max(0.5, request.period ?? 4)));
         return DONE;
       case "push_plunger":
-        if (!this.run.scene.syringe) throw new NotNow("the scene has no syringe");
+        if (!this.hasSyringe) throw new NotNow("the scene has no syringe");
         this.push(request.force);
         return DONE;
       case "trip_fault":
@@ -190,6 +191,7 @@ export class LocalStudio {
 
   private tellScene(newRun: boolean): void {
     const scene = { ...this.run.scene, tables: this.tables } as SceneView;
+    this.hasSyringe = scene.syringe !== null;
     this.out.message({ kind: "scene", scene, new_run: newRun, run: this.number });
   }
 

@@ -32,6 +32,7 @@ export class WorkerEngine implements Engine {
     this.worker.onmessage = ({ data }) => this.take(data);
     this.worker.onerror = (event) => this.fail(event.message || "the worker cannot start");
     this.post({ start: this.base });
+    if (document.visibilityState === "hidden") this.tellVisible();
     document.addEventListener("visibilitychange", this.tellVisible);
   }
 

@@ -124,6 +124,7 @@ describe("the studio in a page", () => {
   it("lets go of a plunger that is no longer pushed, and refuses one that is not there", () => {
     expect(studio.ask({ do: "push_plunger", force: 3 })).toMatchObject({ ok: false, text: "the scene has no syringe" });
     core.syringe = { bore: 9e-3, volume: 1e-5 };
+    studio.ask({ do: "load", scene: "skin" });
     expect(studio.ask({ do: "push_plunger", force: 3 })).toEqual({ ok: true });
     advance(900);
     expect(core.told.at(-1)).toBe("push 3");

@@ -18,6 +18,7 @@ const document = new EventTarget() as EventTarget & { visibilityState: string };
 const say = (data: FromWorker): void => port.onmessage?.({ data } as MessageEvent<FromWorker>);
 
 beforeEach(() => {
+  document.visibilityState = "visible";
   vi.stubGlobal("document", document);
   sent = [];
   states = [];
@@ -75,9 +76,13 @@ it("tells why nothing runs, and refuses further requests", async () => {
   await expect(engine.ask({ do: "arm" })).rejects.toThrow("does not run");
 });
 
-it("tells the worker when nobody looks at the page", () => {
+it("tells the worker when nobody looks at the page, also at its start", () => {
   document.visibilityState = "hidden";
   document.dispatchEvent(new Event("visibilitychange"));
   engine.target(3, [0, 1, 2], [0, -1, 0]);
   expect(sent.slice(1)).toEqual([{ visible: false }, { run: 3, position: [0, 1, 2], axis: [0, -1, 0], buttons: 0 }]);
+  engine.stop();
+  sent = [];
+  engine.start({ connection: () => {}, message: () => {}, ticks: () => {} });
+  expect(sent).toEqual([{ start: "https://example.org/page/" }, { visible: false }]);
 });
