@@ -33,6 +33,20 @@ def the_panels_change(page: Page) -> None:
     expect(page.locator(".side")).to_be_hidden()
 
 
+def parts_are_opened(page: Page) -> None:
+    """Parts that are closed at first: the estimate while it runs, every part of the scene's form, slice and help."""
+    tab(page, "Lab").get_by_role("checkbox", name="Estimate").check()
+    expect(page.locator(".estimate")).to_be_visible()
+    check(page, "the estimate while it runs")
+    side = tab(page, "Scene")
+    side.locator("details").evaluate_all("parts => parts.forEach(part => { part.open = true; })")
+    expect(side.get_by_text("Tail length").first).to_be_visible()
+    page.locator(".view-main .view-tools").get_by_role("button", name="Slice", exact=True).click()
+    page.locator(".view-help summary").click()
+    check(page, "the whole form, the slice and the help")
+    page.get_by_role("button", name="Close the slice").click()
+
+
 def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address(browser: Browser, studio):
     context = browser.new_context(viewport={"width": 1440, "height": 900}, device_scale_factor=0.5)
     context.set_default_timeout(PATIENCE)
@@ -47,6 +61,8 @@ def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address
     for name in ("Hand", "Scene", "Recordings", "Exercises", "Lab", "Health"):
         tab(page, name)
         check(page, f"the tab {name}")
+    parts_are_opened(page)
+    tab(page, "Health")
     page.get_by_role("button", name="Try a fault").click()
     expect(page.locator(".fault")).to_contain_text("The force is off")
     check(page, "a fault")

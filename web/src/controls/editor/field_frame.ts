@@ -38,7 +38,10 @@ export function fieldFrame(field: Field, id: string): Frame {
   const error = element("p", { id: errorId, class: "error", role: "alert" });
   const controls = element("div", { class: "controls" });
   const label = element("label", { for: id, title: helpText(field) }, field.title);
-  if (field.symbol) label.append(" ", element("i", { class: "symbol" }, printed(field.symbol)));
+  if (field.symbol) {
+    const { letter, index } = printed(field.symbol);
+    label.append(" ", element("i", { class: "symbol" }, letter, ...(index ? [element("sub", {}, index)] : [])));
+  }
   const root = element(
     "div",
     { class: `field kind-${field.kind}`, "data-help": helpText(field), "data-key": field.key },

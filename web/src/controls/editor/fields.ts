@@ -140,7 +140,10 @@ function bound(closed: unknown, open: unknown): Bound | null {
   return typeof closed === "number" ? { value: closed, open: false } : null;
 }
 
-const GREEK: Readonly<Record<string, string>> = { kappa: "κ", mu: "μ", theta: "θ" };
+const GREEK: Readonly<Record<string, string>> = { kappa: "κ", mu: "μ", theta: "θ", tau: "τ", phi: "φ" };
 
-/** A symbol in print: κ for kappa. */
-export const printed = (symbol: string): string => GREEK[symbol] ?? symbol;
+/** A symbol in print: κ for kappa; its index, if it has one, stands below. */
+export function printed(symbol: string): { readonly letter: string; readonly index: string } {
+  const [letter = "", index = ""] = symbol.split("_");
+  return { letter: GREEK[letter] ?? letter, index };
+}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { type Field, SchemaError, sceneForm } from "../../../src/controls/editor/fields.ts";
+import { type Field, printed, SchemaError, sceneForm } from "../../../src/controls/editor/fields.ts";
 import schema from "../support/schema.json";
 
 const form = sceneForm(schema);
@@ -67,4 +67,10 @@ test("reads a table that a scene may lack", () => {
   const tables = sceneForm(schema).tables;
   expect(tables.find(({ key }) => key === "syringe")).toMatchObject({ optional: true, list: false, title: "Syringe" });
   expect(tables.filter(({ optional }) => optional)).toHaveLength(1);
+});
+
+test("a symbol is printed in Greek letters, with its index below", () => {
+  expect(printed("kappa")).toEqual({ letter: "κ", index: "" });
+  expect(printed("phi_I")).toEqual({ letter: "φ", index: "I" });
+  expect(printed("1/T")).toEqual({ letter: "1/T", index: "" });
 });
