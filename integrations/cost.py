@@ -61,6 +61,7 @@ def compiled() -> Iterator[str]:
         f'"{HERE}/octave/punctura_mex.c" -o punctura_mex.mex && FOLDER="{WORK}" octave-cli --no-history --norc '
         f'--path "{WORK}" --path "{HERE}/octave" "{HERE}/octave/cost.m"'
     )
+    yield f'need wasm-ld lld; need node nodejs; bash "{HERE}/wasm/build.sh" >&2 && node "{HERE}/wasm/cost.mjs" "{WORK}"'
 
 
 def best(ticks: int, rounds: int, go: Callable[[], object]) -> float:

@@ -1,4 +1,4 @@
-// node test.mjs FOLDER: all forces of the reference motion, bit for bit, the messages, size and time of a tick.
+// node test.mjs FOLDER: all forces of the reference motion, bit for bit, the messages, and the size.
 import { deepStrictEqual, match, strictEqual, throws } from "node:assert";
 import { readFileSync, statSync } from "node:fs";
 import { load } from "./punctura.mjs";
@@ -81,19 +81,5 @@ throws(() => new Proxy1d(scene, 9), /membrane 9: the scene has/);
 proxy.free();
 throws(() => proxy.step(0), /was freed/);
 
-const best = (go) => {
-  let shortest = Infinity;
-  for (let round = 0; round < 20; ++round) {
-    const start = performance.now();
-    go();
-    shortest = Math.min(shortest, performance.now() - start);
-  }
-  return ((1e6 * shortest) / ticks).toFixed(0);
-};
-const line = new Proxy1d(scene, 0);
-const places = depths.filter((_, i) => i % 2 === 0);
-const onLine = best(() => places.forEach((depth) => line.step(depth)));
-const inSpace = best(() => poses.forEach(([position, axis]) => insertion.step(position, axis)));
 const { size } = statSync(new URL("punctura.wasm", import.meta.url));
 console.log(`${2 * ticks} forces have the bits of the core. punctura.wasm: ${size} bytes`);
-console.log(`Node ${process.version}: Proxy1d.step ${onLine} ns, Insertion.step ${inSpace} ns`);

@@ -98,8 +98,4 @@ throws(() => many.exchange(toml.replace(/friction = [^\n]*/, "friction = -1")), 
 strictEqual(many.advance(1).byteLength, kept);
 throws(() => new LiveRun(toml.replace(/friction = [^\n]*/, "")), /membrane\[0\]\.friction: is missing/);
 
-const start = performance.now();
-many.strokes(4);
-for (let k = 0; k < 1000; ++k) many.advance(13);
-const each = ((1e3 * (performance.now() - start)) / 13000).toFixed(1);
-console.log(`${ticks} frames of ticks on a fed device have the bits of the core. LiveRun.advance: ${each} us a tick`);
+console.log(`${ticks} frames of ticks on a fed device have the bits of the core.`);

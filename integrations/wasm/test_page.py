@@ -91,6 +91,10 @@ def test_what_needs_the_studio_says_so_and_has_no_button(page: Page) -> None:
     expect(tab(page, "Health")).to_contain_text("A haptic device needs the studio")
 
 
+def test_nothing_speaks_of_other_pages(page: Page) -> None:
+    expect(page.get_by_text("You have control")).to_be_hidden()
+
+
 def test_the_health_tells_the_rate_by_the_pages_clock_and_what_was_left_out(page: Page) -> None:
     health = tab(page, "Health").locator(".health-figures")
     expect(health).to_contain_text("of 1600 Hz")

@@ -11,7 +11,10 @@ export type Reach = "run" | "scene";
 
 /** The reason why this page cannot change the run now; null if it can. */
 export function blockOf(app: App, reach: Reach = "run"): Block | null {
-  if (app.connection.value.state !== "open") return { reason: "No connection to the studio.", remedy: null };
+  if (app.connection.value.state !== "open") {
+    const reason = app.engine.studio ? "No connection to the studio." : "The core does not run in this page yet.";
+    return { reason, remedy: null };
+  }
   if (!app.source.value.live) {
     const what = app.source.value.paused
       ? "The page is paused; the run goes on."

@@ -12,7 +12,8 @@ export function controlLine(app: App): HTMLElement {
   };
   app.control.watch(show);
   app.connection.watch(show);
-  return element("span", { class: "control" }, words, take);
+  // Without a studio, no other page can have control.
+  return element("span", { class: "control", hidden: !app.engine.studio }, words, take);
 }
 
 /** The button Take control; hidden while this page has control. */

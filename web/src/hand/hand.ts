@@ -67,7 +67,8 @@ export class Hand {
 
   private reason(): string | null {
     const { connection, hello, control, source } = this.app;
-    if (connection.value.state !== "open" || !hello.value) return "The studio is not connected.";
+    if (connection.value.state !== "open" || !hello.value)
+      return this.app.engine.studio ? "The studio is not connected." : "The core does not run in this page yet.";
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
     if (source.value.excerpt) return "A pop is shown again. Go back to the live run to move the needle.";
     if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
