@@ -14,7 +14,7 @@ export function tracePart(app: App): HTMLElement {
   const cancel = element("button", { type: "button", class: "small" }, "Cancel");
   const progress = element("div", { class: "tools progress", role: "status", hidden: true }, bar, step, cancel);
   const trouble = element("p", { class: "error", role: "alert" });
-  const known = element("p", { class: "quiet" });
+  const known = element("p", { class: "quiet", role: "status" });
   const asked = element("div");
   const again = element("button", { type: "button", class: "small", hidden: true }, "Show the result");
   const place = element("div", {}, progress);
