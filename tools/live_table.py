@@ -106,12 +106,16 @@ def measure(tally: Tally, depth: Array, force: Array, noise: float, rng: np.rand
     tally.seconds += len(force) * PERIOD
 
 
+RISE = 1  # the phase in which a membrane resists
+
+
 def count_slope(tally: Tally, told: dict[str, Array], depth: Array, force: Array, top: int) -> None:
     """At 60 % of the way to the greatest force: is the true slope, weighted as the estimate weighs, in its interval?"""
-    start = int(np.argmax(force > 0.03))
-    at = start + int(0.6 * (top - start))
+    contact = int(np.argmax(force > 0.03))
+    at = contact + int(0.6 * (top - contact))
     if not np.isfinite(told["slope_error"][at]):
         return
+    start = at - int(np.argmax(told["phase"][at::-1] != RISE)) + 1  # where the estimate begins its line
     rows = slice(start, at + 1)
     weight = np.sqrt(np.exp((depth[rows] - depth[at]) / 1e-3))
     shape = np.column_stack([np.ones(at + 1 - start), depth[rows]])

@@ -14,11 +14,12 @@ from punctura.identify import Identification
 from punctura.identify.noise import effective_samples
 from punctura.progress import Tell
 from punctura.rivals.chatter import Chatter, places_of, rival_chatter
+from punctura.rivals.first_stretch import StretchFit, compared, first_stretch, k06_on, rival_on
 from punctura.rivals.fit import RivalFit, fit_rival
 from punctura.rivals.k06 import CHOSEN, PRINTED, K06Fit, fit_k06, k06_chatter
 from punctura.rivals.kinds import kinds
 from punctura.rivals.layers import Layer
-from punctura.trace import Segments, Trace, TraceError, segment
+from punctura.trace import Segments, Trace, segment
 from punctura.trace.information import information
 
 Array = NDArray[np.float64]
@@ -38,6 +39,7 @@ class Row:
     bic: float
     held_out_rmse: float  # N, on samples that the fit did not see; NaN if it was not measured
     first_rmse_share: float  # of the peak, fitted from contact to the first pop alone; NaN without a pop
+    first_aic: float  # of that fit, among all models on the stretch
     chatter: Chatter | None
     converged: bool
     starts: int
@@ -85,37 +87,27 @@ def compare_trace(
     if names is not None and PRINTED in names and needle is None:
         raise ConfigurationError([Problem("needle", "", "K06 needs the needle's diameter and tip angle")])
     segments = segment(trace)
-    first = _first_stretch(trace, segments)
+    first = first_stretch(trace, segments)
     fits: list[AnyFit] = []
-    shares: dict[str, float] = {}  # of the first stretch
+    rises: dict[str, StretchFit | None] = {}  # of the first stretch
     for i, name in enumerate(wanted):
         if progress is not None:
             progress(i / len(wanted))
         if name in known:
             fits.append(fit_rival(known[name], trace, segments))
             if first is not None:
-                shares[name] = _share(fit_rival(known[name], first).residuals, first)
+                rises[name] = rival_on(first, known[name])
         elif needle is not None:
             fits += fit_k06(trace, needle, identified)
-            shares |= {} if first is None else _k06_shares(first, needle)
-    return _comparison(trace, segments, fits, shares, with_chatter)
-
-
-def _k06_shares(first: Trace, needle: Needle) -> dict[str, float]:
-    """Of K06 on the first stretch, by name; the extended law is K06 itself if the stretch asks for no extension."""
-    try:
-        found = {fit.name: _share(fit.residuals, first) for fit in fit_k06(first, needle)}
-    except TraceError:  # a stretch that is too short for an identification
-        return {}
-    return found | {CHOSEN: min(found.values())} if found else {}
-
-
-def _share(residuals: Array, trace: Trace) -> float:
-    return float(np.sqrt(np.mean(residuals**2)) / np.max(np.abs(trace.force)))
+            if first is not None:
+                contact = float(trace.depth[segments.contact or 0])
+                rises |= {PRINTED: k06_on(first, needle, contact, False), CHOSEN: k06_on(first, needle, contact, True)}
+    told = {} if first is None else compared({name: one for name, one in rises.items() if one is not None}, first)
+    return _comparison(trace, segments, fits, told, with_chatter)
 
 
 def _comparison(
-    trace: Trace, segments: Segments, fits: list[AnyFit], shares: dict[str, float], with_chatter: bool
+    trace: Trace, segments: Segments, fits: list[AnyFit], rises: dict[str, StretchFit], with_chatter: bool
 ) -> TraceComparison:
     peak = float(np.max(np.abs(trace.force)))
     best = min(fits, key=lambda fit: float(np.sum(fit.residuals**2)))
@@ -127,6 +119,7 @@ def _comparison(
         places = places_of(fit.surface, pop, float(trace.depth.max()))
         rival = fit if isinstance(fit, RivalFit) else None
         rmse = float(np.sqrt(np.mean(fit.residuals**2)))
+        rise = rises.get(fit.name)
         rows.append(
             Row(
                 name=fit.name,
@@ -137,7 +130,8 @@ def _comparison(
                 aic=worth.aic,
                 bic=worth.bic,
                 held_out_rmse=fit.held_out_rmse,
-                first_rmse_share=shares.get(fit.name, float("nan")),
+                first_rmse_share=rise.rmse_share if rise else float("nan"),
+                first_aic=rise.aic if rise else float("nan"),
                 chatter=_chatter(fit, places) if with_chatter else None,
                 converged=rival.converged if rival else True,
                 starts=rival.starts if rival else 1,
@@ -153,12 +147,3 @@ def _comparison(
 
 def _chatter(fit: AnyFit, places: list[float]) -> Chatter:
     return rival_chatter(fit.layers, places) if isinstance(fit, RivalFit) else k06_chatter(fit.scene, places)
-
-
-def _first_stretch(trace: Trace, segments: Segments) -> Trace | None:
-    """The trace up to the first pop, from a little before contact."""
-    if not segments.pops:
-        return None
-    contact, end = segments.contact or 0, segments.pops[0].start + 1
-    start = max(0, contact - (end - contact) // 5)
-    return trace[start:end] if end - start >= 8 else None

@@ -7,7 +7,10 @@ from typing import Any
 
 from punctura.rivals.comparison import Row, TraceComparison
 
-HEAD = ("model", "numbers", "rmse N", "% of peak", "AIC", "BIC", "held out N", "to 1st pop %", "rest mN", "hand mN")
+HEAD = (
+    "model", "numbers", "rmse N", "% of peak", "AIC", "BIC", "held out N", "to 1st pop %", "its AIC", "rest mN",
+    "hand mN",
+)  # fmt: skip
 
 
 def table(comparison: TraceComparison) -> str:
@@ -32,6 +35,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         _number(row.bic, ".1f"),
         _number(row.held_out_rmse, ".4f"),
         _number(100 * row.first_rmse_share, ".2f"),
+        _number(row.first_aic, ".1f"),
         "-" if shake is None else f"{1e3 * shake.rest:.1f}",
         "-" if shake is None else f"{1e3 * shake.hand:.1f}",
     )
@@ -82,6 +86,7 @@ def _entry(row: Row) -> dict[str, Any]:
         "bic": _finite(row.bic),
         "held_out_rmse_N": _finite(row.held_out_rmse),
         "first_stretch_rmse_share": _finite(row.first_rmse_share),
+        "first_stretch_aic": _finite(row.first_aic),
         "chatter_rest_N": None if row.chatter is None else row.chatter.rest,
         "chatter_hand_N": None if row.chatter is None else row.chatter.hand,
         "converged": row.converged,

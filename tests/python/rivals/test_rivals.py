@@ -11,8 +11,9 @@ import pytest
 from punctura.identify.noise import effective_samples
 from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, fit_rival, kinds, load_layers, save_layers
 from punctura.rivals.chatter import places_of, rival_chatter
+from punctura.rivals.first_stretch import compared, first_stretch, k06_on, rival_on
 from punctura.rivals.words import table
-from punctura.trace import Trace
+from punctura.trace import Trace, segment
 from punctura.trace.information import information
 
 NOISE = 2e-3  # N
@@ -67,8 +68,26 @@ def test_the_comparison_puts_the_true_model_first():
     best, _, worst = found.rows
     assert best.held_out_rmse == pytest.approx(NOISE, rel=0.3)
     assert best.first_rmse_share < 0.01 < worst.first_rmse_share
+    assert best.first_aic < worst.first_aic
     assert worst.chatter.rest > 0.1
     assert "exponential to puncture" in table(found).splitlines()[1]
+
+
+def test_on_the_first_rise_a_curved_grip_follows_an_exponential_better_than_a_straight_one():
+    made = trace_of("exponential", TRUE["exponential"])
+    segments = segment(made)
+    stretch = first_stretch(made, segments)
+    contact, needle = float(made.depth[segments.contact]), pn.Needle(1.27e-3, 0.17)
+    fits = {
+        "curved": k06_on(stretch, needle, contact, True),
+        "straight": k06_on(stretch, needle, contact, False),
+        "exponential": rival_on(stretch, kinds()["exponential"]),
+    }
+    told = compared(fits, stretch)
+    assert told["curved"].rmse_share < 0.3 * told["straight"].rmse_share
+    assert told["curved"].aic < told["straight"].aic - 20
+    assert told["exponential"].parameters == 3 and told["curved"].parameters <= 5
+    assert told["exponential"].rmse_share < 0.01
 
 
 def test_two_pops_get_two_layers():
