@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import multiprocessing
 import os
-from collections.abc import Callable, Mapping
+import signal
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -21,6 +26,8 @@ from punctura.identify.population import population
 from punctura.trace import read_trace
 
 SUFFIXES = (".csv", ".txt", ".parquet", ".mat", ".xlsx")
+LONGEST = 200  # bytes of a name; a temporary file adds to it
+DIED = "its process ended early; is there enough memory?"  # tried again by the next run
 
 
 @dataclass(frozen=True)
@@ -60,27 +67,73 @@ def identify_folder(
     paths, out = traces_in(Path(folder)), Path(out)
     if not paths:
         raise ValueError(f"{folder}: holds no trace ({', '.join(SUFFIXES)})")
+    if out.resolve() == Path(folder).resolve():
+        raise ValueError(
+            f"{out}: holds the traces; the results need another folder, because some are Parquet files, too"
+        )
     out.mkdir(parents=True, exist_ok=True)
     results: dict[str, dict[str, Any]] = {}
     for path in paths:
-        known = _known(out / f"{path.name}.json", path, task)
+        known = _known(_result_file(out, path), path, task)
         if known is not None:
             results[path.name] = known
     kept = len(results)
     missing = [path for path in paths if path.name not in results]
-    # "spawn": a forked copy of a program with threads may hang.
-    with ProcessPoolExecutor(processes or os.cpu_count(), multiprocessing.get_context("spawn")) as pool:
-        running = {pool.submit(_one, str(path), task): path for path in missing}
-        for done, future in enumerate(as_completed(running), 1):
-            path = running[future]
-            try:
-                result = future.result()
-            except Exception as error:  # the process of this trace died
-                result = _failed(path, task, f"{type(error).__name__}: {error}")
-            write_whole(out / f"{path.name}.json", json.dumps(result, indent=1).encode())
-            results[path.name] = result
-            progress(done / len(missing))
+    for done, (path, result) in enumerate(_computed(missing, task, processes), 1):
+        results[path.name] = result or _failed(path, task, DIED)
+        if result is not None:
+            write_whole(_result_file(out, path), json.dumps(result, indent=1).encode())
+        progress(done / len(missing))
     return _summary(out, [results[path.name] for path in paths], kept)
+
+
+def _result_file(out: Path, path: Path) -> Path:
+    """The JSON file of a trace. A name that would become too long for a file system ends in a digest."""
+    name = os.fsencode(path.name)
+    if len(name) > LONGEST:
+        return out / f"{path.name[:50]}-{hashlib.sha256(name).hexdigest()[:16]}.json"
+    return out / f"{path.name}.json"
+
+
+def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Iterator[tuple[Path, dict[str, Any] | None]]:
+    """Each path with its result, as they come; None for a trace whose process died. The others do not die with it."""
+    left = list(paths)
+    with _pool(processes or os.cpu_count()) as pool:
+        running = {pool.submit(_one, str(path), task): path for path in left}
+        for future in as_completed(running):
+            if not isinstance(future.exception(), BrokenProcessPool):
+                left.remove(running[future])
+                yield running[future], future.result()
+    for path in left:  # one process died, and all lost their results; which one it was, is not known
+        with _pool(1) as pool:
+            alone = pool.submit(_one, str(path), task)
+            yield path, None if isinstance(alone.exception(), BrokenProcessPool) else alone.result()
+
+
+@contextmanager
+def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
+    """Processes that leave Ctrl-C to this one. After an error, no other trace begins."""
+    # "spawn": a forked copy of a program with threads may hang.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, context, _follow_parent) as pool:
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _follow_parent() -> None:
+    """In a process of the pool: Ctrl-C is the parent's, and if the parent was killed, this process ends, too."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, name="punctura-parent", daemon=True).start()
 
 
 def _one(path: str, task: Task) -> dict[str, Any]:
@@ -89,8 +142,9 @@ def _one(path: str, task: Task) -> dict[str, Any]:
     try:
         trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order)
         told = identify(trace, task.needle, task.membranes).as_dict()
-    except (PuncturaError, OSError, ValueError, ArithmeticError) as error:
-        return _failed(Path(path), task, str(error))
+    except Exception as error:  # a defect in one trace does not stop the others
+        known = isinstance(error, (PuncturaError, OSError, ValueError, ArithmeticError))
+        return _failed(Path(path), task, str(error) if known else f"{type(error).__name__}: {error}")
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}
 
 
@@ -118,7 +172,7 @@ def _known(result: Path, path: Path, task: Task) -> dict[str, Any] | None:
 
 def _summary(out: Path, results: list[dict[str, Any]], kept: int) -> dict[str, Any]:
     rows = [
-        {"trace": Path(told["source"]).name, "rmse_N": told["rmse_N"], "membranes": told["membranes"],
+        {"trace": _shown(told["source"]), "rmse_N": told["rmse_N"], "membranes": told["membranes"],
          "extensions": ", ".join(told["extensions"]), **parameter}
         for told in results if told["error"] is None for parameter in told["parameters"]
     ]  # fmt: skip
@@ -126,6 +180,11 @@ def _summary(out: Path, results: list[dict[str, Any]], kept: int) -> dict[str, A
     for name, table in (("traces.parquet", rows), ("population.parquet", people)):
         with whole_file(out / name) as place:
             pa.parquet.write_table(pa.Table.from_pylist(table), place)
-    failed = {Path(told["source"]).name: told["error"] for told in results if told["error"] is not None}
+    failed = {_shown(told["source"]): told["error"] for told in results if told["error"] is not None}
     return {"traces": len(results), "identified": len(results) - len(failed), "kept": kept, "failed": failed,
             "population": people}  # fmt: skip
+
+
+def _shown(source: str) -> str:
+    """The name of a file as text; bytes that are no UTF-8 become question marks."""
+    return os.fsencode(Path(source).name).decode("utf-8", "replace")

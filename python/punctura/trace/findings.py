@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.samples import gaps_and_spikes, nothing_seen
 from punctura.trace.segment import Segments, baseline, segment, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -23,6 +24,9 @@ _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matte
 
 def examine(trace: Trace) -> Trace:
     """The trace with its findings. A reversed sign and an offset are repaired, and the findings say so."""
+    nothing = nothing_seen(trace)
+    if nothing:
+        return replace(trace, findings=(*trace.findings, *nothing))
     found: list[Finding] = []
     if trace.depth[0] - trace.depth.min() > 2 * (trace.depth.max() - trace.depth[0]):
         trace = replace(trace, depth=-trace.depth)
@@ -42,7 +46,8 @@ def examine(trace: Trace) -> Trace:
             trace = replace(trace, force=trace.force - zero)
             segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N before contact; this is subtracted", True))
-    found += [*_units(trace), *_drift(trace, segments), *_depth_axis(trace, segments), *_missing(trace, segments)]
+    found += [*_units(trace), *gaps_and_spikes(trace), *_drift(trace, segments), *_depth_axis(trace, segments)]
+    found += _missing(trace, segments)
     return replace(trace, findings=(*trace.findings, *found))
 
 

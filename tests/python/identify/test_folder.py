@@ -1,16 +1,21 @@
 """A folder of traces: broken files, resuming, the population; the report and the plan of the next experiment."""
 
 import json
+import os
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from dying import dies
+from punctura.identify import folder as folder_module
 from punctura.identify import identify
 from punctura.identify.folder import Task, identify_folder
 from punctura.identify.plan import information, plans
 from punctura.identify.population import drawn_to_mean, population, random_effects
 from punctura.identify.report import report_html
 from traces import NEEDLE, trace
+
+ROW = {"name": "a", "value": 1.0, "low": 0.9, "high": 1.1, "unit": "N"}
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +51,37 @@ def test_a_broken_file_does_not_stop_the_others_and_a_second_run_keeps_results(t
         identify_folder(tmp_path, out, task)
 
 
+def test_a_process_that_dies_takes_no_other_trace_with_it_and_is_not_kept(tmp_path, monkeypatch):
+    folder, out = tmp_path / "traces", tmp_path / "out"
+    folder.mkdir()
+    for name in ("dies.csv", "z.csv"):
+        (folder / name).write_text("1,2")
+    monkeypatch.setattr(folder_module, "_one", dies)
+    told = identify_folder(folder, out, Task(NEEDLE), 1)
+    assert "memory" in told["failed"]["dies.csv"] and told["failed"]["z.csv"] == "was reached"
+    assert {path.name for path in out.glob("*.json")} == {"z.csv.json"}
+
+
+def test_names_that_are_long_or_no_text_are_files_as_others(tmp_path, monkeypatch):
+    names = [b"l" * 250 + b".csv", b"n\xe4me.csv"]
+    folder = tmp_path / "traces"
+    folder.mkdir()
+    for name in names:
+        (folder / os.fsdecode(name)).write_text("1,2")
+    told = {"error": None, "rmse_N": 0.1, "membranes": 1, "extensions": [], "parameters": [ROW]}
+    monkeypatch.setattr(
+        folder_module,
+        "_computed",
+        lambda paths, task, processes: ((path, told | {"source": str(path)}) for path in paths),
+    )
+    for _ in range(2):
+        assert identify_folder(folder, tmp_path / "out", Task(NEEDLE))["identified"] == 2
+    rows = pq.read_table(tmp_path / "out" / "traces.parquet").to_pylist()
+    assert {row["trace"] for row in rows} == {names[0].decode(), "n\ufffdme.csv"}
+    with pytest.raises(ValueError, match="the results need another folder"):
+        identify_folder(folder, folder, Task(NEEDLE))
+
+
 def test_the_spread_between_traces_is_told_from_their_own_errors():
     rng = np.random.default_rng(6)
     error = rng.uniform(0.5, 1.5, 2000)
@@ -63,9 +99,8 @@ def test_a_value_with_a_large_error_is_drawn_further_to_the_mean():
 
 
 def test_a_population_needs_two_traces_with_both_bounds():
-    row = {"name": "a", "value": 1.0, "low": 0.9, "high": 1.1, "unit": "N"}
-    assert population([row, row | {"low": None}]) == []
-    [told] = population([row, row | {"value": 2.0, "low": 1.8, "high": 2.2}])
+    assert population([ROW, ROW | {"low": None}]) == []
+    [told] = population([ROW, ROW | {"value": 2.0, "low": 1.8, "high": 2.2}])
     assert told["spread_is_relative"] and told["mean"] == pytest.approx(np.sqrt(2), rel=0.02)
 
 

@@ -115,6 +115,8 @@ CHANGES = {
     "no_time": lambda made: {"time_s": None},
     "rows_without_numbers": lambda made: {"force_N": np.where(np.arange(len(made)) % 50 == 7, np.nan, made.force)},
     "time_repeats": lambda made: {"time_s": np.repeat(made.time[::2], 2)[: len(made)]},
+    "gap": lambda made: {"time_s": made.time + (np.arange(len(made)) > 150)},
+    "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
     "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
 
@@ -126,6 +128,20 @@ def test_each_defect_is_named_and_no_other(tmp_path, kind):
     assert kinds(read) == {kind}
     if kind in ("reversed_sign", "offset"):
         assert read.force == pytest.approx(made.force, abs=5e-3)
+
+
+@pytest.mark.parametrize(
+    "kind, changes",
+    [
+        ("no_motion", lambda made, rng: {"depth_mm": rng.normal(size=len(made))}),
+        ("no_force", lambda made, rng: {"force_N": rng.normal(size=len(made))}),
+    ],
+)
+def test_a_trace_that_shows_nothing_is_severe_and_has_no_other_finding(tmp_path, kind, changes):
+    made = trace()
+    path = write_csv(tmp_path / "a.csv", columns_of(made, **changes(made, np.random.default_rng(3))))
+    [finding] = read_trace(path).findings
+    assert finding.kind == kind and finding.severe
 
 
 def test_a_wrong_unit_is_severe(tmp_path):

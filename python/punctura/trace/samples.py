@@ -1,0 +1,44 @@
+"""Names what is wrong with the samples themselves: no motion, no force, gaps, spikes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from punctura.trace.segment import smooth
+from punctura.trace.trace import Finding, Trace
+from punctura.trace.turns import noise_of
+
+
+def nothing_seen(trace: Trace) -> tuple[Finding, ...]:
+    """A depth or a force that is only noise: no model can be fitted. Empty for one that is the same in every sample."""
+    if np.ptp(trace.depth) == 0 or np.ptp(trace.force) == 0:
+        return ()
+    found = []
+    if float(np.ptp(trace.depth)) <= 8 * noise_of(trace.depth):
+        text = "the needle does not move; record an insertion, or choose another column for the depth"
+        found.append(Finding("no_motion", text, severe=True))
+    width = max(1, len(trace) // 100) | 1
+    noise = noise_of(trace.force)
+    if float(np.ptp(smooth(trace.force, width))) <= 7 * noise / np.sqrt(width):
+        text = f"the force does not change by more than its noise, {noise:.2g} N"
+        found.append(Finding("no_force", f"{text}; insert deeper, or choose another column for the force", severe=True))
+    return tuple(found)
+
+
+def gaps_and_spikes(trace: Trace) -> Iterator[Finding]:
+    """Stretches without samples, and single samples that no tissue makes."""
+    if trace.time is not None:
+        steps = np.diff(trace.time)
+        if steps.max() > max(20 * float(np.median(steps)), 5e-3 * float(np.ptp(trace.time))):
+            text = f"no samples for {steps.max():.3g} s behind sample {int(np.argmax(steps)) + 1}"
+            yield Finding("gap", f"{text}; what the needle did there is not known, so the fit can be wrong")
+    force = trace.force
+    rise, fall = force[1:-1] - force[:-2], force[1:-1] - force[2:]
+    alone = np.where((rise > 0) == (fall > 0), np.minimum(np.abs(rise), np.abs(fall)), 0.0)
+    usual = float(np.subtract(*np.percentile(force, (95, 5))))
+    spikes = np.flatnonzero(alone > max(0.5 * usual, 12 * noise_of(force)))
+    if len(spikes):
+        text = f"samples that stand out from both neighbours: {len(spikes)}, by up to {alone.max():.3g} N"
+        yield Finding("spikes", f"{text}; the first is sample {int(spikes[0]) + 2}. Leave them out")
