@@ -71,6 +71,10 @@ def table(result: dict[str, Any]) -> list[str]:
         lines.append(f"  {row['solver']}, {row['trials']} trials, {row['ticks']} ticks")
         for name, t in row["contestants"].items():
             lines.append(f"    {name:9} {t['median_ns']:7.2f} ({t['fastest_ns']:6.2f}) {t['times_faster']:6.2f}")
+    for row in result["hands"]:
+        lines.append(f"  a simulated hand, {row['solver']}, one second at 1600 Hz; scalar is Experiment, tick by tick")
+        for name, t in row["contestants"].items():
+            lines.append(f"    {name:9} {t['median_ns']:7.2f} ({t['fastest_ns']:6.2f}) {t['times_faster']:6.2f}")
     lines.append(f"  bytes for each trial: {result['bytes_per_trial']}, and its law")
     lines.append(
         f"Transcriptions, paper, {TRIALS} trials, {TICKS} ticks: median (fastest); times the time of LineBatch"

@@ -1,4 +1,5 @@
-// Batches of proxies on a line against the core stepped tick by tick, in one program and over the same trials.
+// Batches of proxies on a line, and of trials with a simulated hand, against the core stepped tick by tick, in one
+// program and over the same trials.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -6,9 +7,11 @@
 
 #include "../timing.hpp"
 #include "punctura/model/thick_law.hpp"
+#include "punctura/plant/experiment.hpp"
 #include "punctura/plant/noise.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura_runtime/batch/line_batch.hpp"
+#include "punctura_runtime/batch/scene_batch.hpp"
 
 namespace {
 
@@ -86,6 +89,64 @@ std::vector<Result> measure(Work& work, Solver solver, double seconds) {
   return results;
 }
 
+/// Trials of a second with a simulated hand: Experiment tick by tick without any summary, then batches with theirs.
+/// Exits with 3 if the work of a trial differs in one bit.
+std::vector<Result> measure_hands(std::size_t trials, Solver solver, double seconds) {
+  Scene scene;
+  scene.needle = {1.08e-3, 0.28};
+  scene.coupling = {400, 1};
+  scene.servo.solver = solver;
+  scene.membranes.push_back({"wall", {570, 0.41, 0.2, 1e-3}, {0, 0, 0}, {0, -1, 0}});
+  const Strokes strokes{{0, 3e-3, 0}, {0, -12e-3, 0}, 1, 0.4, 0.1, 0.1};
+  batch::SceneBatch all{.scene = scene, .motion = strokes, .trials = trials, .axis = {0, -1, 0}, .duration = 1};
+  batch::Varied friction{"membrane[0].friction", {}};
+  for (std::size_t i = 0; i < trials; ++i) {
+    friction.values.push_back(0.1 + 0.2 * static_cast<double>(i) / static_cast<double>(trials));
+    all.seeds.push_back(i);
+  }
+  all.varied.push_back(friction);
+  batch::SceneResults results;
+  std::vector<bench::Contestant> contestants{{"core", [&] {
+                                                for (std::size_t i = 0; i < trials; ++i) {
+                                                  scene.membranes[0].membrane.friction = friction.values[i];
+                                                  Experiment run(scene, StrokesMotion(strokes, i), all.axis, {}, {}, i);
+                                                  for (int k = 0; k < 1600; ++k) run.step();
+                                                }
+                                              }}};
+  for (const batch::LineCode* code : batch::line_codes())
+    contestants.push_back({code->name, [&, code] {
+                             batch::RunOptions options;
+                             options.threads = 1;
+                             options.code = code;
+                             batch::run(all, results, options);
+                           }});
+  std::vector<double> work;
+  for (std::size_t i = 1; i < contestants.size(); ++i) {
+    contestants[i].run();
+    if (i == 1)
+      for (const auto& run : results.runs) work.push_back(run.work);
+    for (std::size_t k = 0; k < trials; ++k)
+      if (work[k] != results.runs[k].work) {
+        std::fprintf(stderr, "%s: the work of a trial differs\n", contestants[i].name.c_str());
+        std::exit(3);
+      }
+  }
+  const bench::Times times = bench::time_against_each_other(contestants, trials * 1600, seconds);
+  std::vector<Result> found;
+  for (std::size_t i = 0; i < contestants.size(); ++i)
+    found.push_back({contestants[i].name, times.spreads[i], bench::ratio(times.rounds[0], times.rounds[i])});
+  return found;
+}
+
+void print(const std::vector<Result>& results) {
+  for (const Result& r : results)
+    std::printf(
+        "%s\n      \"%s\": {\"median_ns\": %.4g, \"fastest_ns\": %.4g, \"lower_quartile_ns\": %.4g, "
+        "\"upper_quartile_ns\": %.4g, \"times_faster\": %.4g}",
+        &r == &results.front() ? "" : ",", r.name.c_str(), r.ns.median, r.ns.fastest, r.ns.lower_quartile,
+        r.ns.upper_quartile, r.over_scalar.median);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,17 +161,19 @@ int main(int argc, char** argv) {
       std::printf("%s\n    {\"solver\": \"%s\", \"trials\": %zu, \"ticks\": %zu, \"contestants\": {", first ? "" : ",",
                   solver == Solver::paper ? "paper" : "exact", trials, ticks);
       first = false;
-      const auto results = measure(work, solver, seconds);
-      for (const Result& r : results)
-        std::printf(
-            "%s\n      \"%s\": {\"median_ns\": %.4g, \"fastest_ns\": %.4g, \"lower_quartile_ns\": %.4g, "
-            "\"upper_quartile_ns\": %.4g, \"times_faster\": %.4g}",
-            &r == &results.front() ? "" : ",", r.name.c_str(), r.ns.median, r.ns.fastest, r.ns.lower_quartile,
-            r.ns.upper_quartile, r.over_scalar.median);
+      print(measure(work, solver, seconds));
       std::printf("}}");
       std::fflush(stdout);
       std::fprintf(stderr, ".");
     }
+  }
+  std::printf("\n  ], \"hands\": [");
+  for (const Solver solver : {Solver::paper, Solver::exact}) {
+    std::printf("%s\n    {\"solver\": \"%s\", \"contestants\": {", solver == Solver::paper ? "" : ",",
+                solver == Solver::paper ? "paper" : "exact");
+    print(measure_hands(64, solver, seconds));
+    std::printf("}}");
+    std::fprintf(stderr, ".");
   }
   std::printf("\n  ],\n  \"bytes_per_trial\": %zu\n}\n", sizeof(batch::LineBlock) / batch::block_lanes);
   std::fprintf(stderr, "\n");

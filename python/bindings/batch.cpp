@@ -2,13 +2,13 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/variant.h>
 
-#include <cstdlib>
 #include <optional>
 
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura_runtime/batch/line_batch.hpp"
+#include "simd_code.hpp"
 #include "state.hpp"
 #include "ticks.hpp"
 #include "without_lock.hpp"
@@ -18,19 +18,6 @@ namespace {
 
 using batch::Grid;
 using batch::LineBatch;
-
-/// The instruction set with this name; by default that of the environment variable PUNCTURA_SIMD, or the fastest.
-const batch::LineCode& code_named(const std::optional<std::string>& given) {
-  const char* preset = std::getenv("PUNCTURA_SIMD");
-  const std::string name = given ? *given : preset ? preset : "";
-  if (const batch::LineCode* code = batch::line_code(name)) return *code;
-  std::string names;
-  for (const batch::LineCode* code : batch::line_codes())
-    names += (names.empty() ? "" : ", ") + std::string(code->name);
-  throw nb::value_error(("instructions: this processor or this build has no \"" + name + "\": choose one of " + names +
-                         (given ? "" : " in the environment variable PUNCTURA_SIMD, or remove it"))
-                            .c_str());
-}
 
 /// A LineBatch with the Python objects of its laws.
 struct LawBatch : LineBatch, OneThread {

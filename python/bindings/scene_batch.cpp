@@ -1,4 +1,4 @@
-// runtime/punctura_runtime/batch/scene_batch.hpp: many runs of a scene on several threads.
+// runtime/punctura_runtime/batch/scene_batch.hpp: many runs of a scene in SIMD lanes and on threads.
 #include "punctura_runtime/batch/scene_batch.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bindings.hpp"
+#include "simd_code.hpp"
 #include "ticks.hpp"
 #include "without_lock.hpp"
 
@@ -23,9 +24,11 @@ nb::object column(const std::vector<Struct>& all, Member Struct::* member, const
   return to_numpy(std::move(numbers), shape);
 }
 
-nb::object fault_column(const std::vector<batch::RunNumbers>& runs) {
+/// The same for a member that is a code or a bool.
+template <typename Member>
+nb::object bytes(const std::vector<batch::RunNumbers>& runs, Member batch::RunNumbers::* member) {
   std::vector<std::uint8_t> codes(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) codes[i] = static_cast<std::uint8_t>(runs[i].fault);
+  for (std::size_t i = 0; i < runs.size(); ++i) codes[i] = static_cast<std::uint8_t>(runs[i].*member);
   return to_numpy(std::move(codes), {runs.size()});
 }
 
@@ -51,7 +54,8 @@ SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, st
 
 nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict& vary, std::size_t trials,
                     const nb::object& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& seeds,
-                    double duration, bool keep_force, std::size_t threads, const nb::object& progress) {
+                    double duration, bool keep_force, std::size_t threads,
+                    const std::optional<std::string>& instructions, const nb::object& progress) {
   std::vector<Input> kept;
   SceneBatch all{.scene = scene,
                  .motion = motion_of(motion, axis, trials, kept),
@@ -74,6 +78,7 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
   const Progress told(progress);
   batch::RunOptions options;
   options.threads = threads;
+  options.code = &code_named(instructions);
   options.watch = [&](std::size_t done, std::size_t of) {
     const WithLock lock;
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
@@ -119,7 +124,8 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
   d["work"] = column(results.runs, &R::work, of_trial);
   d["dwell"] = column(results.runs, &R::dwell, of_trial);
   d["limited"] = column(results.runs, &R::limited, of_trial);
-  d["fault"] = fault_column(results.runs);
+  d["fault"] = bytes(results.runs, &R::fault);
+  d["in_lanes"] = bytes(results.runs, &R::in_lanes);
   d["pops"] = column(results.membranes, &M::pops, of_membrane);
   d["first_pop"] = column(results.membranes, &M::first_pop, of_membrane);
   d["drop"] = column(results.membranes, &M::drop, of_membrane);
@@ -134,11 +140,11 @@ void bind_scene_batch(nb::module_& m) {
   m.def(
       "run_scenes", &run_scenes, nb::arg("scene"), nb::arg("motion"), nb::arg("vary"), nb::arg("trials"),
       nb::arg("axis"), nb::arg("plant"), nb::arg("hand"), nb::arg("seeds"), nb::arg("duration"), nb::arg("keep_force"),
-      nb::arg("threads"), nb::arg("progress").none(),
+      nb::arg("threads"), nb::arg("instructions").none(), nb::arg("progress").none(),
       nb::sig("def run_scenes(scene: Scene, motion: typing.Any, vary: dict[str, numpy.typing.NDArray[numpy.float64]], "
               "trials: int, axis: typing.Any, plant: Plant, hand: Hand, "
               "seeds: numpy.typing.NDArray[numpy.uint64], duration: float, keep_force: bool, threads: int, "
-              "progress: Progress) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
+              "instructions: str | None, progress: Progress) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
       "The runs of punctura.batch(). Raises ConfigurationError, ValueError.");
 }
 

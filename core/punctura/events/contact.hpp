@@ -1,7 +1,6 @@
 // Detects the events at one membrane, tick by tick.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "punctura/events/crossing.hpp"
@@ -16,48 +15,78 @@ enum class EventKind : std::uint8_t {
   out,    ///< the tip has left the membrane
 };
 
+/// What Contact reads of a tick. Scalar: a number, or lanes.
+template <typename Scalar>
+struct ContactTick {
+  Scalar depth;           ///< m, see SpaceTick::depth
+  Scalar axial_force;     ///< N
+  Scalar lower;           ///< of the band, N
+  Mask<Scalar> acts;      ///< friction acts
+  Mask<Scalar> in_front;  ///< the tip is in front of the surface
+};
+
+inline ContactTick<double> contact_tick(const MembraneRecord& now) noexcept {
+  // A recording has 255, which is no phase, if a tick does not have the membrane.
+  const bool acts = now.phase <= Phase::barred && inside(now.phase);
+  return {now.depth, now.axial_force, now.lower, acts, now.phase == Phase::outside};
+}
+
 /// Follows the tip at one membrane and reports each event once.
 ///
 /// After a pop, the tip must come back to the depth Crossing::again before the next pop. After a touch, there must be
 /// an `out` before the next touch.
 ///
 /// A tick without a depth changes nothing. A barred membrane has no pop, and the needle must enter it again.
-class Contact {
+template <typename Scalar>
+class BasicContact {
  public:
+  using Truth = Mask<Scalar>;
   /// m. At this distance in front of the surface, the tip is out. The tremor of a hand is smaller.
   static constexpr double clear = 0.25e-3;
 
-  /// One tick. enter() returns the Crossing of the membrane for the present direction of the needle. found(kind,
-  /// force_before, force_after) receives each event.
+  /// One tick. enter(lanes) returns the Crossing of the membrane for the present direction of the needle.
+  /// found(kind, lanes, force_before, force_after) receives each event. lanes: true where it is wanted or happens.
+  template <typename Enter, typename Found>
+  void step(const ContactTick<Scalar>& now, Enter&& enter, Found&& found) noexcept {
+    using namespace lane;
+    const Truth known = now.depth - now.depth == 0;  // finite
+    const Truth acts = known && now.acts, rests = known && !now.acts;
+    const Truth leaves = rests && now.in_front && touched_ && now.depth <= Lane<Scalar>(-clear);
+    if (any(leaves)) {
+      touched_ = touched_ && !leaves;
+      found(EventKind::out, leaves, Scalar(0), Scalar(0));
+    }
+    const Truth enters = acts && !inside_;
+    inside_ = acts || (inside_ && !known);
+    if (any(enters)) {
+      crossing_ = select(enters, enter(enters), crossing_);
+      allow_pop(enters);
+    }
+    const Truth touches = acts && !touched_;
+    if (any(touches)) {
+      touched_ = touched_ || touches;
+      found(EventKind::touch, touches, Scalar(0), Scalar(0));
+    }
+    const Truth is_back = acts && !can_pop_ && now.depth <= crossing_.again;
+    if (any(is_back)) allow_pop(is_back);
+    const Truth can_pop = acts && can_pop_;
+    const Scalar resistance = -now.axial_force;
+    peak_ = select(can_pop && resistance > peak_, resistance, peak_);  // not NaN
+    const Truth pops = can_pop && now.depth >= crossing_.through;
+    if (!any(pops)) return;
+    can_pop_ = can_pop_ && !pops;
+    const Scalar friction = select(now.lower - now.lower == 0, Scalar(-now.lower), resistance);
+    const Truth falls_on = crossing_.settled > crossing_.through;  // a tail: the shaft alone comes behind it
+    const Truth is_number = friction - friction == 0;
+    found(EventKind::pop, pops, peak_, select(is_number && !falls_on, friction, crossing_.shaft));
+  }
+
+  /// The same for the record of a tick: enter(), found(kind, force_before, force_after).
   template <typename Enter, typename Found>
   void step(const MembraneRecord& now, Enter&& enter, Found&& found) noexcept {
-    if (!std::isfinite(now.depth)) return;
-    if (!friction_acts(now.phase)) {
-      inside_ = false;
-      if (now.phase == Phase::outside && touched_ && now.depth <= -clear) {
-        touched_ = false;
-        found(EventKind::out, 0.0, 0.0);
-      }
-      return;
-    }
-    if (!inside_) {
-      crossing_ = enter();
-      inside_ = true;
-      allow_pop();
-    }
-    if (!touched_) {
-      touched_ = true;
-      found(EventKind::touch, 0.0, 0.0);
-    }
-    if (!can_pop_ && now.depth <= crossing_.again) allow_pop();
-    if (!can_pop_) return;
-    const double resistance = -now.axial_force;
-    peak_ = std::fmax(peak_, resistance);  // fmax ignores NaN
-    if (!(now.depth >= crossing_.through)) return;
-    can_pop_ = false;
-    const double friction = std::isfinite(now.lower) ? -now.lower : resistance;
-    const bool falls_on = crossing_.settled > crossing_.through;  // a tail: the shaft alone comes behind it
-    found(EventKind::pop, peak_, std::isfinite(friction) && !falls_on ? friction : crossing_.shaft);
+    step(
+        contact_tick(now), [&](bool) { return enter(); },
+        [&](EventKind kind, bool, double before, double after) { found(kind, before, after); });
   }
 
   /// Changes the law of the membrane. enter(cos_beta) returns its Crossing.
@@ -67,20 +96,18 @@ class Contact {
   }
 
  private:
-  /// Whether friction acts. False for a number that is no phase: a recording has 255 if a tick does not have the
-  /// membrane.
-  static bool friction_acts(Phase phase) noexcept { return phase <= Phase::barred && inside(phase); }
-
-  void allow_pop() noexcept {
-    can_pop_ = true;
-    peak_ = 0;
+  void allow_pop(const Truth& lanes) noexcept {
+    using namespace lane;
+    can_pop_ = can_pop_ || lanes;
+    peak_ = select(lanes, Scalar(0), peak_);
   }
 
-  bool touched_ = false;  // there was a touch, and no out since
-  bool inside_ = false;   // crossing_ is valid
-  bool can_pop_ = false;
-  double peak_ = 0;  // N, the largest resistance since allow_pop()
-  Crossing crossing_{};
+  Truth touched_{false};  // there was a touch, and no out since
+  Truth inside_{false};   // crossing_ is valid
+  Truth can_pop_{false};
+  Scalar peak_{0};  // N, the largest resistance since allow_pop()
+  BasicCrossing<Scalar> crossing_{};
 };
+using Contact = BasicContact<double>;
 
 }  // namespace punctura

@@ -13,16 +13,25 @@
 
 namespace punctura {
 
-/// The characteristic depths along the needle, m, for a needle with n.b = cos_beta.
-struct Crossing {
-  double cos_beta;
-  double far_face;  ///< the tip's point passes the far face: U, K06 (17)
-  double peak;      ///< the insertion friction -Phi_I has its maximum
-  double through;   ///< the slanted face passes the far face, X + U, K06 (18); see crossing()
-  double again;     ///< a tip that comes back to this depth can pop again
-  double shaft;     ///< friction of the shaft alone, N: F U / H, K06 (18)
-  double settled;   ///< the friction is constant from here on. In K06's law: `through`
+/// The characteristic depths along the needle, m, for a needle with n.b = cos_beta. Scalar: a number, or lanes.
+template <typename Scalar>
+struct BasicCrossing {
+  Scalar cos_beta;
+  Scalar far_face;  ///< the tip's point passes the far face: U, K06 (17)
+  Scalar peak;      ///< the insertion friction -Phi_I has its maximum
+  Scalar through;   ///< the slanted face passes the far face, X + U, K06 (18); see crossing()
+  Scalar again;     ///< a tip that comes back to this depth can pop again
+  Scalar shaft;     ///< friction of the shaft alone, N: F U / H, K06 (18)
+  Scalar settled;   ///< the friction is constant from here on. In K06's law: `through`
 };
+using Crossing = BasicCrossing<double>;
+
+template <typename M, Lanes V>
+BasicCrossing<V> select(const M& mask, const BasicCrossing<V>& a, const BasicCrossing<V>& b) noexcept {
+  return {select(mask, a.cos_beta, b.cos_beta), select(mask, a.far_face, b.far_face), select(mask, a.peak, b.peak),
+          select(mask, a.through, b.through),   select(mask, a.again, b.again),       select(mask, a.shaft, b.shaft),
+          select(mask, a.settled, b.settled)};
+}
 
 /// After a pop, the tip must come back by this fraction of its length before the peak. Then it can pop again.
 inline constexpr double pop_again = 0.1;

@@ -25,8 +25,8 @@ concept OneNumber = is_one_number<V>;
 /// - Comparisons that return a mask. A mask has `&&`, `||`, `!` and a constructor from bool. It must not convert to
 ///   bool: an `if` would then apply the decision of one lane to all lanes.
 /// - `select(mask, a, b)`, `any(mask)`, `all(mask)`, `min`, `max` and `sqrt`. Constructors of laws also need `tan`
-///   and `cos`. Argument-dependent lookup finds these functions. min(a, b) is b < a ? b : a, and max(a, b) is a < b ?
-///   b : a.
+///   and `cos`, and encoders `floor`. Argument-dependent lookup finds these functions. min(a, b) is b < a ? b : a, and
+///   max(a, b) is a < b ? b : a.
 ///
 /// All functions must be noexcept and must not allocate memory. Each lane then has the bits of a run with a single
 /// number.
@@ -67,6 +67,10 @@ using std::min;
 template <std::floating_point T>
 T sqrt(T x) noexcept {
   return std::sqrt(x);
+}
+template <std::floating_point T>
+T floor(T x) noexcept {
+  return std::floor(x);
 }
 template <std::floating_point T>
 T tan(T x) noexcept {

@@ -84,7 +84,10 @@ class Vector3 {
     return {v_[1] * b.v_[2] - v_[2] * b.v_[1], v_[2] * b.v_[0] - v_[0] * b.v_[2], v_[0] * b.v_[1] - v_[1] * b.v_[0]};
   }
   constexpr Scalar squaredNorm() const noexcept { return dot(*this); }
-  Scalar norm() const noexcept { return std::sqrt(squaredNorm()); }
+  Scalar norm() const noexcept {
+    using namespace lane;
+    return sqrt(squaredNorm());
+  }
 
   /// The length, also if squares overflow or underflow.
   Scalar stableNorm() const noexcept {

@@ -18,8 +18,9 @@ struct BasicDeviceDynamics {
 
   /// The force that the motors give for a commanded force, N.
   Vector3<Scalar> saturate(const Vector3<Scalar>& force) const noexcept {
+    using namespace lane;
     const Scalar norm = force.norm();
-    return norm > max_force ? force * (max_force / norm) : force;
+    return select(norm > max_force, Vector3<Scalar>(force * (max_force / norm)), force);
   }
 
   void describe(auto& parameters) const { parameters.numbers(mass, friction, encoder_step, max_force); }

@@ -1,18 +1,17 @@
 // Random numbers that are the same on every machine for the same seed.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <type_traits>
 
 #include "punctura/model/vector3.hpp"
+#include "punctura/plant/unit_normal.hpp"
 
 namespace punctura {
 
 /// A random number generator. The C++ standard defines the numbers of std::mt19937_64, but not those of its
-/// distributions. Therefore the distributions are implemented here.
+/// distributions, and not the bits of std::log and std::cos. Therefore the distributions are implemented here.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) noexcept : seed_(seed), engine_(seed) {}
@@ -23,10 +22,10 @@ class Noise {
     return static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
 
-  /// Normal with mean 0 and variance 1, by the Box-Muller method.
+  /// Normal with mean 0 and variance 1.
   double normal() noexcept {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
+    const double u = uniform(), v = uniform();
+    return unit_normal(u, v);
   }
 
   /// Three numbers. They are drawn in the order z, y, x: the compiler chooses the order of a call's arguments.

@@ -1,8 +1,7 @@
 // The budget for continuous force: how much force the motors may still give.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include "punctura/model/lane.hpp"
 
 namespace punctura {
 
@@ -18,7 +17,7 @@ namespace punctura {
 template <typename Scalar>
 class BasicForceBudget {
  public:
-  static constexpr Scalar burst_share = Scalar(0.25);
+  static constexpr auto burst_share = Lane<Scalar>(0.25);
 
   /// window: s. rating: N rms.
   BasicForceBudget(Scalar window, Scalar rating) noexcept
@@ -26,15 +25,22 @@ class BasicForceBudget {
 
   /// Counts a force that was given for a time. square: the squared force, N^2. time: s. NaN empties the budget.
   void spend(Scalar square, Scalar time) noexcept {
+    using namespace lane;
     const Scalar spent = spent_ + (square - rate_) * time;
-    spent_ = std::isnan(spent) ? most() : std::clamp(spent, Scalar(0), most());
+    spent_ = select(spent == spent, min(max(spent, Scalar(0)), most()), most());
   }
 
   /// The square (N^2) of the largest force that the guarantee permits for a time (s).
-  Scalar permitted_square(Scalar time) const noexcept { return rate_ + std::max(Scalar(0), depth_ - spent_) / time; }
+  Scalar permitted_square(Scalar time) const noexcept {
+    using namespace lane;
+    return rate_ + max(Scalar(0), Scalar(depth_ - spent_)) / time;
+  }
 
   /// The part of the bucket that is left, 0 to 1.
-  Scalar left() const noexcept { return std::clamp(1 - spent_ / depth_, Scalar(0), Scalar(1)); }
+  Scalar left() const noexcept {
+    using namespace lane;
+    return min(max(Scalar(1 - spent_ / depth_), Scalar(0)), Scalar(1));
+  }
 
   /// The square (N^2) of the largest constant force.
   Scalar rate() const noexcept { return rate_; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "punctura/model/lane.hpp"
+
 namespace punctura {
 
 /// A first-order low-pass: y += gain (x - y) with gain = 1 - exp(-2 pi f T). This is the exact response to a held
@@ -17,9 +19,16 @@ class LowPass {
  public:
   LowPass(Scalar cutoff_hz, Scalar period) noexcept
       : off_(cutoff_hz == 0), gain_(1 - std::exp(-2 * std::numbers::pi_v<Scalar> * cutoff_hz * period)) {}
+  /// A filter with this gain of a sample, 0 to 1. off: where samples pass unchanged. For lanes, which have no exp().
+  static LowPass of_gain(const Mask<Scalar>& off, const Scalar& gain) noexcept {
+    LowPass filter;
+    filter.off_ = off;
+    filter.gain_ = gain;
+    return filter;
+  }
 
   void reset() noexcept {
-    started_ = false;
+    started_ = Mask<Scalar>(false);
     y_ = {};
   }
 
@@ -39,24 +48,26 @@ class LowPass {
   }
 
   Value step(const Value& x) noexcept {
-    if (off_ || !started_) {
-      y_ = x;
-    } else {
-      y_ = y_ + gain_ * (x - y_);
-    }
-    started_ = true;
+    using namespace lane;
+    y_ = select(off_ || !started_, x, Value(y_ + gain_ * (x - y_)));
+    started_ = Mask<Scalar>(true);
     return y_;
   }
 
-  bool started() const noexcept { return started_; }  ///< whether it has had a sample
-  const Value& last() const noexcept { return y_; }   ///< the last result
-  Scalar gain() const noexcept { return off_ ? Scalar{1} : gain_; }
+  Mask<Scalar> started() const noexcept { return started_; }  ///< whether it has had a sample
+  const Value& last() const noexcept { return y_; }           ///< the last result
+  Scalar gain() const noexcept {
+    using namespace lane;
+    return select(off_, Scalar(1), gain_);
+  }
   /// The lag behind a steady motion, in ticks.
   Scalar lag() const noexcept { return 1 / gain() - 1; }
 
  private:
-  bool off_, started_ = false;
-  Scalar gain_;
+  LowPass() noexcept = default;
+
+  Mask<Scalar> off_{}, started_{};
+  Scalar gain_{};
   Value y_{};
 };
 

@@ -26,6 +26,7 @@ def batch(
     hand: Hand | None = None,
     keep_force: bool = False,
     threads: int | None = None,
+    instructions: str | None = None,
     progress: Progress = None,
 ) -> BatchResult:
     """Runs many trials and returns the numbers of each.
@@ -36,7 +37,9 @@ def batch(
     "membrane[0].friction", "hand.stiffness", "plant.mass", "strokes.duration". seeds: of each trial, or of the first
     one; then they count up. duration: s; default: as long as the motion. axis: direction of the needle; default: the
     first membrane's inward normal. keep_force: also returns the model's force of each tick. threads: default: one for
-    each processor. Each trial has the numbers of the same trial alone. Raises ConfigurationError, ValueError.
+    each processor. instructions: "avx512", "avx2", "sse2", "neon" or "portable"; default: the fastest, or the
+    environment variable PUNCTURA_SIMD. Each trial has the numbers of the same trial alone. Raises
+    ConfigurationError, ValueError.
     """
     base, values = _numbers(scene)
     for path, column in (vary or {}).items():
@@ -71,8 +74,10 @@ def batch(
         math.nan if duration is None else duration,
         keep_force,
         threads or 0,
+        instructions,
         progress,
     )
+    found["in_lanes"] = found["in_lanes"].view(np.bool_)
     kept = tuple(float(x) for x in np.ravel(direction)[:3])
     return BatchResult(**found, vary=values, seeds=own, base=base, motion=motion, plant=plant, hand=hand, axis=kept)
 

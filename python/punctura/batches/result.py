@@ -41,6 +41,7 @@ class BatchResult:
     dwell: Array  # (n,), time inside a membrane, s
     limited: Array  # (n,), share of the ticks in which a limit made the device's force smaller
     fault: npt.NDArray[np.uint8]  # (n,), the code of a Fault; 0 is none
+    in_lanes: npt.NDArray[np.bool_]  # (n,), whether SIMD lanes computed the run; otherwise one number at a time
     pops: npt.NDArray[np.uint32]  # (n, m), number of pops
     first_pop: Array  # (n, m), time of the first pop, s
     drop: Array  # (n, m), largest drop of the model's resistance at a pop, N

@@ -5,7 +5,8 @@
 namespace punctura::batch {
 
 const LineCode& line_code_portable() noexcept {
-  static constexpr LineCode code{"portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>};
+  static constexpr LineCode code{"portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>,
+                                 nullptr,    nullptr};
   return code;
 }
 

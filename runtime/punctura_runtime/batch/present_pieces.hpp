@@ -9,11 +9,15 @@ namespace punctura::batch {
 /// The present pieces of the lanes from `start`. It takes the place of a PiecewiseBand in both solvers.
 ///
 /// A lane leaves its piece in few ticks. Then its next piece comes from its BandTable, one lane after the other.
-template <typename V>
+///
+/// On a line, the depth of a tick is to the last bit that of the tick before, whose piece is present. in_space: it is
+/// not, so a tick looks for its piece.
+template <typename V, bool in_space = false>
 class PresentPieces {
  public:
   using Scalar = V;
 
+  PresentPieces() noexcept = default;
   PresentPieces(LineBlock& block, std::size_t start) noexcept : block_(&block), start_(start) {}
 
   /// The band at depth q (m), N.
@@ -22,6 +26,14 @@ class PresentPieces {
     if (!all(within)) [[unlikely]]
       load(*block_, start_, q, !within);
     return band_here(q);
+  }
+
+  /// The band at the depth that the proxy had before the tick (m), N.
+  Band<V> band_before(const V& q) const noexcept {
+    if constexpr (in_space)
+      return band(q);
+    else
+      return band_here(q);
   }
 
   /// The same if each lane is in its present piece.
@@ -62,17 +74,19 @@ class PresentPieces {
     return V::load(result);
   }
 
-  LineBlock* block_;
-  std::size_t start_;
+  LineBlock* block_ = nullptr;
+  std::size_t start_ = 0;
 };
 
 /// exact_friction() for lanes of which each is in its present piece at q_prev. Most slides end in that piece.
-template <typename V>
-Friction<V> exact_friction(const PresentPieces<V>& now, V q_prev, V f_star, V g) noexcept {
-  const Band<V> band = now.band_here(q_prev);
+template <typename V, bool in_space>
+Friction<V> exact_friction(const PresentPieces<V, in_space>& now, V q_prev, V f_star, V g) noexcept {
+  using P = PhaseOf<V>;
+  const Band<V> band = now.band_before(q_prev);
   const auto in = f_star < band.lower, slides = in || f_star > band.upper;
-  if (!any(slides)) return {f_star, {}};
+  if (!any(slides)) return {f_star, P(Phase::sticking)};
 
+  const P phase = select(in, P(Phase::sliding_in), select(slides, P(Phase::sliding_out), P(Phase::sticking)));
   const Quadratic<V> edge = select(in, now.lower(), now.upper());
   const V direction = select(in, V(1), V(-1));
   const V y = q_prev - now.origin();
@@ -82,8 +96,8 @@ Friction<V> exact_friction(const PresentPieces<V>& now, V q_prev, V f_star, V g)
   const auto stays = x >= 0 && x <= room;
   const V force = select(slides, edge.value(y + direction * x), f_star);
   const auto leaves = slides && !stays;
-  if (!any(leaves)) return {force, {}};
-  return {now.solve_alone(leaves, q_prev, f_star, force), {}};
+  if (!any(leaves)) return {force, phase};
+  return {now.solve_alone(leaves, q_prev, f_star, force), phase};
 }
 
 /// A law for the solvers of core.

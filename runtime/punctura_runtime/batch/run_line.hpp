@@ -1,4 +1,4 @@
-// run_line() for each instruction set, and the choice of the best one that this processor has.
+// run_line() and run_scene() for each instruction set, and the choice of the best one that this processor has.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 
 #include "punctura/proxy/solver.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
+#include "punctura_runtime/batch/scene_block.hpp"
 
 namespace punctura::batch {
 
@@ -14,8 +15,10 @@ struct LineCode {
   const char* name;   ///< "avx512", "avx2", "sse2", "neon" or "portable"
   std::size_t lanes;  ///< doubles in a vector
   RunLine paper, exact;
+  RunScene scene_paper, scene_exact;  ///< null in "portable": one lane at a time is as fast
 
   RunLine of(Solver solver) const noexcept { return solver == Solver::paper ? paper : exact; }
+  RunScene scene_of(Solver solver) const noexcept { return solver == Solver::paper ? scene_paper : scene_exact; }
 };
 
 const LineCode& line_code_portable() noexcept;

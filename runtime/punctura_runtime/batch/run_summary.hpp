@@ -1,12 +1,11 @@
-// The numbers of a run, computed while it runs. They are those of punctura.compare.
+// The numbers of a run, computed while it runs. They are those of punctura.compare. Scalar: a number, or lanes.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <limits>
-#include <vector>
+#include <span>
 
-#include "punctura/events/event_finder.hpp"
+#include "punctura/events/contact.hpp"
 
 namespace punctura::batch {
 
@@ -19,6 +18,7 @@ struct RunNumbers {
   double dwell = 0;            ///< time in which the tip is inside a membrane, s
   double limited = 0;          ///< share of the ticks in which a limit made the device's force smaller
   Fault fault = Fault::none;   ///< that stopped the force
+  bool in_lanes = false;       ///< computed in SIMD lanes; otherwise one number at a time
 };
 
 /// The numbers of a membrane in a run, SI. NaN without a pop.
@@ -29,98 +29,136 @@ struct MembraneNumbers {
   double overshoot = nothing;  ///< farthest the bevel ran on past the membrane after a pop, m
 };
 
+/// What a summary reads of a tick.
+template <typename Scalar>
+struct RunTick {
+  Scalar time;                  ///< s
+  Vector3<Scalar> tip, axis;    ///< m; unit direction of the needle
+  Vector3<Scalar> model_force;  ///< N
+  Vector3<Scalar> force;        ///< of the device, N
+  Mask<Scalar> limited;         ///< a limit made the device's force smaller
+};
+
+/// What a summary keeps of a membrane: BasicRunSummary::Following.
+template <typename Scalar>
+struct MembraneSummary {
+  BasicContact<Scalar> contact{};
+  Scalar pops{0}, first_pop{nothing}, drop{nothing}, overshoot{nothing};
+  Scalar through{0}, until{-std::numeric_limits<double>::infinity()};  // m, s
+};
+
 /// Follows a run, tick by tick. A tick allocates no memory.
-class RunSummary {
+///
+/// Laws: has enter(i, lanes, direction), the Crossing of membrane i for a needle that enters in this direction, and
+/// through(i, lanes), the depth (m) behind which a needle along the axis has passed membrane i.
+template <typename Scalar>
+class BasicRunSummary {
  public:
+  using Vector = Vector3<Scalar>;
+  using Truth = Mask<Scalar>;
   static constexpr double overshoot_time = 0.3;  ///< s after a pop in which the overshoot is measured, as in exercises
 
-  /// scene must have passed check(). device: whether the snapshots have the force of a device.
-  RunSummary(const Scene& scene, bool device)
-      : finder_(scene), device_(device), period_(1 / scene.servo.rate), following_(scene.membranes.size()) {
-    const PlacedMembrane& first = scene.membranes.front();
-    point_ = to_vector(first.point);
-    normal_ = to_vector(first.inward_normal).stableNormalized();
+  /// point, normal: any point of the first surface, m, and its inward normal of length 1. device: whether the ticks
+  /// have the force of a device. membranes: one for each membrane.
+  BasicRunSummary(const Vector& point, const Vector& normal, bool device,
+                  std::span<MembraneSummary<Scalar>> membranes) noexcept
+      : membranes_(membranes), device_(device), point_(point), normal_(normal) {}
+
+  /// now(i): the ContactTick of membrane i. direction(i): b.
+  template <typename Laws, typename Now, typename Direction>
+  void add(const RunTick<Scalar>& t, Laws&& laws, Now&& now, Direction&& direction) noexcept {
+    using namespace lane;
+    const Scalar depth = (t.tip - point_).dot(normal_);
+    depth_ = larger(depth_, depth);
+    peak_ = larger(peak_, resistance(t.model_force, t.axis));
+    if (device_) felt_peak_ = larger(felt_peak_, resistance(t.force, t.axis));
+    limited_ = limited_ + select(t.limited, Scalar(1), Scalar(0));
+
+    Truth is_inside(false), leaves(false);
+    for (std::size_t i = 0; i < membranes_.size(); ++i) {
+      MembraneSummary<Scalar>& membrane = membranes_[i];
+      const ContactTick<Scalar> tick = now(i);
+      is_inside = is_inside || tick.acts;
+      const Scalar number(static_cast<double>(i));
+      membrane.contact.step(
+          tick, [&](const Truth& lanes) { return laws.enter(i, lanes, direction(i)); },
+          [&](EventKind what, const Truth& lanes, const Scalar& before, const Scalar& after) {
+            if (what == EventKind::touch) touched_ = select(lanes && touched_ < 0, number, touched_);
+            if (what == EventKind::out) leaves = leaves || (lanes && touched_ == number);
+            if (what == EventKind::pop) pop(membrane, t.time, lanes, before - after, laws.through(i, lanes));
+          });
+    }
+    inside_ = inside_ + select(is_inside, Scalar(1), Scalar(0));
+
+    const Truth works = touched_ >= 0 && !left_;
+    const Scalar way = started_ ? (t.tip - last_tip_).dot(t.axis) : Scalar(0);
+    now_work_ = select(works, Scalar(now_work_ - t.model_force.dot(t.axis) * way), now_work_);
+    const Truth deepest = works && !(depth <= deepest_);
+    deepest_ = select(deepest, depth, deepest_);
+    work_ = select(deepest, now_work_, work_);
+    left_ = left_ || leaves;
+
+    for (std::size_t i = 0; i < membranes_.size(); ++i) {
+      MembraneSummary<Scalar>& membrane = membranes_[i];
+      const Truth follows = t.time <= membrane.until;
+      if (any(follows))
+        membrane.overshoot =
+            select(follows, larger(membrane.overshoot, now(i).depth - membrane.through), membrane.overshoot);
+    }
+    last_tip_ = t.tip;
+    started_ = true;
   }
 
-  void add(const Snapshot& s) noexcept {
-    const Vector3d tip = to_vector(s.tip), axis = to_vector(s.sample.axis);
-    const double depth = (tip - point_).dot(normal_);
-    numbers_.depth = std::fmax(numbers_.depth, depth);
-    numbers_.peak = std::fmax(numbers_.peak, resistance(to_vector(s.model_force), axis));
-    if (device_) numbers_.felt_peak = std::fmax(numbers_.felt_peak, resistance(to_vector(s.force), axis));
-    numbers_.fault = s.fault;
-    limited_ += s.limit != Limit::none;
-    bool is_inside = false;
-    for (std::size_t i = 0; i < following_.size(); ++i) is_inside = is_inside || inside(s.membranes[i].phase);
-    inside_ += is_inside;
-
-    const std::span<const Event> events = finder_.step(s);
-    for (const Event& event : events)
-      if (event.what == EventKind::touch && touched_ == none) touched_ = event.membrane;
-    if (touched_ != none && !left_) {
-      work_ -= to_vector(s.model_force).dot(axis) * (ticks_ > 0 ? (tip - last_tip_).dot(axis) : 0.0);
-      if (!(depth <= deepest_)) {
-        deepest_ = depth;
-        numbers_.work = work_;
-      }
-    }
-    for (const Event& event : events) {
-      if (event.what == EventKind::out && event.membrane == touched_) left_ = true;
-      if (event.what == EventKind::pop) following_[event.membrane].pop(event, axis, finder_.scene());
-    }
-    for (std::size_t i = 0; i < following_.size(); ++i) following_[i].follow(s.sample.time, s.membranes[i].depth);
-    last_tip_ = tip;
-    ++ticks_;
-  }
-
-  RunNumbers numbers() const noexcept {
-    RunNumbers n = numbers_;
-    n.dwell = static_cast<double>(inside_) * period_;
-    n.limited = ticks_ == 0 ? 0 : static_cast<double>(limited_) / static_cast<double>(ticks_);
+  /// The numbers after some ticks with this period (s), without the fault. pick(x): the number of a lane.
+  template <typename Pick>
+  RunNumbers numbers(double ticks, double period, Pick&& pick) const noexcept {
+    RunNumbers n;
+    n.peak = pick(peak_);
+    n.felt_peak = pick(felt_peak_);
+    n.depth = pick(depth_);
+    n.work = pick(work_);
+    n.dwell = pick(inside_) * period;
+    n.limited = ticks == 0 ? 0 : pick(limited_) / ticks;
     return n;
   }
-  const MembraneNumbers& membrane(std::size_t i) const noexcept { return following_[i].numbers; }
-
- private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-  /// The size of a force on the hand, N; negative if it pulls the needle in.
-  static double resistance(const Vector3d& force, const Vector3d& axis) noexcept {
-    return force.dot(axis) > 0 ? -force.norm() : force.norm();
+  template <typename Pick>
+  MembraneNumbers membrane(std::size_t i, Pick&& pick) const noexcept {
+    const MembraneSummary<Scalar>& m = membranes_[i];
+    return {static_cast<std::uint32_t>(pick(m.pops)), pick(m.first_pop), pick(m.drop), pick(m.overshoot)};
   }
 
-  /// A membrane, and how far the needle runs on after a pop.
-  struct Following {
-    MembraneNumbers numbers{};
-    double through = 0, until = -std::numeric_limits<double>::infinity();  // m, s
+ private:
+  /// The larger one, or the one that is a number.
+  static Scalar larger(const Scalar& a, const Scalar& b) noexcept {
+    using namespace lane;
+    return select(b > a || !(a == a), b, a);
+  }
+  /// The size of a force on the hand, N; negative if it pulls the needle in.
+  static Scalar resistance(const Vector& force, const Vector& axis) noexcept {
+    using namespace lane;
+    const Scalar size = force.norm();
+    return select(force.dot(axis) > 0, Scalar(-size), size);
+  }
+  static void pop(MembraneSummary<Scalar>& m, const Scalar& time, const Truth& lanes, const Scalar& drop,
+                  const Scalar& through) noexcept {
+    using namespace lane;
+    m.first_pop = select(lanes && m.pops == 0, time, m.first_pop);
+    m.pops = m.pops + select(lanes, Scalar(1), Scalar(0));
+    m.drop = select(lanes, larger(m.drop, drop), m.drop);
+    m.overshoot = select(lanes, larger(m.overshoot, Scalar(0)), m.overshoot);
+    m.through = select(lanes, through, m.through);
+    m.until = select(lanes, Scalar(time + overshoot_time), m.until);
+  }
 
-    void pop(const Event& event, const Vector3d& axis, const Scene& scene) noexcept {
-      if (++numbers.pops == 1) numbers.first_pop = event.time;
-      numbers.drop = std::fmax(numbers.drop, event.drop());
-      numbers.overshoot = std::fmax(numbers.overshoot, 0.0);
-      const PlacedMembrane& placed = scene.membranes[event.membrane];
-      const Vector3d normal = to_vector(placed.inward_normal);
-      const TissueLaw law(scene.needle, placed.membrane, placed.tissue);
-      const double cosine = std::abs(axis.dot(normal)) / normal.norm();
-      through = crossing(law, scene.needle, placed.membrane.thickness, cosine).through;
-      until = event.time + overshoot_time;
-    }
-    void follow(double time, double depth) noexcept {
-      if (time <= until) numbers.overshoot = std::fmax(numbers.overshoot, depth - through);
-    }
-  };
-
-  EventFinder finder_;
-  bool device_;
-  double period_;
-  Vector3d point_, normal_;
-  std::vector<Following> following_;
-  RunNumbers numbers_{};
-  std::uint64_t ticks_ = 0, inside_ = 0, limited_ = 0;
-  std::uint32_t touched_ = none;  // number of the membrane that was touched first
-  bool left_ = false;
-  double work_ = 0, deepest_ = -std::numeric_limits<double>::infinity();
-  Vector3d last_tip_;
+  std::span<MembraneSummary<Scalar>> membranes_;
+  bool device_, started_ = false;
+  Vector point_, normal_;
+  Scalar peak_{nothing}, felt_peak_{nothing}, depth_{nothing}, work_{0};
+  Scalar inside_{0}, limited_{0};  // ticks
+  Scalar touched_{-1};             // number of the membrane that was touched first; -1: none
+  Truth left_{false};
+  Scalar now_work_{0}, deepest_{-std::numeric_limits<double>::infinity()};
+  Vector last_tip_{};
 };
 
 }  // namespace punctura::batch

@@ -8,6 +8,9 @@
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/record.hpp"
 #include "punctura_runtime/batch/blocks.hpp"
+#include "punctura_runtime/batch/run_line.hpp"
+#include "punctura_runtime/batch/scene_summary.hpp"
+#include "punctura_runtime/batch/scene_trials.hpp"
 
 namespace punctura::batch {
 namespace {
@@ -63,7 +66,7 @@ class Runner {
 
   void run(std::size_t i) {
     trial_.set(i);
-    RunSummary summary(trial_.scene, !std::holds_alternative<Positions>(all_.motion));
+    SceneSummary summary(trial_.scene, !std::holds_alternative<Positions>(all_.motion));
     if (std::holds_alternative<Strokes>(all_.motion)) {
       StrokesMotion motion(trial_.strokes, all_.seeds[i]);
       const double duration = motion.duration();
@@ -78,9 +81,28 @@ class Runner {
     for (std::size_t j = 0; j < m; ++j) results_.membranes[i * m + j] = summary.membrane(j);
   }
 
+  /// Runs trials [from, to) in lanes, and those that lanes cannot compute alone.
+  void run_lanes(RunScene code, std::size_t from, std::size_t to) {
+    SceneTrials together(all_, results_, work_.stop);
+    std::vector<std::size_t> alone;
+    for (std::size_t i = from; i < to; ++i) {
+      trial_.set(i);
+      if (fits_lanes(trial_.scene))
+        together.add(i, {trial_.scene, trial_.plant, trial_.hand, trial_.strokes});
+      else
+        alone.push_back(i);
+    }
+    if (together.size() > 0) {
+      const auto& again = together.run(code);
+      alone.insert(alone.end(), again.begin(), again.end());
+    }
+    for (const std::size_t i : alone)
+      if (!work_.stop) run(i);
+  }
+
  private:
   template <typename Motion>
-  void experiment(std::size_t i, Motion motion, double whole, RunSummary& summary) {
+  void experiment(std::size_t i, Motion motion, double whole, SceneSummary& summary) {
     Experiment<Motion> one(trial_.scene, std::move(motion), all_.axis, trial_.plant, trial_.hand, all_.seeds[i]);
     const double duration = std::isnan(all_.duration) ? whole : all_.duration;
     const auto ticks = static_cast<std::size_t>(std::llround(duration * trial_.scene.servo.rate));
@@ -91,7 +113,7 @@ class Runner {
     }
   }
 
-  void along(std::size_t i, const Positions& given, RunSummary& summary) {
+  void along(std::size_t i, const Positions& given, SceneSummary& summary) {
     Insertion insertion = build_insertion(trial_.scene);
     const double* p = given.position + static_cast<std::ptrdiff_t>(i) * given.trial_stride;
     Snapshot s{};
@@ -120,10 +142,9 @@ class Runner {
   Trial trial_;
 };
 
-/// Calls each(own, i) for all trials, in blocks on threads; `make` makes what a block owns.
-template <typename Make, typename Each>
-bool for_each_trial(const SceneBatch& all, const RunOptions& options, std::size_t block, Work& work, Make&& make,
-                    Each&& each) {
+/// Calls each(from, to) for all blocks of trials, on threads.
+bool for_each_block_of_trials(const SceneBatch& all, const RunOptions& options, std::size_t block, Work& work,
+                              const std::function<void(std::size_t, std::size_t)>& each) {
   bool stopped = false;
   std::function<bool()> watch;
   if (options.watch)
@@ -132,15 +153,7 @@ bool for_each_trial(const SceneBatch& all, const RunOptions& options, std::size_
       return !stopped;
     };
   for_each_block((all.trials + block - 1) / block, usable_threads(options.threads), work,
-                 [&](std::size_t index) {
-                   auto own = make();
-                   const std::size_t end = std::min(all.trials, (index + 1) * block);
-                   for (std::size_t i = index * block; i < end && !work.stop; ++i) {
-                     each(*own, i);
-                     ++work.done;
-                   }
-                 },
-                 watch);
+                 [&](std::size_t index) { each(index * block, std::min(all.trials, (index + 1) * block)); }, watch);
   return !stopped;
 }
 
@@ -153,15 +166,17 @@ std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& opti
   Work work;
   RunOptions quiet = options;
   if (options.watch) quiet.watch = [&](std::size_t, std::size_t) { return options.watch(0, all.trials); };
-  for_each_trial(
-      all, quiet, 1024, work, [&] { return std::make_unique<Trial>(all); },
-      [&](Trial& trial, std::size_t i) {
-        trial.set(i);
-        std::vector<Problem> problems = trial.problems();
-        if (problems.empty()) return;
-        const std::lock_guard guard(lock);
-        if (!worst || i < worst->trial) worst = {i, std::move(problems)};
-      });
+  for_each_block_of_trials(all, quiet, 1024, work, [&](std::size_t from, std::size_t to) {
+    Trial trial(all);
+    for (std::size_t i = from; i < to && !work.stop; ++i, ++work.done) {
+      trial.set(i);
+      std::vector<Problem> problems = trial.problems();
+      if (problems.empty()) continue;
+      const std::lock_guard guard(lock);
+      if (!worst || i < worst->trial) worst = {i, std::move(problems)};
+      return;  // later trials of the block do not matter
+    }
+  });
   return worst;
 }
 
@@ -169,10 +184,18 @@ bool run(const SceneBatch& all, SceneResults& results, const RunOptions& options
   results.runs.assign(all.trials, {});
   results.membranes.assign(all.trials * all.scene.membranes.size(), {});
   Work work;
-  return for_each_trial(
-      all, options, std::max<std::size_t>(1, std::min<std::size_t>(options.block, 64)), work,
-      [&] { return std::make_unique<Runner>(all, results, work); },
-      [](Runner& runner, std::size_t i) { runner.run(i); });
+  const LineCode& code = options.code ? *options.code : *line_codes().front();
+  const RunScene lanes = code.scene_of(all.scene.servo.solver);
+  const std::size_t block = std::max<std::size_t>(1, std::min<std::size_t>(options.block, block_lanes));
+  return for_each_block_of_trials(all, options, block, work, [&](std::size_t from, std::size_t to) {
+    Runner runner(all, results, work);
+    if (lanes) {
+      runner.run_lanes(lanes, from, to);
+    } else {
+      for (std::size_t i = from; i < to && !work.stop; ++i) runner.run(i);
+    }
+    work.done += to - from;
+  });
 }
 
 }  // namespace punctura::batch

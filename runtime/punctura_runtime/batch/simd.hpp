@@ -70,12 +70,19 @@ class Simd {
   friend Simd min(const Simd& a, const Simd& b) noexcept { return from(Isa::smaller(a.v_, b.v_)); }
   friend Simd max(const Simd& a, const Simd& b) noexcept { return from(Isa::larger(a.v_, b.v_)); }
   friend Simd sqrt(const Simd& a) noexcept { return from(Isa::root(a.v_)); }
+  friend Simd exponent_of(const Simd& a) noexcept { return from(Isa::exponent(a.v_)); }
+  friend Simd significand_of(const Simd& a) noexcept { return from(Isa::significand(a.v_)); }
+  friend Simd floor(const Simd& a) noexcept { return from(Isa::round_down(a.v_)); }
 
  private:
   Native v_;
 };
 
-/// Stands for the phases of the lanes, which a batch does not compute.
+/// An instruction set, for vectors that have phases.
+template <typename Isa>
+struct WithPhases : Isa {};
+
+/// Stands for the phases of the lanes, which a batch on a line does not compute.
 struct NoPhase {
   NoPhase() = default;
   NoPhase(Phase) noexcept {}
@@ -92,6 +99,10 @@ namespace punctura {
 template <typename Isa>
 struct PhaseFor<batch::Simd<Isa>> {
   using type = batch::NoPhase;
+};
+template <typename Isa>
+struct PhaseFor<batch::Simd<batch::WithPhases<Isa>>> {
+  using type = Phases<batch::Simd<batch::WithPhases<Isa>>>;
 };
 
 }  // namespace punctura

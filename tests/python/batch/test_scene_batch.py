@@ -6,7 +6,18 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from numpy.typing import NDArray
-from punctura import ConfigurationError, Hand, Insertion, Plant, RecordedMotion, Strokes, batch, grid, load_scene
+from punctura import (
+    ConfigurationError,
+    Hand,
+    Insertion,
+    Plant,
+    RecordedMotion,
+    Strokes,
+    batch,
+    grid,
+    load_scene,
+)
+from punctura._core import simd_instructions
 from punctura.compare.run import Run
 from punctura.compare.statistics import statistics
 
@@ -37,8 +48,11 @@ def test_a_hand_gives_the_statistics_of_the_run_alone() -> None:
     assert np.ptp(result.peak) > 0
 
 
-def test_threads_do_not_change_a_bit() -> None:
-    one, many = (batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=n) for n in (1, 7))
+def test_threads_and_instructions_do_not_change_a_bit() -> None:
+    one = batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=1)
+    many = batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=7, instructions="portable")
+    assert not many.in_lanes.any()
+    assert one.in_lanes.all() == (simd_instructions()[0] != "portable")
     for name in ("peak", "felt_peak", "depth", "work", "dwell", "limited", "pops", "first_pop", "drop", "overshoot"):
         assert getattr(one, name).tobytes() == getattr(many, name).tobytes()
 
@@ -83,6 +97,8 @@ def test_wrong_arguments() -> None:
         batch(SCENE, STROKES, vary={"hand.grip": [1, 2]})
     with pytest.raises(ValueError, match="different numbers of trials"):
         batch(SCENE, STROKES, vary={"hand.mass": [0.1, 0.2]}, trials=3)
+    with pytest.raises(ValueError, match="instructions"):
+        batch(SCENE, STROKES, trials=2, instructions="mmx")
     with pytest.raises(ValueError, match="keep_force needs a duration"):
         batch(SCENE, STROKES, trials=2, keep_force=True)
     with pytest.raises(ValueError, match=r"scene\[1\] differs"):

@@ -1,0 +1,75 @@
+// Trials of a scene that are computed together: their constants, and the inputs of some ticks. The tip follows a
+// simulated hand with a device, or given positions.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "punctura_runtime/batch/line_block.hpp"
+#include "punctura_runtime/batch/run_summary.hpp"
+
+namespace punctura::batch {
+
+using LaneVectors = std::array<LaneNumbers, 3>;  ///< a Vector3 for each lane
+
+/// A membrane of each trial of a block, with K06's coupling.
+struct MembraneBlock {
+  LineBlock band{};               ///< the pieces for the direction in which each lane entered
+  LaneVectors point{}, normal{};  ///< m; of length 1
+};
+
+/// The ticks whose inputs are ready at once.
+inline constexpr std::size_t scene_ticks = 16;
+
+/// What the lanes of a block need from outside, seldom.
+class SceneOwner {
+ public:
+  /// Computes the inputs of these ticks.
+  virtual void prepare(std::size_t tick, std::size_t ticks) noexcept = 0;
+  /// Lane start + i of `lanes` lanes has entered a membrane with n.b = cosine[i], perhaps long ago.
+  virtual void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept = 0;
+  /// The crossing of a lane that has entered a membrane in the direction b. axis: of the sample.
+  virtual Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept = 0;
+  /// See BasicRunSummary. axis: of the sample.
+  virtual double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept = 0;
+  /// A lane has made its last tick. strange: something happened that lanes do not compute, so its numbers are void.
+  virtual void ended(std::size_t lane, bool strange, const RunNumbers& run,
+                     std::span<const MembraneNumbers> membranes) noexcept = 0;
+  /// The forces of the model are in SceneBlock::force.
+  virtual void keep(std::size_t tick, std::size_t ticks) noexcept = 0;
+  virtual bool stopped() const noexcept = 0;
+
+ protected:
+  ~SceneOwner() = default;
+};
+
+/// A block. SI.
+struct SceneBlock {
+  // The device and the hand, as in DeviceDynamics and Hand. h: step of the plant, s.
+  LaneNumbers device_mass, friction, encoder_step, max_force;
+  LaneNumbers mass, damping, stiffness, h;
+  LaneNumbers tremor_a1, tremor_a2, tremor_b;
+  LaneVectors phase, place;  ///< offset of the encoders, in steps; where the tip starts, m
+  // The servo step.
+  LaneNumbers rate, period, low_pass_is_off, low_pass_gain, force_scale;
+  std::vector<MembraneBlock> membranes;
+  std::array<std::size_t, block_lanes> ticks;  ///< of each lane
+  std::size_t trials;                          ///< lanes in use; the others repeat the last one
+
+  // The inputs of scene_ticks ticks, and their forces.
+  struct Inputs {
+    LaneVectors position, velocity;  ///< desired by the hand; without a hand, position is the given one
+    LaneVectors noise[2];            ///< uniform in [0, 1)
+    Vector3d told_axis, axis;        ///< of the sample, and as the model uses it
+  };
+  std::array<Inputs, scene_ticks> inputs;
+  std::array<LaneVectors, scene_ticks> force;
+  bool has_hand, keeps_force;
+  SceneOwner* owner;
+};
+
+/// Makes all ticks of a block, unless it is stopped.
+using RunScene = void (*)(SceneBlock& block);
+
+}  // namespace punctura::batch
