@@ -17,9 +17,9 @@ from starlette.datastructures import QueryParams
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
+from punctura.studio import limits
 from punctura.studio.computing import LabError, lines_of, take_place
 from punctura.studio.download import Download
-from punctura.studio.limits import UNREAD_S
 from punctura.studio.names import LONGEST, BadName, safe_name
 from punctura.studio.security import FILES
 from punctura.studio.trace_job import TraceJob
@@ -98,25 +98,21 @@ async def _received(request: Request, name: str) -> Path:
     """A new folder with the body as a file. Raises Late, LabError, TooLarge, OSError."""
     folder = Path(tempfile.mkdtemp(prefix="punctura-"))
     try:
-        await _receive(request, folder / name)
-    except BaseException:
+        await asyncio.wait_for(_receive(request, folder / name), limits.FILE_S)
+    except BaseException as error:
         shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, asyncio.TimeoutError):
+            raise Late(f"the file did not arrive within {limits.FILE_S:g} s; send it again") from None
         raise
     return folder
 
 
 async def _receive(request: Request, path: Path) -> None:
     """Writes the body to a file while it comes."""
-    pieces = aiter(request.stream())
     with path.open("wb") as file:
         try:
-            while True:
-                piece = await asyncio.wait_for(anext(pieces), UNREAD_S)
+            async for piece in request.stream():
                 await run_in_threadpool(file.write, piece)
-        except StopAsyncIteration:
-            return
-        except asyncio.TimeoutError:
-            raise Late("the file did not arrive in time; send it again") from None
         except ClientDisconnect:
             raise LabError("the file did not arrive whole") from None
 

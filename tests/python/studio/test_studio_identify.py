@@ -12,7 +12,7 @@ import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice
 from punctura.record import RecordingError
-from punctura.studio import computing, security, traces
+from punctura.studio import computing, limits, security, traces
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_TRACE
 from punctura.studio.loaded import from_text
@@ -154,6 +154,17 @@ def test_a_file_that_is_too_large_is_refused(served, monkeypatch):
     monkeypatch.undo()
     [told] = lines(served, FILE, b"no numbers")  # the place is free again
     assert told["kind"] == "error" and told["field"] == "file"
+
+
+def test_a_file_that_comes_too_slowly_frees_the_place(served, monkeypatch):
+    monkeypatch.setattr(limits, "FILE_S", 0.2)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
+    head = {"Authorization": f"Bearer {served.address.token}", "Content-Length": "1000"}
+    connection.request("POST", FILE, b"0,1\n", head)  # the rest never comes
+    answer = connection.getresponse()
+    assert answer.status == 408 and b"did not arrive within 0.2 s" in answer.read()
+    monkeypatch.undo()
+    wait_until(lambda: send(served, FILE, csv())[0].status == 200)
 
 
 def test_a_file_is_sent_to_its_own_addresses_only_and_with_the_token(served):
