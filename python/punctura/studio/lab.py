@@ -5,7 +5,6 @@ from __future__ import annotations
 import collections
 import json
 import re
-import sys
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -20,13 +19,13 @@ from punctura.compare.comparison import On
 from punctura.compare.vary import MOST_RUNS
 from punctura.compare.worker import Job, Variation
 from punctura.scene import scene_text
-from punctura.studio.computing import LabError, lines_of, take_place
+from punctura.studio.computing import LabError, lines_of, take_place, worker
 from punctura.studio.download import Download
 from punctura.studio.session import Session
 
 # Fields on which no curve of a comparison depends: the simulation has no thumb that presses the syringe.
 _OF_THE_SYRINGE = re.compile(r"syringe\.|membrane\[\d+\]\.(outflow|behind)_")
-COMMAND = [sys.executable, "-m", "punctura.compare.worker"]
+COMMAND = worker("punctura.compare.worker")
 CHUNK = 1 << 16
 KEPT_SCENES = 32  # of the last variations, for their zip files
 LONGEST_ID = 64

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import shutil
-import sys
 import tempfile
 import threading
 import unicodedata
@@ -18,7 +17,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
 from punctura.studio import limits
-from punctura.studio.computing import LabError, lines_of, take_place
+from punctura.studio.computing import LabError, lines_of, take_place, worker
 from punctura.studio.download import Download
 from punctura.studio.names import LONGEST, BadName, safe_name
 from punctura.studio.security import FILES
@@ -26,9 +25,10 @@ from punctura.studio.trace_job import TraceJob
 from punctura.studio.wire.identified import ErrorLine
 
 FILE, IDENTIFY = FILES
-COMMAND = [sys.executable, "-m", "punctura.studio.trace_worker"]
+COMMAND = worker("punctura.studio.trace_worker")
 ALIVE_S = 0.25  # after which a client that has gone is noticed
 LONGEST_WORD = 200  # characters of a value
+ENDINGS = {".csv", ".tsv", ".txt", ".parquet", ".mat", ".xlsx"}  # others could be code, such as .py
 
 
 class Late(Exception):
@@ -63,7 +63,7 @@ class Traces:
 
 def _job(task: Literal["look", "identify"], asked: QueryParams) -> TraceJob:
     """Raises LabError."""
-    if any(len(value) > LONGEST_WORD for value in asked.values()):
+    if any(len(value) > LONGEST_WORD for _, value in asked.multi_items()):
         raise LabError(f"a value has at most {LONGEST_WORD} characters")
     return TraceJob(
         task=task,
@@ -85,13 +85,14 @@ def _pairs(words: list[str]) -> dict[str, str]:
 
 
 def file_name(name: str) -> str:
-    """The name as that of a file in one folder. Its ending stays, because it tells the format."""
+    """The name as that of a file in one folder. An ending that tells a format stays; others become text."""
     kept = "".join("_" if c in '/\\:*?"<>|' or unicodedata.category(c)[0] == "C" else c for c in name)
+    if Path(kept).suffix.lower() not in ENDINGS:
+        kept = f"{kept.strip(' .') or 'trace'}.txt"
     try:
         return safe_name(kept[-LONGEST:].strip(" ."))
     except BadName:
-        ending = "".join(c for c in Path(kept).suffix if c.isalnum())[:10]
-        return f"trace.{ending}" if ending else "trace"
+        return f"trace{Path(kept).suffix.lower()}"
 
 
 async def _received(request: Request, name: str) -> Path:

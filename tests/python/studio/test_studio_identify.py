@@ -198,6 +198,15 @@ def alive(process):
     return False
 
 
+def test_a_file_is_never_run_as_code(served, tmp_path, monkeypatch):
+    monkeypatch.setattr(traces, "file_name", lambda name: name)  # as if a name of a module were kept
+    code = f"open({str(tmp_path / 'ran')!r}, 'w')"
+    for name in ("numpy.py", "punctura.py", "json.py"):
+        [told] = lines(served, FILE, code.encode(), name=name)
+        assert told["kind"] == "error" and told["field"] == "file"
+    assert not (tmp_path / "ran").exists()
+
+
 def test_a_worker_that_ends_early_tells_why(served, monkeypatch):
     monkeypatch.setattr(traces, "COMMAND", [sys.executable, "-c", "raise TypeError('a wrong number')"])
     [told] = lines(served, FILE, csv())
@@ -206,7 +215,15 @@ def test_a_worker_that_ends_early_tells_why(served, monkeypatch):
 
 @pytest.mark.parametrize(
     "name, kept",
-    [("a.csv", "a.csv"), ("../../etc/x.csv", "_.._etc_x.csv"), ("", "trace"), ("nul.xlsx", "trace.xlsx")],
+    [
+        ("a.csv", "a.csv"),
+        ("../../etc/x.csv", "_.._etc_x.csv"),
+        ("", "trace.txt"),
+        ("nul.xlsx", "trace.xlsx"),
+        ("numpy.py", "numpy.py.txt"),
+        ("matplotlibrc", "matplotlibrc.txt"),
+        ("a.CSV", "a.CSV"),
+    ],
 )
 def test_a_file_gets_a_safe_name_that_keeps_its_ending(name, kept):
     assert file_name(name) == kept
