@@ -14,7 +14,9 @@ from punctura.progress import progress_bar
 
 
 def command(
-    trace: Annotated[Path, typer.Argument(help="CSV, Parquet, MAT, XLSX, or a recording.", metavar="TRACE")],
+    trace: Annotated[
+        Path, typer.Argument(exists=True, help="CSV, Parquet, MAT, XLSX, or a recording.", metavar="TRACE")
+    ],
     models: Annotated[
         str | None, typer.Option("--models", help="Names, with commas between. Default: all.", metavar="NAMES")
     ] = None,

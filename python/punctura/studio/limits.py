@@ -37,7 +37,7 @@ FILES_KEPT = 192  # of these, for the device, recordings, exports and what Pytho
 STRANGER_S = 10.0  # for a whole request with the token to arrive; then the connection is ended
 IDLE_S = 15.0  # between two requests of a connection that has shown the token
 CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it
-FILE_S = 60.0  # for a whole file of a measured trace to arrive; meanwhile nothing else is computed
+FILE_S = 60.0  # for a whole file of a measured trace to arrive
 UNREAD_S = 30.0  # for the other end to continue reading, when MOST_BUFFERED is reached
 SWEEP_S = 0.5  # between two checks of all connections
 

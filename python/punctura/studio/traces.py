@@ -27,6 +27,7 @@ from punctura.studio.wire.identified import ErrorLine
 FILE, IDENTIFY = FILES
 COMMAND = worker("punctura.studio.trace_worker")
 ALIVE_S = 0.25  # after which a client that has gone is noticed
+MOST_RECEIVED = 2  # files at a time, so that a slow page does not keep another one waiting
 LONGEST_WORD = 200  # characters of a value
 ENDINGS = {".csv", ".tsv", ".txt", ".parquet", ".mat", ".xlsx"}  # others could be code, such as .py
 
@@ -40,6 +41,7 @@ class Traces:
 
     def __init__(self, place: threading.BoundedSemaphore) -> None:
         self._place = place
+        self._receiving = asyncio.Semaphore(MOST_RECEIVED)
 
     async def file(self, request: Request) -> Response:
         """What a file holds: its columns, and what it does not state."""
@@ -51,14 +53,18 @@ class Traces:
 
     async def _answer(self, task: Literal["look", "identify"], request: Request) -> Response:
         job = _job(task, request.query_params)
-        await run_in_threadpool(take_place, self._place)
-        try:
+        async with self._receiving:
             folder = await _received(request, job.file)
+        return await run_in_threadpool(self._download, job, folder)
+
+    def _download(self, job: TraceJob, folder: Path) -> Response:
+        """The answer, which frees the place and removes the folder at its end."""
+        try:
+            take_place(self._place)
+            return Download(_lines(job, folder), self._place, media_type="application/x-ndjson")
         except BaseException:
-            self._place.release()
+            shutil.rmtree(folder, ignore_errors=True)
             raise
-        media = "application/x-ndjson"
-        return await run_in_threadpool(lambda: Download(_lines(job, folder), self._place, media_type=media))
 
 
 def _job(task: Literal["look", "identify"], asked: QueryParams) -> TraceJob:
