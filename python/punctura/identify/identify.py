@@ -11,10 +11,11 @@ import numpy as np
 from punctura import Needle, Scene
 from punctura.identify.choose import choose, thinned
 from punctura.identify.criteria import Candidate
-from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.fit import Fit, Misfit, Start, best_fit
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
+from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.scene import scene_of
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
@@ -107,9 +108,11 @@ def identify(
     final = few_fit = candidates[0].fit
     if not all_used:
         tell("all samples")
-        final = fit(Misfit(trace, final.parameters), final.free.names, final.parameters)
+        # Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
+        ends = [Start(parameters) for parameters in (final.parameters, *final.others)]
+        final = with_pops_moved(best_fit(Misfit(trace, final.parameters), final.free.names, ends))
     tell("intervals")
-    found = estimates(final, few_fit.others)
+    found = estimates(final, (few_fit.parameters, *few_fit.others))
     effective = effective_samples(final.residuals, len(final.u))
     return Identification(trace, segments, final, found, verdicts(found, trace, segments), candidates, effective)
 
