@@ -74,7 +74,7 @@ class AnyExperiment : public OneThread {
  private:
   template <typename E>
   nb::object made(E& experiment, std::size_t n, const nb::object& progress) {
-    TickColumns<decltype(experiment_table), ExperimentExtra> columns(experiment_table);
+    ExperimentColumns columns;
     columns.reserve(n, experiment.servo().snapshot().membrane_count);
     const Running running(*this);
     make_ticks(

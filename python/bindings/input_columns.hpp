@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tick_columns.hpp"
+#include "tick_store.hpp"
 
 namespace punctura::bindings {
 

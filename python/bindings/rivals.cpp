@@ -198,7 +198,7 @@ nb::object experiment(const Scene& scene, const std::vector<AnyRival>& given, co
     using Motion = decltype(laid_out);
     Experiment<Motion, RivalServoStep> one(build_rivals(scene, rivals), 1 / scene.servo.rate, std::move(laid_out), axis,
                                            plant, hand, seed);
-    TickColumns<decltype(experiment_table), ExperimentExtra> columns(experiment_table);
+    ExperimentColumns columns;
     columns.reserve(n, scene.membranes.size());
     make_ticks(
         n,

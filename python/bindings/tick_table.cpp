@@ -3,7 +3,7 @@
 
 #include "bindings.hpp"
 #include "punctura/plant/experiment_table.hpp"
-#include "tick_columns.hpp"
+#include "tick_store.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {

@@ -1,0 +1,127 @@
+// Converts snapshots to columns, by the table of tick fields.
+#include "tick_columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tick_store.hpp"
+
+namespace punctura::bindings {
+namespace {
+
+/// Python gets it as a MemoryError.
+class NoRoom : public std::bad_alloc {
+ public:
+  explicit NoRoom(std::size_t rows)
+      : text_("not enough memory for the columns of " + std::to_string(rows) + " ticks: make the run in parts") {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+template <typename Table, typename Extra>
+struct TickColumns<Table, Extra>::Columns {
+  const Table& table;
+  std::array<bool, std::tuple_size_v<Table>> wanted{};
+  ColumnsOf<Table, Extra> columns{};
+  std::size_t rows = 0, most = 0;
+
+  template <typename Do>
+  void each(Do&& act) {
+    for_each_field(table, [&](const auto& field, auto i) {
+      if (wanted[i]) act(field, std::get<i>(columns));
+    });
+  }
+
+  /// For a scene with more membranes: earlier rows get absent values for the new ones.
+  void widen(std::size_t membranes) {
+    each([&](const auto& field, auto& column) {
+      using Put = FieldStore<decltype(field), Extra>;
+      if constexpr (std::remove_cvref_t<decltype(field)>::per_membrane) {
+        std::remove_reference_t<decltype(column)> wide(rows * membranes * Put::width, absent<typename Put::Type>());
+        for (std::size_t row = 0; row < rows; ++row)
+          std::copy_n(&column[row * most * Put::width], most * Put::width, &wide[row * membranes * Put::width]);
+        column = std::move(wide);
+      }
+    });
+    most = membranes;
+  }
+};
+
+template <typename Table, typename Extra>
+TickColumns<Table, Extra>::TickColumns(const Table& table, std::initializer_list<std::string_view> only)
+    : columns_(new Columns{table}) {
+  for_each_field(table, [&](const auto& field, auto i) {
+    columns_->wanted[i] = only.size() == 0 || std::find(only.begin(), only.end(), field.name) != only.end();
+  });
+}
+
+template <typename Table, typename Extra>
+TickColumns<Table, Extra>::~TickColumns() = default;
+
+template <typename Table, typename Extra>
+void TickColumns<Table, Extra>::reserve(std::size_t rows, std::size_t membranes) {
+  columns_->most = std::max(columns_->most, membranes);
+  try {
+    columns_->each([&](const auto& field, auto& column) {
+      column.reserve(rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width);
+    });
+  } catch (const std::exception&) {  // std::bad_alloc or std::length_error
+    throw NoRoom(rows);
+  }
+}
+
+template <typename Table, typename Extra>
+void TickColumns<Table, Extra>::add(const Snapshot& record, const Extra& extra) {
+  if (record.membrane_count > columns_->most) columns_->widen(record.membrane_count);
+  columns_->each([&, most = columns_->most](const auto& field, auto& column) {
+    using Put = FieldStore<decltype(field), Extra>;
+    const std::size_t at = column.size();
+    if constexpr (std::remove_cvref_t<decltype(field)>::per_membrane) {
+      column.resize(at + most * Put::width, absent<typename Put::Type>());
+      for (std::size_t m = 0; m < record.membrane_count; ++m)
+        Put::put(&column[at + m * Put::width], field.get(record.membranes[m]));
+    } else {
+      column.resize(at + Put::width);
+      if constexpr (std::remove_cvref_t<decltype(field)>::part == TickPart::extra)
+        Put::put(&column[at], field.get(extra));
+      else
+        Put::put(&column[at], field.get(record));
+    }
+  });
+  ++columns_->rows;
+}
+
+template <typename Table, typename Extra>
+nb::object TickColumns<Table, Extra>::to_ticks(std::size_t components, bool single) {
+  nb::dict columns;
+  columns_->each([&](const auto& field, auto& column) {
+    using Put = FieldStore<decltype(field), Extra>;
+    std::vector<std::size_t> shape{columns_->rows};
+    if (field.per_membrane && !single) shape.push_back(columns_->most);
+    if constexpr (Put::width == 3) {
+      if (components == 1) {
+        for (std::size_t i = 0; 3 * i < column.size(); ++i) column[i] = column[3 * i];
+        column.resize(column.size() / 3);
+      } else {
+        shape.push_back(3);
+      }
+    }
+    nb::object array = to_numpy(std::move(column), shape);
+    if constexpr (std::is_same_v<typename Put::Value, bool>) array = array.attr("view")("bool");
+    columns[field.name] = std::move(array);
+  });
+  return nb::module_::import_("punctura.ticks").attr("Ticks")(columns);
+}
+
+template class TickColumns<std::remove_const_t<decltype(tick_table)>>;
+template class TickColumns<std::remove_const_t<decltype(experiment_table)>, ExperimentExtra>;
+
+}  // namespace punctura::bindings

@@ -1,0 +1,67 @@
+// How the field of a tick is stored in an array.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "punctura/servo/tick_table.hpp"
+
+namespace punctura::bindings {
+
+/// The NumPy type of a field's numbers.
+template <typename Value>
+struct Stored {
+  using Type = std::conditional_t<std::is_enum_v<Value> || std::is_same_v<Value, bool>, std::uint8_t, Value>;
+  static constexpr std::size_t width = 1;
+  static void put(Type* at, Value value) noexcept { *at = static_cast<Type>(value); }
+};
+template <>
+struct Stored<Triple> {
+  using Type = double;
+  static constexpr std::size_t width = 3;
+  static void put(double* at, const Triple& value) noexcept { std::copy(value.begin(), value.end(), at); }
+};
+
+/// The struct that holds a field, and the stored type.
+template <typename Field, typename Extra = std::monostate>
+using PartOf =
+    std::conditional_t<std::remove_cvref_t<Field>::part == TickPart::membrane, MembraneRecord,
+                       std::conditional_t<std::remove_cvref_t<Field>::part == TickPart::extra, Extra, Snapshot>>;
+template <typename Field, typename Extra = std::monostate>
+struct FieldStore : Stored<typename std::remove_cvref_t<Field>::template Value<PartOf<Field, Extra>>> {
+  using Value = typename std::remove_cvref_t<Field>::template Value<PartOf<Field, Extra>>;
+};
+
+/// One std::vector for each field of a table.
+template <typename Table, typename Extra>
+struct ColumnsOfTable;
+template <typename... Fields, typename Extra>
+struct ColumnsOfTable<std::tuple<Fields...>, Extra> {
+  using Type = std::tuple<std::vector<typename FieldStore<Fields, Extra>::Type>...>;
+};
+template <typename Table, typename Extra = std::monostate>
+using ColumnsOf = typename ColumnsOfTable<std::remove_const_t<Table>, Extra>::Type;
+
+/// The NumPy name of a type.
+template <typename T>
+std::string dtype_name() {
+  if constexpr (std::is_same_v<T, bool>) return "bool";
+  return (std::is_floating_point_v<T> ? "float" : "uint") + std::to_string(8 * sizeof(T));
+}
+
+/// Value in a membrane's column for ticks whose scene does not have that membrane.
+template <typename T>
+constexpr T absent() noexcept {
+  if constexpr (std::is_floating_point_v<T>)
+    return std::numeric_limits<T>::quiet_NaN();
+  else
+    return std::numeric_limits<T>::max();
+}
+
+}  // namespace punctura::bindings
