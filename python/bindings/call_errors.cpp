@@ -1,8 +1,10 @@
-// Plain words for a call with wrong arguments, in place of nanobind's list of signatures.
+// Every call of this module: it is counted for the end of the program, and wrong arguments are told in plain words, in
+// place of nanobind's list of signatures.
 #include <array>
 #include <string_view>
 
 #include "bindings.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -44,6 +46,7 @@ void explain(PyObject* function, PyObject* const* given, std::size_t count, PyOb
 
 template <std::size_t kind>
 PyObject* call(PyObject* function, PyObject* const* given, std::size_t flags_and_count, PyObject* words) {
+  const InCall in_call;
   PyObject* result = calls[kind](function, given, flags_and_count, words);
   if (!result) explain(function, given, flags_and_count & 0xffffffff, words);  // the upper bits are flags
   return result;

@@ -250,11 +250,11 @@ void bind_runtime(nb::module_& m) {
       const WithoutLock release;
       ServoLoop::stop_all();
     }
-    WithoutLock::end_program();
+    EndOfProgram::begin();
   }));
   const nb::module_ os = nb::module_::import_("os");
   if (nb::hasattr(os, "register_at_fork"))  // not on Windows
-    os.attr("register_at_fork")(nb::arg("after_in_child") = nb::cpp_function([] { WithoutLock::begin_child(); }));
+    os.attr("register_at_fork")(nb::arg("after_in_child") = nb::cpp_function([] { EndOfProgram::begin_child(); }));
 }
 
 }  // namespace punctura::bindings

@@ -9,58 +9,106 @@
 
 namespace punctura::bindings {
 
-/// Releases the GIL until the end of the block, like nb::gil_scoped_release. But a daemon thread that wants the GIL
-/// back during program exit waits here forever: up to version 3.13, Python ends such a thread by unwinding its C++
-/// frames, which aborts the process.
-class WithoutLock {
+/// Threads at the end of the program. Up to version 3.13, Python ends a daemon thread that wants the GIL during exit
+/// by unwinding the thread's frames, which aborts the process if C++ frames are among them. Therefore the thread that
+/// ends the program waits until no other thread is in a call of this module, and then none can begin or resume one.
+///
+/// The counts change only while the GIL is held, apart from `taking_`.
+class EndOfProgram {
  public:
-  WithoutLock() noexcept : state_(PyEval_SaveThread()) {}
-  WithoutLock(const WithoutLock&) = delete;
-  ~WithoutLock() {
-    begin_to_take();
-    PyEval_RestoreThread(state_);
-    taking_.fetch_sub(1);
-  }
-
-  /// Call in the thread that ends the program (registered with atexit). From then on no other thread takes the GIL.
-  static void end_program() {
+  /// Call in the thread that ends the program (registered with atexit).
+  static void begin() {
     last_ = std::this_thread::get_id();
     ends_.store(true);
-    PyThreadState* state = PyEval_SaveThread();
-    // A thread that did not see ends_ has counted itself before. It gets the GIL now, however busy the computer is.
-    while (taking_.load() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    PyEval_RestoreThread(state);
+    const int own = depth_ > 0 ? 1 : 0;
+    // Limited, because a function of the user, such as `progress`, may never return.
+    for (int ms = 0; ms < 2000 && (taking_.load() > 0 || calls_ > own); ++ms) {
+      PyThreadState* state = PyEval_SaveThread();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      PyEval_RestoreThread(state);
+    }
   }
 
-  /// Call in the child of a fork: its other threads do not exist, those that were about to take the GIL included.
-  static void begin_child() noexcept { taking_.store(0); }
+  /// Call in the child of a fork, where the other threads of the parent do not exist.
+  static void begin_child() noexcept {
+    taking_.store(0);
+    calls_ = depth_ > 0 ? 1 : 0;
+  }
 
  private:
+  friend class WithoutLock;
   friend class WithLock;
+  friend class InCall;
 
+  static bool ends_for_this_thread() noexcept { return ends_.load() && std::this_thread::get_id() != last_; }
+  [[noreturn]] static void wait_forever() noexcept {
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+  /// Before the GIL is taken. After it, fetch_sub.
   static void begin_to_take() noexcept {
     taking_.fetch_add(1);
-    if (!ends_.load() || std::this_thread::get_id() == last_) return;
+    if (!ends_for_this_thread()) return;
     taking_.fetch_sub(1);
-    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+    wait_forever();
   }
 
   inline static std::atomic<bool> ends_{false};
   inline static std::atomic<int> taking_{0};  ///< threads that take the GIL back now
+  inline static int calls_ = 0;  ///< threads in a call of this module that have not released the GIL with WithoutLock
+  inline static thread_local int depth_ = 0;  ///< calls of this module in this thread, one inside the other
   inline static std::thread::id last_{};
+};
+
+/// A call of a function of this module, from its begin to its end. The GIL is held.
+class InCall {
+ public:
+  InCall() noexcept {
+    if (EndOfProgram::ends_for_this_thread()) {
+      PyEval_SaveThread();
+      EndOfProgram::wait_forever();
+    }
+    if (EndOfProgram::depth_++ == 0) ++EndOfProgram::calls_;
+  }
+  InCall(const InCall&) = delete;
+  ~InCall() {
+    if (--EndOfProgram::depth_ == 0) --EndOfProgram::calls_;
+  }
+};
+
+/// Releases the GIL until the end of the block, like nb::gil_scoped_release. At the end of the program, a thread that
+/// wants the GIL back waits here forever.
+class WithoutLock {
+ public:
+  WithoutLock() noexcept {
+    if (EndOfProgram::depth_ > 0) --EndOfProgram::calls_;
+    state_ = PyEval_SaveThread();
+  }
+  WithoutLock(const WithoutLock&) = delete;
+  ~WithoutLock() {
+    EndOfProgram::begin_to_take();
+    PyEval_RestoreThread(state_);
+    if (EndOfProgram::depth_ > 0) ++EndOfProgram::calls_;
+    EndOfProgram::taking_.fetch_sub(1);
+  }
+
+ private:
   PyThreadState* state_;
 };
 
-/// Takes the GIL inside a WithoutLock block until the end of this block, with the same answer at program exit.
+/// Takes the GIL inside a WithoutLock block until the end of this block, with the same answer at the program's end.
 class WithLock {
  public:
   WithLock() noexcept {
-    WithoutLock::begin_to_take();
+    EndOfProgram::begin_to_take();
     state_ = PyGILState_Ensure();
-    WithoutLock::taking_.fetch_sub(1);
+    ++EndOfProgram::calls_;
+    EndOfProgram::taking_.fetch_sub(1);
   }
   WithLock(const WithLock&) = delete;
-  ~WithLock() { PyGILState_Release(state_); }
+  ~WithLock() {
+    --EndOfProgram::calls_;
+    PyGILState_Release(state_);
+  }
 
  private:
   PyGILState_STATE state_{};

@@ -29,6 +29,9 @@ def ended(program):
     "run",
     [
         "pn.Insertion(scene).run(np.zeros((200_000, 3)), (0, -1, 0), progress=lambda share: began.set())",
+        # Nearly all of the time in Python code that the run calls, or that makes its result.
+        "pn.Insertion(scene).run(np.zeros((9, 3)), (0, -1, 0), progress=lambda _: began.set() or sum(range(10**6)))",
+        "pn.Insertion(scene).run(np.zeros((1, 3)), (0, -1, 0)), began.set()",
         "pn.batch(scene, motion=np.zeros((2000, 3)), trials=64, progress=lambda share: began.set())",
     ],
 )
