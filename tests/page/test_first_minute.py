@@ -1,13 +1,11 @@
 """The first minute: four things to do, and the pop once more, slowly."""
 
-import contextlib
 import re
 
 import pytest
 from person import drag_in, events, opened, tab, ticks_come, view
 from playwright.sync_api import expect
 
-RATE = 1600  # Hz, of the simulated device
 # View, plot and table show the same time; the table rounds it to a millisecond.
 ONE_MOMENT = """() => {
   const text = (at) => document.querySelector(at).textContent;
@@ -49,20 +47,18 @@ def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slow
     bar = page.get_by_role("group", name="Replay")
     expect(bar).to_be_visible()
     bar.get_by_role("button", name="Next event").click()  # the only event of these 100 ms: the pop
-    moment = page.locator(".player output")
-    expect(moment).to_have_text(re.compile(r"[+]\s*0[.]0 ms"))
-    forward = bar.get_by_role("button", name="Forward one tick")
-    for _ in range(9):  # a busy page may miss a click
-        if "1.9" in moment.inner_text():
-            break
-        before = moment.inner_text()
-        forward.click()
-        with contextlib.suppress(AssertionError):
-            expect(moment).not_to_have_text(before, timeout=3000)
-    expect(moment).to_have_text(re.compile(r"[+]\s*1[.]9 ms"))
+    expect(page.locator(".player output")).to_have_text(re.compile(r"[+]\s*0[.]0 ms"))
     page.wait_for_function(ONE_MOMENT)
     told = float(events(page, "pop").locator(".event-time").inner_text().removesuffix(" s"))
-    assert float(view(page).get_attribute("data-time")) - told == pytest.approx(3 / RATE, abs=6e-4)
+    assert float(view(page).get_attribute("data-time")) == pytest.approx(told, abs=6e-4)
+    # Ticks are counted: their times are those of a real clock, so a busy computer makes some of them longer.
+    scrubber = page.get_by_label("Time in the recording")
+    pop = int(scrubber.input_value())
+    for tick in range(pop + 1, pop + 4):
+        bar.get_by_role("button", name="Forward one tick").click()
+        expect(scrubber).to_have_value(str(tick))
+    page.wait_for_function(ONE_MOMENT)
+    assert float(view(page).get_attribute("data-time")) > told
     page.get_by_role("button", name="Back to live").click()
     expect(bar).to_be_hidden()
 
