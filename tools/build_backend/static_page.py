@@ -63,7 +63,7 @@ def write_data(folder: Path) -> None:
     from punctura import __version__
     from punctura._core import Fault
     from punctura.scene import scene_json_schema, scene_names
-    from punctura.studio.fault_words import fault_words
+    from punctura.studio.fault_words import STILL_OFF, fault_words
     from punctura.studio.loaded import from_name
     from punctura.studio.wire.messages import PROTOCOL
 
@@ -74,6 +74,7 @@ def write_data(folder: Path) -> None:
         "first": FIRST,
         "scenes": [{"name": n, "title": loaded.scene.name, "tables": loaded.tables()} for n, loaded in scenes],
         "faults": {fault.name: fault_words(fault) for fault in Fault if fault is not Fault.none},
+        "still_off": STILL_OFF,
     }
     (folder / MARK).write_text(json.dumps(data), encoding="utf-8")
     (folder / "schema.json").write_text(json.dumps(scene_json_schema()), encoding="utf-8")

@@ -40,6 +40,7 @@ _WORDS: dict[Fault, tuple[str, str]] = {
     ),
 }
 NO_TICKS = "The device has stopped."
+STILL_OFF = "The force is still off. Press the button Turn force on when you are ready."  # at the start of a run
 
 
 def fault_words(fault: Fault) -> tuple[str, str]:

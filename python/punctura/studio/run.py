@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from punctura import Scene, Target
-from punctura._core import Device, Placement, ServoLoop, SimulatedDevice
+from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice
 from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for, room_note
 from punctura.record import Recorder
 from punctura.studio.hand import Pose, resting_pose
@@ -112,6 +112,12 @@ class Run:
     def read(self) -> Ticks:
         """All ticks since the last read."""
         return self._listener.read()
+
+    @property
+    def faulted(self) -> bool:
+        """Whether the last tick was in the state of a fault."""
+        ticks = self.loop.latest()
+        return len(ticks) > 0 and int(ticks.fault[-1]) != Fault.none.value
 
     @property
     def lost(self) -> int:

@@ -10,6 +10,7 @@ from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
 from punctura.studio.defects import Defects
 from punctura.studio.estimating import no_estimate
+from punctura.studio.fault_words import STILL_OFF
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
 from punctura.studio.jobs import Jobs
@@ -92,16 +93,15 @@ class Runs:
         self.activities.ticks(self.pump.change(self.run.loop.scene, say))
 
     def arm(self) -> None:
-        """Allows force once the tip is outside tissue, unless a pause came after the present request."""
-        self.arming.arm(self.run.loop)
+        """A person allows force once the tip is outside tissue, unless a pause came after the present request."""
+        self.arming.turn_on(self.run.loop)
 
     def reset(self) -> None:
-        """Clears a fault. If the ticks had ceased, a new run begins, which is armed only if the user asks for it."""
+        """Clears a fault. If the ticks had ceased, a new run begins. There is no force until the user asks for it."""
+        self.arming.withhold()
         if not self.run.loop.running:
             self.begin_again()
-            self.run.loop.pause()
         self.run.loop.reset()
-        self.arming.armed = False
 
     def set_compare(self, on: bool) -> None:
         self.compare = on
@@ -116,6 +116,8 @@ class Runs:
     def end_run(self, then: Then | None = None) -> None:
         """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
         self.run.stop()
+        if self.run.faulted:
+            self.arming.withhold()
         self.turn()
         finish_activity = self.activities.stop()
         name, self.recording = self.recording, ""
@@ -140,10 +142,12 @@ class Runs:
         self.pump.compare(self.compare)
         self.pump.estimate(self.estimate)
         self.hand.take(self.run.loop.device, self.run.pose)
-        self.arm()
+        self.arming.begin(self.run.loop)
         self.out.say(no_fault())
         self.activities.tell_idle()
         self.out.say(scene_message(self.run, self.pump.laws(), new_run=True))
+        if not self.arming.armed:
+            self.out.say(Notice(text=STILL_OFF))
         self.run.start()
         self.watch()
 

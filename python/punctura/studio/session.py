@@ -104,6 +104,7 @@ class Session(Runs):
     def _ticks_ceased(self, loop: ServoLoop, words: str) -> None:
         """The watchdog stops this loop."""
         if loop is self.run.loop:
+            self.arming.withhold()
             self.out.say(no_ticks(words))
             self.defects.guard(self.end_run)
             if trouble := loop.device.trouble():  # after the stop: the driver may take time to answer

@@ -13,6 +13,8 @@ export interface StudioData {
   readonly first: string;
   /** What happened at a fault, and what to do, by its name. */
   readonly faults: Readonly<Record<string, readonly [string, string]>>;
+  /** Of a new run whose force waits for a person. */
+  readonly still_off: string;
 }
 export type Tables = Readonly<Record<string, unknown>>;
 

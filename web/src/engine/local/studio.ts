@@ -29,6 +29,7 @@ export class LocalStudio {
   private tables: Tables = {};
   private number = -1;
   private fault = NO_FAULT;
+  private withheld = false; // force, until a person turns it on: it was turned off, or there was a fault
   private armed = false;
   private comparing = false;
   private estimating = false;
@@ -114,14 +115,15 @@ export class LocalStudio {
       case "arm":
         this.run.arm();
         this.armed = true;
+        this.withheld = false;
         return DONE;
       case "pause":
         this.run.pause();
-        this.armed = false;
+        this.withhold();
         return DONE;
       case "reset":
         this.run.reset();
-        this.armed = false;
+        this.withhold();
         return DONE;
       case "strokes":
         this.run.strokes(Math.min(60, Math.max(0.5, request.period ?? 4)));
@@ -174,10 +176,11 @@ export class LocalStudio {
     this.thumbEnds = Number.POSITIVE_INFINITY;
     if (this.comparing) this.run.compare(true);
     if (this.estimating) this.run.estimate(true);
-    this.run.arm();
-    this.armed = true;
+    this.armed = !this.withheld;
+    if (this.armed) this.run.arm();
     this.out.message(noFault());
     this.tellScene(true);
+    if (!this.armed) this.out.message({ kind: "notice", text: this.data.still_off });
   }
 
   private edit(tables: Tables): Partial<Answer> {
@@ -200,10 +203,16 @@ export class LocalStudio {
     this.thumbEnds = force > 0 ? this.now() + THUMB_MS : Number.POSITIVE_INFINITY;
   }
 
+  private withhold(): void {
+    this.withheld = true;
+    this.armed = false;
+  }
+
   private watchFault(faults: Uint8Array, firstTick: number): void {
     const last = faults.at(-1) ?? NO_FAULT;
     if (last === this.fault) return;
     this.fault = last;
+    if (last !== NO_FAULT) this.withhold();
     const name = FAULTS[last];
     const words = name && this.data.faults[name];
     this.out.message(

@@ -13,6 +13,7 @@ const DATA = {
     { name: "skin", title: "Skin", tables: { name: "Skin" } },
   ],
   faults: { non_finite_input: ["It was no number.", "Check the cable."] },
+  still_off: "The force is still off.",
 } as const;
 const SCHEMA = { properties: { name: {}, servo: { properties: { rate_hz: { default: 1600 } } } } };
 
@@ -141,7 +142,34 @@ describe("the studio in a page", () => {
     expect(last("status")).toMatchObject({ ticks: 160, lost: 1440, armed: false, hand: "strokes", compare: true });
     expect(last("status").statements.join()).toContain("1,440 ticks were left out");
     studio.ask({ do: "load", scene: "skin" });
-    expect(core.told.slice(-3)).toEqual(["free", "compare true", "arm"]);
+    expect(core.told.slice(-2)).toEqual(["free", "compare true"]);
+  });
+
+  const armings = (): number => core.told.filter((line) => line === "arm").length;
+  it.each([
+    ["it was turned off", () => void studio.ask({ do: "pause" })],
+    [
+      "a fault",
+      () => {
+        core.fault = 1;
+        advance(10);
+        core.fault = 0;
+      },
+    ],
+    ["a reset", () => void studio.ask({ do: "reset" })],
+  ])("turns the force on after %s only if it is asked to", (_, act) => {
+    act();
+    studio.ask({ do: "load", scene: "skin" });
+    expect(last("notice")).toMatchObject({ text: "The force is still off." });
+    studio.ask({ do: "load_text", toml: 'name = "Own"' });
+    studio.tellStatus();
+    expect(last("status").armed).toBe(false);
+    expect(armings()).toBe(1); // that of the start
+    studio.ask({ do: "arm" });
+    studio.ask({ do: "load", scene: "skin" });
+    studio.tellStatus();
+    expect(last("status").armed).toBe(true);
+    expect(armings()).toBe(3);
   });
 
   it("says of everything that needs a disk or Python that it needs the studio", () => {
