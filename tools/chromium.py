@@ -14,6 +14,8 @@ FLAGS = [
 
 
 def launch(playwright: Playwright) -> Browser:
-    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    assert found, "Chromium is missing: apt-get install chromium"
+    # Debian's headless shell first: the page's tests need half the time in it.
+    names = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+    found = next(filter(None, map(shutil.which, names)), None)
+    assert found, "Chromium is missing: apt-get install chromium-headless-shell (or chromium)"
     return playwright.chromium.launch(executable_path=found, args=FLAGS)

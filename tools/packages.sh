@@ -15,7 +15,9 @@ has_sanitizers() {
   return $code
 }
 has_header() { printf '#include <%s>\n' "$1" | g++ -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; }
-has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
+has_browser() {
+  command -v chromium-headless-shell || command -v chromium || command -v chromium-browser || command -v google-chrome
+} >/dev/null
 has_cyclictest() { command -v cyclictest >/dev/null; }
 has_siconos() {
   /usr/bin/python3 -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("siconos") is None)' 2>/dev/null
@@ -24,7 +26,7 @@ has_siconos() {
 # find_missing KIND: sets `missing` to Debian's package names, and `needs` to descriptions for other systems.
 find_missing() {
   missing="" needs=""
-  local lacking="$python_lacks" compiler="${CXX:-c++}" prefix="python$python_minor"
+  local browser lacking="$python_lacks" compiler="${CXX:-c++}" prefix="python$python_minor"
   if [ "$python" = "$(readlink -f /usr/bin/python3 2>/dev/null)" ]; then prefix=python3; fi
   lack() { missing="$missing $1" needs="$needs
   - $2"; }
@@ -39,7 +41,10 @@ find_missing() {
   has_compiler clang++ || lack clang "clang++, the second compiler of the tests"
   has_sanitizers ||
     lack libclang-rt-dev "the address and undefined-behaviour sanitizers of clang++ (Fedora: compiler-rt)"
-  has_browser || lack chromium "Chromium (or Google Chrome), in which the studio's page is tested"
+  # Debian's Chromium without windows starts and draws faster than the whole one.
+  browser=chromium-headless-shell
+  known $browser || browser=chromium
+  has_browser || lack $browser "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
   has_header toml++/toml.h || lack libtomlplusplus-dev "toml++, a TOML reader for C++ (its header as toml++/toml.h)"
   # An independent solver for the system's Python, compared with the clamp. Only some Debian releases have it. Elsewhere

@@ -21,7 +21,8 @@ python3 "$root/tools/build_backend/studio_page.py" --modules
 "$root/web/node_modules/.bin/tsc" --noEmit --strict --target es2022 --module nodenext "$here/example_types.mts"
 
 need_module playwright playwright
-command -v chromium >/dev/null || command -v google-chrome >/dev/null ||
-  { echo "chromium is missing. Debian: apt-get install chromium"; exit 77; }
+command -v chromium-headless-shell >/dev/null || command -v chromium >/dev/null ||
+  command -v google-chrome >/dev/null ||
+  { echo "Chromium is missing. Debian: apt-get install chromium-headless-shell"; exit 77; }
 python3 "$root/tools/build_backend/static_page.py" --keep-wasm "$work/page"
 python3 -m pytest -q -p no:cacheprovider "$here/test_page.py" --page "$work/page"
