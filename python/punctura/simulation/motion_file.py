@@ -16,6 +16,7 @@ from punctura.simulation.lines import read_lines
 from punctura.simulation.motion_error import MotionError
 
 BLOCK_BYTES = 2 << 20
+LONGEST_LINE = 1 << 16  # bytes
 
 Array = NDArray[np.float64]
 
@@ -53,6 +54,9 @@ class MotionFile:
         with self.path.open("rb") as file:
             file.seek(self._data_start)
             for text in _whole_lines(file):
+                if len(text) - text.rfind(b"\n", 0, -1) > LONGEST_LINE:
+                    line += text.count(b"\n") - text.endswith(b"\n")
+                    raise MotionError(self.path, line, f"has more than {LONGEST_LINE:,} bytes; write one row in a line")
                 rows = self._numbers(text, line)
                 axis = rows[:, 4:7] if self.has_axis else None
                 yield Block(line, file.tell(), rows[:, 0], rows[:, 1:4], axis)
@@ -70,6 +74,8 @@ def _whole_lines(file: IO[bytes]) -> Iterator[bytes]:
         text = rest + read
         filled = len(text.rstrip())  # keep blank lines for later: they are an error only if another line follows
         cut = (text.find(b"\n", filled) + 1 or text.rfind(b"\n", 0, filled) + 1) if filled else 0
+        if filled - cut > LONGEST_LINE:  # an endless line would fill the memory
+            cut = filled
         if cut:
             yield text[:cut]
         rest = text[cut:]

@@ -10,6 +10,7 @@ from punctura.trace.trace import TraceError
 
 ROLES = ("depth", "force", "time")
 REQUIRED = ("depth", "force")
+_MOST_LISTED = 30  # columns in a message
 
 # Size of a unit in SI units.
 UNITS: dict[str, dict[str, float]] = {
@@ -74,7 +75,8 @@ def choose_columns(names: Sequence[str], columns: Mapping[str, str | int] | None
 
     Raises ColumnError that lists the names if a role is unclear.
     """
-    listed = ", ".join(repr(name) for name in names)
+    listed = ", ".join(repr(name) for name in names[:_MOST_LISTED])
+    listed += f" and {len(names) - _MOST_LISTED} more" if len(names) > _MOST_LISTED else ""
     chosen: dict[str, int] = {}
     for role, wanted in (columns or {}).items():
         if role not in ROLES:

@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.record import RecordingError, open_recording
+from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns, unit_size
 from punctura.trace.findings import examine
+from punctura.trace.size import check_size
 from punctura.trace.tables import Table, read_table
 from punctura.trace.trace import Finding, Trace, TraceError
 
@@ -57,11 +59,18 @@ def is_recording(path: Path) -> bool:
 
 
 def _from_recording(path: Path) -> Trace:
-    ticks = open_recording(path).ticks()
-    axis = ticks.axis / np.linalg.norm(ticks.axis, axis=1, keepdims=True)
-    depth = np.sum((ticks.position - ticks.position[0]) * axis, axis=1)
-    force = -np.sum(ticks.force * axis, axis=1)
-    return Trace(depth, force, ticks.time, str(path))
+    """Batch by batch, because all columns of a recording need many times the memory of a trace."""
+    recording = open_recording(path)
+    check_size(path, recording.rows, 3)
+    first, parts = None, [np.empty((0, 3))]
+    for batch in recording.batches():
+        ticks = ticks_of(batch)
+        first = ticks.position[0] if first is None else first
+        axis = ticks.axis / np.linalg.norm(ticks.axis, axis=1, keepdims=True)
+        depth = np.sum((ticks.position - first) * axis, axis=1)
+        parts.append(np.column_stack((depth, -np.sum(ticks.force * axis, axis=1), ticks.time)))
+    depth, force, time = np.concatenate(parts).T
+    return Trace(depth, force, time, str(path))
 
 
 def _from_table(

@@ -16,6 +16,7 @@ import pyarrow.csv
 from numpy.typing import NDArray
 
 from punctura.trace.heading import column_names, first_row
+from punctura.trace.size import LONGEST_NAME, MOST_COLUMNS, check_size
 from punctura.trace.trace import TraceError
 
 Array = NDArray[np.float64]
@@ -40,8 +41,13 @@ def read_text(path: Path) -> dict[str, Array]:
     delimiter = _delimiter(numbers[-_LOOKED_AT:])
     if delimiter == " ":
         lines = [re.sub(r"\s+", " ", line.strip()) for line in lines]
+    looked_at = numbers[:_LOOKED_AT] + numbers[-_LOOKED_AT:]
+    check_size(path, 0, max(1 + line.count(delimiter) for line in looked_at))
+    if max(map(len, looked_at)) > LONGEST_NAME * MOST_COLUMNS:
+        raise TraceError(f"{path}: a line has more than {LONGEST_NAME * MOST_COLUMNS:,} characters; export it again")
     last = [_cells(line, delimiter) for line in lines[-_LOOKED_AT:] if not line.startswith(("#", "%"))]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
+    check_size(path, len(lines), width)
     decimal = "," if any(_DECIMAL_COMMA.fullmatch(cell) for row in last for cell in row) else "."
     head = [[] if line.startswith(("#", "%")) else _cells(line, delimiter) for line in lines[:_LOOKED_AT]]
     first = first_row(head, width, decimal)
@@ -74,7 +80,11 @@ def _delimiter(lines: Sequence[str]) -> str:
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])]
+    reader = csv.reader([line], delimiter=delimiter, skipinitialspace=True)
+    try:
+        return [cell.strip() for cell in next(reader, [])]
+    except csv.Error:  # a cell of more than 131,072 characters
+        return [line]
 
 
 def _parsed(path: Path, lines: list[str], names: list[str], delimiter: str, decimal: str) -> dict[str, Array]:

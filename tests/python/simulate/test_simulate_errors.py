@@ -215,6 +215,11 @@ def test_a_rate_that_changes_on_the_way_is_told_near_the_change(tmp_path, monkey
     assert message.endswith("resample the motion evenly first (numpy.interp does it)")
 
 
+def test_a_line_without_an_end_is_refused(tmp_path):
+    message = error_of(tmp_path, [HEADER, *LINES[:3], "0" * 70_000])
+    assert message == "line 5: has more than 65,536 bytes; write one row in a line"
+
+
 def problems_of(*arguments):
     with pytest.raises(ConfigurationError) as caught:
         simulate(*arguments)

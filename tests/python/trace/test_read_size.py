@@ -1,0 +1,113 @@
+"""Files of some kilobytes that expand to more than a trace may hold are refused before memory is taken for them."""
+
+import subprocess
+import sys
+import warnings
+import zipfile
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+from openpyxl import Workbook
+from punctura.trace import TraceError, read_trace
+
+LONG = "depth_" + "x" * 300
+
+
+def columns(count=3, rows=10):
+    return {f"column{i}": np.zeros(rows, np.int8) for i in range(count)}
+
+
+def parquet(path, table):
+    pq.write_table(pa.table(table), path, compression="zstd")
+
+
+def mat(path, table):
+    scipy.io.savemat(path, table, do_compression=True, long_field_names=True)
+
+
+def xlsx(path, table):
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet()
+    sheet.append(list(table))
+    for row in zip(*table.values(), strict=True):
+        sheet.append([int(cell) for cell in row])
+    book.save(path)
+
+
+def csv(path, table):
+    rows = [",".join(table)] + [",".join(map(str, row)) for row in zip(*table.values(), strict=True)]
+    path.write_text("\n".join(rows))
+
+
+WRITERS = {"a.parquet": parquet, "a.mat": mat, "a.xlsx": xlsx, "a.csv": csv}
+
+
+def in_little_memory(*paths):
+    """What reading says of each file in a process that may take 500 MB more than it has after its imports."""
+    code = (
+        "import resource, sys, scipy.io\n"
+        "from punctura.trace import TraceError, read_trace\n"
+        "used = 4096 * int(open('/proc/self/statm').read().split()[0])\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (used + 500_000_000,) * 2)\n"
+        "for path in sys.argv[1:]:\n"
+        "  try: read_trace(path)\n"
+        "  except TraceError as error: print(error)\n"
+    )
+    arguments = [sys.executable, "-c", code, *map(str, paths)]
+    return subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_a_thousand_columns_are_the_limit(tmp_path, name):
+    WRITERS[name](tmp_path / name, columns(1001))
+    with pytest.raises(TraceError, match=f"{name}: has 1,001 columns; the limit is 1,000. Export only depth, force"):
+        read_trace(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["a.parquet", "a.xlsx", "a.csv"])  # a name in a MAT file has at most 63 characters
+def test_the_name_of_a_column_has_a_limit(tmp_path, name):
+    WRITERS[name](tmp_path / name, columns() | {LONG: np.zeros(10, np.int8)})
+    with pytest.raises(TraceError, match=r"column 4, 'depth_x+'..., has 306 characters; the limit is 200. Give it a"):
+        read_trace(tmp_path / name)
+
+
+def test_small_files_with_too_many_numbers_are_refused_before_these_are_read(tmp_path):
+    paths = [tmp_path / name for name in ("a.parquet", "a.mat", "structure.mat")]
+    parquet(paths[0], columns(2, 55_000_000))
+    mat(paths[1], columns(2, 55_000_000))
+    mat(paths[2], {"trial": columns(2, 55_000_000)})
+    assert all(path.stat().st_size < 500_000 for path in paths)
+    said = in_little_memory(*paths)
+    assert all("holds 110,000,000 numbers or more; the limit is 100,000,000. Export only" in line for line in said[:2])
+    assert "structures of more than 100 MB; that is the limit. Save depth" in said[2]
+
+
+@pytest.mark.parametrize("part, size", [("xl/styles.xml", 9_000_000), ("xl/sharedStrings.xml", 65_000_000)])
+def test_a_part_of_a_workbook_that_expands_is_refused(tmp_path, part, size):
+    xlsx(tmp_path / "a.xlsx", columns())
+    with warnings.catch_warnings(), zipfile.ZipFile(tmp_path / "a.xlsx", "a", zipfile.ZIP_DEFLATED) as archive:
+        warnings.simplefilter("ignore")  # the part is there already
+        archive.writestr(part, b" " * size)
+    with pytest.raises(TraceError, match=f"its part '{part}' expands to {size // 1_000_000} MB; the limit is"):
+        read_trace(tmp_path / "a.xlsx")
+
+
+def test_one_wide_row_does_not_make_all_rows_wide(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.trace.size.MOST_NUMBERS", 100_000)
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet()
+    for _ in range(110):
+        sheet.append([1])
+    sheet.append([None] * 998 + [1])
+    book.save(tmp_path / "a.xlsx")
+    with pytest.raises(TraceError, match="holds 110,889 numbers or more"):
+        read_trace(tmp_path / "a.xlsx")
+
+
+def test_a_message_lists_a_few_of_many_columns(tmp_path):
+    csv(tmp_path / "a.csv", columns(900))
+    with pytest.raises(TraceError, match="'column29' and 870 more"):
+        read_trace(tmp_path / "a.csv")
