@@ -23,12 +23,12 @@ def tool(name: str) -> str | None:
     return str(beside) if beside.is_file() else shutil.which(name)
 
 
-def build(folder: Path, target: str = "bench_ticks") -> Path:
+def build(folder: Path, target: str = "bench_ticks", source: Path = ROOT) -> Path:
     """Configures if needed and compiles. Returns the path of the program."""
     cmake, ninja = tool("cmake"), tool("ninja")
     if cmake is None:
         raise ProgramError("CMake is missing; run ./bench, which installs it")
-    configure = [cmake, "-S", str(ROOT), "-B", str(folder), "-DPUNCTURA_BENCH=ON", "-DCMAKE_BUILD_TYPE=None"]
+    configure = [cmake, "-S", str(source), "-B", str(folder), "-DPUNCTURA_BENCH=ON", "-DCMAKE_BUILD_TYPE=None"]
     if ninja is not None:
         configure += ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"]
     # Configure afresh after a change of the folder or compiler.

@@ -124,7 +124,7 @@ class InsertionOf {
   const Proxies& proxies() const noexcept { return proxies_; }
   std::size_t size() const noexcept { return proxies_.size(); }  ///< the number of membranes
   /// The result of the last tick at membrane i.
-  const SpaceTick<Scalar>& tick(std::size_t i) const noexcept { return proxies_[i].tick(); }
+  SpaceTick<Scalar> tick(std::size_t i) const noexcept { return proxies_[i].tick(); }
   /// n.b of the needle in membrane i, constant while the needle is inside.
   Scalar cos_beta(std::size_t i) const noexcept { return proxies_[i].state().cos_beta; }
 

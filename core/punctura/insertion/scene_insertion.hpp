@@ -71,8 +71,8 @@ class BasicInsertion {
   std::size_t size() const noexcept {
     return visit([](const auto& model) { return model.size(); });
   }
-  const SpaceTick<Scalar>& tick(std::size_t i) const noexcept {
-    return visit([i](const auto& model) -> const SpaceTick<Scalar>& { return model.tick(i); });
+  SpaceTick<Scalar> tick(std::size_t i) const noexcept {
+    return visit([i](const auto& model) { return model.tick(i); });
   }
   Scalar cos_beta(std::size_t i) const noexcept {
     return visit([i](const auto& model) { return model.cos_beta(i); });

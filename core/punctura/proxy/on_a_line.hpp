@@ -59,11 +59,6 @@ struct LineTick {
   Scalar depth;       ///< the depth of the band, m: q(k); with the paper's solver q*
   Band<Scalar> band;  ///< the band at depth, N
   PhaseOf<Scalar> phase;
-
-  static void archive(auto& self, auto& state) {
-    state.numbers(self.force, self.proxy, self.depth, self.band.lower, self.band.upper);
-    state.choice(self.phase, Phase::sliding_out);
-  }
 };
 
 /// Computes the pieces of the law for the memory of the membrane.

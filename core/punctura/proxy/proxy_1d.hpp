@@ -33,21 +33,27 @@ class Proxy1d {
   /// If p is NaN or beyond 1000 km, it returns NaN and the state does not change.
   Scalar step(Scalar p) noexcept {
     if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
-    tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p) : Exact::step(params_, state_, p);
-    return tick_.force;
+    if (solver_ == Solver::paper) {
+      const auto tick = Paper::step(params_, state_, p);
+      depth_ = tick.depth;
+      if constexpr (LawWithMemory<L>) band_ = tick.band;  // the pieces may change at the end of the step
+    } else {
+      Exact::step(params_, state_, p);
+    }
+    return state_.f;
   }
 
   /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
   const State& state() const noexcept { return state_; }
   void set_state(const State& state) noexcept {
     state_ = state;
-    tick_ = {};  // until the next step
-    tick_.phase = state.phase;
+    depth_ = {};  // until the next step
+    band_ = {};
   }
 
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
-    LineTick<Scalar>::archive(self.tick_, state);
+    state.numbers(self.depth_, self.band_.lower, self.band_.upper);
     if constexpr (std::remove_reference_t<decltype(state)>::reading) lay_out(self.params_, self.state_);
   }
   void describe(auto& parameters) const {
@@ -57,20 +63,32 @@ class Proxy1d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const LineTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
+  /// The result of the last step. The band is computed here, because few callers read it.
+  LineTick<Scalar> tick() const noexcept { return {state_.f, position(), depth(), band(), state_.phase}; }
   const L& law() const noexcept { return params_.law; }
   Scalar force() const noexcept { return state_.f; }                ///< f(k), N, on the device
   Scalar offset() const noexcept { return state_.e; }               ///< e(k) = q(k) - p(k), m
   Scalar position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
   Phase phase() const noexcept { return state_.phase; }
   /// The depth of the band, m: q(k); with Solver::paper q*(k).
-  Scalar depth() const noexcept { return tick_.depth; }
+  Scalar depth() const noexcept { return solver_ == Solver::paper ? depth_ : position(); }
 
  private:
+  /// The band at depth(), N; 0 before the first step.
+  Band<Scalar> band() const noexcept {
+    if (!state_.started) return {};
+    if constexpr (LawWithMemory<L>)
+      return solver_ == Solver::paper ? band_ : state_.pieces.band(depth());
+    else
+      return params_.law.pieces().band(depth());
+  }
+
   Params params_;
   Solver solver_;
   State state_{};
-  LineTick<Scalar> tick_{};
+  // Of the last step with Solver::paper:
+  Scalar depth_{};       ///< q*(k), m
+  Band<Scalar> band_{};  ///< at depth_, N; only of a law with memory
 };
 
 template <Law L>

@@ -52,19 +52,19 @@ class Proxy3d {
   template <typename OtherLaw, typename OtherCoupling>
   void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
     punctura::resume(params_, state_, previous.state());
-    tick_ = previous.tick();
+    keep(previous.tick());
   }
 
   /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
   const State& state() const noexcept { return state_; }
   void set_state(const State& state) noexcept {
     state_ = state;
-    tick_ = {};  // until the next step
-    tick_.phase = state.phase;
+    axial_force_ = depth_ = {};  // until the next step
+    band_ = {};
   }
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
-    SpaceTick<Scalar>::archive(self.tick_, state);
+    state.numbers(self.axial_force_, self.depth_, self.band_.lower, self.band_.upper);
     if constexpr (std::remove_reference_t<decltype(state)>::reading)
       if (inside(self.state_.phase)) lay_out(self.params_, self.state_);
   }
@@ -75,16 +75,19 @@ class Proxy3d {
 
   const Params& params() const noexcept { return params_; }
   Solver solver() const noexcept { return solver_; }
-  const SpaceTick<Scalar>& tick() const noexcept { return tick_; }  ///< the result of the last step
+  /// The result of the last step.
+  SpaceTick<Scalar> tick() const noexcept {
+    return {state_.f, position(), state_.b, axial_force_, depth_, band_, state_.phase};
+  }
   const L& law() const noexcept { return params_.law; }
-  const Vector& force() const noexcept { return state_.f; }          ///< f(k), N
-  const Vector& offset() const noexcept { return state_.e; }         ///< e(k) = q(k) - p(k), m
-  Vector position() const noexcept { return state_.p + state_.e; }   ///< q(k), m
-  const Vector& direction() const noexcept { return state_.b; }      ///< b, constant from entry on
-  Scalar axial_force() const noexcept { return tick_.axial_force; }  ///< b.f(k), N
+  const Vector& force() const noexcept { return state_.f; }         ///< f(k), N
+  const Vector& offset() const noexcept { return state_.e; }        ///< e(k) = q(k) - p(k), m
+  Vector position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
+  const Vector& direction() const noexcept { return state_.b; }     ///< b, constant from entry on
+  Scalar axial_force() const noexcept { return axial_force_; }      ///< b.f(k), N
   Phase phase() const noexcept { return state_.phase; }
-  const Band<Scalar>& band() const noexcept { return tick_.band; }  ///< the band of the axial force, N
-  Scalar depth() const noexcept { return tick_.depth; }             ///< m, see SpaceTick
+  const Band<Scalar>& band() const noexcept { return band_; }  ///< the band of the axial force, N
+  Scalar depth() const noexcept { return depth_; }             ///< m, see SpaceTick
 
  private:
   template <ObliqueLaw, typename, typename>
@@ -92,14 +95,24 @@ class Proxy3d {
 
   /// step() without the check of p and axis.
   const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
-    tick_ = solver_ == Solver::paper ? Paper::step(params_, state_, p, axis) : Exact::step(params_, state_, p, axis);
-    return tick_.force;
+    if (solver_ == Solver::paper)
+      keep(Paper::step(params_, state_, p, axis));
+    else
+      keep(Exact::step(params_, state_, p, axis));
+    return state_.f;
+  }
+  /// Stores what tick() cannot read from the state.
+  void keep(const SpaceTick<Scalar>& tick) noexcept {
+    axial_force_ = tick.axial_force;
+    depth_ = tick.depth;
+    band_ = tick.band;
   }
 
   Params params_;
   Solver solver_;
   State state_{};
-  SpaceTick<Scalar> tick_{};
+  Scalar axial_force_{}, depth_{};  ///< of the last tick, as in SpaceTick
+  Band<Scalar> band_{};
 };
 
 }  // namespace punctura
