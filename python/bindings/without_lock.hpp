@@ -11,7 +11,8 @@ namespace punctura::bindings {
 
 /// Threads at the end of the program. Up to version 3.13, Python ends a daemon thread that wants the GIL during exit
 /// by unwinding the thread's frames, which aborts the process if C++ frames are among them. Therefore the thread that
-/// ends the program waits until no other thread is in a call of this module, and then none can begin or resume one.
+/// ends the program waits until no other thread is in a call of this module. From then on a call that releases the GIL
+/// does not end. A short call, which does not release it, works until the exit: a handler of atexit can wait for it.
 ///
 /// The counts change only while the GIL is held, apart from `taking_`.
 class EndOfProgram {
@@ -63,10 +64,6 @@ class EndOfProgram {
 class InCall {
  public:
   InCall() noexcept {
-    if (EndOfProgram::ends_for_this_thread()) {
-      PyEval_SaveThread();
-      EndOfProgram::wait_forever();
-    }
     if (EndOfProgram::depth_++ == 0) ++EndOfProgram::calls_;
   }
   InCall(const InCall&) = delete;
