@@ -60,9 +60,20 @@ concept RefreshesPieces = LawWithMemory<L> && requires(const L law, const typena
   { law.refresh(pieces, memory) } noexcept;
 };
 
+/// A law for lanes, of which some may remember. It keeps the memory and the pieces of each lane itself: a lane that is
+/// in `lanes` has reached this depth, or has left the wall in front.
+template <typename L>
+concept LanesThatRemember = Lanes<typename L::Scalar> && requires(const L law, const typename L::Scalar& depth,
+                                                                  const Mask<typename L::Scalar>& lanes) {
+  { law.remembers() } noexcept -> std::same_as<bool>;  // false: no lane does
+  { law.advance(depth, lanes) } noexcept;
+  { law.leave(lanes) } noexcept;
+};
+
 /// False for a law that has Memory or advance() but is not a LawWithMemory. Such a law would run without its memory.
 template <typename L>
-constexpr bool memory_is_whole = LawWithMemory<L> || !(requires { typename L::Memory; } || requires { &L::advance; });
+constexpr bool memory_is_whole =
+    LawWithMemory<L> || LanesThatRemember<L> || !(requires { typename L::Memory; } || requires { &L::advance; });
 
 /// The memory of a law that has none.
 struct NoMemory {};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -75,6 +76,27 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     return First::breaks[in_first(i)];
   }
   std::size_t last() const noexcept { return First::count + 1; }  ///< index of the last piece
+
+  /// Depths around a depth, at which one piece is the band: from `first` to `last`, both with it.
+  struct Around {
+    Piece piece;
+    Scalar first, last;  ///< m
+  };
+  /// The depths around q (m). At a front it is q alone. Not all depths of the piece need to be in it.
+  Around around(const Scalar& q) const noexcept {
+    if (near(q, cut) || near(q, made)) {
+      const Band<Scalar> band = at_front(q);
+      return {{q, {band.lower}, {band.upper}}, q, q};
+    }
+    const std::size_t i = index(q);
+    Scalar first = i == 0 ? Scalar(-infinity) : std::nextafter(end(i - 1), Scalar(infinity));
+    Scalar until = i == last() ? Scalar(infinity) : std::nextafter(end(i), Scalar(-infinity));
+    for (const Front& front : {made, cut}) {
+      if (front.at + rounding <= q) first = std::max(first, Scalar(front.at + rounding));
+      if (q <= front.at - rounding) until = std::min(until, Scalar(front.at - rounding));
+    }
+    return {piece(i), first, until};
+  }
 
   void describe(auto& parameters) const {
     First::describe(parameters);

@@ -21,7 +21,7 @@ template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
 struct SpaceParams {
   static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
   static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
-                "a law with memory works on one number, not on lanes");
+                "a law with memory works on one number; for lanes, see LanesThatRemember");
   using Vector = Vector3<typename L::Scalar>;
 
   L law;
@@ -167,6 +167,9 @@ SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C
   params.coupling.advance(state.coupling, state.e, e_prev);
   state.started = Mask<Scalar>(true);
   state.p = p;
+  if constexpr (LanesThatRemember<L>)
+    if (params.law.remembers())
+      params.law.advance(params.n.dot(p + state.e - params.a) / state.cos_beta, inside(state.phase));
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
     const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
@@ -193,6 +196,8 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   state.p = p;
   if constexpr (HearsLeaving<L>)
     if (state.phase == Phase::outside) params.law.leave(state.law);
+  if constexpr (LanesThatRemember<L>)
+    if (params.law.remembers()) params.law.leave(state.phase == Phase::outside);
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};
 }
 

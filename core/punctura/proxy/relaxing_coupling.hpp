@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <span>
 
@@ -42,6 +43,22 @@ class RelaxingCoupling {
     static void archive(auto& self, auto& state) {
       for (auto& f : self.force) state.numbers(f);
     }
+    template <typename M>
+      requires(!std::same_as<M, bool>)
+    friend Memory select(const M& mask, const Memory& a, const Memory& b) noexcept {
+      Memory chosen;
+      for (std::size_t i = 0; i < max_branches; ++i) chosen.force[i] = select(mask, a.force[i], b.force[i]);
+      return chosen;
+    }
+  };
+  struct Branch {
+    Scalar a{1}, k{};  ///< what a tick leaves of the force; k_m, N/m
+  };
+  /// What the ticks compute with. free_share: without force, e is this fraction of e_prev.
+  struct Constants {
+    Scalar K, g, inv_g, free_share;
+    std::array<Branch, max_branches> branches{};
+    std::size_t count = 0;
   };
 
   Scalar g;      ///< K + B/T + sum of k_m, N/m: force per displacement of the proxy within one tick
@@ -65,6 +82,15 @@ class RelaxingCoupling {
   }
   RelaxingCoupling(const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
       : RelaxingCoupling(coupling, {}, period) {}
+  /// For lanes: each lane has the constants of a coupling for one number.
+  explicit RelaxingCoupling(const Constants& c) noexcept
+      : g(c.g),
+        inv_g(c.inv_g),
+        spring_({c.K, Scalar(0)}, Scalar(1)),
+        branches_(c.branches),
+        count_(c.count),
+        free_share_(c.free_share) {}
+  Constants constants() const noexcept { return {spring_.K, g, inv_g, free_share_, branches_, count_}; }
 
   void describe(auto& parameters) const {
     spring_.describe(parameters);
@@ -104,10 +130,6 @@ class RelaxingCoupling {
   std::size_t branches() const noexcept { return count_; }  ///< the number of branches with a stiffness
 
  private:
-  struct Branch {
-    Scalar a{1}, k{};  // what a tick leaves of the force; k_m, N/m
-  };
-
   SampledCoupling<Scalar> spring_;
   std::array<Branch, max_branches> branches_{};
   std::size_t count_ = 0;

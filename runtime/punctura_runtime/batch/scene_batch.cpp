@@ -87,10 +87,7 @@ class Runner {
     std::vector<std::size_t> alone;
     for (std::size_t i = from; i < to; ++i) {
       trial_.set(i);
-      if (fits_lanes(trial_.scene))
-        together.add(i, {trial_.scene, trial_.plant, trial_.hand, trial_.strokes});
-      else
-        alone.push_back(i);
+      if (!together.add(i, {trial_.scene, trial_.plant, trial_.hand, trial_.strokes})) alone.push_back(i);
     }
     if (together.size() > 0) {
       const auto& again = together.run(code);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
 #include "punctura_runtime/batch/run_summary.hpp"
 
@@ -13,10 +15,20 @@ namespace punctura::batch {
 
 using LaneVectors = std::array<LaneNumbers, 3>;  ///< a Vector3 for each lane
 
-/// A membrane of each trial of a block, with K06's coupling.
+/// A membrane of each trial of a block.
 struct MembraneBlock {
   LineBlock band{};               ///< the pieces for the direction in which each lane entered
   LaneVectors point{}, normal{};  ///< m; of length 1
+  /// The fronts of a wall that remembers a hole, m (BasicHole); infinite for a wall that does not.
+  LaneNumbers cut{}, made{};
+  bool remembers = false;  ///< a wall of some lane does
+};
+
+/// The coupling of each trial, which is the same at all membranes: RelaxingCoupling::Constants.
+struct CouplingBlock {
+  LaneNumbers K, g, inv_g, free_share;
+  LaneNumbers a[max_branches], k[max_branches];
+  std::size_t branches;
 };
 
 /// The ticks whose inputs are ready at once.
@@ -29,6 +41,14 @@ class SceneOwner {
   virtual void prepare(std::size_t tick, std::size_t ticks) noexcept = 0;
   /// Lane start + i of `lanes` lanes has entered a membrane with n.b = cosine[i], perhaps long ago.
   virtual void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept = 0;
+  /// The line fit of a lane, for SceneBlock::fits_lines: its conditioned position, m.
+  virtual Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept = 0;
+  /// The direction of a lane's motion, for SceneBlock::from_motion.
+  virtual Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept = 0;
+  /// The lanes of `lanes` (bits, from `start`) have reached these depths (m) in a membrane that remembers.
+  virtual void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept = 0;
+  /// They have left it in front.
+  virtual void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept = 0;
   /// The crossing of a lane that has entered a membrane in the direction b. axis: of the sample.
   virtual Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept = 0;
   /// See BasicRunSummary. axis: of the sample.
@@ -53,6 +73,8 @@ struct SceneBlock {
   LaneVectors phase, place;  ///< offset of the encoders, in steps; where the tip starts, m
   // The servo step.
   LaneNumbers rate, period, low_pass_is_off, low_pass_gain, force_scale;
+  std::uint32_t sub_steps;  ///< of a tick; lane by lane the same
+  CouplingBlock coupling;
   std::vector<MembraneBlock> membranes;
   std::array<std::size_t, block_lanes> ticks;  ///< of each lane
   std::size_t trials;                          ///< lanes in use; the others repeat the last one
@@ -66,6 +88,7 @@ struct SceneBlock {
   std::array<Inputs, scene_ticks> inputs;
   std::array<LaneVectors, scene_ticks> force;
   bool has_hand, keeps_force;
+  bool fits_lines, from_motion;  ///< Conditioning::line_fit; Direction::motion
   SceneOwner* owner;
 };
 

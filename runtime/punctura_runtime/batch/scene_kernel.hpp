@@ -64,6 +64,21 @@ class SpaceLaw {
     return pieces();
   }
 
+  /// For LanesThatRemember.
+  bool remembers() const noexcept { return block_->membranes[membrane_].remembers; }
+  void advance(const V& depth, const typename V::Mask& lanes) const noexcept {
+    const auto deeper = lanes && depth > at<V>(block_->membranes[membrane_].cut, start_);
+    if (!any(deeper)) return;
+    alignas(64) double reached[V::lanes];
+    depth.store(reached);
+    block_->owner->advance(membrane_, start_, deeper.bits(), reached);
+  }
+  void leave(const typename V::Mask& lanes) const noexcept {
+    const MembraneBlock& membrane = block_->membranes[membrane_];
+    const auto left = lanes && at<V>(membrane.made, start_) < at<V>(membrane.cut, start_);
+    if (any(left)) block_->owner->leave(membrane_, start_, left.bits());
+  }
+
  private:
   SceneBlock* block_;
   std::size_t membrane_, start_;
@@ -123,7 +138,8 @@ class SceneVector {
 
  private:
   using Law = SpaceLaw<V>;
-  using Params = SpaceParams<Law>;
+  using Coupling = RelaxingCoupling<V>;
+  using Params = SpaceParams<Law, Coupling>;
 
   void step(std::size_t tick, std::size_t k) noexcept {
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
@@ -137,18 +153,17 @@ class SceneVector {
       look(measured, tick > 0);
     }
 
-    const Vector tip = low_pass_.step(measured);
+    const Vector before = conditioned_, tip = condition(measured), axis = direction(tip, inputs.axis);
+    conditioned_ = tip;
+    const Coupling coupling = coupling_now();
+    for (std::uint32_t s = 1; tick > 0 && s < block_.sub_steps; ++s) {  // as InsertionOf::step_between()
+      const V share(static_cast<double>(s) / static_cast<double>(block_.sub_steps));
+      advance_proxies(coupling, before + share * (tip - before), axis);
+    }
+    advance_proxies(coupling, tip, axis);
     Vector model_force;
     Truth outside(true);
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      const MembraneBlock& membrane = block_.membranes[i];
-      SampledCoupling<V> coupling({number(membrane.band.K), V(0)}, V(1));
-      coupling.g = number(membrane.band.g);
-      coupling.inv_g = number(membrane.band.inv_g);
-      coupling.B_over_D = number(membrane.band.B_over_D);
-      const Params params{Law(block_, i, start_), at<V>(membrane.point, start_), at<V>(membrane.normal, start_),
-                          coupling};
-      ticks_[i] = Solver::step(params, states_[i], tip, same<V>(inputs.axis));
       model_force += ticks_[i].force;
       outside = outside && ticks_[i].phase == Phase::outside;
     }
@@ -173,6 +188,45 @@ class SceneVector {
       for (std::size_t j = 0; j < 3; ++j) model_force[j].store(block_.force[k][j].of + start_);
 
     if (block_.has_hand) move(inputs, force);
+  }
+
+  Vector condition(const Vector& measured) noexcept {
+    if (!block_.fits_lines) return low_pass_.step(measured);
+    return alone(measured, [&](std::size_t lane, const Vector3d& p) { return block_.owner->fit(lane, p); });
+  }
+  Vector direction(const Vector& tip, const Vector3d& axis) noexcept {
+    if (!block_.from_motion) return same<V>(axis);
+    return alone(tip, [&](std::size_t lane, const Vector3d& p) { return block_.owner->direction(lane, p); });
+  }
+  /// each(lane, x) for one lane after the other. A lane without a trial has the result of the last one.
+  template <typename Each>
+  Vector alone(const Vector& x, Each&& each) noexcept {
+    alignas(64) double numbers[3][V::lanes];
+    for (std::size_t j = 0; j < 3; ++j) x[j].store(numbers[j]);
+    Vector3d result;
+    for (std::size_t i = 0; i < V::lanes; ++i) {
+      if (start_ + i < block_.trials) result = each(start_ + i, {numbers[0][i], numbers[1][i], numbers[2][i]});
+      for (std::size_t j = 0; j < 3; ++j) numbers[j][i] = result[j];
+    }
+    return {V::load(numbers[0]), V::load(numbers[1]), V::load(numbers[2])};
+  }
+
+  Coupling coupling_now() const noexcept {
+    const CouplingBlock& c = block_.coupling;
+    typename Coupling::Constants now{at<V>(c.K, start_), at<V>(c.g, start_), at<V>(c.inv_g, start_),
+                                     at<V>(c.free_share, start_)};
+    now.count = c.branches;
+    for (std::size_t i = 0; i < now.count; ++i) now.branches[i] = {at<V>(c.a[i], start_), at<V>(c.k[i], start_)};
+    return Coupling(now);
+  }
+  /// One step of all proxies, to this position (m).
+  void advance_proxies(const Coupling& coupling, const Vector& position, const Vector& axis) noexcept {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const MembraneBlock& membrane = block_.membranes[i];
+      const Params params{Law(block_, i, start_), at<V>(membrane.point, start_), at<V>(membrane.normal, start_),
+                          coupling};
+      ticks_[i] = Solver::step(params, states_[i], position, axis);
+    }
   }
 
   /// Moves the plant for a period. force: of the device, N.
@@ -259,11 +313,11 @@ class SceneVector {
   BasicTremor<V> tremor_;
   LowPass<V, Vector> low_pass_;
   Vector3d axis_{};  // of the sample
-  Vector measured_{};
+  Vector measured_{}, conditioned_{};
   Truth strange_{false}, active_{false};
   V time_{0}, gain_{0}, held_square_{0};
   BasicForceBudget<V> budget_{V(limits.continuous_time), V(limits.continuous_force)};
-  std::vector<SpaceState<Law>> states_;
+  std::vector<SpaceState<Law, Coupling>> states_;
   std::vector<SpaceTick<V>> ticks_;
   std::vector<MembraneSummary<V>> summaries_;
   BasicRunSummary<V> summary_;

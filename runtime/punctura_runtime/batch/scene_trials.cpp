@@ -1,10 +1,8 @@
 #include "punctura_runtime/batch/scene_trials.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
-
-#include "punctura_runtime/batch/line_tables.hpp"
-#include "punctura_runtime/batch/scene_summary.hpp"
 
 namespace punctura::batch {
 namespace {
@@ -33,29 +31,38 @@ Desired SceneTrials::at(LaneTrial& own, std::size_t tick) noexcept {
   return std::get_if<RecordedMotion>(&own.motion)->at(time);
 }
 
-bool fits_lanes(const Scene& scene) noexcept {
-  return is_k06(scene) && scene.direction == Direction::stylus && scene.servo.conditioning == Conditioning::low_pass &&
-         scene.servo.sub_steps == 1;
-}
-
 SceneTrials::SceneTrials(const SceneBatch& all, SceneResults& results, const std::atomic<bool>& stop)
     : all_(all), results_(results), stop_(stop), block_(std::make_unique<SceneBlock>()) {
   block_->membranes.resize(all.scene.membranes.size());
   block_->trials = 0;
   block_->keeps_force = results.force != nullptr;
   block_->has_hand = !std::holds_alternative<Positions>(all.motion);
+  block_->fits_lines = all.scene.servo.conditioning == Conditioning::line_fit;
+  block_->from_motion = all.scene.direction == Direction::motion;
   block_->owner = this;
   lanes_.reserve(block_lanes);  // their pieces must stay where they are
   alone_.reserve(block_lanes);
 }
 
-void SceneTrials::add(std::size_t i, const TrialNumbers& numbers) {
+bool SceneTrials::add(std::size_t i, const TrialNumbers& numbers) {
   const Scene& scene = numbers.scene;
   const std::size_t lane = lanes_.size();
   const double rate = scene.servo.rate, period = 1 / rate;
   SceneBlock& b = *block_;
-  LaneTrial& own = lanes_.emplace_back(
-      LaneTrial{i, scene.needle, period, nullptr, Noise(b.has_hand ? all_.seeds[i] : 0), false, {}});
+  const auto coupling = detail::relaxing_coupling_of<double>(scene).constants();
+  const auto sub_steps = static_cast<std::uint32_t>(scene.servo.sub_steps);
+  if (lane > 0 && (coupling.count != b.coupling.branches || sub_steps != b.sub_steps)) return false;
+  b.coupling.branches = coupling.count;
+  b.sub_steps = sub_steps;
+  LaneTrial& own =
+      lanes_.emplace_back(LaneTrial{i,
+                                    period,
+                                    nullptr,
+                                    Noise(b.has_hand ? all_.seeds[i] : 0),
+                                    false,
+                                    {scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, period},
+                                    EntryDirection<double>(period),
+                                    {}});
   std::size_t ticks = 0;
   if (const auto* given = std::get_if<Positions>(&all_.motion)) {
     own.motion = given->position + static_cast<std::ptrdiff_t>(i) * given->trial_stride;
@@ -79,24 +86,28 @@ void SceneTrials::add(std::size_t i, const TrialNumbers& numbers) {
   set(b.low_pass_gain, lane, low_pass.gain());
   set(b.force_scale, lane, scale_of(scene));
 
-  const SampledCoupling<double> coupling = detail::coupling_of<double>(scene);
+  set(b.coupling.K, lane, coupling.K);
+  set(b.coupling.g, lane, coupling.g);
+  set(b.coupling.inv_g, lane, coupling.inv_g);
+  set(b.coupling.free_share, lane, coupling.free_share);
+  for (std::size_t j = 0; j < coupling.count; ++j) {
+    set(b.coupling.a[j], lane, coupling.branches[j].a);
+    set(b.coupling.k[j], lane, coupling.branches[j].k);
+  }
   own.walls.reserve(scene.membranes.size());
   for (std::size_t m = 0; m < scene.membranes.size(); ++m) {
     const PlacedMembrane& placed = scene.membranes[m];
-    const ThickLaw law(scene.needle, placed.membrane);
-    Wall& wall = own.walls.emplace_back(Wall{placed, law, law.pieces(1), 1});
+    const LaneWall& wall = own.walls.emplace_back(scene.needle, placed);
     MembraneBlock& to = b.membranes[m];
     set(to.point, lane, to_vector(placed.point));
     set(to.normal, lane, to_vector(placed.inward_normal).stableNormalized());
-    set(to.band.K, lane, coupling.K);
     set(to.band.g, lane, coupling.g);
-    set(to.band.inv_g, lane, coupling.inv_g);
-    set(to.band.B_over_D, lane, coupling.B_over_D);
-    set(to.band.first, lane, 1);  // no piece is present
-    set(to.band.last, lane, 0);
-    std::fill(to.band.table + lane, to.band.table + block_lanes, table_of(wall.pieces));
+    std::fill(to.band.table + lane, to.band.table + block_lanes, wall.table());
+    to.remembers = to.remembers || wall.remembers();
+    for (std::size_t each = lane; each < block_lanes; ++each) changed(m, each);
   }
   b.trials = lanes_.size();
+  return true;
 }
 
 void SceneTrials::add_hand(LaneTrial& own, std::size_t lane, const TrialNumbers& numbers) {
@@ -156,31 +167,50 @@ void SceneTrials::prepare(std::size_t tick, std::size_t ticks) noexcept {
   }
 }
 
+void SceneTrials::changed(std::size_t membrane, std::size_t lane) noexcept {
+  MembraneBlock& to = block_->membranes[membrane];
+  const LaneWall& wall = wall_of(membrane, lane);
+  to.cut.of[lane] = wall.cut();
+  to.made.of[lane] = wall.made();
+  to.band.first.of[lane] = 1;  // no piece is present
+  to.band.last.of[lane] = 0;
+}
+
 void SceneTrials::lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept {
-  for (std::size_t lane = start; lane < start + lanes; ++lane) {
-    Wall& wall = lanes_[last_lane(lane)].walls[membrane];
-    const double cos_beta = cosine[lane - start];
-    if (lane < lanes_.size() && wall.cos_beta == cos_beta) continue;  // a lane without a trial follows the last one
-    wall.pieces = wall.law.pieces(cos_beta);
-    wall.cos_beta = cos_beta;
-    LineBlock& band = block_->membranes[membrane].band;
-    band.first.of[lane] = 1;
-    band.last.of[lane] = 0;
+  for (std::size_t lane = start; lane < start + lanes; ++lane)
+    if (wall_of(membrane, lane).lay_out(cosine[lane - start]) || lane >= lanes_.size()) changed(membrane, lane);
+}
+
+Vector3d SceneTrials::fit(std::size_t lane, const Vector3d& measured) noexcept {
+  return lanes_[lane].conditioner.step(measured);
+}
+
+Vector3d SceneTrials::direction(std::size_t lane, const Vector3d& tip) noexcept {
+  return lanes_[lane].from_motion.step(tip);
+}
+
+void SceneTrials::advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+    wall_of(membrane, start + i).advance(depth[i]);
+    changed(membrane, start + i);
+  }
+}
+
+void SceneTrials::leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const std::size_t lane = start + static_cast<std::size_t>(std::countr_zero(lanes));
+    wall_of(membrane, lane).leave();
+    changed(membrane, lane);
   }
 }
 
 Crossing SceneTrials::enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept {
-  const LaneTrial& own = lanes_[last_lane(lane)];
-  const PlacedMembrane& placed = own.walls[membrane].placed;
-  const SceneLaw<double> law(own.needle, placed.membrane, detail::tissue_as<double>(placed.tissue));
-  return crossing_along(law, own.needle, placed, b, axis);
+  return wall_of(membrane, lane).crossing(b, axis);
 }
 
 double SceneTrials::through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept {
-  const LaneTrial& own = lanes_[last_lane(lane)];
-  const PlacedMembrane& placed = own.walls[membrane].placed;
-  const SceneLaw<double> law(own.needle, placed.membrane, detail::tissue_as<double>(placed.tissue));
-  return through_along(law, own.needle, placed, axis);
+  return wall_of(membrane, lane).through(axis);
 }
 
 void SceneTrials::ended(std::size_t lane, bool strange, const RunNumbers& run,

@@ -8,6 +8,7 @@
 
 #include "punctura/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura_runtime/batch/lane_wall.hpp"
 #include "punctura_runtime/batch/scene_batch.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"
 
@@ -21,9 +22,6 @@ struct TrialNumbers {
   const Strokes& strokes;
 };
 
-/// Whether the lanes can compute this trial: K06's law and coupling, and the low-pass.
-bool fits_lanes(const Scene& scene) noexcept;
-
 /// At most block_lanes trials that are computed together.
 class SceneTrials final : public SceneOwner {
  public:
@@ -31,14 +29,19 @@ class SceneTrials final : public SceneOwner {
   SceneTrials(const SceneBatch& all, SceneResults& results, const std::atomic<bool>& stop);
   SceneTrials(const SceneTrials&) = delete;
 
-  /// Adds trial i, for which fits_lanes().
-  void add(std::size_t i, const TrialNumbers& numbers);
+  /// Adds trial i. Returns false, and adds nothing, if its coupling has not as many branches,
+  /// or its tick not as many sub-steps, as those of the trials before it.
+  bool add(std::size_t i, const TrialNumbers& numbers);
   std::size_t size() const noexcept { return block_->trials; }
   /// Runs all trials. Returns those that must be run again alone, because they came near a fault.
   const std::vector<std::size_t>& run(RunScene code);
 
   void prepare(std::size_t tick, std::size_t ticks) noexcept override;
   void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept override;
+  Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept override;
+  Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept override;
+  void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept override;
+  void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept override;
   Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept override;
   double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept override;
   void ended(std::size_t lane, bool strange, const RunNumbers& run,
@@ -47,28 +50,26 @@ class SceneTrials final : public SceneOwner {
   bool stopped() const noexcept override { return stop_; }
 
  private:
-  /// What a lane has at a membrane.
-  struct Wall {
-    PlacedMembrane placed;
-    ThickLaw law;
-    ThickLaw::Pieces pieces;
-    double cos_beta;  ///< of the pieces
-  };
   /// What a lane has beside its numbers in the block.
   struct LaneTrial {
     std::size_t index;
-    Needle needle;
     double period;
     std::variant<const double*, StrokesMotion, RecordedMotion> motion;  ///< a pointer: given positions, m
     Noise noise;
     bool trembles;
-    std::vector<Wall> walls;
+    PositionConditioner<double> conditioner;
+    EntryDirection<double> from_motion;
+    std::vector<LaneWall> walls;
   };
 
   /// The desired motion of the hand in a tick, or the given position.
   static Desired at(LaneTrial& own, std::size_t tick) noexcept;
   void add_hand(LaneTrial& own, std::size_t lane, const TrialNumbers& numbers);
-  std::size_t last_lane(std::size_t lane) const noexcept { return std::min(lane, lanes_.size() - 1); }
+  LaneWall& wall_of(std::size_t membrane, std::size_t lane) noexcept {
+    return lanes_[std::min(lane, lanes_.size() - 1)].walls[membrane];  // lanes without a trial follow the last one
+  }
+  /// The pieces or the fronts of a lane's wall have changed.
+  void changed(std::size_t membrane, std::size_t lane) noexcept;
 
   const SceneBatch& all_;
   SceneResults& results_;

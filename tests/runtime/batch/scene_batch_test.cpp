@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "core/support/paper_scene.hpp"
@@ -51,6 +52,41 @@ batch::SceneBatch scene_batch(Solver solver, std::size_t trials) {
   vary("plant.encoder_step", 1e-5, 1e-4, 3);
   vary("strokes.duration", 0.08, 0.15);
   for (std::size_t i = 0; i < trials; ++i) all.seeds.push_back(100 + i);
+  return all;
+}
+
+/// Walls that are cut and keep a hole, of every kind of grip, and of K06; the needle enters twice.
+batch::SceneBatch tissue_batch(Solver solver, double relaxing, std::size_t trials) {
+  batch::SceneBatch all = scene_batch(solver, trials);
+  std::erase_if(all.varied, [](const auto& one) { return one.path == "servo.rate" || one.path == "strokes.duration"; });
+  all.motion = Strokes{{0, 2e-3, 0}, {1e-3, -9e-3, 0}, 2, 0.065, 0.005, 0.05};
+  all.duration = scene_batch_ticks / all.scene.servo.rate;
+  all.scene.servo.sub_steps = relaxing > 0 ? 2 : 1;
+  if (relaxing > 0) all.scene.relaxation = {{relaxing, 0.05}, {0.5 * relaxing, 0.4}};
+  auto& membranes = all.scene.membranes;
+  membranes[0].tissue.grip = GripShape::exponential;
+  membranes[1].tissue.grip = GripShape::table;
+  membranes[1].tissue.grip_table = {{0, 0.3}, {4e-4, 0.5}, {8e-4, 0.55}};
+  PlacedMembrane third = membranes[0];
+  third.name = "third";
+  third.point = {0, -5e-3, 0};
+  third.tissue = {};
+  third.tissue.profile = {{0, -0.1, 0.05}, {1e-3, -0.6, 0.2}, {2e-3, -0.4, 0.3}, {2e-3, -0.3, 0.3}};
+  membranes.push_back(third);
+  Noise noise(5);
+  const auto vary = [&](const char* path, double high, std::size_t every) {  // 0 in one of `every` trials
+    batch::Varied one{path, {}};
+    for (std::size_t i = 0; i < trials; ++i) one.values.push_back(i % every == 1 ? 0 : high * noise.uniform());
+    all.varied.push_back(one);
+  };
+  vary("membrane[0].growth", 400, 3);
+  vary("membrane[0].cutting", 0.8, 4);
+  vary("membrane[0].set", 0.6, 5);
+  vary("membrane[1].tail_length", 3e-3, 3);
+  vary("membrane[1].tail_floor", 1, 4);
+  vary("membrane[1].thickness", 1e-3, 7);
+  vary("membrane[2].cutting", 0.5, 2);
+  if (relaxing > 0) vary("coupling.relaxation[0].stiffness", relaxing, trials + 1);
   return all;
 }
 
@@ -115,6 +151,41 @@ TEST_CASE("trials with a hand have the bits of trials alone with each instructio
   }
 }
 
+TEST_CASE("trials through measured tissue have the bits of trials alone with each instruction set") {
+  for (const Solver solver : {Solver::paper, Solver::exact})
+    for (const double relaxing : {0.0, 300.0}) {
+      const batch::SceneBatch all = tissue_batch(solver, relaxing, 41);
+      const SceneBatchResults alone = run_all(all, options_of("portable", 2), true);
+      CHECK(alone.in_lanes() == 0);
+      CHECK(std::ranges::count(alone.numbers.membranes, 2u, &batch::MembraneNumbers::pops) >
+            10);  // a hole entered again
+      for (const batch::LineCode* code : batch::line_codes()) {
+        CAPTURE(code->name);
+        for (const auto& [threads, block] : {std::pair<std::size_t, std::size_t>{1, 4096}, {2, 9}}) {
+          const SceneBatchResults together = run_all(all, options_of(code->name, threads, block), true);
+          // The coupling of trial 1 has a branch less than the others, so it runs alone.
+          CHECK(together.in_lanes() == (!code->scene_exact ? 0 : relaxing > 0 ? 40 : 41));
+          CHECK(differ(alone, together) == 0);
+          CHECK(std::equal(alone.force.begin(), alone.force.end(), together.force.begin(), same));
+        }
+      }
+    }
+}
+
+TEST_CASE("trials in lanes with a line fit and the direction of the motion have the bits of trials alone") {
+  batch::SceneBatch all = scene_batch(Solver::exact, 21);
+  all.scene.servo.conditioning = Conditioning::line_fit;
+  all.scene.direction = Direction::motion;
+  all.varied.push_back({"servo.encoder_step", std::vector<double>(21, 4e-5)});
+  all.varied.back().values[3] = 0;
+  const auto alone = run_all(all, options_of("portable"));
+  for (const batch::LineCode* code : batch::line_codes()) {
+    const auto together = run_all(all, options_of(code->name));
+    CHECK(together.in_lanes() == (code->scene_exact ? 21 : 0));
+    CHECK(differ(alone, together) == 0);
+  }
+}
+
 TEST_CASE("trials in lanes give the model's force of each tick") {
   batch::SceneBatch all = scene_batch(Solver::exact, 9);
   all.duration = 0.3;
@@ -126,8 +197,8 @@ TEST_CASE("trials in lanes give the model's force of each tick") {
 
 TEST_CASE("a trial that lanes cannot compute runs alone, beside lanes") {
   batch::SceneBatch all = scene_batch(Solver::exact, 12);
-  all.varied.push_back({"membrane[0].cutting", std::vector<double>(12, 0)});
-  all.varied.back().values[5] = 0.5;
+  all.varied.push_back({"servo.sub_steps", std::vector<double>(12, 1)});
+  all.varied.back().values[5] = 2;
   for (batch::Varied& one : all.varied) {  // a hand that throws the device
     if (one.path == "hand.stiffness") one.values[7] = 1e6;
     if (one.path == "strokes.duration") one.values[7] = 1e-3;
