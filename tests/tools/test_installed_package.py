@@ -29,7 +29,8 @@ def test_the_package_holds_every_header_of_core_and_runtime() -> None:
 def test_the_verb_paths_prints_what_the_functions_return() -> None:
     assert punctura_paths("--include") == f"{include_dir()}\n"
     assert punctura_paths("--cmake") == f"{cmake_dir()}\n"
-    assert punctura_paths().split() == ["include", str(include_dir()), "cmake", str(cmake_dir())]
+    lines = [line.split(maxsplit=1) for line in punctura_paths().splitlines()]
+    assert lines == [["include", str(include_dir())], ["cmake", str(cmake_dir())]]
 
 
 def test_cmake_finds_the_package_in_the_folder_and_in_the_prefix() -> None:

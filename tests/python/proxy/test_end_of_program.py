@@ -43,7 +43,9 @@ def test_a_daemon_thread_in_a_run_does_not_abort_the_end(run):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 def test_the_child_of_a_fork_ends_while_threads_of_the_parent_wait_for_the_lock():
     program = (
-        SCENE
+        # Since 3.12, Python warns of a fork with several threads.
+        "import warnings\nwarnings.simplefilter('ignore', DeprecationWarning)\n"
+        + SCENE
         + """
 from punctura.live import Pacer
 def wait():

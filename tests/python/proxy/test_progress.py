@@ -80,6 +80,7 @@ class Terminal:
 
 def test_true_draws_a_bar_on_a_terminal_only(run, monkeypatch, capsys):
     monkeypatch.setattr(shown, "PATIENCE_S", 0.0)
+    monkeypatch.setenv("TERM", "xterm")  # on a terminal that cannot move its cursor, there is no bar
     run(progress=True)
     assert capsys.readouterr().err == ""
     terminal = Terminal()
