@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from punctura import save_scene
-from punctura.cli.identify import needle_of, pairs
+from punctura.cli.identify import decimal_of, needle_of, pairs
 from punctura.progress import progress_bar
 
 
@@ -30,6 +30,9 @@ def command(
     order: Annotated[
         str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")
     ] = "recorded",
+    decimal: Annotated[
+        str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")
+    ] = None,
     needle: Annotated[
         str | None,
         typer.Option("--needle", help="For K06, such as diameter_mm=1.27,tip_angle_deg=20.", metavar="NAME=VALUE,..."),
@@ -59,8 +62,9 @@ def command(
     if order not in ("recorded", "depth"):
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
     read = read_trace(
-        trace, pairs(column, "--column"), pairs(unit, "--unit"), order="depth" if order == "depth" else "recorded"
-    )
+        trace, pairs(column, "--column"), pairs(unit, "--unit"), order="depth" if order == "depth" else "recorded",
+        decimal=decimal_of(decimal),
+    )  # fmt: skip
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]

@@ -41,6 +41,9 @@ def command(
     order: Annotated[
         str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")
     ] = "recorded",
+    decimal: Annotated[
+        str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")
+    ] = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -68,7 +71,7 @@ def command(
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
     task = Task(
         needle_of(needle), number_of(membranes), pairs(column, "--column"), pairs(unit, "--unit"),
-        "depth" if order == "depth" else "recorded",
+        "depth" if order == "depth" else "recorded", decimal_of(decimal),
     )  # fmt: skip
     if trace.is_dir():
         if scene or report or plan:
@@ -77,7 +80,7 @@ def command(
             raise typer.BadParameter("a folder of traces needs --out DIR for the results", param_hint="--out")
         _folder(trace, out, task, processes, as_json)
         return
-    read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order)
+    read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
     found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
@@ -123,6 +126,15 @@ def pairs(given: list[str] | None, option: str) -> dict[str, str]:
             raise typer.BadParameter(f"{text!r} must be ROLE=VALUE, for example depth=mm", param_hint=option)
         found[role.strip()] = value.strip()
     return found
+
+
+def decimal_of(text: str | None) -> Literal[".", ","] | None:
+    """The decimal mark of the option --decimal."""
+    if text is None or text == "point":
+        return None if text is None else "."
+    if text != "comma":
+        raise typer.BadParameter("must be point or comma", param_hint="--decimal")
+    return ","
 
 
 def number_of(membranes: str) -> int | Literal["auto"]:

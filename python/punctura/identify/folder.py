@@ -19,11 +19,12 @@ from typing import Any, Literal
 import pyarrow as pa
 import pyarrow.parquet
 
+import punctura
 from punctura import Needle, PuncturaError
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
-from punctura.trace import read_trace
+from punctura.trace import MissingPackage, read_trace
 
 SUFFIXES = (".csv", ".txt", ".parquet", ".mat", ".xlsx")
 LONGEST = 200  # bytes of a name; a temporary file adds to it
@@ -39,12 +40,14 @@ class Task:
     columns: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     order: Literal["recorded", "depth"] = "recorded"
+    decimal: Literal[".", ","] | None = None
 
     def key(self) -> dict[str, Any]:
         """What a result depends on, beside its file."""
         needle = [self.needle.diameter, self.needle.tip_angle]
         return {"needle": needle, "membranes": self.membranes, "columns": dict(self.columns),
-                "units": dict(self.units), "order": self.order}  # fmt: skip
+                "units": dict(self.units), "order": self.order, "decimal": self.decimal,
+                "punctura": punctura.__version__}  # fmt: skip
 
 
 def traces_in(folder: Path) -> list[Path]:
@@ -81,7 +84,7 @@ def identify_folder(
     missing = [path for path in paths if path.name not in results]
     for done, (path, result) in enumerate(_computed(missing, task, processes), 1):
         results[path.name] = result or _failed(path, task, DIED)
-        if result is not None:
+        if result is not None and not results[path.name].pop("again", False):
             write_whole(_result_file(out, path), json.dumps(result, indent=1).encode())
         progress(done / len(missing))
     return _summary(out, [results[path.name] for path in paths], kept)
@@ -137,14 +140,15 @@ def _follow_parent() -> None:
 
 
 def _one(path: str, task: Task) -> dict[str, Any]:
-    """The result of one trace, in a process of its own."""
+    """The result of one trace, in a process of its own. again: the next run is to try it again."""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     try:
-        trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order)
+        trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
         told = identify(trace, task.needle, task.membranes).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
         known = isinstance(error, (PuncturaError, OSError, ValueError, ArithmeticError))
-        return _failed(Path(path), task, str(error) if known else f"{type(error).__name__}: {error}")
+        failed = _failed(Path(path), task, str(error) if known else f"{type(error).__name__}: {error}")
+        return failed | ({"again": True} if isinstance(error, (ImportError, MissingPackage)) else {})
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}
 
 

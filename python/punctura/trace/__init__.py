@@ -2,6 +2,6 @@
 
 from punctura.trace.read import read_trace
 from punctura.trace.segment import Pop, Segments, Stroke, segment
-from punctura.trace.trace import Finding, Trace, TraceError
+from punctura.trace.trace import Finding, MissingPackage, Trace, TraceError
 
-__all__ = ["Finding", "Pop", "Segments", "Stroke", "Trace", "TraceError", "read_trace", "segment"]
+__all__ = ["Finding", "MissingPackage", "Pop", "Segments", "Stroke", "Trace", "TraceError", "read_trace", "segment"]

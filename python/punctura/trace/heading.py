@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from punctura.trace.columns import known_unit
+from punctura.trace.decimals import Decimal, number
 
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 
 
-def is_number(cell: Any, decimal: str = ".") -> bool:
-    """Whether a cell holds a number, as text with this decimal point or as such."""
-    if isinstance(cell, str):
-        try:
-            float(cell.strip().replace(decimal, "."))
-        except ValueError:
-            return False
-        return True
-    return isinstance(cell, (int, float)) and not isinstance(cell, bool)
+def is_number(cell: Any, decimal: Decimal = ".") -> bool:
+    """Whether a cell holds a number, as text with this decimal mark or as such."""
+    if not isinstance(cell, str):
+        return isinstance(cell, (int, float)) and not isinstance(cell, bool)
+    try:
+        float(cell.strip().replace(decimal, "."))
+    except ValueError:
+        return not math.isnan(number(cell, decimal, True))
+    return True
 
 
-def first_row(rows: Sequence[Row], width: int, decimal: str = ".") -> int:
+def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     """The index of the first row of numbers: it and the next row have `width` cells and at least two numbers.
 
     len(rows) if there is none. A report above the table may contain single numbers.
@@ -36,7 +38,7 @@ def first_row(rows: Sequence[Row], width: int, decimal: str = ".") -> int:
     return len(rows)
 
 
-def _has_gaps(row: Row, width: int, decimal: str) -> bool:
+def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:
     """Whether a row of the table lacks numbers: some cells are empty, and no cell is text."""
     cells = [cell for cell in row if not _empty(cell)]
     return len(row) == width and bool(cells) and all(is_number(cell, decimal) for cell in cells)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from punctura.record import RecordingError, open_recording
 from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns, unit_size
+from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
 from punctura.trace.size import check_size
 from punctura.trace.tables import Table, read_table
@@ -29,12 +30,14 @@ def read_trace(
     units: Mapping[str, str] | None = None,
     *,
     order: Order = "recorded",
+    decimal: Decimal | None = None,
 ) -> Trace:
     """Reads CSV, Parquet, MAT, XLSX or a recording of Punctura. The findings of the trace name what is unusual.
 
     columns: {"depth": name or number from 1, "force": ..., "time": ...}; without it, columns are found by name
     (`depth_mm`, `force_N`, `time_s`). units: {"depth": "mm", ...}; a unit in a column's name needs none.
-    order: "depth" sorts a digitised curve of one insertion. Raises TraceError, OSError.
+    order: "depth" sorts a digitised curve of one insertion. decimal: the mark in front of decimals in a text file;
+    None: as the file shows, and a number that can be read in two ways is an error. Raises TraceError, OSError.
     """
     path = Path(path)
     with path.open("rb") as file:
@@ -45,7 +48,7 @@ def read_trace(
         except RecordingError:
             if head == b"PAR1":
                 raise
-    table = read_table(path)
+    table = read_table(path, decimal)
     return examine(_from_table(table, str(path), columns, units, order))
 
 

@@ -12,20 +12,22 @@ import pyarrow as pa
 import pyarrow.parquet
 from numpy.typing import NDArray
 
+from punctura.trace.decimals import Decimal, numbers
 from punctura.trace.heading import column_names, first_row
 from punctura.trace.packed import check_mat, check_workbook
 from punctura.trace.size import check_names, check_size
-from punctura.trace.text import numbers, read_text
-from punctura.trace.trace import TraceError
+from punctura.trace.text import read_text
+from punctura.trace.trace import MissingPackage, TraceError
 
 Array = NDArray[np.float64]
 Table = dict[str, Array]  # by the name of the column; a cell that holds no number is NaN
 
 
-def read_table(path: Path) -> Table:
-    """All columns of a file. Raises TraceError, OSError."""
+def read_table(path: Path, decimal: Decimal | None = None) -> Table:
+    """All columns of a file. decimal: the mark in front of decimals in a text file. Raises TraceError, OSError."""
     readers = {".parquet": _parquet, ".mat": _mat, ".xlsx": _xlsx}
-    table = readers.get(path.suffix.lower(), read_text)(path)
+    reader = readers.get(path.suffix.lower())
+    table = read_text(path, decimal) if reader is None else reader(path)
     if not table or not len(next(iter(table.values()))):
         raise TraceError(f"{path}: holds no rows of numbers")
     check_names(path, table)
@@ -55,7 +57,7 @@ def _mat(path: Path) -> Table:
     try:
         from scipy.io import loadmat, whosmat
     except ImportError:
-        raise TraceError(f"{path}: a MAT file needs scipy: pip install punctura[identify]") from None
+        raise MissingPackage(f"{path}: a MAT file needs scipy: pip install punctura[identify]") from None
     try:
         check_mat(path, structures=False)
         variables = whosmat(path)
@@ -101,7 +103,7 @@ def _xlsx(path: Path) -> Table:
     try:
         from openpyxl import load_workbook
     except ImportError:
-        raise TraceError(f"{path}: an XLSX file needs openpyxl: pip install punctura[identify]") from None
+        raise MissingPackage(f"{path}: an XLSX file needs openpyxl: pip install punctura[identify]") from None
     try:
         check_workbook(path)
         book = load_workbook(path, read_only=True, data_only=True)

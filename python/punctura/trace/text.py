@@ -8,13 +8,13 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv
 from numpy.typing import NDArray
 
+from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.heading import column_names, first_row
 from punctura.trace.size import LONGEST_NAME, MOST_COLUMNS, check_size
 from punctura.trace.trace import TraceError
@@ -25,36 +25,47 @@ _DELIMITERS = (";", "\t", ",")  # a comma may be the decimal point of the others
 _LOOKED_AT = (
     200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
 )
-_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+([eE][+-]?\d+)?\s*")
 
 
-def read_text(path: Path) -> dict[str, Array]:
+def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     """All columns of a text file by name; a cell that holds no number is NaN. Raises TraceError, OSError.
+
+    decimal: the mark in front of decimals; None: as the file shows, and a number that can be read in two ways is an
+    error.
 
     Lines above the table are left out, but for the names of the columns and their units. Rows with another number of
     cells are NaN.
     """
     lines = [line for line in _decoded(path).splitlines() if line.strip()]
-    numbers = [line for line in lines if not line.startswith(("#", "%"))]
-    if not numbers:
+    rows = [line for line in lines if not line.startswith(("#", "%"))]
+    if not rows:
         raise TraceError(f"{path}: is empty")
-    delimiter = _delimiter(numbers[-_LOOKED_AT:])
+    delimiter = _delimiter(rows[-_LOOKED_AT:])
     if delimiter == " ":
         lines = [re.sub(r"\s+", " ", line.strip()) for line in lines]
-    looked_at = numbers[:_LOOKED_AT] + numbers[-_LOOKED_AT:]
+    looked_at = rows[:_LOOKED_AT] + rows[-_LOOKED_AT:]
     check_size(path, 0, max(1 + line.count(delimiter) for line in looked_at))
     if max(map(len, looked_at)) > LONGEST_NAME * MOST_COLUMNS:
         raise TraceError(f"{path}: a line has more than {LONGEST_NAME * MOST_COLUMNS:,} characters; export it again")
     last = [_cells(line, delimiter) for line in lines[-_LOOKED_AT:] if not line.startswith(("#", "%"))]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
     check_size(path, len(lines), width)
-    decimal = "," if any(_DECIMAL_COMMA.fullmatch(cell) for row in last for cell in row) else "."
+    mark = decimal or decimal_in(cell for row in last for cell in row)
     head = [[] if line.startswith(("#", "%")) else _cells(line, delimiter) for line in lines[:_LOOKED_AT]]
-    first = first_row(head, width, decimal)
+    first = first_row(head, width, mark)
     if first == len(head):
         raise TraceError(f"{path}: holds no rows of numbers; {width} cells in a row are expected, as at its end")
     names = column_names([_cells(line.lstrip("#% "), delimiter) for line in lines[:first]], width)
-    return _parsed(path, [line for line in lines[first:] if not line.startswith(("#", "%"))], names, delimiter, decimal)
+    table = [line for line in lines[first:] if not line.startswith(("#", "%"))]
+    columns, left_out = _parsed(path, table, names, delimiter)
+    try:
+        read = {name: numbers(cells, mark, decimal is not None) for name, cells in columns.items()}
+    except DoubtfulNumber as doubt:
+        raise TraceError(
+            f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate "
+            'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
+        ) from None
+    return {name: np.insert(cells, left_out, np.nan) for name, cells in read.items()}
 
 
 def _decoded(path: Path) -> str:
@@ -74,7 +85,7 @@ def _delimiter(lines: Sequence[str]) -> str:
     for mark in _DELIMITERS:
         if 2 * sum(mark in line for line in lines) > len(lines):
             words = lines[len(lines) // 2].split()
-            spaced = mark == "," and len(words) > 1 and all(_DECIMAL_COMMA.fullmatch(word) for word in words)
+            spaced = mark == "," and len(words) > 1 and all(has_decimal_comma(word) for word in words)
             return " " if spaced else mark
     return " "
 
@@ -87,7 +98,10 @@ def _cells(line: str, delimiter: str) -> list[str]:
         return [line]
 
 
-def _parsed(path: Path, lines: list[str], names: list[str], delimiter: str, decimal: str) -> dict[str, Array]:
+def _parsed(
+    path: Path, lines: list[str], names: list[str], delimiter: str
+) -> tuple[dict[str, list[str | None]], list[int]]:
+    """The cells of the columns as text, and in front of which a row of another width was left out."""
     broken: list[int] = []
 
     def left_out(row: pyarrow.csv.InvalidRow) -> str:
@@ -103,20 +117,4 @@ def _parsed(path: Path, lines: list[str], names: list[str], delimiter: str, deci
         )
     except pa.ArrowInvalid as error:
         raise TraceError(f"{path}: is no table of numbers: {error}") from None
-    places = [row - i for i, row in enumerate(broken)]
-    return {name: np.insert(numbers(table.column(name).to_pylist(), decimal), places, np.nan) for name in names}
-
-
-def numbers(cells: Sequence[Any], decimal: str = ".") -> Array:
-    """Cells as numbers. A cell that is no number becomes NaN."""
-    try:
-        return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
-    except (ValueError, TypeError):
-        return np.array([_number(cell, decimal) for cell in cells])
-
-
-def _number(cell: Any, decimal: str) -> float:
-    try:
-        return float(cell.strip().replace(decimal, ".") if isinstance(cell, str) else cell)
-    except (ValueError, TypeError):
-        return np.nan
+    return {name: table.column(name).to_pylist() for name in names}, [row - i for i, row in enumerate(broken)]

@@ -19,6 +19,10 @@ class TraceError(PuncturaError, ValueError):
     """A trace cannot be read or used. Names the file, the problem and the remedy."""
 
 
+class MissingPackage(TraceError):
+    """A trace cannot be read without a package that is not installed."""
+
+
 @dataclass(frozen=True)
 class Finding:
     """Something unusual in a trace. `kind` is one word for programs, `text` says what, where and what to do."""

@@ -2,8 +2,11 @@
 
 import json
 import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import punctura
 import pyarrow.parquet as pq
 import pytest
 from dying import dies
@@ -60,6 +63,23 @@ def test_a_process_that_dies_takes_no_other_trace_with_it_and_is_not_kept(tmp_pa
     told = identify_folder(folder, out, Task(NEEDLE), 1)
     assert "memory" in told["failed"]["dies.csv"] and told["failed"]["z.csv"] == "was reached"
     assert {path.name for path in out.glob("*.json")} == {"z.csv.json"}
+
+
+def test_a_file_that_lacks_a_package_is_tried_again_and_another_version_computes_all_again(tmp_path, monkeypatch):
+    folder, out = tmp_path / "traces", tmp_path / "out"
+    folder.mkdir()
+    for name in ("a.mat", "broken.csv"):
+        (folder / name).write_text("no table")
+    monkeypatch.setitem(sys.modules, "scipy.io", None)
+    monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
+    told = identify_folder(folder, out, Task(NEEDLE))
+    assert "needs scipy" in told["failed"]["a.mat"] and told["kept"] == 0
+    monkeypatch.undo()
+    monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
+    told = identify_folder(folder, out, Task(NEEDLE))
+    assert "is no MAT file" in told["failed"]["a.mat"] and told["kept"] == 1
+    monkeypatch.setattr(punctura, "__version__", "another")
+    assert identify_folder(folder, out, Task(NEEDLE))["kept"] == 0
 
 
 def test_names_that_are_long_or_no_text_are_files_as_others(tmp_path, monkeypatch):

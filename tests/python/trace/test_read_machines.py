@@ -90,3 +90,23 @@ def test_a_file_that_is_no_text_is_named(tmp_path):
     (tmp_path / "b.csv").write_text("only,words\nare,here\n")
     with pytest.raises(TraceError, match="holds no rows of numbers"):
         read_trace(tmp_path / "b.csv")
+
+
+MIXED = ["time_s;depth_mm;force_N", *(f"{k},5;{k},25;{k}.234" for k in range(1, 9))]
+
+
+def test_a_number_of_two_readings_is_asked_for(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(MIXED))
+    with pytest.raises(TraceError, match=r"is the point in 1\.234 a decimal point.*--decimal comma"):
+        read_trace(path)
+    assert read_trace(path, decimal=",").force == pytest.approx(1000 * np.arange(1, 9) + 234)
+    path.write_text("\n".join(MIXED).replace(",5", ".5").replace(",25", ".25").replace("1.5;", '"1,5";'))
+    assert read_trace(path, decimal=".").force[:2] == pytest.approx([2.234, 3.234])  # without row 1
+
+
+@pytest.mark.parametrize(("thousands", "force"), [("1.234,5", 1234.5), ("1.234.567,5", 1234567.5), ("1,5e3", 1500.0)])
+def test_marks_between_thousands_are_clear_beside_a_decimal_comma(tmp_path, thousands, force):
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([MIXED[0], *(f"{k},5;{k},25;{thousands}" for k in range(1, 9))]))
+    assert read_trace(path).force == pytest.approx(np.full(8, force))
