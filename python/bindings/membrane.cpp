@@ -34,10 +34,10 @@ Enum from_word(const std::string& path, const std::string& given, const std::arr
   raise_word(path, given, reason.c_str());
 }
 
-Tissue make_tissue(std::string grip, double growth, std::vector<Point> grip_table, double tip_length,
-                   double tail_length, double tail_floor, double cutting, double set, std::vector<Row> profile) {
+Tissue unchecked_tissue(std::string grip, double growth, std::vector<Point> grip_table, double tip_length,
+                        double tail_length, double tail_floor, double cutting, double set, std::vector<Row> profile) {
   Tissue made;
-  made.grip = from_word<GripShape>("membrane.grip", grip, grip_words);
+  made.grip = from_word<GripShape>("tissue.grip", grip, grip_words);
   made.growth = growth;
   for (const auto& [opening, force] : grip_table) made.grip_table.push_back({opening, force});
   made.tip_length = tip_length;
@@ -49,10 +49,29 @@ Tissue make_tissue(std::string grip, double growth, std::vector<Point> grip_tabl
   return made;
 }
 
-MaxwellBranch make_branch(double stiffness, double time_constant) { return {stiffness, time_constant}; }
+Tissue make_tissue(std::string grip, double growth, std::vector<Point> grip_table, double tip_length,
+                   double tail_length, double tail_floor, double cutting, double set, std::vector<Row> profile) {
+  Tissue made = unchecked_tissue(std::move(grip), growth, std::move(grip_table), tip_length, tail_length, tail_floor,
+                                 cutting, set, std::move(profile));
+  std::vector<Problem> problems;
+  check(made, "tissue", problems);
+  raise_if(problems);
+  return made;
+}
 
-PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
-                           std::string look, Outlet outflow, Outlet outflow_behind, Tissue tissue) {
+MaxwellBranch unchecked_branch(double stiffness, double time_constant) { return {stiffness, time_constant}; }
+
+MaxwellBranch make_branch(double stiffness, double time_constant) {
+  const MaxwellBranch made{stiffness, time_constant};
+  std::vector<Problem> problems;
+  check_fields(branch_fields, made, "coupling.relaxation", problems);
+  raise_if(problems);
+  return made;
+}
+
+PlacedMembrane unchecked_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal,
+                                std::string behind, std::string look, Outlet outflow, Outlet outflow_behind,
+                                Tissue tissue) {
   return {std::move(name),
           membrane,
           point,
@@ -64,11 +83,25 @@ PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Tr
           std::move(tissue)};
 }
 
+PlacedMembrane make_placed(std::string name, Membrane membrane, Triple point, Triple inward_normal, std::string behind,
+                           std::string look, Outlet outflow, Outlet outflow_behind, Tissue tissue) {
+  PlacedMembrane made = unchecked_placed(std::move(name), membrane, point, inward_normal, std::move(behind),
+                                         std::move(look), outflow, outflow_behind, std::move(tissue));
+  std::vector<Problem> problems;
+  check_place(made, "membrane", problems);
+  raise_if(problems);
+  return made;
+}
+
 }  // namespace
 
 void bind_membrane(nb::module_& m) {
   auto tissue =
       nb::class_<Tissue>(m, "Tissue", "What a membrane of measured tissue has beside the four numbers of K06.")
+          .def_static("unchecked", &unchecked_tissue, nb::arg("grip"), nb::arg("growth"), nb::arg("grip_table"),
+                      nb::arg("tip_length"), nb::arg("tail_length"), nb::arg("tail_floor"), nb::arg("cutting"),
+                      nb::arg("set"), nb::arg("profile"),
+                      "Creates the additions without checks of the numbers. The scene that uses them checks all.")
           .def_prop_ro(
               "grip", [](const Tissue& t) { return text(grip_words[static_cast<std::size_t>(t.grip)]); },
               nb::sig(("def grip(self) -> " + grip_type).c_str()), "How the grip grows with the opening of the hole")
@@ -97,34 +130,38 @@ void bind_membrane(nb::module_& m) {
               nb::sig("def profile(self) -> tuple[tuple[float, float, float], ...]"),
               "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)");
   const Tissue none;
-  def_init(
-      tissue,
-      {{"grip", grip_type.c_str(), nb::str("linear")},
-       {"growth", "float", nb::float_(none.growth)},
-       {"grip_table", "Sequence[tuple[float, float]]", nb::make_tuple()},
-       {"tip_length", "float", nb::float_(none.tip_length)},
-       {"tail_length", "float", nb::float_(none.tail_length)},
-       {"tail_floor", "float", nb::float_(none.tail_floor)},
-       {"cutting", "float", nb::float_(none.cutting)},
-       {"set", "float", nb::float_(none.set)},
-       {"profile", "Sequence[tuple[float, float, float]]", nb::make_tuple()}},
-      &make_tissue,
-      "Tissue() is K06's membrane. A profile replaces grip and tail. docs/measured-tissue.md. The scene that uses\n"
-      "it checks all values.");
+  def_init(tissue,
+           {{"grip", grip_type.c_str(), nb::str("linear")},
+            {"growth", "float", nb::float_(none.growth)},
+            {"grip_table", "Sequence[tuple[float, float]]", nb::make_tuple()},
+            {"tip_length", "float", nb::float_(none.tip_length)},
+            {"tail_length", "float", nb::float_(none.tail_length)},
+            {"tail_floor", "float", nb::float_(none.tail_floor)},
+            {"cutting", "float", nb::float_(none.cutting)},
+            {"set", "float", nb::float_(none.set)},
+            {"profile", "Sequence[tuple[float, float, float]]", nb::make_tuple()}},
+           &make_tissue,
+           "Tissue() is K06's membrane. A profile replaces grip and tail. docs/measured-tissue.md. Raises\n"
+           "ConfigurationError.");
   def_value(tissue,
             {"grip", "growth", "grip_table", "tip_length", "tail_length", "tail_floor", "cutting", "set", "profile"});
 
   auto branch = nb::class_<MaxwellBranch>(m, "MaxwellBranch",
                                           "A spring in series with a damper, beside the coupling: it relaxes while the "
                                           "needle rests.")
+                    .def_static("unchecked", &unchecked_branch, nb::arg("stiffness"), nb::arg("time_constant"),
+                                "Creates a branch without checks. The scene that uses it checks all values.")
                     .def_ro("stiffness", &MaxwellBranch::stiffness, "K_m of the spring, N/m; 0 is no branch")
                     .def_ro("time_constant", &MaxwellBranch::time_constant, "tau: damping over stiffness, s");
-  def_init(branch, {{"stiffness", "float"}, {"time_constant", "float"}}, &make_branch,
-           "The scene that uses it checks all values.");
+  def_init(branch, {{"stiffness", "float"}, {"time_constant", "float"}}, &make_branch, "Raises ConfigurationError.");
   def_value(branch, {"stiffness", "time_constant"});
 
   auto placed =
       nb::class_<PlacedMembrane>(m, "PlacedMembrane", "A membrane and its place in the scene.")
+          .def_static("unchecked", &unchecked_placed, nb::arg("name"), nb::arg("membrane"), nb::arg("point"),
+                      nb::arg("inward_normal"), nb::arg("behind"), nb::arg("look"), nb::arg("outflow"),
+                      nb::arg("outflow_behind"), nb::arg("tissue"),
+                      "Creates a membrane without a check of its place. The scene that uses it checks all values.")
           .def_ro("name", &PlacedMembrane::name)
           .def_ro("membrane", &PlacedMembrane::membrane)
           .def_prop_ro(
@@ -159,7 +196,7 @@ void bind_membrane(nb::module_& m) {
       "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
       "this membrane and the next. look: kind of tissue in the studio's picture. outflow,\n"
       "outflow_behind: what liquid from a syringe meets in the membrane and behind it; by default it cannot leave.\n"
-      "tissue: what measured tissue adds.");
+      "tissue: what measured tissue adds. Raises ConfigurationError.");
   def_value(placed,
             {"name", "membrane", "point", "inward_normal", "behind", "look", "outflow", "outflow_behind", "tissue"});
 }

@@ -9,6 +9,7 @@
 
 #include "arguments.hpp"
 #include "bindings.hpp"
+#include "punctura/scene/check.hpp"
 #include "punctura/scene/values.hpp"
 #include "value.hpp"
 
@@ -29,19 +30,37 @@ Conditioning conditioning_from(const std::string& name) {
 
 const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
 
-ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
-                         double encoder_step, double sub_steps) {
+ServoSettings unchecked_servo(double rate, double low_pass, std::string solver, std::string conditioning,
+                              double encoder_step, double sub_steps) {
   return {rate,         low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning),
           encoder_step, sub_steps};
 }
 
+ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
+                         double encoder_step, double sub_steps) {
+  const auto made =
+      unchecked_servo(rate, low_pass, std::move(solver), std::move(conditioning), encoder_step, sub_steps);
+  std::vector<Problem> problems;
+  check(made, problems);
+  raise_if(problems);
+  return made;
+}
+
 using ScaleOrWord = std::variant<double, std::string>;
 
-DisplaySettings display_from(const ScaleOrWord& force_scale) {
+DisplaySettings unchecked_display(const ScaleOrWord& force_scale) {
   if (const auto* number = std::get_if<double>(&force_scale)) return {*number, false};
   const auto& word = std::get<std::string>(force_scale);
   if (word != "automatic") raise_word("display.force_scale", word, "must be a number or \"automatic\"");
   return {DisplaySettings{}.force_scale, true};
+}
+
+DisplaySettings make_display(ScaleOrWord force_scale) {
+  const DisplaySettings made = unchecked_display(force_scale);
+  std::vector<Problem> problems;
+  check_fields(display_fields, made, "display", problems);
+  raise_if(problems);
+  return made;
 }
 
 SyringeSettings make_settings(Syringe syringe, Coupling thumb) { return {syringe, thumb}; }
@@ -171,6 +190,9 @@ void bind_scene(nb::module_& m) {
   const ServoSettings defaults;
   auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
                                          "Rate of the servo loop, position conditioning and solver. K06 section 4")
+                   .def_static("unchecked", &unchecked_servo, nb::arg("rate"), nb::arg("low_pass"), nb::arg("solver"),
+                               nb::arg("conditioning"), nb::arg("encoder_step"), nb::arg("sub_steps"),
+                               "Creates settings without checks of the numbers. The scene that uses them checks all.")
                    .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
                    .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff of conditioning \"low_pass\", Hz; 0 is off")
                    .def_prop_ro(
@@ -194,10 +216,13 @@ void bind_scene(nb::module_& m) {
            &make_servo,
            "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\" is K06's filter with cutoff\n"
            "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).\n"
-           "sub_steps: steps of the model in a tick, 1 to 16; more find the time of a pop better.");
+           "sub_steps: steps of the model in a tick, 1 to 16; more find the time of a pop better. Raises\n"
+           "ConfigurationError.");
   def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step", "sub_steps"});
 
   auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.")
+                     .def_static("unchecked", &unchecked_display, nb::arg("force_scale"),
+                                 "Creates settings without checks of the number. The scene that uses them checks it.")
                      .def_prop_ro(
                          "force_scale",
                          [](const DisplaySettings& d) {
@@ -206,9 +231,9 @@ void bind_scene(nb::module_& m) {
                          nb::sig("def force_scale(self) -> float | typing.Literal['automatic']"),
                          "How much of the model's force the device gives: a number, or \"automatic\"");
   def_init(display, {{"force_scale", "float | typing.Literal['automatic']", nb::float_(DisplaySettings{}.force_scale)}},
-           &display_from,
+           &make_display,
            "force_scale: how much of the model's force the device gives, greater than 0 and at most 1. \"automatic\"\n"
-           "lowers it so that the limits in use never cut the friction along the needle.");
+           "lowers it so that the limits in use never cut the friction along the needle. Raises ConfigurationError.");
   def_value(display, {"force_scale"});
 
   bind_scene_field(m);

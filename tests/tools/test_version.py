@@ -8,6 +8,14 @@ from pathlib import Path
 import punctura
 
 ROOT = Path(__file__).parents[2]
+INTEGRATIONS = {  # each file and the line with the version
+    "firmware/arduino/library.json": r'"version": "(.*)"',
+    "firmware/arduino/library.properties": r"version=(.*)",
+    "ros2/package.xml": r"<version>(.*)</version>",
+    "ros2/setup.py": r'version="(.*)"',
+    "rust/Cargo.toml": r'\nversion = "(.*)"',
+    "wasm/package.json": r'"version": "(.*)"',
+}
 
 
 def test_every_place_has_the_same_version():
@@ -17,3 +25,6 @@ def test_every_place_has_the_same_version():
     assert json.loads((ROOT / "web" / "package.json").read_text())["version"] == number
     assert f"\nversion: {number}\n" in (ROOT / "CITATION.cff").read_text()
     assert f"## {number}" in (ROOT / "CHANGELOG.md").read_text()
+    for file, line in INTEGRATIONS.items():
+        found = re.search(line, (ROOT / "integrations" / file).read_text())
+        assert found and found[1] == number, file

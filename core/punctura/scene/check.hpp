@@ -132,6 +132,22 @@ inline void check(const SyringeSettings& settings, std::vector<Problem>& problem
   check_fields(thumb_fields, settings.thumb, "syringe", problems);
 }
 
+inline void check(const ServoSettings& servo, std::vector<Problem>& problems) {
+  if (check_fields(servo_fields, servo, "servo", problems) && std::trunc(servo.sub_steps) != servo.sub_steps)
+    problems.push_back({"servo.sub_steps", servo.sub_steps, "must be a whole number"});
+}
+
+/// The problems of a membrane's place: point and inward normal.
+inline void check_place(const PlacedMembrane& placed, const std::string& path, std::vector<Problem>& problems) {
+  if (!detail::finite(placed.point))
+    problems.push_back({path + ".point", detail::value_to_show(placed.point), "must be three finite numbers"});
+  const auto& n = placed.inward_normal;
+  if (!detail::finite(n))
+    problems.push_back({path + ".inward_normal", detail::value_to_show(n), "must be three finite numbers"});
+  else if (!(std::hypot(n[0], n[1], n[2]) > 0))
+    problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
+}
+
 /// All problems of a scene, each with its path (`membrane[1].friction`), its SI value and the reason. If there are
 /// none, the scene can be built.
 inline std::vector<Problem> check(const Scene& scene) {
@@ -139,9 +155,7 @@ inline std::vector<Problem> check(const Scene& scene) {
   check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
   check_relaxation(scene, problems);
-  if (check_fields(servo_fields, scene.servo, "servo", problems) &&
-      std::trunc(scene.servo.sub_steps) != scene.servo.sub_steps)
-    problems.push_back({"servo.sub_steps", scene.servo.sub_steps, "must be a whole number"});
+  check(scene.servo, problems);
   check_fields(display_fields, scene.display, "display", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
   if (scene.membranes.size() > max_membranes)
@@ -158,13 +172,7 @@ inline std::vector<Problem> check(const Scene& scene) {
     if (problems.empty()) check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
     check_fields(outflow_fields, placed.outflow, path, problems);
     check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
-    if (!detail::finite(placed.point))
-      problems.push_back({path + ".point", detail::value_to_show(placed.point), "must be three finite numbers"});
-    const auto& n = placed.inward_normal;
-    if (!detail::finite(n))
-      problems.push_back({path + ".inward_normal", detail::value_to_show(n), "must be three finite numbers"});
-    else if (!(std::hypot(n[0], n[1], n[2]) > 0))
-      problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
+    check_place(placed, path, problems);
   }
   check_lumen(scene, problems);
   if (scene.syringe) check(*scene.syringe, problems);

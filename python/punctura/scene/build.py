@@ -127,8 +127,8 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         rows = reader.rows(m, f"membrane[{i}]", "membrane")
         tip_and_tail = {name: m[name] for name in ("tip_length", "tail_length", "tail_floor")}
         hole = {name: m[name] for name in ("cutting", "set")}
-        tissue = Tissue(m["grip"], m["growth"], **rows, **tip_and_tail, **hole)
-        membranes.append(PlacedMembrane(*placed, outflow, behind, tissue))
+        tissue = Tissue.unchecked(m["grip"], m["growth"], **rows, **tip_and_tail, **hole)
+        membranes.append(PlacedMembrane.unchecked(*placed, outflow, behind, tissue))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:
         reader.stand_ins.add("membrane")
@@ -137,11 +137,11 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         Needle.unchecked(needle["diameter"], needle["tip_angle"]),
         Coupling.unchecked(coupling["stiffness"], coupling["damping"]),
         membranes,
-        ServoSettings(**servo),
+        ServoSettings.unchecked(**servo),
         needle["direction"],
-        DisplaySettings(**display),
+        DisplaySettings.unchecked(**display),
         _syringe(reader, data.get("syringe")),
-        [MaxwellBranch(*branch) for branch in branches],
+        [MaxwellBranch.unchecked(*branch) for branch in branches],
     )
     return Parts(arguments, reader.keys, reader.stand_ins)
 

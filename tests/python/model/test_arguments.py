@@ -23,6 +23,14 @@ WALL = {"stiffness": 570, "precompression": 0.41, "friction": 0.2, "thickness": 
             lambda: pn.Proxy1d(pn.ThickLaw(pn.Needle(**NEEDLE), pn.Membrane(**WALL)), pn.Coupling(400, 1), 1600),
             "period",
         ),
+        (lambda: pn.ServoSettings(rate=float("nan")), "servo.rate"),
+        (lambda: pn.ServoSettings().replace(low_pass=-1), "servo.low_pass"),
+        (lambda: pn.ServoSettings(sub_steps=1.5), "servo.sub_steps"),
+        (lambda: pn.DisplaySettings(float("nan")), "display.force_scale"),
+        (lambda: pn.MaxwellBranch(float("nan"), 0.1), "coupling.relaxation.stiffness"),
+        (lambda: pn.Tissue(cutting=float("nan")), "tissue.cutting"),
+        (lambda: pn.PlacedMembrane("a", pn.Membrane(**WALL), [0, float("nan"), 0], [0, -1, 0]), "membrane.point"),
+        (lambda: pn.PlacedMembrane("a", pn.Membrane(**WALL), [0, 0, 0], [0, 0, 0]), "membrane.inward_normal"),
     ],
 )
 def test_an_invalid_value_is_rejected_at_once(make, path):
