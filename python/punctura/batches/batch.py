@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, run_scenes
+from punctura.batches.inputs import enough_memory, real_numbers, whole_seeds
 from punctura.batches.result import BatchResult, is_duration
 from punctura.progress import Progress
 
@@ -39,29 +40,28 @@ def batch(
     first membrane's inward normal. keep_force: also returns the model's force of each tick. threads: default: one for
     each processor. instructions: "avx512", "avx2", "sse2", "neon" or "portable"; default: the fastest, or the
     environment variable PUNCTURA_SIMD. Each trial has the numbers of the same trial alone. Raises
-    ConfigurationError, ValueError.
+    ConfigurationError, ValueError, TypeError, and MemoryError before it takes more memory than there is.
     """
     base, values = _numbers(scene)
     for path, column in (vary or {}).items():
         if path in values:
             raise ValueError(f"vary has {path}, in which the scenes differ, too: give it in one of them")
-        values[path] = np.ascontiguousarray(np.atleast_1d(np.asarray(column, np.float64)))
-    count = trials if isinstance(scene, Scene) else len(scene)
-    n = _trials(values, seeds, count, motion)
-    for path, column in values.items():
-        if column.shape not in ((n,), (1,)):
-            raise ValueError(f"vary: {path} has shape {column.shape}; there are {n} trials")
-        values[path] = np.ascontiguousarray(np.broadcast_to(column, (n,)))
+        values[path] = np.ascontiguousarray(np.atleast_1d(real_numbers(f"vary: {path}", column)))
+    if not isinstance(motion, Strokes | RecordedMotion):
+        motion = real_numbers("motion", motion)
+    n = _trials(values, seeds, trials, None if isinstance(scene, Scene) else len(scene), motion)
     if not is_duration(duration):
         raise ValueError(f"duration must be 0 s or more, not {duration}")
     if keep_force and isinstance(motion, Strokes | RecordedMotion) and (duration is None or "servo.rate" in values):
         raise ValueError("keep_force needs a duration and one servo.rate, so that all trials have as many ticks")
-    own = np.asarray(seeds, np.uint64)
-    own = np.ascontiguousarray(own + np.arange(n, dtype=np.uint64) if own.ndim == 0 else own)
+    _room(base, motion, n, len(values), duration, keep_force)
+    for path, column in values.items():
+        if column.shape not in ((n,), (1,)):
+            raise ValueError(f"vary: {path} has shape {column.shape}; there are {n} trials")
+        values[path] = np.ascontiguousarray(np.broadcast_to(column, (n,)))
+    own = whole_seeds(seeds, n)
     plant, hand = plant or Plant(), hand or Hand()
-    direction = base.membranes[0].inward_normal if axis is None else np.asarray(axis, np.float64)
-    if not isinstance(motion, Strokes | RecordedMotion):
-        motion = np.asarray(motion, np.float64)
+    direction = base.membranes[0].inward_normal if axis is None else real_numbers("axis", axis)
     found = run_scenes(
         base,
         motion,
@@ -105,18 +105,41 @@ def _trials(
     values: Mapping[str, npt.NDArray[np.float64]],
     seeds: int | npt.ArrayLike,
     trials: int | None,
-    motion: Strokes | RecordedMotion | npt.ArrayLike,
+    scenes: int | None,
+    motion: Strokes | RecordedMotion | npt.NDArray[np.float64],
 ) -> int:
     """The number of trials that the arguments ask for. Raises ValueError."""
-    if trials is not None and trials < 1:
-        raise ValueError(f"trials must be 1 or more, not {trials}")
+    if trials is not None and (not isinstance(trials, int | np.integer) or trials < 1):
+        raise ValueError(f"trials must be a whole number, 1 or more, not {trials!r}")
     counts = {"trials": trials} if trials is not None else {}
+    if scenes is not None:
+        counts["scene"] = scenes
     counts |= {path: len(column) for path, column in values.items() if len(column) > 1}
     if np.ndim(seeds) == 1:
         counts["seeds"] = len(np.asarray(seeds))
-    if not isinstance(motion, Strokes | RecordedMotion) and np.ndim(motion) == 3:
-        counts["motion"] = len(np.asarray(motion))
+    if not isinstance(motion, Strokes | RecordedMotion) and motion.ndim == 3:
+        counts["motion"] = len(motion)
     if len(set(counts.values())) > 1:
         told = ", ".join(f"{name}: {count}" for name, count in counts.items())
         raise ValueError(f"the arguments ask for different numbers of trials ({told})")
     return next((count for count in counts.values() if count is not None), 1)
+
+
+def _room(
+    scene: Scene,
+    motion: Strokes | RecordedMotion | npt.NDArray[np.float64],
+    trials: int,
+    varied: int,
+    duration: float | None,
+    keep_force: bool,
+) -> None:
+    """Raises MemoryError if the results have no room."""
+    ticks = 0.0
+    if keep_force and not isinstance(motion, Strokes | RecordedMotion):
+        ticks = float(motion.shape[-2]) if motion.ndim > 1 else 0.0
+    elif keep_force:
+        ticks = (duration or 0.0) * scene.servo.rate
+    needed = trials * (200.0 + 24 * varied + 64 * len(scene.membranes) + 24 * ticks)
+    forces = f" with the force of each of {ticks:.0f} ticks" if keep_force else ""
+    advice = "Take fewer trials at a time" + (", or leave out keep_force." if keep_force else ".")
+    enough_memory(needed, f"{trials} trials{forces}", advice)

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura.batches import grid
+from punctura.batches.inputs import enough_memory
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.extras import optional
 from punctura.study.plan import MOST_TRIALS, Plan
@@ -30,7 +31,12 @@ class Design(NamedTuple):
 def design(plan: Plan) -> Design:
     """The trials of a plan. The same plan gives the same trials. Raises ConfigurationError for too many."""
     file = plan.file
-    seeds = np.uint64(file.seed) + np.arange(trials_of(plan), dtype=np.uint64)
+    trials = trials_of(plan)
+    try:
+        enough_memory(trials * (8.0 + 32 * len(plan.variables)), f"the values of {trials} trials", "Take fewer trials.")
+    except MemoryError as bad:
+        raise ConfigurationError([Problem("", MISSING, str(bad))], str(plan.path)) from None
+    seeds = np.uint64(file.seed) + np.arange(trials, dtype=np.uint64)
     if file.method == "grid":
         values = {one.path: [float(v) for v in one.values or ()] for one in plan.variables}
         return Design(grid(values), seeds)

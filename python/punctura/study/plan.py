@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 from pydantic import ValidationError
 
 from punctura._core import Hand, Plant, Scene, Strokes
@@ -97,7 +97,7 @@ def _numbers(file: PlanFile) -> Iterator[Problem]:
         yield Problem("seed", file.seed, "must be from 0 to 2^63 - 1")
     if not 1 <= file.motion.count <= 1000:
         yield Problem("motion.count", file.motion.count, "must be from 1 to 1000")
-    if file.duration_s is not None and not 0 < file.duration_s <= 3600:
+    if file.duration_s is not None and not 0 < float(file.duration_s) <= 3600:
         yield Problem("duration_s", float(file.duration_s), "must be more than 0 and at most 3600 s")
     if not file.variable:
         yield Problem("variable", MISSING, "give at least one; begin each with [[variable]]")
@@ -108,6 +108,9 @@ def _variable(i: int, one: VariableTable, method: str) -> Iterator[Problem]:
     if method == "grid":
         if not one.values:
             yield Problem(f"{at}.values", MISSING, "is missing; a grid needs the values, as [0.1, 0.2]")
+        for k, value in enumerate(one.values or ()):
+            if not _is_finite(value):
+                yield Problem(f"{at}.values[{k}]", float(value), "must be a finite number")
         return
     if one.values is not None:
         yield Problem(f"{at}.values", MISSING, f"is for the method grid; give a distribution for {method}")
@@ -117,15 +120,20 @@ def _variable(i: int, one: VariableTable, method: str) -> Iterator[Problem]:
     for key in ("mean", "sd", "median", "sigma"):
         if getattr(one, key) is not None and key not in _NEEDED[one.distribution]:
             yield Problem(f"{at}.{key}", float(getattr(one, key)), f"is not for a {one.distribution} distribution")
+    strange = [k for k in ("low", "high", "mean", "sd", "median", "sigma") if not _is_finite(getattr(one, k))]
+    for key in strange:  # a Decimal that is no number compares with nothing
+        yield Problem(f"{at}.{key}", float(getattr(one, key)), "must be a finite number")
+    if strange:
+        return
     for key in ("sd", "median", "sigma"):
         if getattr(one, key) is not None and not getattr(one, key) > 0:
             yield Problem(f"{at}.{key}", float(getattr(one, key)), "must be greater than 0")
     if one.low is not None and one.high is not None and not one.low < one.high:
         yield Problem(f"{at}.low", float(one.low), f"must be less than high, which is {one.high}")
-    for key in ("low", "high", "mean", "sd", "median", "sigma"):
-        value = getattr(one, key)
-        if value is not None and not np.isfinite(float(value)):
-            yield Problem(f"{at}.{key}", float(value), "must be a finite number")
+
+
+def _is_finite(value: object) -> bool:
+    return value is None or math.isfinite(float(str(value)))
 
 
 def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:

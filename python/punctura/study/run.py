@@ -84,6 +84,8 @@ def run_part(
         )
     except ConfigurationError as bad:
         raise ConfigurationError(bad.problems, f"{plan.path}: trials from row {begin} on") from None
+    except MemoryError as bad:
+        raise StudyError(f"{plan.path}: {bad} Give a smaller chunk.") from None
 
 
 def _table(plan: Plan, result: BatchResult, begin: int) -> pa.Table:

@@ -103,6 +103,22 @@ def test_wrong_arguments() -> None:
         batch(SCENE, STROKES, trials=2, keep_force=True)
     with pytest.raises(ValueError, match=r"scene\[1\] differs"):
         batch([SCENE, load_scene("k06-fig10")], STROKES)
+    for message, wrong in {
+        r"trials: 2, scene: 3": {"scene": [SCENE] * 3, "trials": 2},
+        r"trials must be a whole number, 1 or more, not 2\.5": {"trials": 2.5},
+        r"seeds must hold whole numbers": {"trials": 2, "seeds": 1.5},
+        r"seeds\[1\] must be a whole number, not 2\.5": {"seeds": np.array([1, 2.5], object)},
+        r"seeds must be from 0 to 2\^64 - 1, not -1": {"trials": 2, "seeds": -1},
+        r"too large to count up": {"trials": 2, "seeds": 2**64 - 1},
+        r"seeds must be one number, or have shape \(2,\)": {"trials": 2, "seeds": np.ones((2, 2), int)},
+        r"motion must hold real numbers, not complex128": {"motion": positions() + 0j},
+        r"its rows have different lengths": {"motion": [[0, 0, 0], [0, 0]]},
+        r"vary: hand\.mass must hold real numbers, not text": {"vary": {"hand.mass": ["0.1"]}},
+        r"1000000000000 trials need .* GB of memory": {"trials": 10**12},
+        r"with the force of each of 1600000 ticks need": {"trials": 10**6, "duration": 1e3, "keep_force": True},
+    }.items():
+        with pytest.raises((ValueError, TypeError, MemoryError), match=message):
+            batch(**({"scene": SCENE, "motion": STROKES} | wrong))  # type: ignore[arg-type]
     bad = positions()
     bad[3, 1] = np.nan
     with pytest.raises(ValueError, match=r"motion\[3\]"):

@@ -70,6 +70,12 @@ def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
         load_plan(written(tmp_path, SOBOL.replace("samples = 8", "samples = 9")))
     with pytest.raises(ConfigurationError, match="practically no numbers"):
         design(load_plan(written(tmp_path, SOBOL.replace("low = 300", "low = 9000"))))
+    with pytest.raises(ConfigurationError, match=r"values\[1\].*must be a finite number"):
+        load_plan(written(tmp_path, GRID.replace("[0.1, 0.2, 0.3]", "[0.1, nan, 0.3]")))
+    with pytest.raises(ConfigurationError, match=r"variable\[0\]\.low.*must be a finite number"):
+        load_plan(written(tmp_path, SOBOL.replace("low = 0.1", "low = nan")))
+    with pytest.raises(ConfigurationError, match="duration_s"):
+        load_plan(written(tmp_path, GRID.replace("duration_s = 0.3", "duration_s = nan")))
     with pytest.raises(ConfigurationError, match="unknown key"):
         load_plan(written(tmp_path, "trials = 3\n" + GRID))
 

@@ -1,0 +1,72 @@
+"""Checks what a batch is given, before it takes memory."""
+
+from __future__ import annotations
+
+import operator
+import os
+from pathlib import Path
+from typing import SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def real_numbers(name: str, given: npt.ArrayLike) -> Array:
+    """The numbers of an argument. Raises TypeError for text, times and complex numbers, ValueError for other shapes."""
+    if np.ma.is_masked(given):
+        raise ValueError(f"{name} has masked elements: fill them in, or leave these trials out")
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        raise ValueError(f"{name} must be an array of numbers: its rows have different lengths") from None
+    if array.dtype.kind not in "biufO":
+        raise TypeError(f"{name} must hold real numbers, not {'text' if array.dtype.kind in 'US' else array.dtype}")
+    try:
+        return np.asarray(array, np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must hold real numbers") from None
+
+
+def whole_seeds(seeds: SupportsIndex | npt.ArrayLike, trials: int) -> npt.NDArray[np.uint64]:
+    """The seed of each trial. Raises TypeError, ValueError for what is no whole number from 0 to 2^64 - 1."""
+    array = np.asarray(seeds)
+    if array.ndim > 1:
+        raise ValueError(f"seeds must be one number, or have shape ({trials},), not {array.shape}")
+    if array.dtype.kind not in "iuO":  # a large int alone is an object
+        raise TypeError(f"seeds must hold whole numbers, not {array.dtype}")
+    for i, seed in enumerate(array.ravel()) if array.dtype.kind in "iO" else ():
+        where = f"seeds[{i}]" if array.ndim else "seeds"
+        try:
+            number = operator.index(seed)
+        except TypeError:
+            raise TypeError(f"{where} must be a whole number, not {seed!r}") from None
+        if not 0 <= number < 2**64:
+            raise ValueError(f"{where} must be from 0 to 2^64 - 1, not {number}")
+    if array.ndim:
+        return np.ascontiguousarray(array, np.uint64)
+    first = operator.index(array[()])
+    if first + trials > 2**64:
+        raise ValueError(f"seeds: {first} is too large to count up for {trials} trials; the last seed is 2^64 - 1")
+    return np.uint64(first) + np.arange(trials, dtype=np.uint64)
+
+
+def enough_memory(needed: float, what: str, advice: str) -> None:
+    """Raises MemoryError if an object of so many bytes has no room on this computer. what: the object."""
+    there = _free_memory()
+    if there is not None and needed > there:
+        raise MemoryError(f"{what} need {needed / 1e9:.3g} GB of memory, and {there / 1e9:.3g} GB are free. {advice}")
+
+
+def _free_memory() -> float | None:
+    """Bytes that a program can still take; without /proc, all bytes that there are. None if unknown."""
+    try:
+        lines = Path("/proc/meminfo").read_text().splitlines()
+        return float(next(line.split()[1] for line in lines if line.startswith("MemAvailable:"))) * 1024
+    except (OSError, StopIteration, ValueError, IndexError):
+        pass
+    try:
+        return float(os.sysconf("SC_PHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE"))
+    except (AttributeError, ValueError, OSError):
+        return None
