@@ -62,6 +62,7 @@ inline OpenHapticsOptions with_fake_hd(double rate = 1600) {
   OpenHapticsOptions options;
   options.rate = rate;
   options.library = FAKE_HD;
+  options.patience = 60;  // the computer may be busy
   options.now_ns = []() noexcept -> std::int64_t { return fake_hd().now_ns(); };
   return options;
 }

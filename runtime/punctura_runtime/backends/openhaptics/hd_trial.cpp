@@ -102,7 +102,8 @@ void require_calibration(const Interface& hd, std::uint32_t status) {
                                               how_to_calibrate(hd.check_calibration_style()) + ".");
 }
 
-Trial try_out(const Session& session, double wanted_rate, double duration, std::int64_t (*now_ns)() noexcept) {
+Trial try_out(const Session& session, double wanted_rate, double duration, double patience,
+              std::int64_t (*now_ns)() noexcept) {
   const Interface& hd = session.hd();
   Trial trial{};
   set_rate(hd, wanted_rate, trial);
@@ -114,7 +115,7 @@ Trial try_out(const Session& session, double wanted_rate, double duration, std::
   int renewals = 0;
   for (int attempt = 0; attempt < 3; ++attempt) {
     std::unique_ptr<Counting> counting(new Counting{session, static_cast<std::int64_t>(duration * 1e9), now_ns});
-    trial.rate = run_once(counting, duration + 2);
+    trial.rate = run_once(counting, duration + patience);
     require_calibration(hd, counting->calibration);
     renewals += counting->renewals;
     if (said > 0 && std::abs(trial.rate - said) < 0.02 * said) break;

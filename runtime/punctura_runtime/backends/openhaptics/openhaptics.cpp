@@ -36,7 +36,7 @@ OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
     : options_(options),
       session_(loaded(options.library), options.device, options.keep_device),
       hd_(session_.hd()),
-      trial_(hd::try_out(session_, options.rate, options.trial, options.now_ns)),
+      trial_(hd::try_out(session_, options.rate, options.trial, options.patience, options.now_ns)),
       info_(session_.info()) {
   info_.rate = trial_.rate;
   begin_ns_ = options.now_ns();

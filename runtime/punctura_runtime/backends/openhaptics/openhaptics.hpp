@@ -22,6 +22,7 @@ struct OpenHapticsOptions {
   std::string library;                             ///< empty searches the usual places
   bool keep_device = false;                        ///< never closes it: some FireWire drivers crash when it is closed
   double trial = 0.25;                             ///< s: duration of the measurement of the rate
+  double patience = 2;                             ///< s: how much longer the measurement may take
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
 };
 
