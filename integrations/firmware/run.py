@@ -1,6 +1,6 @@
-"""Runs knob.elf in Unicorn, an emulator of a Cortex-M4F, and compares its forces with the desktop's float.
+"""Runs knob.elf in Unicorn, an emulator of processors, and compares its forces with the desktop's float.
 
-python run.py knob.elf libknob.so NM-OUTPUT SIZE-OUTPUT
+python run.py cortex-m4f|riscv32 knob.elf libknob.so NM-OUTPUT
 """
 
 from __future__ import annotations
@@ -11,14 +11,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from unicorn import UC_ARCH_ARM, UC_HOOK_CODE, UC_MODE_MCLASS, UC_MODE_THUMB, Uc
-from unicorn.arm_const import (
-    UC_ARM_REG_FPEXC,
-    UC_ARM_REG_LR,
-    UC_ARM_REG_S0,
-    UC_ARM_REG_SP,
-    UC_CPU_ARM_CORTEX_M4,
-)
+from processors import PROCESSORS, Processor
+from unicorn import UC_HOOK_CODE, Uc
 
 RETURN = 0x30000000  # where a function returns to
 MEMORY = 0x40000
@@ -34,14 +28,12 @@ def load(uc: Uc, elf: bytes) -> None:
 
 
 class Board:
-    def __init__(self, elf: bytes, symbols: dict[str, int]) -> None:
-        self.symbols, self.instructions = symbols, 0
-        self.uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
-        self.uc.ctl_set_cpu_model(UC_CPU_ARM_CORTEX_M4)
+    def __init__(self, processor: Processor, elf: bytes, symbols: dict[str, int]) -> None:
+        self.processor, self.symbols, self.instructions = processor, symbols, 0
+        self.uc = processor.start()
         for start in (0, 0x20000000, RETURN):
             self.uc.mem_map(start, MEMORY)
         load(self.uc, elf)
-        self.uc.reg_write(UC_ARM_REG_FPEXC, 0x40000000)
         self.uc.hook_add(UC_HOOK_CODE, self.count)
 
     def count(self, *_: object) -> None:
@@ -49,24 +41,26 @@ class Board:
 
     def call(self, name: str, number: float = 0) -> tuple[float, int]:
         """(result, instructions) of a function with one float in and one out."""
-        self.uc.reg_write(UC_ARM_REG_SP, 0x20000000 + MEMORY - 16)
-        self.uc.reg_write(UC_ARM_REG_LR, RETURN | 1)
-        self.uc.reg_write(UC_ARM_REG_S0, struct.unpack("<I", struct.pack("<f", number))[0])
+        registers, uc = self.processor, self.uc
+        uc.reg_write(registers.stack, 0x20000000 + MEMORY - 16)
+        uc.reg_write(registers.link, RETURN | registers.mode_bit)
+        (bits,) = struct.unpack("<I", struct.pack("<f", number))
+        uc.reg_write(registers.argument, registers.boxed(bits))
         before = self.instructions
-        self.uc.emu_start(self.symbols[name] | 1, RETURN)
-        bits = self.uc.reg_read(UC_ARM_REG_S0)
+        uc.emu_start(self.symbols[name] | registers.mode_bit, RETURN)
+        bits = uc.reg_read(registers.argument)
         return struct.unpack("<f", struct.pack("<I", bits & 0xFFFFFFFF))[0], self.instructions - before
 
 
 def main() -> None:
-    elf, desktop = Path(sys.argv[1]).read_bytes(), ctypes.CDLL(sys.argv[2])
-    rows = [line.split() for line in Path(sys.argv[3]).read_text().splitlines()]
+    elf, desktop = Path(sys.argv[2]).read_bytes(), ctypes.CDLL(sys.argv[3])
+    rows = [line.split() for line in Path(sys.argv[4]).read_text().splitlines()]
     symbols = {row[-1]: int(row[0], 16) for row in rows if len(row) == 3}
     heap = {"malloc", "_malloc_r", "free", "_Znwj", "_ZdlPv", "_sbrk"} & symbols.keys()
     assert not heap, f"the program has a heap: {heap}"
     desktop.knob_tick.argtypes, desktop.knob_tick.restype = [ctypes.c_float], ctypes.c_float
     desktop.knob_setup()
-    board = Board(elf, symbols)
+    board = Board(PROCESSORS[sys.argv[1]], elf, symbols)
     board.call("knob_setup")
     t = np.arange(3200) / 1600
     depths = (6e-3 * np.sin(np.pi * t) - 1e-3 + 2e-5 * np.sin(400 * t)).astype(np.float32)
