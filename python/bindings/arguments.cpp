@@ -2,9 +2,9 @@
 #include "arguments.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <string_view>
+
+#include "punctura/scene/usual.hpp"
 
 namespace punctura::bindings {
 
@@ -55,44 +55,13 @@ void Arguments::refuse(const std::string& faults) const {
   throw nb::type_error((call_ + "(): " + faults + end + takes + ")").c_str());
 }
 
-namespace {
-
-struct Usual {
-  std::string_view field;
-  double low, high;
-  const char* unit;        ///< SI
-  const char* other_unit;  ///< one of these is `factor` SI units
-  double factor;
-};
-constexpr Usual usual[] = {
-    {"needle.diameter", 1e-5, 0.05, "m", "mm", 1e-3},        {"needle.diameter", 1e-5, 0.05, "m", "um", 1e-6},
-    {"coupling.stiffness", 5, 1e6, "N/m", "N/mm", 1e3},      {"membrane.stiffness", 1, 1e6, "N/m", "N/mm", 1e3},
-    {"membrane.thickness", 1e-9, 0.1, "m", "mm", 1e-3},      {"membrane.thickness", 1e-9, 0.1, "m", "um", 1e-6},
-    {"membrane.precompression", 1e-4, 100, "N", "mN", 1e-3},
-};
-
-/// "membrane[0].stiffness" without the number.
-std::string field_of(std::string path) {
-  const std::size_t from = path.find('['), to = path.find(']');
-  if (from != std::string::npos && to != std::string::npos && from < to) path.erase(from, to - from + 1);
-  return path;
-}
-
-}  // namespace
-
 void warn_unusual(const std::string& path, double value) {
-  const std::string field = field_of(path);
-  for (const Usual& n : usual) {
-    if (field != n.field) continue;
-    const auto found = [&](double v) { return std::abs(v) >= n.low && std::abs(v) <= n.high; };
-    const double meant = value * n.factor;
-    if (value == 0 || found(value) || !found(meant)) continue;
-    char text[240];
-    std::snprintf(text, sizeof text, "%s = %g %s is unusual. If you meant %g %s, write %g: all numbers are in SI units",
-                  path.c_str(), value, n.unit, value, n.other_unit, meant);
-    if (PyErr_WarnEx(PyExc_UserWarning, text, 1) != 0) throw nb::python_error();
-    return;  // the first unit that fits
-  }
+  const std::string advice = unusual(path, value);
+  if (advice.empty()) return;
+  char given[40];
+  std::snprintf(given, sizeof given, " = %g ", value);
+  const std::string text = path + given + usual_unit(path) + " is unusual. " + advice + ": all numbers are in SI units";
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw nb::python_error();
 }
 
 }  // namespace punctura::bindings

@@ -113,7 +113,14 @@ struct GivenTissueLaw : TissueLaw {
 /// format: of Python's str.format, with the object as {0}: "<{0.__class__.__name__} of {0.scene.name!r}>".
 template <typename T, typename... Options>
 void def_repr(nb::class_<T, Options...>& cls, const char* format) {
-  cls.def("__repr__", [format](nb::handle self) { return nb::str(nb::str(format).attr("format")(self)); });
+  cls.def("__repr__", [format](nb::handle self) {
+    try {
+      return nb::str(nb::str(format).attr("format")(self));
+    } catch (const nb::python_error& error) {  // see OneThread
+      if (!error.matches(PyExc_RuntimeError)) throw;
+      return nb::str("<{0.__class__.__name__}, at work in another thread>").format(self);
+    }
+  });
 }
 
 /// All problems of a needle, a membrane, and their combination.

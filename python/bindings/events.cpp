@@ -90,6 +90,7 @@ nb::list add(BatchFinder& finder, const nb::object& columns) {
 
   std::vector<MembraneRecord> records(m);
   std::vector<Found> found;
+  finder.must_rest();
   const BatchFinder before = finder;
   {
     const OneThread::Running running(finder);

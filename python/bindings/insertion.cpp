@@ -103,26 +103,23 @@ void bind_insertion(nb::module_& m) {
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")
-      .def_prop_ro(
-          "depths",
-          [](const SceneInsertion& i) {
-            std::vector<double> depths;
-            for (std::size_t k = 0; k < i.size(); ++k) depths.push_back(i.tick(k).depth);
-            return nb::tuple(nb::cast(depths));
-          },
-          nb::sig("def depths(self) -> tuple[float, ...]"), "Depth of the proxy behind each membrane, last tick, m")
-      .def_prop_ro(
-          "phases",
-          [](const SceneInsertion& i) {
-            std::vector<Phase> phases;
-            for (std::size_t k = 0; k < i.size(); ++k) phases.push_back(i.tick(k).phase);
-            return nb::tuple(nb::cast(phases));
-          },
-          nb::sig("def phases(self) -> tuple[Phase, ...]"), "Phase at each membrane in the last tick")
-      .def_prop_ro(
-          "tip", [](const SceneInsertion& i) { return to_array(i.tip()); }, "The conditioned position, m")
-      .def_prop_ro(
-          "force", [](const SceneInsertion& i) { return to_array(i.force()); }, "The force of the last tick, N");
+      .def_prop_ro("depths", resting<SceneInsertion>([](const SceneInsertion& i) {
+                     std::vector<double> depths;
+                     for (std::size_t k = 0; k < i.size(); ++k) depths.push_back(i.tick(k).depth);
+                     return nb::tuple(nb::cast(depths));
+                   }),
+                   nb::sig("def depths(self) -> tuple[float, ...]"),
+                   "Depth of the proxy behind each membrane, last tick, m")
+      .def_prop_ro("phases", resting<SceneInsertion>([](const SceneInsertion& i) {
+                     std::vector<Phase> phases;
+                     for (std::size_t k = 0; k < i.size(); ++k) phases.push_back(i.tick(k).phase);
+                     return nb::tuple(nb::cast(phases));
+                   }),
+                   nb::sig("def phases(self) -> tuple[Phase, ...]"), "Phase at each membrane in the last tick")
+      .def_prop_ro("tip", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.tip()); }),
+                   "The conditioned position, m")
+      .def_prop_ro("force", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.force()); }),
+                   "The force of the last tick, N");
 }
 
 }  // namespace punctura::bindings

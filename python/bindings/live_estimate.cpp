@@ -129,26 +129,28 @@ void bind_live_estimate(nb::module_& m) {
                    "dict[str, numpy.typing.NDArray[typing.Any]]"),
            "Makes n ticks. Returns phase (0 free, 1 rise, 2 behind), slope, slope_error, plateau, plateau_error and\n"
            "punctured after each, (n,); NaN while unknown. Errors are standard deviations. Raises ValueError.")
-      .def_prop_ro(
-          "phase", [](const GivenLiveEstimate& s) { return word(s.reading().phase); },
-          nb::sig("def phase(self) -> typing.Literal['free', 'rise', 'behind']"),
-          "\"free\": no force yet. \"rise\": a membrane in contact. \"behind\": behind a puncture.")
-      .def_prop_ro(
-          "slope", [](const GivenLiveEstimate& s) { return pair(s.reading().slope); },
-          nb::sig("def slope(self) -> tuple[float, float] | None"),
-          "Slope of the force of the membrane in contact and its standard deviation, N/m")
-      .def_prop_ro(
-          "plateau", [](const GivenLiveEstimate& s) { return pair(s.reading().plateau); },
-          nb::sig("def plateau(self) -> tuple[float, float] | None"),
-          "Friction behind the last puncture and its standard deviation, N")
-      .def_prop_ro(
-          "punctures", [](const GivenLiveEstimate& s) { return s.reading().punctures; }, "How many were found")
-      .def_prop_ro(
-          "drop", [](const GivenLiveEstimate& s) { return s.reading().drop; }, "Of the last puncture so far, N")
-      .def_prop_ro(
-          "puncture_depth", [](const GivenLiveEstimate& s) { return s.reading().puncture_depth; },
-          "Depth of the last puncture, m; NaN before the first")
-      .def_prop_ro("ignored", [](const GivenLiveEstimate& s) { return s.ignored(); }, "Samples that were left out");
+      .def_prop_ro("phase",
+                   resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return word(s.reading().phase); }),
+                   nb::sig("def phase(self) -> typing.Literal['free', 'rise', 'behind']"),
+                   "\"free\": no force yet. \"rise\": a membrane in contact. \"behind\": behind a puncture.")
+      .def_prop_ro("slope",
+                   resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return pair(s.reading().slope); }),
+                   nb::sig("def slope(self) -> tuple[float, float] | None"),
+                   "Slope of the force of the membrane in contact and its standard deviation, N/m")
+      .def_prop_ro("plateau",
+                   resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return pair(s.reading().plateau); }),
+                   nb::sig("def plateau(self) -> tuple[float, float] | None"),
+                   "Friction behind the last puncture and its standard deviation, N")
+      .def_prop_ro("punctures",
+                   resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return s.reading().punctures; }),
+                   "How many were found")
+      .def_prop_ro("drop", resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return s.reading().drop; }),
+                   "Of the last puncture so far, N")
+      .def_prop_ro("puncture_depth",
+                   resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return s.reading().puncture_depth; }),
+                   "Depth of the last puncture, m; NaN before the first")
+      .def_prop_ro("ignored", resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return s.ignored(); }),
+                   "Samples that were left out");
 }
 
 }  // namespace punctura::bindings

@@ -215,16 +215,20 @@ void bind_proxy(nb::module_& m) {
            "Makes n ticks from the present state on. p (n,): depths, m.\n\n"
            "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.\n"
            "progress and Ctrl-C: see Insertion.run.")
-      .def_prop_ro(
-          "force", [](LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }, "f(k), N")
-      .def_prop_ro(
-          "offset", [](LineProxy& p) { return p.visit([](auto& x) { return x.offset(); }); }, "e(k) = q(k) - p(k), m")
-      .def_prop_ro(
-          "position", [](LineProxy& p) { return p.visit([](auto& x) { return x.position(); }); }, "q(k), m")
-      .def_prop_ro(
-          "depth", [](LineProxy& p) { return p.visit([](auto& x) { return x.depth(); }); },
-          "The depth at which the band was evaluated, m: q(k), or q*(k) with the paper's solver")
-      .def_prop_ro("phase", [](LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); });
+      .def_prop_ro("force",
+                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }),
+                   "f(k), N")
+      .def_prop_ro("offset",
+                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.offset(); }); }),
+                   "e(k) = q(k) - p(k), m")
+      .def_prop_ro("position",
+                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.position(); }); }),
+                   "q(k), m")
+      .def_prop_ro("depth",
+                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.depth(); }); }),
+                   "The depth at which the band was evaluated, m: q(k), or q*(k) with the paper's solver")
+      .def_prop_ro("phase",
+                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); }));
 
   auto space =
       nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
@@ -274,22 +278,21 @@ void bind_proxy(nb::module_& m) {
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
            "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
            "progress and Ctrl-C: see Insertion.run.")
-      .def_prop_ro(
-          "force", [](const SpaceProxy& p) { return to_array(p.force()); }, "f(k), N")
-      .def_prop_ro(
-          "offset", [](const SpaceProxy& p) { return to_array(p.offset()); }, "e(k) = q(k) - p(k), m")
-      .def_prop_ro(
-          "position", [](const SpaceProxy& p) { return to_array(p.position()); }, "q(k), m")
-      .def_prop_ro(
-          "direction", [](const SpaceProxy& p) { return to_array(p.direction()); },
-          "b, the direction at entry, kept while inside")
-      .def_prop_ro("axial_force", &SpaceProxy::axial_force, "b.f(k), N")
-      .def_prop_ro("depth", &SpaceProxy::depth,
+      .def_prop_ro("force", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.force()); }), "f(k), N")
+      .def_prop_ro("offset", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.offset()); }),
+                   "e(k) = q(k) - p(k), m")
+      .def_prop_ro("position", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.position()); }),
+                   "q(k), m")
+      .def_prop_ro("direction", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.direction()); }),
+                   "b, the direction at entry, kept while inside")
+      .def_prop_ro("axial_force", resting<SpaceProxy>(&SpaceProxy::axial_force), "b.f(k), N")
+      .def_prop_ro("depth", resting<SpaceProxy>(&SpaceProxy::depth),
                    "Depth, m. Inside along b: of q(k), or of q*(k) with the paper's solver. Outside along the normal")
-      .def_prop_ro(
-          "bounds", [](const SpaceProxy& p) { return std::array<double, 2>{p.band().lower, p.band().upper}; },
-          "The band of the axial force, (lower, upper), N; (0, 0) outside")
-      .def_prop_ro("phase", &SpaceProxy::phase);
+      .def_prop_ro("bounds", resting<SpaceProxy>([](const SpaceProxy& p) {
+                     return std::array<double, 2>{p.band().lower, p.band().upper};
+                   }),
+                   "The band of the axial force, (lower, upper), N; (0, 0) outside")
+      .def_prop_ro("phase", resting<SpaceProxy>(&SpaceProxy::phase));
 }
 
 }  // namespace punctura::bindings

@@ -225,7 +225,7 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro(
           "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks since the last start")
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
-      .def_prop_ro("scene", &ServoLoop::scene, nb::rv_policy::copy, "The running scene, at the device's rate.")
+      .def_prop_ro("scene", &ServoLoop::copy_scene, "The running scene, at the device's rate.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
       .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,

@@ -10,6 +10,7 @@
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura/scene/usual.hpp"
 #include "punctura/scene/values.hpp"
 #include "value.hpp"
 
@@ -297,6 +298,12 @@ void bind_scene(nb::module_& m) {
               "servo: ServoSettings, display: DisplaySettings, syringe: SyringeSettings | None = None, relaxation: "
               "Sequence[MaxwellBranch] = ()) -> list[tuple[str, float, str]]"),
       "All problems of a scene that may be invalid: (path, value in SI, reason).");
+
+  m.def(
+      "unusual", [](const std::string& path, double written, double size) { return unusual(path, written, size); },
+      nb::arg("path"), nb::arg("written"), nb::arg("size"),
+      "What to write instead of a number that is off by a factor of 1,000; empty if it is not. written: in a unit of\n"
+      "`size` in SI.");
 
   m.def(
       "fields",

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "bindings.hpp"
 #include "punctura/state/archive.hpp"
@@ -25,11 +27,16 @@ class OneThread {
           "run() is at work on this object in another thread: use it in one thread at a time, or "
           "give each thread a copy of its own");
   }
+  /// The same for a reader. The thread of run() may read: it is then in `progress`, between two ticks.
+  void must_be_readable() const {
+    if (std::this_thread::get_id() != runner_) must_rest();
+  }
   class Running {
    public:
     explicit Running(OneThread& object) : object_(object) {
       object.must_rest();
       object.running_ = true;
+      object.runner_ = std::this_thread::get_id();
     }
     Running(const Running&) = delete;
     ~Running() { object_.running_ = false; }
@@ -39,8 +46,18 @@ class OneThread {
   };
 
  private:
-  bool running_ = false;  // changed and read with the GIL held
+  bool running_ = false;  // changed and read with the GIL held; so is runner_
+  std::thread::id runner_{};
 };
+
+/// A getter of T, which derives from OneThread: throws RuntimeError while run() is in progress in another thread.
+template <typename T, typename Getter>
+auto resting(Getter getter) {
+  return [getter](const T& self) {
+    self.must_be_readable();
+    return std::invoke(getter, self);
+  };
+}
 
 inline nb::bytes as_bytes(const std::vector<std::byte>& state) { return nb::bytes(state.data(), state.size()); }
 inline std::span<const std::byte> as_span(const nb::bytes& state) {

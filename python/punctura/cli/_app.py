@@ -9,9 +9,10 @@ import importlib
 import os
 import pkgutil
 import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -28,6 +29,9 @@ from punctura.cli._streams import (
 from punctura.errors import ConfigurationError
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
+from punctura.scene.unusual import UnusualWarning
+
+_usual_warning = warnings.formatwarning
 
 
 def _show_version(wanted: bool) -> None:
@@ -68,6 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with its exit status."""
     open_closed_streams()
     name_stdout()
+    warnings.formatwarning = _as_sentence
     with ends_on_signals(ENDING) as signals:
         try:
             with signals.raised():
@@ -85,6 +90,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 sys.exc_info()[1], SystemExit | None
             ):  # else there is a traceback, which must not wait for its reader
                 wait_for_stderr_again()
+
+
+def _as_sentence(message: Warning | str, category: type[Warning], *place: Any) -> str:
+    """A warning as the command line tells it: without a place in Punctura's sources."""
+    if issubclass(category, UnusualWarning):
+        return f"punctura: warning: {message}\n"
+    return _usual_warning(message, category, *place)
 
 
 def _words(error: Exception) -> str:

@@ -31,6 +31,8 @@ def run_page(
         say(f"punctura: warning: {file}: {warning}")
     scene = load_exercise(own[0]).scene_name if own and not wishes.scene else wishes.scene or USUAL_SCENE
     loaded = from_name(scene)
+    for sentence in loaded.unusual:
+        say(f"punctura: warning: {sentence}")
     settings = Settings(
         wishes.device, wishes.placement or Placement(), wishes.scene_filter, wishes.limits, wishes.processor
     )

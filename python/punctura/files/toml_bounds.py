@@ -14,7 +14,7 @@ _MOST_DOTS = 16  # in one key; a scene needs one
 _LONGEST_WORD = 1000  # characters of a number or an unquoted key
 
 # A string without an end quote counts up to the end of the file, so that no character is scanned twice.
-_TOKEN = re.compile(
+TOKEN = re.compile(
     r'''"""(?:[^\\]|\\.)*?(?:"{3,5}|\\?\Z)'''
     r"""|\'\'\'.*?(?:'{3,5}|\Z)"""
     r"""|"(?:[^"\\\n]|\\.)*"?|'[^'\n]*'?"""
@@ -33,7 +33,7 @@ class Excess(NamedTuple):
 def excess(text: str) -> Excess | None:
     """The first place of a text that exceeds a limit, None if there is none. The text need not be valid TOML."""
     line, nested, dots = 1, 0, 0
-    for found in _TOKEN.finditer(text):
+    for found in TOKEN.finditer(text):
         token = found[0]
         first = token[0]
         if first in "\"'":

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
+import warnings
 from pathlib import Path
 
 from punctura._core import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.toml import read_tables
+from punctura.files.toml import parse_toml, read_text
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
+from punctura.scene.unusual import UnusualWarning, unusual_numbers
 
 _FOLDER = Path(__file__).parents[1] / "scenes"
 
@@ -34,9 +36,15 @@ def scene_path(path_or_name: str | os.PathLike[str]) -> Path:
 
 
 def load_scene(path_or_name: str | os.PathLike[str]) -> Scene:
-    """Loads a scene from a file, or a ready scene by its name. Raises ConfigurationError with all problems."""
+    """Loads a scene from a file, or a ready scene by its name. Raises ConfigurationError with all problems.
+
+    Warns of numbers that are off by a factor of 1,000 and so probably in another unit, with their lines.
+    """
     path = scene_path(path_or_name)
-    scene_file, problems = check_tables(read_tables(path, "scene"))
+    text = read_text(path, "scene")
+    scene_file, problems = check_tables(parse_toml(text, path))
     if scene_file is None:
         raise ConfigurationError(problems, str(path))
+    for sentence in unusual_numbers(scene_file, text, str(path)):
+        warnings.warn(sentence, UnusualWarning, stacklevel=2)
     return build_scene(scene_file)

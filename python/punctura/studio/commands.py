@@ -92,6 +92,8 @@ def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:
 def _load(session: Session, loaded: Loaded) -> None:
     session.begin(loaded)
     _tell_room(session)
+    for sentence in loaded.unusual:
+        session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
 
 
 def _tell_room(session: Session) -> None:
@@ -101,7 +103,10 @@ def _tell_room(session: Session) -> None:
 
 
 def _edit(session: Session, loaded: Loaded) -> Done:
+    told = session.run.loaded.unusual
     session.edit(loaded)
+    for sentence in (sentence for sentence in loaded.unusual if sentence not in told):
+        session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
         return "the new rate takes effect in the next run", {}
     return "", {}

@@ -13,6 +13,7 @@ from punctura.scene import scene_path
 from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
 from punctura.scene.schema import SceneFile
+from punctura.scene.unusual import unusual_numbers
 from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
 
@@ -26,6 +27,7 @@ class Loaded:
 
     file: SceneFile
     scene: Scene
+    unusual: tuple[str, ...] = ()  # numbers that are probably in another unit, each with its remedy
 
     def tables(self) -> Tables:
         """The tables as JSON values, under the file's keys, with defaults filled in."""
@@ -36,15 +38,15 @@ class Loaded:
         return file_text(self.file)
 
 
-def from_tables(tables: Tables, source: str = "") -> Loaded:
-    """Raises ConfigurationError with every problem, in the file's own keys."""
+def from_tables(tables: Tables, source: str = "", text: str = "") -> Loaded:
+    """text: that of the file, if there is one. Raises ConfigurationError with every problem, in the file's own keys."""
     try:
         file, problems = check_tables(tables)
     except _TOO_MUCH:
         raise ConfigurationError([Problem("", MISSING, "is no scene: it is nested too deeply")], source) from None
     if file is None:
         raise ConfigurationError(problems, source)
-    return Loaded(file, build_scene(file))
+    return Loaded(file, build_scene(file), unusual_numbers(file, text, source))
 
 
 def from_text(text: str, source: str = "the file") -> Loaded:
@@ -53,7 +55,7 @@ def from_text(text: str, source: str = "the file") -> Loaded:
         tables = parse_toml(text, Path(source))
     except _TOO_MUCH:
         raise ConfigurationError([Problem("", MISSING, "is no scene: it is nested too deeply")], source) from None
-    return from_tables(tables, source)
+    return from_tables(tables, source, text)
 
 
 def from_name(path_or_name: str) -> Loaded:

@@ -69,13 +69,20 @@ std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
   return std::make_unique<ServoStep>(build(at_rate, settings_.gate, settings_.limits));
 }
 
-std::size_t ServoLoop::room() const noexcept {
+Scene ServoLoop::copy_scene() const {
+  const std::lock_guard lock(between_ticks_);
+  return scene_;
+}
+
+std::size_t ServoLoop::room() const {
+  const std::lock_guard lock(between_ticks_);
   const auto wanted = static_cast<std::size_t>(listening_s * device_->info().rate);
   return std::min(wanted, SnapshotRing::most_snapshots(scene_.membranes.size()));
 }
 
 SnapshotRing& ServoLoop::listen(std::size_t capacity) {
   if (running_) throw std::logic_error("listen() must come before start()");
+  const std::lock_guard lock(between_ticks_);
   listeners_.push_back(std::make_unique<SnapshotRing>(capacity, scene_.membranes.size()));
   return *listeners_.back();
 }

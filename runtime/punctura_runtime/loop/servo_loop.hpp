@@ -48,8 +48,9 @@ void copy(const Snapshot& from, Snapshot& to) noexcept;
 /// durations to histograms of atomics.
 ///
 /// Threads: all calls are allowed from any thread at the same time, with these exceptions. listen() must come before
-/// start(), on the same thread. exchange() changes what scene() and force_scale() give: call them on one thread. stop()
-/// waits for a running start(), never for an exchange(). While the loop is destroyed, only stop_all() may be running.
+/// start(), on the same thread. exchange() changes what scene() refers to: call them on one thread; copy_scene() can be
+/// called on any. stop() waits for a running start(), never for an exchange(). While the loop is destroyed, only
+/// stop_all() may be running.
 class ServoLoop {
  public:
   /// The period is the device's, not the scene's. The device's force ratings tighten the limits. Throws SceneError.
@@ -61,7 +62,7 @@ class ServoLoop {
   static constexpr double listening_s = 8;  ///< default length of a ring, if most_bytes allows
 
   /// The default capacity of a ring, in ticks of the present scene.
-  std::size_t room() const noexcept;
+  std::size_t room() const;
 
   /// Before start(). Gives a ring that gets every tick's snapshot. Its capacity is in snapshots of the present scene,
   /// and at most SnapshotRing::most_bytes.
@@ -92,6 +93,7 @@ class ServoLoop {
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
+  Scene copy_scene() const;
   double force_scale() const noexcept { return force_scale_; }  ///< of scene(): how much of the model's force is given
   /// The force budget that the motors have spent by the next start(), N^2 s: see ForceBudget. Not while the loop runs.
   double spent();
@@ -117,7 +119,7 @@ class ServoLoop {
 
   std::shared_ptr<Device> device_;
   Scene scene_;
-  double force_scale_;
+  std::atomic<double> force_scale_;
   LoopSettings settings_;
   double period_;
   Placer placer_;
@@ -142,9 +144,9 @@ class ServoLoop {
   TripleBuffer<Snapshot> latest_;
   std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;
-  std::mutex starting_or_stopping_;  ///< held while the device starts or stops, which may take long
-  std::mutex between_ticks_;         ///< guards running_ and the offer of scenes; held for a short time only
-  std::mutex readers_;               ///< guards readers against each other; not used by the tick
+  std::mutex starting_or_stopping_;   ///< held while the device starts or stops, which may take long
+  mutable std::mutex between_ticks_;  ///< guards running_ and the offer of scenes; held for a short time only
+  std::mutex readers_;                ///< guards readers against each other; not used by the tick
 };
 
 }  // namespace punctura

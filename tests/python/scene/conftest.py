@@ -37,6 +37,12 @@ point_mm = [0, -4, 0]
 inward_normal = [0, -2, 0]
 """
 
+
+@pytest.fixture
+def sound_text() -> str:
+    return SOUND
+
+
 Write = Callable[..., Path]
 
 

@@ -75,6 +75,23 @@ TEST_CASE("a new scene and the stop of another thread free each servo step once"
   loop.stop();
 }
 
+TEST_CASE("the scene can be read in one thread while another one exchanges it") {
+  auto device = std::make_shared<HandCranked>();
+  ServoLoop loop(device, with_friction(0.05));
+  std::atomic<bool> over{false};
+  std::thread changing([&] {
+    for (int i = 0; i < 200; ++i) loop.exchange(with_friction(i % 2 == 0 ? 0.3 : 0.05));
+    over = true;
+  });
+  while (!over) {
+    const double friction = loop.copy_scene().membranes[0].membrane.friction;
+    CHECK((friction == 0.05 || friction == 0.3));
+    CHECK(loop.force_scale() == 1);
+    CHECK(loop.room() > 0);
+  }
+  changing.join();
+}
+
 TEST_CASE("a new scene does not wait for a driver that does not stop, and is the scene of the next run") {
   auto device = std::make_shared<SlowToStop>();
   ServoLoop loop(device, with_friction(0.05));

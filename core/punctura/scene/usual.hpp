@@ -1,0 +1,84 @@
+// The usual sizes of a scene's numbers. A number that is off by a factor of 1,000 is possible, but hardly meant.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "punctura/scene/values.hpp"
+
+namespace punctura {
+
+/// A unit of a field; its size in SI.
+struct UsualUnit {
+  const char* name;
+  double size;
+};
+
+/// The usual range of a field, SI, and the units in which it is often given, the SI unit first.
+struct Usual {
+  std::string_view field;
+  double low, high;
+  UsualUnit units[3];
+};
+
+inline constexpr Usual usual_ranges[] = {
+    {"needle.diameter", 1e-5, 0.05, {{"m", 1}, {"mm", 1e-3}, {"um", 1e-6}}},
+    {"coupling.stiffness", 5, 1e5, {{"N/m", 1}, {"N/mm", 1e3}, {"N/um", 1e6}}},
+    {"membrane.stiffness", 1, 1e5, {{"N/m", 1}, {"N/mm", 1e3}, {"N/um", 1e6}}},
+    {"membrane.thickness", 1e-6, 0.1, {{"m", 1}, {"mm", 1e-3}, {"um", 1e-6}}},
+    {"membrane.precompression", 1e-4, 100, {{"N", 1}, {"mN", 1e-3}, {"kN", 1e3}}},
+};
+
+/// The row of a path such as "membrane[0].stiffness"; null if there is none.
+inline const Usual* usual_range(std::string path) {
+  const std::size_t from = path.find('['), to = path.find(']');
+  if (from != std::string::npos && to != std::string::npos && from < to) path.erase(from, to - from + 1);
+  for (const Usual& row : usual_ranges)
+    if (path == row.field) return &row;
+  return nullptr;
+}
+
+/// The SI unit of a path in usual_ranges, else "".
+inline const char* usual_unit(const std::string& path) {
+  const Usual* row = usual_range(path);
+  return row ? row->units[0].name : "";
+}
+
+/// What to write instead of a number that is off by a factor of 1,000 or 1,000,000; "" if it is not.
+///
+/// written: the number in a unit of `size` in SI. The answer is in the same unit: "If you meant 570 N/m, write 0.57".
+inline std::string unusual(const std::string& path, double written, double size = 1) {
+  const Usual* row = usual_range(path);
+  const auto found = [&](double v) { return std::abs(v) >= row->low && std::abs(v) <= row->high; };
+  if (!row || written == 0 || found(written * size)) return "";
+  char text[120];
+  for (const UsualUnit& unit : row->units) {
+    if (!found(written * unit.size)) continue;
+    std::snprintf(text, sizeof text, "If you meant %g %s, write %g", written, unit.name, written * unit.size / size);
+    return text;  // the first unit that fits
+  }
+  for (const double factor : {1e-3, 1e3}) {
+    if (!found(written * size * factor)) continue;
+    std::snprintf(text, sizeof text, "If you meant %g times as much, write %g", factor, written * factor);
+    return text;
+  }
+  return "";
+}
+
+/// The same for all numbers of a scene: "membrane[0].stiffness = 0.57 N/m is unusual. If you meant 0.57 N/mm, ...".
+inline std::vector<std::string> unusual(const Scene& scene) {
+  std::vector<std::string> all;
+  for_each_value(scene, [&](const std::string& path, const Field& field, const double& number) {
+    const std::string advice = unusual(path, number);
+    if (advice.empty()) return;
+    char given[40];
+    std::snprintf(given, sizeof given, " = %g ", number);
+    all.push_back(path + given + std::string(field.unit) + " is unusual. " + advice);
+  });
+  return all;
+}
+
+}  // namespace punctura

@@ -1,0 +1,66 @@
+"""An object whose run() is at work in another thread gives no half-made values."""
+
+import copy
+import threading
+
+import numpy as np
+import punctura as pn
+import pytest
+
+SCENE = pn.load_scene("k06-fig12")
+NEEDLE, MEMBRANE = SCENE.needle, SCENE.membranes[0].membrane
+TARGET = pn.Target((0, 0, 0))
+
+
+def insertion():
+    made = pn.Insertion(SCENE)
+    return made, lambda progress: made.run(np.zeros((50, 3)), (0, -1, 0), progress=progress)
+
+
+def line():
+    made = pn.Proxy1d(pn.ThinLaw(NEEDLE, MEMBRANE), SCENE.coupling, 1e-3)
+    return made, lambda progress: made.run(np.zeros(50), progress=progress)
+
+
+def space():
+    made = pn.Proxy3d(NEEDLE, MEMBRANE, (0, 0, 0), (0, -1, 0), SCENE.coupling, 1e-3)
+    return made, lambda progress: made.run(np.zeros((50, 3)), (0, -1, 0), progress=progress)
+
+
+def experiment():
+    made = pn.Experiment(SCENE, TARGET)
+    return made, lambda progress: made.run(0.05, progress=progress)
+
+
+CASES = [
+    (insertion, "depths phases tip force state"),
+    (line, "force offset position depth phase state"),
+    (space, "force offset position direction axial_force depth bounds phase state"),
+    (experiment, "ticks state"),
+]
+
+
+@pytest.mark.parametrize("make, names", CASES)
+def test_another_thread_reads_nothing_while_run_is_at_work(make, names):
+    made, run = make()
+    inside, may_go_on, read = threading.Event(), threading.Event(), []
+
+    def progress(share):
+        read.append([getattr(made, name) for name in names.split()[:-1]])  # this thread may
+        inside.set()
+        assert may_go_on.wait(60)
+
+    thread = threading.Thread(target=run, args=(progress,))
+    thread.start()
+    try:
+        assert inside.wait(60)
+        for name in names.split():
+            with pytest.raises(RuntimeError, match="at work on this object in another thread"):
+                getattr(made, name)
+        with pytest.raises(RuntimeError, match="give each thread a copy of its own"):
+            copy.copy(made)
+        assert repr(made) == f"<{type(made).__name__}, at work in another thread>"
+    finally:
+        may_go_on.set()
+        thread.join()
+    assert all(getattr(made, name) is not None for name in names.split()) and read

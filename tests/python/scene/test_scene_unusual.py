@@ -1,0 +1,69 @@
+"""A number of a scene file that is off by a factor of 1,000 is told with file, line and key."""
+
+import subprocess
+import sys
+import warnings
+
+import pytest
+from punctura import load_scene, scene_names
+from punctura.scene.unusual import UnusualWarning
+from punctura.studio.loaded import from_name, from_tables
+
+
+def told(path):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        load_scene(path)
+    assert all(warning.category is UnusualWarning for warning in caught)
+    return [str(warning.message) for warning in caught]
+
+
+@pytest.mark.parametrize(
+    "sound, given, line, advice",
+    [
+        ("diameter_mm = 1.08", "diameter_mm = 1080", "line 5: [needle]", "If you meant 1080 um, write 1.08"),
+        ("diameter_mm = 1.08", "diameter_mm = 0.00108", "line 5: [needle]", "If you meant 0.00108 m, write 1.08"),
+        ("N_per_mm = 0.4", "N_per_mm = 400.0", "line 9: [coupling]", "If you meant 400 N/m, write 0.4"),
+        ("N_per_mm = 0.57", "N_per_mm = 570", "line 14: [[membrane]]", "If you meant 570 N/m, write 0.57"),
+        ("N_per_mm = 0.57", "N_per_mm = 0.00057", "line 14: [[membrane]]", "If you meant 0.00057 N/um, write 0.57"),
+        ("ion_N = 0.41", "ion_N = 410.0", "line 15: [[membrane]]", "If you meant 410 mN, write 0.41"),
+        ("ness_mm = 1.0", "ness_mm = 1000.0", "line 17: [[membrane]]", "If you meant 1000 um, write 1"),
+    ],
+)
+def test_the_warning_names_the_line_and_what_to_write(tmp_path, sound_text, sound, given, line, advice):
+    path = tmp_path / "veins.toml"
+    path.write_text(sound_text.replace(sound, given, 1))
+    [said] = told(path)
+    assert said.startswith(f"{path}, {line} ") and said.endswith(f"{given} is unusual. {advice}")
+
+
+def test_sound_scenes_give_no_warning(tmp_path, sound_text):
+    (tmp_path / "a.toml").write_text(sound_text)
+    assert [told(scene) for scene in (tmp_path / "a.toml", *scene_names())] == [[]] * (1 + len(scene_names()))
+
+
+def test_the_command_line_tells_it_as_a_sentence(tmp_path, sound_text):
+    path, motion = tmp_path / "veins.toml", tmp_path / "motion.csv"
+    path.write_text(sound_text.replace("diameter_mm = 1.08", "diameter_mm = 1080"))
+    motion.write_text("time_s,x_m,y_m,z_m\n" + "".join(f"{i / 1000},0,0,0\n" for i in range(20)))
+    command = [
+        sys.executable,
+        "-m",
+        "punctura.cli",
+        "simulate",
+        path,
+        "--motion",
+        motion,
+        "--out",
+        tmp_path / "out.csv",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True)
+    wanted = f"punctura: warning: {path}, line 5: [needle] diameter_mm = 1080 is unusual. If you meant 1080 um, write"
+    assert [line for line in done.stderr.splitlines() if "unusual" in line] == [f"{wanted} 1.08"]
+
+
+def test_the_studio_knows_it_of_files_and_of_edited_tables(tmp_path, sound_text):
+    (tmp_path / "a.toml").write_text(sound_text.replace("diameter_mm = 1.08", "diameter_mm = 1080"))
+    loaded = from_name(str(tmp_path / "a.toml"))
+    assert "line 5: [needle] diameter_mm = 1080" in loaded.unusual[0]
+    assert from_tables(loaded.tables()).unusual[0].startswith("needle.diameter_mm = 1080.0 is unusual.")
