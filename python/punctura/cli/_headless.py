@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import json
 import os
+import select
+import sys
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -19,6 +21,7 @@ from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
 from punctura.live import (
     ANY_PROCESSOR,
     MODEL_FORCE,
+    Ended,
     Limits,
     RunSummary,
     felt_force,
@@ -32,6 +35,7 @@ from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
 
 USUAL_SCENE = "venipuncture"
+READ_S = 1.0  # for the reader of standard output to take a piece, after a signal
 
 
 class Wishes(NamedTuple):
@@ -67,15 +71,23 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
 
-    summary = run_live(
-        opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
-    )
-    told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
-    tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
-    if not summary.force_was_on:
-        button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
-        say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")
-    tape.tell_fault(summary.fault)
+    def tell(summary: RunSummary, tell_result: Callable[[str], None]) -> None:
+        told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
+        tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
+        if not summary.force_was_on:
+            button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
+            say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")
+        tape.tell_fault(summary.fault)
+
+    try:
+        summary = run_live(
+            opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
+        )
+    except Ended as end:
+        if end.summary is not None and end.summary.ticks > 0:
+            tell(end.summary, tell_if_read)
+        raise
+    tell(summary, tell_result)
     if summary.fault or not tape.whole:
         raise typer.Exit(FAILED)
 
@@ -126,6 +138,20 @@ class Tape:
 
 def say(text: str) -> None:
     typer.echo(text, err=True)
+
+
+def tell_if_read(text: str) -> None:
+    """Prints after a signal: no reader and no error of the stream delays the end or changes its status."""
+    try:
+        where = sys.stdout.fileno()
+        data = f"{text}\n".encode(sys.stdout.encoding or "utf-8", "replace")
+        piece = getattr(select, "PIPE_BUF", 512)  # a pipe that can be written takes so much without waiting
+        for at in range(0, len(data), piece):
+            if os.name == "posix" and not select.select([], [where], [], READ_S)[1]:
+                return
+            os.write(where, data[at : at + piece])
+    except (OSError, ValueError):
+        return
 
 
 def tell_result(text: str) -> None:

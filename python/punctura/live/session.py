@@ -7,7 +7,7 @@ from collections.abc import Callable
 from punctura import Scene
 from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop
 from punctura.live.choose import gate_for
-from punctura.live.signals import ends_on_signals
+from punctura.live.signals import Ended, ends_on_signals
 from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.live.supervisor import POLL_S, Supervisor
@@ -26,13 +26,33 @@ def run_live(
     """Runs until `duration` (s) is over, a fault is latched, ticks cease, the device ends, or a signal comes.
 
     A separate thread ends the run and the force, so `watch` may block. A signal raises Ended: inside `watch` at once;
-    otherwise at the end, so that neither `prepare` nor the function that it returns is interrupted.
+    otherwise at the end, so that neither `prepare` nor the function that it returns is interrupted. Its `summary` is
+    that of the run.
 
     watch: called about 20 times a second with the summary. prepare: called with the loop before it starts, to add
     listeners; it returns a function that is called after the stop.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
+    try:
+        _run(device, scene, summary, duration, gate, limits, placement, watch, prepare)
+    except Ended as end:
+        end.summary = summary
+        raise
+    return summary
+
+
+def _run(
+    device: Device,
+    scene: Scene,
+    summary: RunSummary,
+    duration: float | None,
+    gate: GateLimits | None,
+    limits: ForceLimits | None,
+    placement: Placement | None,
+    watch: Callable[[RunSummary], None] | None,
+    prepare: Callable[[ServoLoop], Callable[[], None]] | None,
+) -> None:
     with ends_on_signals() as signals:
         loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
         listener = loop.listen()
@@ -61,7 +81,6 @@ def run_live(
                 summary.finish(loop)
                 if finish:
                     finish()
-    return summary
 
 
 class Watched:

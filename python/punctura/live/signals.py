@@ -22,6 +22,8 @@ ENDING_A_RUN = (*ENDING, "SIGTSTP")
 class Ended(BaseException):
     """A signal ended the run. Not an Exception, so that no `except Exception` catches it."""
 
+    summary: Any = None  # the RunSummary of a run that had begun, complete
+
     def __init__(self, number: int) -> None:
         self.number = number
         self.name = signal.Signals(number).name
