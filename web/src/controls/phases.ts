@@ -1,3 +1,4 @@
+import { fixedNumber } from "../format.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
@@ -6,12 +7,6 @@ import { eventList } from "./events.ts";
 import { phaseWords } from "./phase_words.ts";
 
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
-
-const fixed = (value: number, places: number): string => {
-  if (!Number.isFinite(value)) return "–";
-  const text = value.toFixed(places);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
-};
 
 /** Sets a text only if it has changed, because every change costs a new layout of the page. */
 function write(node: HTMLElement, text: string): void {
@@ -110,15 +105,15 @@ export const phasesPanel: Panel = (host, app) => {
       write(row.symbol, symbol);
       write(row.word, word);
       write(row.detail, detail);
-      write(row.depth, fixed(depth * 1e3, 2));
+      write(row.depth, fixedNumber(depth * 1e3, 2));
       // As in the plots: positive pushes the needle out, against the hand.
       const force = -(forces[i] ?? Number.NaN);
       const low = -(uppers[i] ?? Number.NaN);
       const high = -(lowers[i] ?? Number.NaN);
       const inside = high > low;
-      write(row.force, fixed(force, 3));
-      write(row.felt, fixed(force * share, 3));
-      write(row.band, inside ? `${fixed(low, 2)} to ${fixed(high, 2)}` : "–");
+      write(row.force, fixedNumber(force, 3));
+      write(row.felt, fixedNumber(force * share, 3));
+      write(row.band, inside ? `${fixedNumber(low, 2)} to ${fixedNumber(high, 2)}` : "–");
       row.needle.style.left = inside
         ? `${(100 * Math.min(1, Math.max(0, (force - low) / (high - low)))).toFixed(1)}%`
         : "50%";

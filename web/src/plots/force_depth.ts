@@ -62,7 +62,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     element(
       "div",
       { class: "plot-bar" },
-      element("h2", {}, "Force against depth"),
+      element("h2", {}, "Against depth"),
       which.select,
       scaleChip(plots),
       element("span", { class: "plot-gap" }),

@@ -1,12 +1,10 @@
+import { fixedNumber } from "../../format.ts";
 import type { Hand } from "../../hand/hand.ts";
 import { element, everyFrame } from "../../panel.ts";
 import { KEYS } from "../../scene/keys.ts";
 import type { App } from "../../state/app.ts";
 
-const number = (metres: number | undefined): string =>
-  metres === undefined || Number.isNaN(metres)
-    ? "–"
-    : (Math.round(metres * 1e5) / 100 + 0).toFixed(2).replace("-", "−");
+const number = (metres: number | undefined): string => fixedNumber(metres && 1e3 * metres, 2);
 
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
 const LAG_UNKNOWN = "– mm";

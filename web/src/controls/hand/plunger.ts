@@ -1,11 +1,9 @@
+import { fixedNumber } from "../../format.ts";
 import { FIRM, thumbOf } from "../../hand/thumb.ts";
 import { element, everyFrame } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
-
-const number = (value: number | undefined, digits: number): string =>
-  value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits).replace("-", "−");
 
 /** Whether the syringe is empty. injected, volume: m³. Air takes less room under pressure. */
 export const isEmpty = (injected: number, volume: number): boolean => injected > 0.9 * volume;
@@ -55,9 +53,9 @@ export function plungerRows(app: App): HTMLElement {
     host.hidden = !source.scene.value?.syringe;
     const tick = host.hidden ? null : source.shown();
     if (tick === null || host.offsetParent === null) return;
-    put(force, `${number(Math.abs(source.history.row("thumb_force", tick)[0] ?? Number.NaN), 2)} N`);
+    put(force, `${fixedNumber(Math.abs(source.history.row("thumb_force", tick)[0] ?? Number.NaN), 2)} N`);
     empty.hidden = !isEmpty(source.history.row("injected", tick)[0] ?? 0, source.scene.value?.syringe?.volume ?? 1);
-    put(volume, `${number((source.history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 2)} mL`);
+    put(volume, `${fixedNumber((source.history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 2)} mL`);
     push.toggleAttribute("disabled", !thumb.there);
   });
   return host;

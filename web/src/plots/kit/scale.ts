@@ -1,3 +1,5 @@
+import { fixedNumber } from "../../format.ts";
+
 /** Maps values to pixels, linearly or by their logarithms. */
 export class Scale {
   min = 0;
@@ -48,6 +50,5 @@ export function ticks(min: number, max: number, step: number): number[] {
 /** The value as text, with enough decimal places for steps of `step`. */
 export function label(value: number, step: number): string {
   const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const text = value.toFixed(places);
-  return (Number(text) === 0 ? (0).toFixed(places) : text).replace("-", "−");
+  return fixedNumber(value, places);
 }

@@ -1,3 +1,4 @@
+import { fixedNumber } from "../../../format.ts";
 import { element } from "../../../panel.ts";
 import type { EstimatePart, RivalsLine, TriedPart } from "../../../wire/messages.ts";
 import { estimateWords, parameterWords } from "./words.ts";
@@ -54,7 +55,7 @@ function bar({ value, low, high }: EstimatePart): HTMLElement {
 }
 
 const number = (value: number | null, gain: number, places: number): string =>
-  value === null ? "–" : (gain * value).toFixed(places).replace("-", "−");
+  fixedNumber(value === null ? undefined : gain * value, places);
 
 /** All models, the one with the least AIC first. */
 export function rivalsTable({ rows }: Pick<RivalsLine, "rows">): HTMLElement {
