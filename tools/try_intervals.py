@@ -1,10 +1,13 @@
 """Measures how often the intervals of `punctura identify` hold the truth.
 
-    python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--early] [--processes 1] [--seed 1]
+    python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0]
+        [--rate 200] [--early] [--processes 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
-tremor), sampled at 200 Hz, with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)).
---early: the trace ends half way to the pop, so that it cannot tell some parameters.
+tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
+standard deviation of a second, slow noise, N, whose correlation falls by a factor of e in one second. --rate: of the
+samples, Hz; at 40 Hz the needle goes some 0.2 mm from sample to sample. --early: the trace ends half way to the pop,
+so that it cannot tell some parameters.
 
 An interval of 95 % should hold the truth in 93 to 97 % of the cases. "hidden": the Fisher information at the truth says
 that even an ideal interval spans a factor of 100 or more. Such a parameter must be called not identifiable. It takes
@@ -22,13 +25,26 @@ from functools import partial
 
 import numpy as np
 import punctura as pn
+from numpy.typing import NDArray
 from punctura.identify import Parameters, identify
 from punctura.identify.parameters import default_coupling, default_membrane
 from punctura.identify.plan import information
 from punctura.trace import Trace
 
-RATE_HZ = 200
+DEVICE_HZ = 1600
+SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """How a trace is recorded. noise, drift: N; correlation: of the noise, from sample to sample; rate: Hz."""
+
+    noise: float = 0.01
+    correlation: float = 0.0
+    drift: float = 0.0
+    rate: int = 200
+    early: bool = False
 
 
 @dataclass(frozen=True)
@@ -41,7 +57,15 @@ class Row:
     hidden: bool  # no method could tell it
 
 
-def random_trace(seed: int, noise: float, correlation: float) -> tuple[Trace, pn.Needle, dict[str, float]]:
+def correlated(rng: np.random.Generator, count: int, correlation: float) -> NDArray[np.float64]:
+    """AR(1) noise of variance 1."""
+    white = rng.normal(size=count)
+    for i in range(1, count):
+        white[i] = correlation * white[i - 1] + np.sqrt(1 - correlation**2) * white[i]
+    return white
+
+
+def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[str, float]]:
     """A trace, the needle, and the true values."""
     rng = np.random.default_rng(seed)
     needle = pn.Needle(rng.uniform(0.6e-3, 1.6e-3), rng.uniform(0.25, 0.6))
@@ -59,11 +83,12 @@ def random_trace(seed: int, noise: float, correlation: float) -> tuple[Trace, pn
     )  # fmt: skip
     deepest = 1.6 * tip + truth["thickness"] + 1e-3
     strokes = pn.Strokes((0, 2e-3, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
-    ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))[:: int(1600 / RATE_HZ)]
-    sensor = rng.normal(size=len(ticks.time))
-    for i in range(1, len(sensor)):
-        sensor[i] = correlation * sensor[i - 1] + np.sqrt(1 - correlation**2) * sensor[i]
-    force = np.asarray(ticks.force[:, 1]) + noise * sensor
+    ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))[:: DEVICE_HZ // given.rate]
+    count = len(ticks.time)
+    sensor = given.noise * correlated(rng, count, given.correlation)
+    if given.drift:
+        sensor += given.drift * correlated(rng, count, float(np.exp(-1 / (SLOW * given.rate))))
+    force = np.asarray(ticks.force[:, 1]) + sensor
     return Trace(-ticks.position[:, 1] + 2e-3, force, ticks.time), needle, truth | {"surface": 2e-3}
 
 
@@ -73,17 +98,17 @@ def until_half(trace: Trace, truth: dict[str, float], needle: pn.Needle) -> Trac
     return trace[: max(int(np.argmax(trace.depth > truth["surface"] + 0.5 * way)), 20)]
 
 
-def tried(seed: int, noise: float, correlation: float, early: bool = False) -> list[Row]:
+def tried(seed: int, given: Conditions) -> list[Row]:
     """One row for each parameter of one trace."""
-    trace, needle, truth = random_trace(seed, noise, correlation)
-    if early:
+    trace, needle, truth = random_trace(seed, given)
+    if given.early:
         trace = until_half(trace, truth, needle)
     found = identify(trace, needle, membranes=1)
     true = Parameters(needle, np.array([default_membrane()]), default_coupling(truth["coupling_stiffness"]))
     names = [f"membrane[0].{kind}" for kind in truth if kind != "coupling_stiffness"] + ["coupling_stiffness", "offset"]
     true = true.with_values({name: truth[name.rpartition(".")[2]] for name in names[:-1]})
     assert trace.time is not None
-    inflated = noise * np.sqrt((1 + correlation) / (1 - correlation))
+    inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
     rows = []
     for estimate in found.estimates:
@@ -117,13 +142,15 @@ def main() -> None:
     parser.add_argument("--traces", type=int, default=1000)
     parser.add_argument("--noise", type=float, default=0.01, help="N")
     parser.add_argument("--correlation", type=float, default=0.0)
+    parser.add_argument("--drift", type=float, default=0.0, help="N")
+    parser.add_argument("--rate", type=int, default=200, help="Hz, a divisor of 1600")
     parser.add_argument("--early", action="store_true", help="end half way to the pop")
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     seeds = range(given.seed, given.seed + given.traces)
     with ProcessPoolExecutor(given.processes, multiprocessing.get_context("spawn")) as pool:
-        one = partial(tried, noise=given.noise, correlation=given.correlation, early=given.early)
+        one = partial(tried, given=Conditions(given.noise, given.correlation, given.drift, given.rate, given.early))
         rows = [row for found in pool.map(one, seeds, chunksize=10) for row in found]
     print(*summary(rows), sep="\n")
 

@@ -101,14 +101,14 @@ def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[P
 def _modes(main: Uncertainty, others: Sequence[Parameters]) -> Iterator[Uncertainty]:
     """Other optima within the confidence region: far from the fit, and with nearly its sum of squares."""
     seen = [main.fit.u]
-    spread = np.sqrt(np.diag(main.covariance))
+    errors = np.sqrt(np.diag(main.covariance))
     limit = CHI2_95 * main.variance * float(main.inflation.max())
     for other in others:
         try:
             found = fitted(main.fit.misfit, main.fit.free.names, other)
         except TraceError:
             continue
-        if found.sse - main.fit.sse < limit and all(np.any(np.abs(found.u - u) > spread) for u in seen):
+        if found.sse - main.fit.sse < limit and all(np.any(np.abs(found.u - u) > errors) for u in seen):
             seen.append(found.u)
             yield Uncertainty(found)
 

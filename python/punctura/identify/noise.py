@@ -32,15 +32,3 @@ def effective_samples(residuals: Array, parameters: int = 0) -> float:
     rho = autocorrelation(residuals, parameters)
     inflation = max(1.0, float(1 + 2 * rho[1:].sum()))
     return max(2.0, len(residuals) / inflation)
-
-
-def correlated_gram(jacobian: Array, rho: Array) -> Array:
-    """J^T R J, with the correlation matrix R of the noise given by its lags: (p, p)."""
-    n, p = jacobian.shape
-    size = 1 << (n + len(rho) - 1).bit_length()
-    kernel = np.zeros(size)
-    kernel[: len(rho)] = rho
-    kernel[size - len(rho) + 1 :] += rho[:0:-1]
-    columns = np.fft.rfft(jacobian, size, axis=0)
-    smeared = np.fft.irfft(columns * np.fft.rfft(kernel).real[:, None], size, axis=0)[:n]
-    return np.asarray(jacobian.T @ smeared).reshape(p, p)

@@ -122,7 +122,8 @@ class Free:
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
         self.low, self.high = self._coordinates(low), self._coordinates(high)
         surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
-        self._walls = [(k, surfaces.index(at[0])) for k, at in enumerate(self._at) if at[0] in surfaces]
+        # each free surface: its coordinate, and its membrane
+        self.walls = [(k, surfaces.index(at[0])) for k, at in enumerate(self._at) if at[0] in surfaces]
 
     def _range(self, name: str) -> tuple[float, float]:
         kind = kind_of(name)
@@ -140,9 +141,9 @@ class Free:
         small = np.array([_RANGES.get(kind_of(name), (0.0, 0.0))[0] for name in self.names])
         values = np.where(self._log, np.maximum(values, np.maximum(small, 1e-12)), values)
         u = np.clip(self._coordinates(values), self.low, self.high)
-        if self._walls:
+        if self.walls:
             pops, _ = self._pops(self._without_pops(u))
-            for k, wall in self._walls:
+            for k, wall in self.walls:
                 u[k] += pops[wall]
         return np.clip(u, self.low, self.high)
 
@@ -161,9 +162,9 @@ class Free:
     def parameters(self, u: Array) -> Parameters:
         """All parameters for these coordinates."""
         vector = self._without_pops(u)
-        if self._walls:
+        if self.walls:
             pops, _ = self._pops(vector)
-            for k, wall in self._walls:
+            for k, wall in self.walls:
                 vector[self._at[k]] -= pops[wall]
         return self.base.with_vector(vector)
 
@@ -186,10 +187,10 @@ class Free:
         by_u = np.zeros((len(vector), len(u)))
         for k, at in enumerate(self._at):
             by_u[at, k] = vector[at[0]] if self._log[k] else 1.0
-        if self._walls:
+        if self.walls:
             _, rows = self._pops(vector)
             shared, own = len(COUPLING), len(MEMBRANE)
-            for k, wall in self._walls:
+            for k, wall in self.walls:
                 first = shared + wall * own
                 moves = rows[wall, :shared] @ by_u[:shared] + rows[wall, shared + 1 :] @ by_u[first + 1 : first + own]
                 by_u[self._at[k][0]] -= moves

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
-from punctura.identify.noise import autocorrelation, correlated_gram
+from punctura.identify.slow_noise import spread
 
 Array = NDArray[np.float64]
 
@@ -25,15 +25,30 @@ class Uncertainty:
         values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
-        rho = autocorrelation(fit.residuals, p)
-        correlated = inverse @ correlated_gram(fit.jacobian, rho) @ inverse
-        plain = np.maximum(np.diag(inverse), 1e-300)
-        self.inflation = np.maximum(np.diag(correlated) / plain, 1.0)  # of each parameter's variance
-        grown = np.sqrt(self.inflation)
-        self.covariance = self.variance * inverse * np.outer(grown, grown)
+        correlated = spread(fit.residuals, fit.jacobian, inverse)
+        correlated += inverse @ _between_samples(fit) @ inverse
+        plain = np.maximum(self.variance * np.diag(inverse), 1e-300)
+        self.covariance = correlated + np.diag(np.maximum(plain - np.diag(correlated), 0.0))
+        self.inflation = np.diag(self.covariance) / plain  # of each parameter's variance
 
     @property
     def correlations(self) -> Array:
         """Correlations of the coordinates, (p, p)."""
-        spread = np.sqrt(np.diag(self.covariance))
-        return np.asarray(self.covariance / np.outer(spread, spread))
+        errors = np.sqrt(np.diag(self.covariance))
+        return np.asarray(self.covariance / np.outer(errors, errors))
+
+
+def _between_samples(fit: Fit) -> Array:
+    """What adds to J^T V J (p, p), because a sample shows the force at one moment, not where the wall popped before it.
+
+    The place of the pop within the step h is unknown, with a variance of h^2 / 12.
+    """
+    jacobian, depth = fit.jacobian, fit.misfit.trace.depth[fit.misfit.used]
+    added = np.zeros((jacobian.shape[1],) * 2)
+    for k, _ in fit.free.walls:
+        at = int(np.argmax(depth >= fit.u[k]))  # this coordinate is the depth where the wall pops
+        if at == 0:
+            continue  # the trace ends in front of the pop
+        row = max(jacobian[at - 1], jacobian[at], key=lambda one: abs(float(one[k])))
+        added += np.outer(row, row) * (row[k] * (depth[at] - depth[at - 1])) ** 2 / 12
+    return added

@@ -9,7 +9,7 @@ from punctura.identify import identify
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import OWN, Model, extensions
-from punctura.identify.noise import correlated_gram, effective_samples
+from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.rises import rise_starts
@@ -83,14 +83,6 @@ def test_correlated_noise_counts_as_fewer_samples():
         slow[i] = 0.8 * slow[i - 1] + white[i]
     assert effective_samples(white) == pytest.approx(20000, rel=0.1)
     assert effective_samples(slow) == pytest.approx(20000 * 0.2 / 1.8, rel=0.2)
-
-
-def test_the_gram_of_correlated_noise_is_that_of_its_matrix():
-    rng = np.random.default_rng(5)
-    jacobian, rho = rng.normal(size=(30, 3)), np.array([1, 0.5, 0.2])
-    lags = np.abs(np.subtract.outer(np.arange(30), np.arange(30)))
-    matrix = np.where(lags < 3, rho[np.minimum(lags, 2)], 0)
-    np.testing.assert_allclose(correlated_gram(jacobian, rho), jacobian.T @ matrix @ jacobian, atol=1e-12)
 
 
 def test_a_severe_finding_stops_the_identification():
