@@ -12,13 +12,15 @@ import json
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
+from made_files import ForeignFileError, publish
 from studio_page import ROOT, PageError, build_static
 
 PACKAGE = ROOT / "integrations" / "wasm"
 FIRST = "venipuncture"  # as in `punctura run`
-MARK = "studio.json"
+DATA = "studio.json"
 
 
 class StaticPageError(Exception):
@@ -27,12 +29,12 @@ class StaticPageError(Exception):
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("folder", type=Path, help="new, empty, or made by this program before")
+    parser.add_argument("folder", type=Path, help="files in it that this program has not made stay as they are")
     parser.add_argument("--keep-wasm", action="store_true", help="use integrations/wasm/punctura.wasm as it is")
     chosen = parser.parse_args(arguments)
     try:
         make(chosen.folder, build_wasm=not chosen.keep_wasm)
-    except (StaticPageError, PageError, OSError) as error:
+    except (StaticPageError, ForeignFileError, PageError, OSError) as error:
         print(error, file=sys.stderr)
         return 1
     size = sum(file.stat().st_size for file in chosen.folder.rglob("*") if file.is_file())
@@ -41,21 +43,22 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def make(folder: Path, build_wasm: bool = True) -> None:
-    """Raises StaticPageError, PageError, OSError."""
-    if folder.exists() and any(folder.iterdir()) and not (folder / MARK).is_file():
-        raise StaticPageError(f"{folder} has files that are not of a static page. Name a new or an empty folder")
+    """Raises StaticPageError, ForeignFileError, PageError, OSError."""
     if build_wasm and subprocess.run(["bash", str(PACKAGE / "build.sh")], check=False).returncode:
         raise StaticPageError("The core cannot be compiled to WebAssembly: integrations/wasm/README.md has the tools")
     files = json.loads((PACKAGE / "package.json").read_text(encoding="utf-8"))["files"]
     missing = [name for name in files if not (PACKAGE / name).is_file()]
     if missing:
         raise StaticPageError(f"{', '.join(missing)} is missing in {PACKAGE}: leave out --keep-wasm")
-    build_static(folder.absolute())
-    library = folder / "punctura"
-    library.mkdir()
-    for name in files:
-        shutil.copy(PACKAGE / name, library)
-    write_data(folder)
+    with tempfile.TemporaryDirectory(prefix="punctura-") as place:
+        page = Path(place).resolve() / "page"
+        build_static(page)
+        library = page / "punctura"
+        library.mkdir()
+        for name in files:
+            shutil.copy(PACKAGE / name, library)
+        write_data(page)
+        publish(page, folder)
 
 
 def write_data(folder: Path) -> None:
@@ -76,7 +79,7 @@ def write_data(folder: Path) -> None:
         "faults": {fault.name: fault_words(fault) for fault in Fault if fault is not Fault.none},
         "still_off": STILL_OFF,
     }
-    (folder / MARK).write_text(json.dumps(data), encoding="utf-8")
+    (folder / DATA).write_text(json.dumps(data), encoding="utf-8")
     (folder / "schema.json").write_text(json.dumps(scene_json_schema()), encoding="utf-8")
 
 
