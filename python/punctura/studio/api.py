@@ -75,7 +75,7 @@ class Api:
             Route("/api/fault.csv", _told(self.fault_ticks)),
             Route("/api/lab/fields", _told(self._lab.fields)),
             Route("/api/lab/compare", _told(self._lab.compare)),
-            Route("/api/lab/bundle", _told(self._lab.bundle)),
+            Route("/api/lab/bundle", _told_later(self._lab.bundle)),
             Route(FILE, _told_later(self._traces.file), methods=["POST"]),
             Route(IDENTIFY, _told_later(self._traces.identify), methods=["POST"]),
             Route("/api/exercises", _told(self.exercises)),

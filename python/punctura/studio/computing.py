@@ -9,7 +9,9 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
@@ -19,6 +21,10 @@ _START = (
     "from runpy import run_module; run_module({!r}, run_name='__main__', alter_sys=True)"
 )
 WAIT_S = 2.0
+ALIVE_S = 0.25  # after which a client that has gone is noticed
+LONGEST_S = 1800.0  # of one computation
+NOTHING = b"\n"
+TOO_LONG = "the computation was ended because it took more than {:g} minutes; try fewer runs, or a shorter recording"
 MOST_ERRORS = 4096  # bytes of the worker's last error messages
 
 
@@ -41,16 +47,12 @@ def take_place(place: threading.BoundedSemaphore) -> None:
 
 
 def lines_of(
-    command: list[str],
-    asked: bytes,
-    failed: Callable[[str], bytes],
-    folder: Path | None = None,
-    alive: float | None = None,
+    command: list[str], asked: bytes, failed: Callable[[str], bytes], folder: Path | None = None
 ) -> Iterator[bytes]:
     """The lines of a worker that reads `asked` from standard input. Closing the iterator ends the worker.
 
-    failed: the line for a worker that ended early, from the reason. folder: where it works. alive: an empty line comes
-    after so many seconds without another, so that a client that has gone is noticed.
+    failed: the line for a worker that ended early, from the reason. folder: where it works. An empty line comes after
+    ALIVE_S without another, so that a client that has gone is noticed. After LONGEST_S the worker is ended.
     """
     environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as given:
@@ -69,16 +71,31 @@ def lines_of(
         lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         reader = threading.Thread(target=_read, args=(worker.stdout, lines), name="punctura-lab", daemon=True)
         reader.start()
+        ends_at = time.monotonic() + LONGEST_S
         try:
-            while line := _next(lines, alive):
+            while line := _next(lines):
+                if time.monotonic() > ends_at:
+                    yield failed(TOO_LONG.format(LONGEST_S / 60))
+                    return
+                if line == NOTHING and worker.poll() is not None:
+                    _kill(worker)  # the children of a worker that has died keep its output open
                 yield line
             if code := worker.wait():
                 yield failed(_why(code, errors))
         finally:
-            worker.kill()
+            _kill(worker)
             reader.join()
             worker.stdout.close()
             worker.wait()
+
+
+def _kill(worker: subprocess.Popen[bytes]) -> None:
+    """Ends a worker and its children."""
+    if os.name != "posix":
+        worker.kill()
+        return
+    with suppress(ProcessLookupError, PermissionError):  # all have ended
+        os.killpg(worker.pid, signal.SIGKILL)
 
 
 def _read(output: IO[bytes], lines: queue.SimpleQueue[bytes]) -> None:
@@ -87,11 +104,11 @@ def _read(output: IO[bytes], lines: queue.SimpleQueue[bytes]) -> None:
     lines.put(b"")
 
 
-def _next(lines: queue.SimpleQueue[bytes], alive: float | None) -> bytes:
+def _next(lines: queue.SimpleQueue[bytes]) -> bytes:
     try:
-        return lines.get(timeout=alive)
+        return lines.get(timeout=ALIVE_S)
     except queue.Empty:
-        return b"\n"
+        return NOTHING
 
 
 def _why(code: int, errors: IO[bytes]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import collections
 import json
 import re
 import tempfile
@@ -11,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import QueryParams
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -57,7 +57,7 @@ class Lab:
             self._keep(request.query_params.get("id", ""), job.variation.scene)
         return Download(_lines(job), self._place, media_type="application/x-ndjson")
 
-    def bundle(self, request: Request) -> Response:
+    async def bundle(self, request: Request) -> Response:
         """The zip file of the same comparison; with the same id, of the scene that was compared."""
         job = self._job(request.query_params)
         if job.variation and (name := request.query_params.get("id", "")):
@@ -65,9 +65,14 @@ class Lab:
                 raise LabError("the studio no longer has the scene of this variation; simulate it again")
             same = job.variation.model_copy(update={"scene": self._scenes[name]})
             job = job.model_copy(update={"variation": same})
-        take_place(self._place)
+        await run_in_threadpool(take_place, self._place)
+        try:
+            pieces = await _begun(_zipped(job), request)
+        except BaseException:
+            self._place.release()
+            raise
         headers = {"content-disposition": 'attachment; filename="punctura-comparison.zip"'}
-        return Download(_zipped(job), self._place, media_type="application/zip", headers=headers)
+        return Download(pieces, self._place, media_type="application/zip", headers=headers)
 
     def _keep(self, name: str, scene: str) -> None:
         if not name:
@@ -121,11 +126,29 @@ def _lines(job: Job) -> Iterator[bytes]:
 
 
 def _zipped(job: Job) -> Iterator[bytes]:
+    """The zip file in pieces; empty ones while it is made."""
     with tempfile.TemporaryDirectory(prefix="punctura-") as folder:
         path = Path(folder) / "comparison.zip"
-        (last,) = collections.deque(_lines(job.model_copy(update={"zip": str(path)})), maxlen=1)
+        last = b"{}"
+        for line in _lines(job.model_copy(update={"zip": str(path)})):
+            last = line if line.strip() else last
+            yield b""
         if error := json.loads(last).get("error"):
             raise LabError(error)
         with path.open("rb") as file:
             while chunk := file.read(CHUNK):
                 yield chunk
+
+
+async def _begun(pieces: Iterator[bytes], request: Request) -> Iterator[bytes]:
+    """The pieces from the first one that is not empty. Raises what they raise, LabError if the client has gone."""
+    while not (first := await run_in_threadpool(next, pieces, b"-")):
+        if await request.is_disconnected():
+            await run_in_threadpool(pieces.close)  # type: ignore[attr-defined]
+            raise LabError("the computation was cancelled")
+
+    def rest() -> Iterator[bytes]:
+        yield first
+        yield from pieces
+
+    return rest()

@@ -56,9 +56,9 @@ class Pump:
     def lost(self) -> int:
         return self._gaps
 
-    def turn(self) -> Ticks | None:
-        """Sends and returns all ticks that the ring holds; None if it holds none."""
-        ticks = self._run.read()
+    def turn(self, most: int | None = None) -> Ticks | None:
+        """Sends and returns the ticks that the ring holds, at most so many; None if it holds none."""
+        ticks = self._run.read(most)
         if len(ticks) == 0:
             return None
         for part in _parts(ticks):

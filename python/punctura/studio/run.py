@@ -109,9 +109,9 @@ class Run:
         self.loaded = loaded
         self.scenes += 1
 
-    def read(self) -> Ticks:
-        """All ticks since the last read."""
-        return self._listener.read()
+    def read(self, most: int | None = None) -> Ticks:
+        """The oldest ticks that were not read yet, at most so many; all if not given."""
+        return self._listener.read(most)
 
     @property
     def faulted(self) -> bool:

@@ -151,6 +151,6 @@ class Runs:
         self.run.start()
         self.watch()
 
-    def turn(self) -> None:
-        """Sends all ticks that wait to the pages and to the activity."""
-        self.activities.ticks(self.pump.turn())
+    def turn(self, most: int | None = None) -> None:
+        """Sends the ticks that wait to the pages and to the activity, at most so many; all if not given."""
+        self.activities.ticks(self.pump.turn(most))

@@ -31,6 +31,7 @@ T = TypeVar("T")
 
 PUMP_S = 1 / 60
 STATUS_S = 0.25
+AT_ONCE = 2048  # ticks in one turn, or four turns' worth; after a stall, requests are served between the turns
 
 
 class Session(Runs):
@@ -144,8 +145,8 @@ class Session(Runs):
             self.hand.drive(now)
             self.thumb.turn(self.run.loop, now)
             if now >= pump_at:
-                self.defects.guard(self.turn)
-                pump_at = max(pump_at + PUMP_S, now)  # one turn takes all ticks that wait
+                self.defects.guard(self._take_turn)
+                pump_at = max(pump_at + PUMP_S, now)
             if self.activities.due(now):
                 self.defects.guard(self.begin_again)
             if now >= status_at:
@@ -153,6 +154,9 @@ class Session(Runs):
                 self.defects.guard(self._tell_status)
                 if self._rounds.due(self.run.loop.device, bool(self.recording), now):
                     self.defects.guard(self.begin_again)
+
+    def _take_turn(self) -> None:
+        self.turn(max(AT_ONCE, int(4 * PUMP_S * self.run.rate)))
 
     def _tell_status(self) -> None:
         self.out.say(status_of(self.run, self.pump.lost, self.arming.armed, self.hand.mode, self.compare))

@@ -26,7 +26,6 @@ from punctura.studio.wire.identified import ErrorLine
 
 FILE, IDENTIFY = FILES
 COMMAND = worker("punctura.studio.trace_worker")
-ALIVE_S = 0.25  # after which a client that has gone is noticed
 MOST_RECEIVED = 2  # files at a time, so that a slow page does not keep another one waiting
 LONGEST_WORD = 200  # characters of a value
 ENDINGS = {".csv", ".tsv", ".txt", ".parquet", ".mat", ".xlsx"}  # others could be code, such as .py
@@ -131,6 +130,6 @@ def _lines(job: TraceJob, folder: Path) -> Iterator[bytes]:
         return ErrorLine(text=why[:1].upper() + why[1:]).model_dump_json().encode() + b"\n"
 
     try:
-        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, folder, ALIVE_S)
+        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, folder)
     finally:
         shutil.rmtree(folder, ignore_errors=True)

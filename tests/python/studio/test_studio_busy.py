@@ -4,7 +4,9 @@ import threading
 from contextlib import contextmanager
 
 import pytest
+from punctura.studio import session
 from punctura.studio.shelf import Shelf
+from waiting import wait_until
 
 UNARMED = 0  # a snapshot's state
 
@@ -66,3 +68,19 @@ def test_what_was_asked_for_before_a_pause_and_is_done_after_it_does_not_arm(ser
     assert state(served) == UNARMED and not page.status()["armed"]
     assert page.ask(do="arm")["ok"]
     page.wait(lambda: state(served) != UNARMED)
+
+
+def test_after_a_stall_requests_are_served_between_parts_of_the_ticks_that_wait(served, page, monkeypatch):
+    monkeypatch.setattr(session, "AT_ONCE", 100)
+    loop, begun = served.session.run.loop, []
+    turn = served.session.turn
+    monkeypatch.setattr(served.session, "turn", lambda most=None: (begun.append(most), turn(most)))
+    with busy(served.session):
+        begun.clear()
+        before = loop.ticks
+        wait_until(lambda: loop.ticks > before + 1000)
+        turns = served.session.call(lambda: len(begun))
+    assert turns.result(60) <= 2
+    wait_until(lambda: page.last.first_tick >= before + 1000)
+    assert page.status()["lost"] == 0 and len(begun) > 8 and set(begun) == {106}  # four turns at 1600 Hz
+    assert max(len(frame) for frame in page.frames[-8:]) <= 106

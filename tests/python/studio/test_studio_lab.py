@@ -1,16 +1,22 @@
 """The laboratory's addresses: comparisons, variations, and everything in one zip file."""
 
+import concurrent.futures
+import http.client
 import io
 import json
+import os
 import re
+import socket
 import sys
 import urllib.error
 import urllib.parse
 import urllib.request
 import zipfile
+from pathlib import Path
 
 import pytest
-from punctura.studio import lab
+from punctura.studio import computing, lab
+from waiting import wait_until
 
 
 def get(served, address, /, **asked):
@@ -34,7 +40,7 @@ def test_a_parameter_of_the_present_scene_is_varied_while_the_run_goes_on(served
     assert status == 200 and "membrane[0].stiffness" in {one["path"] for one in json.loads(fields)}
     assert set(json.loads(fields)[0]) == {"path", "value", "unit"}
     status, body = get(served, "/api/lab/compare", **VARIATION)
-    *shares, last = [json.loads(line) for line in body.splitlines()]
+    *shares, last = [json.loads(line) for line in body.splitlines() if line]
     assert status == 200 and len(shares) == 3
     peaks = [one["peak"] for one in last["comparison"]["statistics"]]
     assert peaks == sorted(peaks) and peaks[0] < peaks[-1]
@@ -95,6 +101,62 @@ def test_a_worker_that_ends_early_tells_why(served, monkeypatch, program, words)
     monkeypatch.setattr(lab, "COMMAND", [sys.executable, "-c", program])
     status, body = get(served, "/api/lab/compare", **VARIATION)
     assert status == 200 and re.search(words.replace("1)", r"1\)"), json.loads(body)["error"])
+
+
+WITH_A_CHILD = """
+import os, subprocess, sys, time
+child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+open({mark!r} + ".new", "w").write(f"{{os.getpid()}} {{child.pid}}")
+os.rename({mark!r} + ".new", {mark!r})
+time.sleep(600)
+"""
+
+
+@pytest.fixture
+def hangs(monkeypatch, tmp_path):
+    """A computation that never ends, with a child. The file gets their numbers."""
+    mark = tmp_path / "processes"
+    monkeypatch.setattr(lab, "COMMAND", [sys.executable, "-c", WITH_A_CHILD.format(mark=str(mark))])
+    return mark
+
+
+def ended(mark):
+    """Whether the worker and its child have ended; one that nobody waits for counts as ended."""
+    states = [Path(f"/proc/{number}/stat") for number in mark.read_text().split()]
+    return all(not state.exists() or state.read_text().rsplit(")")[1].split()[0] == "Z" for state in states)
+
+
+@pytest.mark.parametrize("address", ["compare", "bundle"])
+def test_a_computation_that_hangs_is_ended_with_its_children_and_told(served, monkeypatch, hangs, address):
+    monkeypatch.setattr(computing, "LONGEST_S", 6.0)
+    _, body = get(served, f"/api/lab/{address}", **VARIATION)
+    assert "was ended because it took more than 0.1 minutes; try fewer runs" in body.decode()
+    wait_until(lambda: ended(hangs))
+
+
+@pytest.mark.parametrize("address", ["compare", "bundle"])
+def test_leaving_a_computation_that_hangs_ends_it_and_frees_the_place(served, monkeypatch, hangs, address):
+    url = urllib.parse.urlsplit(served.address.url)
+    connection = http.client.HTTPConnection(url.netloc, timeout=60)
+    token = urllib.parse.parse_qs(url.query)["token"][0]
+    asked = urllib.parse.urlencode(VARIATION)
+    connection.request("GET", f"/api/lab/{address}?{asked}", headers={"Authorization": f"Bearer {token}"})
+    wait_until(hangs.exists)
+    connection.sock.shutdown(socket.SHUT_RDWR)
+    connection.close()
+    wait_until(lambda: ended(hangs))
+    monkeypatch.undo()
+    wait_until(lambda: get(served, "/api/lab/compare", **VARIATION)[0] == 200)
+
+
+def test_a_killed_worker_is_told_though_its_child_lives_on(served, hangs):
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        asked = pool.submit(get, served, "/api/lab/compare", **VARIATION)
+        wait_until(hangs.exists)
+        os.kill(int(hangs.read_text().split()[0]), 9)
+        _, body = asked.result(60)
+    assert "is there enough memory" in body.decode()
+    wait_until(lambda: ended(hangs))
 
 
 def test_fields_on_which_no_curve_depends_are_not_offered(served, page):
