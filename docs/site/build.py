@@ -1,4 +1,4 @@
-"""Builds the site: lays the pages out, generates the reference and the gallery, runs Sphinx, checks the result.
+"""Builds the site: prepares the pages, generates the reference and the gallery, runs Sphinx, checks the result.
 
     docs/build            into build/docs/html
 

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-# Attributes by which a browser fetches something on its own. A link that a reader may follow is not among them.
+# Attributes that make a browser fetch something without a click.
 FETCHED = {
     "script": ("src",), "link": ("href",), "img": ("src", "srcset"), "iframe": ("src",), "source": ("src", "srcset"),
     "video": ("src",), "object": ("data",),
@@ -17,7 +17,7 @@ IN_STYLE = re.compile(r"@import\s+[\"']([^\"']+)|url\(\s*[\"']?([^\"')]+)")
 
 
 class Page(HTMLParser):
-    """What a page fetches, what it links to, and the anchors that it has."""
+    """The files that a page fetches, its links and its anchors."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -49,7 +49,7 @@ def foreign(url: str) -> bool:
 
 
 def findings(html: Path) -> list[str]:
-    """What is wrong with the site in this folder."""
+    """All problems of the site in this folder."""
     built = {path.resolve(): Page(path.read_text(encoding="utf-8")) for path in sorted(html.rglob("*.html"))}
     return [*over_the_network(html, built), *dead_links(built)]
 

@@ -1,4 +1,4 @@
-"""Sphinx's settings. Sphinx runs on the folder that build.py lays out, never on docs/ itself."""
+"""Sphinx's settings. Sphinx runs on the folder that build.py prepares, never on docs/ itself."""
 
 import re
 import sys
@@ -44,7 +44,7 @@ html_theme_options = {"navigation_with_keys": True}
 
 
 def short(signature: str) -> str:
-    """A compiled function's signature without the name of the module; a default that is an object as `...`."""
+    """Removes the module's name from a compiled function's signature, and shows a default object as `...`."""
     plain = re.sub(r"^\(self(, )?", "(", signature)
     plain = re.sub(r"punctura\._core\.|collections\.abc\.|numpy\.typing\.", "", plain)
     return re.sub(r"= \w+\((?:[^()]|\([^()]*\))*\)", "= ...", plain)

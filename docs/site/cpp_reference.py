@@ -1,4 +1,4 @@
-"""The C++ reference: one page a room, from the public headers and the comments in them.
+"""The C++ reference: one page for each room, from the public headers and the comments in them.
 
 The headers are parsed as text (tree-sitter), without a compiler and without their includes. A declaration is shown as
 it is written. `///` comments stand above what they describe, `///<` comments behind it.
@@ -18,13 +18,13 @@ from text import escape_rst, heading
 from tree_sitter import Language, Node, Parser
 
 PARSER = Parser(Language(tree_sitter_cpp.language()))
-# What else lies below runtime/ is not for users: makers' libraries, sockets, the parts of a back-end.
+# The rest of runtime/ is not for users: makers' libraries, sockets, the parts of a back-end.
 PRIVATE = re.compile(r"runtime/punctura_runtime/(os/(?!os\.hpp)|backends/(force_dimension|haply|openhaptics)/)")
 CLASSES = {"class_specifier": "class", "struct_specifier": "struct"}
 
 
 class Entry(NamedTuple):
-    """One declaration: the directive of Sphinx that shows it, its text, its comment, what it contains."""
+    """One declaration: its Sphinx directive, its text, its comment and its members."""
 
     kind: str
     text: str
@@ -81,7 +81,7 @@ def entries(block: Node, public: bool = True, owner: str = "") -> Iterator[Entry
 
 
 def trailing(after: list[Node], node: Node) -> str:
-    """The `///<` comment on the last line of a declaration, with the lines that go on below it."""
+    """The `///<` comment on the last line of a declaration, with its continuation lines below."""
     lines: list[str] = []
     row = node.end_point.row
     for other in after:
@@ -158,7 +158,7 @@ def declaration(node: Node, text: str, comment: str, owner: str, prefix: str) ->
 
 
 def is_function(node: Node) -> bool:
-    """Whether a declaration declares a function; a pointer to a function is none."""
+    """Whether a declaration declares a function and not a pointer to a function."""
     found = node.child_by_field_name("declarator")
     while found is not None and found.type != "function_declarator":
         found = found.child_by_field_name("declarator") or next(
@@ -169,7 +169,7 @@ def is_function(node: Node) -> bool:
 
 
 class Config:
-    """What Sphinx's parser asks of a configuration."""
+    """The configuration that Sphinx's parser needs."""
 
     cpp_id_attributes: tuple[str, ...] = ()
     cpp_paren_attributes: tuple[str, ...] = ()
@@ -223,7 +223,7 @@ def about(text: str) -> str:
 
 
 def pages() -> Iterator[tuple[str, str]]:
-    """(name, text) of every page: an index and one page a room."""
+    """(name, text) of every page: an index and one page for each room."""
     rooms: dict[str, list[str]] = {}
     for header in headers():
         rooms.setdefault(room(header), []).append(header)

@@ -1,4 +1,4 @@
-"""The gallery: each numbered example is run, and its picture is drawn from what the run gave.
+"""The gallery: runs each numbered example and draws its picture from the results.
 
 The pictures are made at every build and committed nowhere, because that is cheap: 8 s, of which 5 s are those of the
 two examples that run in real time.
@@ -31,7 +31,7 @@ PRINTED = re.compile(r"(?:depth|y) +(-?[\d.]+) mm +force +(-?[\d.]+) N")
 
 
 class Run:
-    """An example that has run: its variables, its output, the ticks of its servo loops."""
+    """The results of an example: its variables, its output, the ticks of its servo loops."""
 
     def __init__(self, variables: dict[str, Any], output: str, ticks: list[Any]) -> None:
         self.variables, self.output, self.ticks = variables, output, ticks
@@ -41,7 +41,7 @@ class Run:
 
 
 def run_python(path: Path) -> Run:
-    """Runs an example here; every servo loop that it starts is listened to."""
+    """Runs an example in this process and listens to every servo loop that it starts."""
     said, listeners = io.StringIO(), []
     start = live.ServoLoop.start
 

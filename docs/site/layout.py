@@ -1,4 +1,4 @@
-"""Lays the folder out that Sphinx reads: the tree as it is, as links, and what is generated beside it.
+"""Prepares the folder that Sphinx reads: links to the tree, and the generated files.
 
 The pages stand where they stand in the tree, so that a link which works on a code host works in the site, too.
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = Path(__file__).resolve().parent
-# Files that a page links to. Sphinx offers a linked file that is no page for download.
+# Files that a page links to. Sphinx offers a linked file for download if it is not a page.
 LINKED = (
     "CITATION.cff",
     "LICENSE",
@@ -29,12 +29,12 @@ FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(\w+)/?\)")
 
 
 def page(text: str) -> str:
-    """A page whose links to headers lead to the C++ reference."""
+    """Changes the links to headers, so that they lead to the C++ reference."""
     return FOLDER.sub(r"](\1reference/cpp/\2.rst)", HEADER.sub(r"](#\1)", text))
 
 
 def lay_out(folder: Path) -> None:
-    """Makes the folder anew. The pages are copies; all else is linked."""
+    """Creates the folder again. Pages are copied; other files are links."""
     shutil.rmtree(folder, ignore_errors=True)
     for name in LINKED:
         place = folder / name

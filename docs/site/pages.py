@@ -18,7 +18,7 @@ PACKAGES = [
 
 
 def python_pages() -> Iterator[tuple[str, str]]:
-    """(name, text): an index, and one page a public package with what its __all__ names."""
+    """(name, text): an index, and for each public package one page with the names in its __all__."""
     index = [*heading("Python reference"), ".. toctree::", "", *(f"   {name}" for name in PACKAGES), ""]
     yield "index.rst", "\n".join(index)
     shown: set[int] = set()
@@ -31,7 +31,7 @@ def python_pages() -> Iterator[tuple[str, str]]:
 
 
 def command_line_page() -> str:
-    """What the program says of its own verbs and options."""
+    """The help of the program: its verbs and options."""
     import typer.cli
     from punctura.cli._app import build_app
 
@@ -50,7 +50,7 @@ def cell(value: object) -> str:
 
 
 def bounds(schema: dict[str, Any]) -> str:
-    """What a value may be: a list of words, or a range."""
+    """The allowed values: a list of words, or a range."""
     words = schema.get("enum", [schema["const"]] if "const" in schema else [])
     numbers = all(isinstance(word, int) for word in words)
     if numbers and len(words) > 5 and words == list(range(words[0], words[-1] + 1)):

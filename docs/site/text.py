@@ -8,7 +8,7 @@ CODE = re.compile(r"(``[^`]+``|`[^`]+`)")
 
 
 def escape_rst(text: str) -> str:
-    """Comments and docstrings are plain text with `code` in backticks: no other character means anything."""
+    """Converts plain text with `code` in backticks. All other characters are literal."""
     parts = CODE.split(text)
     parts[::2] = [re.sub(r"([\\*_|])", r"\\\1", part) for part in parts[::2]]
     parts[1::2] = [f"``{part.strip('`')}``" for part in parts[1::2]]
@@ -16,7 +16,7 @@ def escape_rst(text: str) -> str:
 
 
 def docstring_rst(lines: list[str]) -> list[str]:
-    """A docstring; what is indented after an empty line is code."""
+    """Converts a docstring. Indented lines after an empty line are code."""
     out: list[str] = []
     in_code = False
     for line in lines:

@@ -59,7 +59,7 @@ def run_shell(code: str, example: Example) -> None:
 
 
 def compile_cpp(code: str, example: Example) -> None:
-    """Lines with # stand in front, all others in a function; `before` holds what invisible blocks have said so far."""
+    """Puts lines with # in front and all others into a function; `before`: the text of the invisible blocks so far."""
     lines = code.splitlines()
     heads = [line for line in lines if line.startswith("#")]
     body = [line for line in lines if not line.startswith("#")]
@@ -101,7 +101,7 @@ def only_grammar(language: str, code: str) -> None:
 
 
 def evaluate(example: Example) -> None:
-    """Does with a block what the words behind its fence say."""
+    """Runs or checks a block as the words after its fence require."""
     words, code = example.region.lexemes["words"], str(example.parsed)
     language, _, rest = words.partition(" ")
     if language == "text":
@@ -124,7 +124,7 @@ def evaluate(example: Example) -> None:
 
 
 def remember(example: Example) -> None:
-    """An invisible block: Python and shell run, C++ stands before the next one that is compiled."""
+    """An invisible block: Python and shell run; C++ is put before the next compiled block."""
     language = example.region.lexemes["words"]
     if language == "cpp":
         example.namespace["before"] = [*example.namespace.get("before", []), str(example.parsed)]
@@ -137,7 +137,7 @@ def refuse(example: Example) -> None:
 
 
 def blocks(document: Document) -> Iterable[Region]:
-    """Every block of a page, as a Markdown parser sees them."""
+    """Every block of a page, found by a Markdown parser."""
     starts = [0]
     for line in document.text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))

@@ -1,4 +1,4 @@
-"""What the checks of the built site find, and that the C++ reference leaves nothing out."""
+"""The checks of the built site find errors, and the C++ reference is complete."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A code block that is not what it says fails; one that is passes."""
+"""A wrong code block fails, and a correct one passes."""
 
 import subprocess
 

@@ -1,10 +1,10 @@
-"""A simulated Inverse Service on a port of its own, for every client that speaks WebSocket: ours and other people's.
+"""A simulated Inverse Service on its own port, for any WebSocket client.
 
     python tests/fakes/inverse_service.py [--port 10001] [--version 3.5.2] [--takes vector|values] [--strict]
 
-Its contract is the real one's: one inventory on connecting, then exactly one state for each message; a force lasts
-until the next message, and not longer than `persists`. The WebSocket is the library websockets', which knows nothing of
-ours.
+It behaves like the real service: after connecting it sends one inventory, then exactly one state for each message. A
+force lasts until the next message, but not longer than `persists`. The WebSocket is that of the library websockets,
+independent of Punctura's own.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ DOWN = {"w": math.sqrt(0.5), "x": -math.sqrt(0.5), "y": 0.0, "z": 0.0}  # the gr
 
 @dataclass
 class Arm:
-    """A tip of 95 g that a hand's spring holds at `hand`; x right, y away, z up, in m and N. One step a message."""
+    """A tip of 95 g on a hand's spring at `hand`; x right, y away, z up, in m and N. One step per message."""
 
     hand: list[float] = field(default_factory=lambda: [0.0, -0.12, 0.15])
     position: list[float] = field(default_factory=lambda: [0.0, -0.12, 0.15])
@@ -43,7 +43,7 @@ class Arm:
 
 @dataclass
 class InverseService:
-    """Faults by assignment while it runs: removed, silent, garbled, oversized, id, missing (arrays left out)."""
+    """Faults are set by assignment during a run: removed, silent, garbled, oversized, id, missing (arrays left out)."""
 
     version: str = "3.5.2"
     takes: str = "vector"
@@ -93,7 +93,7 @@ class InverseService:
         return json.dumps({key: value for key, value in whole.items() if key not in self.missing})
 
     def obey(self, message: dict[str, Any]) -> bool:
-        """Takes a command; False when it is refused."""
+        """Executes a command. Returns False if it is refused."""
         if len(self.messages) < 100:
             self.messages.append(message)
         self.arm.force = [0.0, 0.0, 0.0]
@@ -149,7 +149,7 @@ class InverseService:
 
 
 class Running:
-    """A service on a thread of its own: `with Running(InverseService()) as url`."""
+    """Runs a service on its own thread: `with Running(InverseService()) as url`."""
 
     def __init__(self, service: InverseService) -> None:
         self.service = service

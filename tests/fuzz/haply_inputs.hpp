@@ -1,5 +1,4 @@
-// What the parsers of the Inverse Service's messages are thrown at: by the tests from seeds, by libFuzzer from its
-// corpus.
+// Inputs for the parsers of the Inverse Service's messages: tests make them from seeds, libFuzzer from its corpus.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 
 namespace punctura::test {
 
-/// A message as a text: what is kept of it must be sound, and reading it again must give the same.
+/// Reads a message as text. The values must be valid, and a second reading must give the same.
 inline void read_text(std::string_view text) {
   haply::State state;
   if (!haply::read_state(text, state)) return;
@@ -38,7 +37,7 @@ inline void read_text(std::string_view text) {
     if (!(std::abs(std::hypot((*axis)[0], (*axis)[1], (*axis)[2]) - 1) < 1e-3)) std::abort();
 }
 
-/// The first byte says how: as the text of a message, as a server's answer, as frames in pieces of that size.
+/// The first byte selects the way: the text of a message, a server's answer, or frames in pieces of that size.
 inline void read_anything(std::string_view input) {
   if (input.empty()) return;
   const auto how = static_cast<unsigned char>(input[0]);
@@ -67,7 +66,7 @@ inline void read_anything(std::string_view input) {
   }
 }
 
-/// A true message, whole or framed, with some of it changed, left out or doubled.
+/// A valid message, whole or framed, with some bytes changed, removed or doubled.
 inline std::string spoilt_input(Noise& noise) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(noise.uniform() * static_cast<double>(n)); };
   std::string text =

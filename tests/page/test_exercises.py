@@ -1,4 +1,4 @@
-"""An exercise of one's own, to success and to failure: the venipuncture, as slowly as the computer is."""
+"""An exercise from the user, passed and failed: the venipuncture, at any speed of the computer."""
 
 import pytest
 from person import own_exercise, push, ready, tab, view

@@ -1,4 +1,4 @@
-// The requirements on a rival: a force model from the literature that is no band of forces, with which K06 is compared.
+// The requirements on a rival: a force model from the literature without a band of friction, to compare with K06.
 //
 // docs/rivals.md has the equations, the sources, and what each rival leaves out.
 #pragma once

@@ -1,7 +1,7 @@
-// What the fake library exports: the maker's functions, by their names and types, and the tests' own.
+// The exports of the fake library: the maker's functions with their names and types, and functions for tests.
 //
-// As the real one: a device's number is a char and -1 is the default device; a bool comes back in the low byte of a
-// register whose rest is anything; the last error is that of the calling thread.
+// As in the real library, a device's number is a char, and -1 is the default device. A bool is returned in the low
+// byte of a register; the other bytes are undefined. Each thread has its own last error.
 #include "controller.hpp"
 
 #if defined(_WIN32)
@@ -18,7 +18,7 @@ namespace {
 constexpr unsigned long garbage = 0x5EED5A00UL;  // under the byte that counts
 unsigned long as_bool(bool value) { return garbage | (value ? 1UL : 0UL); }
 
-/// The controller, locked for the length of a call.
+/// The controller, locked during a call.
 class Locked {
  public:
   Locked() : lock_(controller().mutex) {}
@@ -33,7 +33,7 @@ int unimplemented() {
   return -1;
 }
 
-/// Calls that change what guards the user's hand. The back-end must make none.
+/// Calls that change a protection of the user's hand. The back-end must not make them.
 int safety() {
   Locked()->safety_touched = true;
   return 0;

@@ -72,7 +72,7 @@ std::int64_t Controller::now() {
   return time_;
 }
 
-/// In real time the plant has moved on by itself since the last call.
+/// In real time, moves the plant by the time since the last call.
 void Controller::catch_up() {
   if (!virtual_) advance(steady_ns() - real_offset_);
 }
@@ -92,7 +92,7 @@ void Controller::advance(std::int64_t to) {
   if (injected_ >= 0 && time_ >= inject_at_) happen();
 }
 
-/// An eighth of a millisecond of the device: its safety first, then its motors.
+/// 0.125 ms of the device: first its safety, then its motors.
 void Controller::step() {
   if (injected_ >= 0 && plant_time_ >= inject_at_) happen();
   if (force_on_ && static_cast<double>(plant_time_ - last_write_) * 1e-9 > settings.watchdog) force_off(3);
@@ -140,7 +140,7 @@ void Controller::happen() {
   }
 }
 
-/// Whether that was to fail one time, and has not yet.
+/// Whether this call must fail once and has not failed yet.
 bool Controller::once(int what) {
   if (once_ != what) return false;
   once_ = -1;

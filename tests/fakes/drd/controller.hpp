@@ -1,4 +1,4 @@
-// The simulated device behind the fake library: a controller with its rules, and the plant in a hand that it drives.
+// The simulated device behind the fake library: a controller with its rules, and a plant in a hand.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ class Controller {
   void move_to(const Vector3d& position);
   void inject(int what, std::int64_t at) { injected_ = what, inject_at_ = at, happened_ = 0; }
 
-  /// The maker's calls: what they return, with `error` set where that is -1.
+  /// The maker's calls and their return values; -1 sets `error`.
   int open(int index);
   int close(int device);
   bool wrong(int device);

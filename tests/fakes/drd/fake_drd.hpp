@@ -1,14 +1,14 @@
-// A Force Dimension library that is none: what tests can ask of it, beside the maker's own functions that it exports.
+// A fake Force Dimension library: the functions for tests that it exports beside the maker's functions.
 //
-// Plain C underneath, so that a test takes them out of the loaded library as the back-end takes the others. Everything
-// is in the device's own axes: x to the user, y right, z up.
+// They are plain C, so that a test loads them in the way in which the back-end loads the maker's. All vectors are in
+// the device's axes: x to the user, y right, z up.
 #pragma once
 
 #include <cstdint>
 
 namespace punctura::fake_drd {
 
-/// What can be made to happen at a moment.
+/// The failures that a test can trigger at a given time.
 enum Injected : int {
   unplug,         ///< every call fails from then on, the motors have no power
   press_button,   ///< force off by the device's own button
@@ -25,7 +25,7 @@ enum Injected : int {
 
 };
 
-/// What it is. Defaults: one omega.3, calibrated, free, that saturates at 12 N.
+/// The simulated device. Defaults: one omega.3, calibrated, not in use, with at most 12 N.
 struct Settings {
   int devices = 1;  ///< those after the first are somebody else's
   int in_use = 0;   ///< 1: the first is somebody else's, too
@@ -44,7 +44,7 @@ struct Settings {
   double transfer = 0;                                             ///< s that a reading takes
 };
 
-/// The hand's strokes, as in punctura::Strokes, from a moment on.
+/// The hand's strokes, as in punctura::Strokes, from a given time on.
 struct Strokes {
   double start[3], end[3];
   int count;
@@ -52,7 +52,7 @@ struct Strokes {
   std::uint64_t seed;
 };
 
-/// What came of it.
+/// The state of the simulated device.
 struct Report {
   std::int64_t now;             ///< ns
   std::int64_t last_force;      ///< when the motors last gave any force, ns

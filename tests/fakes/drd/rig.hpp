@@ -1,4 +1,4 @@
-// A loop on a Force Dimension device of the fake library, whose time goes on as far as the test says and no farther.
+// A loop on a Force Dimension device of the fake library. The test advances the fake's time.
 #pragma once
 
 #include <condition_variable>
@@ -40,7 +40,7 @@ inline FakeDrd& fake() {
   return one;
 }
 
-/// The device's thread sleeps in here until the test lets the fake's time reach its next tick.
+/// Here the device's thread sleeps until the test advances the fake's time to its next tick.
 class CrankedClock {
  public:
   static force_dimension::LoopClock clock() { return {&CrankedClock::now, &CrankedClock::sleep_until}; }
@@ -52,7 +52,7 @@ class CrankedClock {
     s.asked = s.stall = 0;
     s.free = false;
   }
-  /// All ticks that are due until then; afterwards the thread rests.
+  /// Makes all ticks that are due until then. Afterwards the thread waits.
   static void run_to(std::int64_t time, const force_dimension::ForceDimensionDevice& device) {
     auto& s = state();
     {
@@ -63,12 +63,12 @@ class CrankedClock {
     }
     fake().advance(time);
   }
-  /// The next wake-up comes so much too late.
+  /// Makes the next wake-up late by this time.
   static void stall(std::int64_t ns) {
     const std::lock_guard lock(state().mutex);
     state().stall = ns;
   }
-  /// Time goes by as fast as it can: for stop().
+  /// Lets time run as fast as possible, for stop().
   static void release() {
     auto& s = state();
     const std::lock_guard lock(s.mutex);
@@ -125,7 +125,7 @@ class FakeRig {
   }
   void start() { CrankedClock::reset(), loop.start(), time_ = fake().now(); }
   void stop() { CrankedClock::release(), loop.stop(); }
-  /// Armed outside, then pushed in until force is felt.
+  /// Arms outside, then pushes the needle in until there is force.
   void push_in() {
     loop.arm();
     start();

@@ -1,5 +1,5 @@
-// The inside of the fake: one device, one scheduler, one stack of errors. It may lock and allocate; who calls it may
-// not know.
+// The implementation of the fake: one device, one scheduler, one stack of errors. It may lock and allocate,
+// unlike its callers.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct ErrorInfo {
   std::uint32_t device;
 };
 
-/// What there is to read in a tick.
+/// The data of a tick.
 struct Reading {
   std::array<double, 3> position{};    // mm
   std::array<double, 16> transform{};  // by columns
@@ -74,7 +74,7 @@ class Fake {
   void set_force(const double* force);
   bool injected(int fault, unsigned* value = nullptr) const;
   void push(std::uint32_t code, int internal = 0);
-  void misuse(std::uint32_t code);  // an error of the caller's
+  void misuse(std::uint32_t code);  // an error of the caller
 
   std::mutex state;              // for a moment only
   std::recursive_mutex calling;  // held while operations run
@@ -102,9 +102,9 @@ class Fake {
   void lay_out();
   double period() const;
   std::thread thread_;
-  std::vector<Scheduled> called_;  // in this tick: kept, so that ticks take no memory
+  std::vector<Scheduled> called_;  // in this tick; reused, so that ticks allocate no memory
   std::atomic<bool> stopping_{false};
-  // Where an unsigned long has 64 bits it does not fit in 32, like the real one's.
+  // With an unsigned long of 64 bits the value does not fit into 32 bits, as in the real library.
   unsigned long next_ = std::numeric_limits<unsigned long>::max() / 0xFFFFFFFF;
   double laid_out_for_ = 0;  // s, the period of the plant
   std::vector<punctura::StrokesMotion> motion_;

@@ -1,4 +1,4 @@
-// What tests tell the fake, and what it tells them.
+// The functions with which tests control the fake and read its records.
 #include <algorithm>
 
 #include "fake_hd.hpp"
@@ -6,7 +6,7 @@
 namespace fake_hd {
 
 Fake& Fake::one() {
-  static auto* fake = new Fake;  // its thread may outlive everything else
+  static auto* fake = new Fake;  // its thread may end after all other objects
   return *fake;
 }
 

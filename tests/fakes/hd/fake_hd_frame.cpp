@@ -1,4 +1,4 @@
-// Frames: the force is zero when one begins, may be set inside one only, and goes out when it ends. One a tick.
+// Frames: the force is zero at the begin of a frame, can be set only inside it, and is sent at its end. One per tick.
 #include "fake_hd.hpp"
 
 namespace fake_hd {
@@ -50,7 +50,7 @@ void Fake::end_frame(std::uint32_t device) {
   if (unplugged) return push(comm_error, -28);
   if (unsigned code = 0; injected(FAKE_HD_ERROR_AT_END, &code)) {
     push(code, -28);
-    if (code < 0x200 || code > 0x203) return;  // not sent: the motors hold what they held
+    if (code < 0x200 || code > 0x203) return;  // not sent: the motors keep the last force
   }
   held = force_output ? wanted : std::array<double, 3>{};
 }

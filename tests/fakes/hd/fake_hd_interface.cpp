@@ -1,4 +1,4 @@
-// The functions of the real library, under its names and with its numbers, as the fake answers them.
+// The functions of the real library, with its names and constants, implemented by the fake.
 #include <cstring>
 
 #include "fake_hd.hpp"
@@ -7,7 +7,7 @@ using fake_hd::Fake;
 
 namespace {
 
-// Not all of them are used where functions are left out.
+// Some are unused in a build that leaves out functions.
 [[maybe_unused]] constexpr std::uint32_t invalid_enum = 0x100, invalid_input_type = 0x103, bad_handle = 0x104,
                                          already_initiated = 0x301;
 constexpr std::uint32_t no_device = 0xFFFFFFFF;
@@ -15,7 +15,7 @@ constexpr std::uint32_t no_device = 0xFFFFFFFF;
 Fake& fake() { return Fake::one(); }
 using Locked = std::lock_guard<std::mutex>;
 
-/// Of values that are single numbers.
+/// For values that are single numbers.
 bool number(std::uint32_t which, double& value) {
   const auto& s = fake().settings;
   switch (which) {

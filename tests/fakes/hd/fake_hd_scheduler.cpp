@@ -68,7 +68,7 @@ void Fake::run() {
     }
     if (fast) {
       due = std::chrono::steady_clock::now();
-      std::this_thread::yield();  // to those who wait for a lock
+      std::this_thread::yield();  // to threads that wait for a lock
     } else {
       due += std::chrono::nanoseconds(std::llround(seconds * 1e9));
       std::this_thread::sleep_until(due);
@@ -106,7 +106,7 @@ void Fake::sense(const punctura::Desired& desired) {
   if (injected(FAKE_HD_FREEZE)) frozen = true;
   if (injected(FAKE_HD_UNPLUG)) unplugged = true;
   if (unsigned value = 0; injected(FAKE_HD_CALIBRATION, &value)) settings.calibration = value;
-  if (unplugged) {  // no power, and no news
+  if (unplugged) {  // no power and no new data
     held = {};
     return;
   }

@@ -21,11 +21,11 @@ DeviceInfo at(double rate) {
   return info;
 }
 
-/// On its way through the membrane, from 2 mm above it: out of tissue while the force is ramped in.
+/// The motion through the membrane from 2 mm above it: outside tissue while the force ramps in.
 double height(int k) { return k < 1600 ? 2e-3 : 2e-3 - 4e-6 * (k - 1600); }
 }  // namespace
 
-TEST_CASE("every reading that is fed is one tick, and its force is the reply") {
+TEST_CASE("every fed reading gives one tick, and feed() returns its force") {
   auto device = std::make_shared<FedDevice>(at(1600), false);
   ServoLoop loop(device, paper_scene());
   auto other = std::make_shared<HandCranked>(1600);
@@ -47,7 +47,7 @@ TEST_CASE("every reading that is fed is one tick, and its force is the reply") {
   CHECK(device->fed() == 3200);
 }
 
-TEST_CASE("before start and after stop there is no tick, and no force") {
+TEST_CASE("before start and after stop there is no tick and no force") {
   auto device = std::make_shared<FedDevice>(at(1600));
   ServoLoop loop(device, paper_scene());
   CHECK(device->feed({{0, 0, 0}}) == zero);
@@ -59,7 +59,7 @@ TEST_CASE("before start and after stop there is no tick, and no force") {
   CHECK(loop.report().ticks == 1);
 }
 
-TEST_CASE("what is fed reaches the tick: axis, buttons, temperature, health, and a count of its own") {
+TEST_CASE("the tick gets the fed axis, buttons, temperature and health, and a count") {
   auto device = std::make_shared<FedDevice>(at(1000), false);
   ServoLoop loop(device, paper_scene());
   loop.start();
@@ -78,7 +78,7 @@ TEST_CASE("what is fed reaches the tick: axis, buttons, temperature, health, and
   CHECK_FALSE(device->trouble().empty());
 }
 
-TEST_CASE("in real time a feeder that pauses for too long meets a fault at its next reading") {
+TEST_CASE("in real time, too long a pause of the feeder gives a fault at the next reading") {
   LoopSettings settings;
   settings.gate.deadline = 1e-4;
   auto device = std::make_shared<FedDevice>(at(1000));
@@ -93,7 +93,7 @@ TEST_CASE("in real time a feeder that pauses for too long meets a fault at its n
   CHECK(device->statements()[0].find("fed at") == 0);
 }
 
-TEST_CASE("a feeder that does not keep to the rate is told which one it kept") {
+TEST_CASE("a feeder at a wrong rate gets a message with its measured rate") {
   auto device = std::make_shared<FedDevice>(at(100));
   ServoLoop loop(device, paper_scene());
   loop.start();
@@ -102,7 +102,7 @@ TEST_CASE("a feeder that does not keep to the rate is told which one it kept") {
   CHECK(device->statements()[0].find("not at the rate") != std::string::npos);
 }
 
-TEST_CASE("stop waits for the tick of another thread, and the next reading finds no loop") {
+TEST_CASE("stop waits for another thread's tick, and the next reading gets no tick") {
   auto device = std::make_shared<FedDevice>(at(1600), false);
   std::atomic<bool> enough{false};
   auto loop = std::make_unique<ServoLoop>(device, paper_scene());
@@ -111,13 +111,13 @@ TEST_CASE("stop waits for the tick of another thread, and the next reading finds
     while (!enough) device->feed({{0, 2e-3, 0}});
   });
   while (loop->report().ticks < 1000) std::this_thread::yield();
-  loop.reset();  // stopped and gone, while the feeder goes on
+  loop.reset();  // stopped and destroyed while the feeder continues
   enough = true;
   feeder.join();
   CHECK(device->feed({{0, 2e-3, 0}}) == zero);
 }
 
-TEST_CASE("what is asked of the device while a reading is ticked is answered at once, and holds up no reading") {
+TEST_CASE("questions to the device during a tick are answered at once and delay no reading") {
   struct Slow {
     std::promise<void> ticking, go_on;
     static Tick::Force tick(void* self, const DeviceSample&) noexcept {
@@ -132,7 +132,7 @@ TEST_CASE("what is asked of the device while a reading is ticked is answered at 
   Tick::Force force{};
   std::thread feeder([&] { force = device.feed({{0, 0, 0}}); });
   slow.ticking.get_future().wait();
-  CHECK(device.statements().empty());  // of readings that have been ticked
+  CHECK(device.statements().empty());  // of the readings that had a tick
   CHECK(device.trouble().empty());
   CHECK(device.fed() == 0);
   slow.go_on.set_value();
@@ -141,7 +141,7 @@ TEST_CASE("what is asked of the device while a reading is ticked is answered at 
   CHECK(device.fed() == 1);
 }
 
-TEST_CASE("a reading fed while another one is ticked gets no tick and no force, which is said") {
+TEST_CASE("a reading fed during another tick gets no tick and no force, and is reported") {
   struct Greedy {
     FedDevice device{at(1600), false};
     Tick::Force second{1, 1, 1};
@@ -159,8 +159,7 @@ TEST_CASE("a reading fed while another one is ticked gets no tick and no force, 
   CHECK(greedy.device.statements()[0].find("1 readings got no tick") == 0);
 }
 
-TEST_CASE(
-    "the thread that feeds asks for real-time priority, and the run says what came of it or that nobody has asked") {
+TEST_CASE("the run reports whether the feeding thread got, was refused, or never requested real-time priority") {
   FedDevice device(at(1000));
   struct Nothing {
     static Tick::Force tick(void*, const DeviceSample&) noexcept { return {0, 0, 0}; }
@@ -185,7 +184,7 @@ TEST_CASE(
   CHECK(all.back().find("fed at") == 0);
 }
 
-TEST_CASE("feeding takes no memory") {
+TEST_CASE("feeding allocates no memory") {
   auto device = std::make_shared<FedDevice>(at(1600), false);
   ServoLoop loop(device, paper_scene());
   loop.arm();
@@ -196,7 +195,7 @@ TEST_CASE("feeding takes no memory") {
   CHECK(allocations() == before);
 }
 
-TEST_CASE("a rate that cannot be is refused") {
+TEST_CASE("an invalid rate is refused") {
   CHECK_THROWS_AS(FedDevice(at(0)), DeviceError);
   CHECK_THROWS_AS(FedDevice(at(unknown)), DeviceError);
   CHECK(FedDevice(at(500)).info().backend == "fed");

@@ -1,4 +1,4 @@
-// Everything that can go wrong with a Force Dimension device, made to happen in the fake library.
+// Every failure of a Force Dimension device, simulated by the fake library.
 #include <doctest/doctest.h>
 
 #include "fakes/drd/rig.hpp"
@@ -14,7 +14,7 @@ void check_without_force(const fake_drd::Report& report) {
   for (const double component : report.force) CHECK(component == 0);
 }
 
-/// Force ended within 10 ms of what happened, and has not come back.
+/// Whether the force ended within 10 ms of the event and has stayed zero.
 void check_ended(const FakeRig& rig) {
   const auto report = fake().state();
   CHECK(report.injected > 0);
@@ -25,7 +25,7 @@ void check_ended(const FakeRig& rig) {
 
 }  // namespace
 
-TEST_CASE("after each fault of the device its force is zero within 10 ms, stays so, and the reason is told") {
+TEST_CASE("after each fault of the device its force is zero within 10 ms and stays zero, with the reason") {
   struct Case {
     fake_drd::Injected what;
     Fault fault;
@@ -50,7 +50,7 @@ TEST_CASE("after each fault of the device its force is zero within 10 ms, stays 
       CAPTURE(rate);
       CAPTURE(c.what);
       auto settings = upright();
-      settings.watchdog = 1e9;  // it is not the device's own that has to help
+      settings.watchdog = 1e9;  // the device's own watchdog is not needed
       FakeRig rig(settings, rate);
       rig.push_in();
       REQUIRE(fake().state().force[2] > 0.2);
@@ -62,7 +62,7 @@ TEST_CASE("after each fault of the device its force is zero within 10 ms, stays 
       const std::string said = rig.device->trouble();
       CHECK_MESSAGE(said.find(c.words) < said.size() + (*c.words ? 0 : 1), said);
 
-      // Not even after the loop's fault was left, outside and armed.
+      // The force stays zero even after a reset of the loop's fault, outside and armed.
       if (c.fault != Fault::device || (rate > 1600 && c.what != fake_drd::press_button)) continue;
       rig.loop.reset();
       rig.loop.arm();
@@ -75,7 +75,7 @@ TEST_CASE("after each fault of the device its force is zero within 10 ms, stays 
   }
 }
 
-TEST_CASE("a tick that goes on asking for force after a fault gets none") {
+TEST_CASE("a tick that requests force after a fault gets none") {
   for (const auto what :
        {fake_drd::press_button, fake_drd::lose_zero, fake_drd::failing_read, fake_drd::failing_write}) {
     CAPTURE(what);
@@ -98,7 +98,7 @@ TEST_CASE("a tick that goes on asking for force after a fault gets none") {
   }
 }
 
-TEST_CASE("a hand that tears the device along makes it brake, and force stays away") {
+TEST_CASE("a hand that moves the device too fast triggers its brakes, and no force follows") {
   auto settings = upright();
   settings.brake_speed = 0.6;
   FakeRig rig(settings);
@@ -110,7 +110,7 @@ TEST_CASE("a hand that tears the device along makes it brake, and force stays aw
   CHECK(rig.device->trouble().find("faster than its own limit") < 200);
 }
 
-TEST_CASE("a computer that stands still for 100 ms: the device's own watchdog ends the force") {
+TEST_CASE("if the computer stalls for 100 ms, the device's own watchdog ends the force") {
   FakeRig rig;
   rig.push_in();
   const auto before = rig.time();
@@ -125,7 +125,7 @@ TEST_CASE("a computer that stands still for 100 ms: the device's own watchdog en
   CHECK(rig.device->trouble().find("watchdog") < 200);
 }
 
-TEST_CASE("readings that are not new any more end the force after the loop's own limit") {
+TEST_CASE("repeated readings end the force after the loop's limit for stale samples") {
   FakeRig rig;
   rig.push_in();
   fake().inject(fake_drd::freeze, rig.time());
@@ -136,7 +136,7 @@ TEST_CASE("readings that are not new any more end the force after the loop's own
   CHECK(rig.loop.latest().fault == Fault::stale_sample);
 }
 
-TEST_CASE("stop leaves zero force, force off, and the device closed; twice does no harm, and it can start again") {
+TEST_CASE("stop leaves zero force, motors off and the device closed; a second stop is harmless; it can start again") {
   FakeRig rig;
   rig.push_in();
   rig.stop();
@@ -158,7 +158,7 @@ TEST_CASE("stop leaves zero force, force off, and the device closed; twice does 
   CHECK(rig.loop.report().ticks > ticks + 100);
 }
 
-TEST_CASE("a device that is let go while it runs stops first") {
+TEST_CASE("a running device stops before it is destroyed") {
   auto rig = std::make_unique<FakeRig>();
   rig->push_in();
   CHECK(fake().state().force[2] > 0.2);
@@ -170,7 +170,7 @@ TEST_CASE("a device that is let go while it runs stops first") {
   CHECK(left.open == 0);
 }
 
-TEST_CASE("why force was off some time before does not matter; that it does not come on does") {
+TEST_CASE("a device whose motors were off earlier is usable; motors that do not turn on are an error") {
   auto settings = upright();
   settings.old_force_off_cause = 4;
   FakeRig rig(settings);

@@ -1,4 +1,4 @@
-// What the registry says of Force Dimension's devices, in each state that they can be in.
+// The registry's entry for Force Dimension devices in each possible state.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ bool says(const BackendStatus& status, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a library that is not there: where it was looked for, and what to do") {
+TEST_CASE("a missing library is reported with all searched places and what to do") {
   const Override library("/nowhere/libdrd.so.3");
   const auto missing = status();
   CHECK(missing.state == BackendState::library_not_found);
@@ -46,7 +46,7 @@ TEST_CASE("a library that is not there: where it was looked for, and what to do"
   CHECK(says(missing, "PUNCTURA_DRD_LIBRARY"));
 }
 
-TEST_CASE("without an override the library is looked for in the SDK, then elsewhere, the robotics library first") {
+TEST_CASE("without an override, the library is searched in the SDK, then elsewhere, the robotics library first") {
   const Environment sdk("FDSDK", "/opt/sdk-of-nobody");
   const auto names = force_dimension::candidates();
   CHECK(force_dimension::searched_folders().front().find("sdk-of-nobody") != std::string::npos);
@@ -57,7 +57,7 @@ TEST_CASE("without an override the library is looked for in the SDK, then elsewh
   CHECK(first("dhd") != names.end());
 }
 
-TEST_CASE("a library that lacks functions: which") {
+TEST_CASE("the missing functions of a library are named") {
   const Override library(PUNCTURA_FAKE_DRD_OLD);
   const auto old = status();
   CHECK(old.state == BackendState::symbol_missing);
@@ -66,7 +66,7 @@ TEST_CASE("a library that lacks functions: which") {
   CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("dhdGetButtonMask"), DeviceError);
 }
 
-TEST_CASE("no device, one that somebody else has, one that needs calibration, and one that can be opened") {
+TEST_CASE("the states: no device, in use by another program, needs calibration, available") {
   fake_drd::Settings settings;
   settings.devices = 0;
   const auto none = status_with(settings);
@@ -96,7 +96,7 @@ TEST_CASE("no device, one that somebody else has, one that needs calibration, an
   CHECK(fake().state().force_on == 0);
 }
 
-TEST_CASE("a device that this program has open is told as that, and is not closed by the look") {
+TEST_CASE("a device that this program uses is listed as such, and listing does not close it") {
   const Override library(PUNCTURA_FAKE_DRD);
   fake_drd::Settings settings;
   fake().reset(&settings);
@@ -109,7 +109,7 @@ TEST_CASE("a device that this program has open is told as that, and is not close
   CHECK_THROWS_AS(open_device("force_dimension"), DeviceError);
 }
 
-TEST_CASE("beside a device that this program has open another can be looked for, and the first stays open") {
+TEST_CASE("while one device is open, others can be listed, and the first stays open") {
   const Override library(PUNCTURA_FAKE_DRD);
   fake_drd::Settings settings;
   settings.devices = 2;
@@ -121,7 +121,7 @@ TEST_CASE("beside a device that this program has open another can be looked for,
   CHECK(fake().state().open == 1);
 }
 
-TEST_CASE("a device is chosen by label, model or serial number; another name is told what there is") {
+TEST_CASE("a device is chosen by label, model or serial number; an unknown name gets the list of devices") {
   const Override library(PUNCTURA_FAKE_DRD);
   fake_drd::Settings settings;
   fake().reset(&settings);
@@ -131,7 +131,7 @@ TEST_CASE("a device is chosen by label, model or serial number; another name is 
                        DeviceError);
 }
 
-TEST_CASE("a device without calibration is refused with what to do; it moves by itself only where that was asked for") {
+TEST_CASE("an uncalibrated device is refused with advice; it moves by itself only on request") {
   fake_drd::Settings settings;
   settings.calibrated = 0;
   fake().reset(&settings);
@@ -148,7 +148,7 @@ TEST_CASE("a device without calibration is refused with what to do; it moves by 
   CHECK(device.info().model == "omega.3");
 }
 
-TEST_CASE("the haptics library alone will do, but for a calibration by itself") {
+TEST_CASE("the haptics library alone is enough, except for automatic calibration") {
   FakeDrd dhd(PUNCTURA_FAKE_DHD);
   fake_drd::Settings settings;
   dhd.reset(&settings);

@@ -52,7 +52,7 @@ std::vector<Record> play(FakeRig& rig, double rate) {
 
 }  // namespace
 
-TEST_CASE("through the fake library, recorded positions give the same forces offline, to the last bit") {
+TEST_CASE("through the fake library, recorded positions give the same forces as offline, bit for bit") {
   for (double rate : {1600.0, 4000.0}) {
     CAPTURE(rate);
     auto settings = upright();
@@ -76,8 +76,7 @@ TEST_CASE("through the fake library, recorded positions give the same forces off
   }
 }
 
-TEST_CASE(
-    "the force-position curve through the fake library is that of the offline experiment, within one tick's motion") {
+TEST_CASE("through the fake library, the force-position curve equals the offline experiment within one tick's motion") {
   for (double rate : {1600.0, 4000.0}) {
     CAPTURE(rate);
     auto settings = upright();
@@ -113,7 +112,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("positions, directions and forces are turned into the device's axes and back") {
+TEST_CASE("positions, directions and forces are rotated into the device's axes and back") {
   using namespace force_dimension;
   CHECK(to_ours({1, 2, 3}) == Triple{2, 3, 1});  // x to the user, y right, z up: right, up, to the user
   CHECK(to_device(to_ours({1, 2, 3})) == Triple{1, 2, 3});
@@ -129,7 +128,7 @@ TEST_CASE("positions, directions and forces are turned into the device's axes an
   CHECK(at.axis == std::array<double, 3>{0, -1, 0});  // the handle points down
 }
 
-TEST_CASE("a force up is up: the device gets along its z what the loop gives along y") {
+TEST_CASE("an upward force stays upward: the loop's y is the device's z") {
   FakeRig rig;
   rig.push_in();
   const auto force = rig.loop.latest().force;
@@ -176,7 +175,7 @@ TEST_CASE("buttons come with the samples") {
   CHECK(rig.loop.latest().state == ServoState::active);
 }
 
-TEST_CASE("a device says of itself what its library and its maker say") {
+TEST_CASE("a device reports the data of its library and its maker") {
   fake_drd::Settings settings;  // an omega.3: no wrist
   FakeRig omega(settings);
   CHECK(omega.device->info().model == "omega.3");
@@ -203,7 +202,7 @@ TEST_CASE("a device says of itself what its library and its maker say") {
   CHECK(falcon.loop.limits().max_force == 2.5);
 }
 
-TEST_CASE("a device that cannot be read so fast ticks at the rate that it can be, and T with it") {
+TEST_CASE("a slow device ticks at its own possible rate, and T follows") {
   auto settings = upright();
   settings.transfer = 0.9e-3;
   FakeRig rig(settings);
@@ -218,7 +217,7 @@ TEST_CASE("a device that cannot be read so fast ticks at the rate that it can be
   }));
 }
 
-TEST_CASE("force is sent in every tick, zeros too, and nothing that guards the hand is touched") {
+TEST_CASE("force is sent in every tick, also zero, and no protection of the device is switched off") {
   FakeRig rig;
   rig.start();  // not armed
   rig.run(0.5);
@@ -229,11 +228,11 @@ TEST_CASE("force is sent in every tick, zeros too, and nothing that guards the h
   CHECK(at.last_force == 0);
   CHECK(at.touched_safety == 0);
   CHECK(at.switched_on_by_writer ==
-        1);  // and so after what that thread does first, which may take longer than the watchdog
+        1);  // after the thread's preparation, which may take longer than the watchdog's time
   CHECK(rig.device->trouble() == "");
 }
 
-TEST_CASE("forces above what the motors have are no fault, are counted, and are told") {
+TEST_CASE("forces above the motors' limit are no fault; they are counted and reported") {
   auto settings = upright();
   settings.motor_force = 0.3;
   FakeRig rig(settings);
@@ -244,7 +243,7 @@ TEST_CASE("forces above what the motors have are no fault, are counted, and are 
   CHECK(std::any_of(said.begin(), said.end(), [](const auto& s) { return s.find("whole force") < s.size(); }));
 }
 
-TEST_CASE("a tick takes no memory") {
+TEST_CASE("a tick allocates no memory") {
   auto settings = upright();
   settings.repeat_every = 7;
   FakeRig rig(settings);

@@ -15,7 +15,7 @@ using haply::HaplyOptions;
 
 namespace {
 
-/// As fast as answers come; patient, since a busy machine is no fault of the service's.
+/// Runs as fast as answers arrive. Long timeouts, because the computer may be busy.
 HaplyOptions unhurried(const HaplyFake& fake) {
   HaplyOptions options;
   options.url = fake.url();
@@ -30,7 +30,8 @@ void until(const std::function<bool()>& done) {
 
 }  // namespace
 
-TEST_CASE("K06 Fig. 10 through the service is the offline experiment to the last bit, with both forms of the command") {
+TEST_CASE(
+    "K06 Fig. 10 through the service equals the offline experiment, bit for bit, with both forms of the command") {
   const std::uint64_t ticks = 5000;
   const std::pair<const char*, const char*> generations[] = {{"3.5.2", "vector"}, {"3.4.9", "values"}, {"", "values"}};
   for (const auto& generation : generations) {
@@ -50,7 +51,7 @@ TEST_CASE("K06 Fig. 10 through the service is the offline experiment to the last
     loop.stop();
     CHECK(loop.latest().fault == Fault::none);
 
-    // The plant's motion, its forces, and the positions replayed through a step of their own: all the same.
+    // The plant's motion, its forces, and the forces of a separate step at the same positions are identical.
     Experiment experiment(paper_scene(1e-4), StrokesMotion(settings.strokes, settings.seed), Vector3d(0, -1, 0), {}, {},
                           settings.seed);
     ServoStep replay = build(paper_scene(1e-4));
@@ -74,7 +75,7 @@ TEST_CASE("K06 Fig. 10 through the service is the offline experiment to the last
   }
 }
 
-TEST_CASE("after every mishap the plant's force is zero at once and stays so, and the trouble is said in words") {
+TEST_CASE("after every failure the plant's force is zero at once and stays zero, with a message") {
   const std::pair<Mishap, const char*> cases[] = {
       {Mishap::removed, "The Inverse3 049D is no longer in the service's list"},
       {Mishap::closes, "closed the connection: \"going away\""},
@@ -92,7 +93,7 @@ TEST_CASE("after every mishap the plant's force is zero at once and stays so, an
     CAPTURE(words);
     HaplyFake fake;
     HaplyOptions options = unhurried(fake);
-    if (mishap == Mishap::silent) options.stale = 0.2;  // it never answers: any limit shows it
+    if (mishap == Mishap::silent) options.stale = 0.2;  // it never answers, so every limit is exceeded
     auto device = std::make_shared<HaplyDevice>(options);
     ServoLoop loop(device, paper_scene());
     fake.begin();
@@ -108,7 +109,7 @@ TEST_CASE("after every mishap the plant's force is zero at once and stays so, an
     CHECK_THROWS_AS(ServoLoop(device, paper_scene()).start(),
                     DeviceError);  // the first loop's stop would end its ticks
     loop.stop();
-    CHECK(loop.report().ticks == ticks);  // it ticked once more, to say so, and never again
+    CHECK(loop.report().ticks == ticks);  // one more tick reports the fault; then no tick follows
 
     const auto forces = fake.forces();
     const std::size_t at = fake.mishap_at();
@@ -121,7 +122,7 @@ TEST_CASE("after every mishap the plant's force is zero at once and stays so, an
   }
 }
 
-TEST_CASE("a grip that goes missing lets go of its buttons at once, and is trouble after a quarter of a second") {
+TEST_CASE("a missing grip releases its buttons at once, and is reported after 0.25 s") {
   HaplyFake fake;
   auto device = std::make_shared<HaplyDevice>(unhurried(fake));
   CHECK(device->info().has_orientation);
@@ -142,7 +143,7 @@ TEST_CASE("a grip that goes missing lets go of its buttons at once, and is troub
   CHECK(let_go == 401);
 }
 
-TEST_CASE("answers that are split, put together or in fragments with pings between are all the same") {
+TEST_CASE("split, merged and fragmented answers, with pings between, give the same result") {
   for (Travel how : {Travel::byte_by_byte, Travel::in_fragments, Travel::with_pings}) {
     HaplyFake fake;
     fake.travel(how);
@@ -157,7 +158,7 @@ TEST_CASE("answers that are split, put together or in fragments with pings betwe
   }
 }
 
-TEST_CASE("stop sends a zero force and goes; twice, or never started, does no harm, and it starts again") {
+TEST_CASE("stop sends zero force; a second stop or one before the start is harmless; the device can start again") {
   HaplyFake fake;
   auto device = std::make_shared<HaplyDevice>(unhurried(fake));
   struct Count {
@@ -184,7 +185,7 @@ TEST_CASE("stop sends a zero force and goes; twice, or never started, does no ha
   HaplyDevice never_started(unhurried(fake));
 }
 
-TEST_CASE("a tick of any kind gives the device no more than its limit, by norm, and never what is no number") {
+TEST_CASE("no tick sends the device a force above its limit (norm) or a force that is not a number") {
   HaplyFake fake;
   auto device = std::make_shared<HaplyDevice>(unhurried(fake));
   CHECK(device->info().max_force == 5);
@@ -209,7 +210,7 @@ std::atomic<std::int64_t> fake_now{0};
 std::int64_t fake_clock() noexcept { return fake_now; }
 }  // namespace
 
-TEST_CASE("a service that answers less often than asked for gives the rate: it is measured, with zero force") {
+TEST_CASE("with a slow service the measured rate is used; it is measured with zero force") {
   HaplyFake fake;
   fake.on_message = [] { fake_now += 2'000'000; };
   HaplyOptions options;

@@ -11,7 +11,7 @@ using namespace punctura::haply;
 
 namespace {
 
-/// All that comes out of these bytes, fed in pieces of a size: one letter each, and the payloads.
+/// The frames read from these bytes, in pieces of the given size: one letter for each frame, and the payloads.
 std::string read(const std::string& bytes, std::size_t piece, std::size_t limit = 1000) {
   FrameReader reader(limit);
   std::string said;
@@ -56,7 +56,7 @@ TEST_CASE("the examples of RFC 6455 section 5.7 are read, in pieces of any size"
         "b" + std::string(65536, 'x') + ";");
 }
 
-TEST_CASE("a control frame may come between fragments, and several messages in one piece") {
+TEST_CASE("control frames may come between fragments, and one read may contain several messages") {
   CHECK(all_sizes("\x01\x01"
                   "a"
                   "\x89\x01"
@@ -69,7 +69,7 @@ TEST_CASE("a control frame may come between fragments, and several messages in o
         "P?;tab;tc;t;c3!;");
 }
 
-TEST_CASE("what RFC 6455 forbids ends the reading") {
+TEST_CASE("a frame that RFC 6455 forbids ends the connection") {
   CHECK(all_sizes(bytes({0x81, 0x81, 0, 0, 0, 0, 'a'})) == "X");  // masked by a server
   CHECK(all_sizes(bytes({0xc1, 0})) == "X");                      // an extension's bit
   CHECK(all_sizes(bytes({0x83, 0})) == "X");                      // a reserved opcode
@@ -83,14 +83,14 @@ TEST_CASE("what RFC 6455 forbids ends the reading") {
   CHECK(all_sizes(bytes({0x81, 127, 0x80, 0, 0, 0, 0, 0, 0, 0})) == "X");
 }
 
-TEST_CASE("a message beyond the limit is refused before it is read, also in fragments") {
+TEST_CASE("a message over the size limit is refused before it is read, also in fragments") {
   CHECK(all_sizes(bytes({0x81, 126, 3, 0xe8}) + std::string(1000, 'x')).size() == 1002);
   CHECK(all_sizes(bytes({0x81, 126, 3, 0xe9})) == "L");
   CHECK(all_sizes(bytes({0x81, 127, 0x7f, 0, 0, 0, 0, 0, 0, 0})) == "L");
   CHECK(all_sizes(bytes({0x01, 126, 3, 0xe8}) + std::string(1000, 'x') + bytes({0x80, 1})) == "L");
 }
 
-TEST_CASE("what is written is masked, whole, and in the shortest form") {
+TEST_CASE("written frames are masked, complete, and have the shortest length field") {
   std::string out(framed_size(70000), '\0');
   CHECK(out.substr(0, write_frame(Opcode::text, "Hello", 0x37fa213d, out)) ==
         bytes({0x81, 0x85, 0x37, 0xfa, 0x21, 0x3d, 0x7f, 0x9f, 0x4d, 0x51, 0x58}));  // RFC 6455 section 5.7
@@ -100,7 +100,7 @@ TEST_CASE("what is written is masked, whole, and in the shortest form") {
   CHECK(out.substr(0, 10) == bytes({0x81, 0xff, 0, 0, 0, 0, 0, 1, 0, 0}));
 }
 
-TEST_CASE("a server's answer to the request for a WebSocket is accepted only if it is that of RFC 6455") {
+TEST_CASE("the server's handshake is accepted only in the form of RFC 6455") {
   CHECK(upgrade_request("localhost:1").find("Host: localhost:1\r\n") != std::string::npos);
   CHECK(upgrade_request("localhost:1").find("Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n") != std::string::npos);
 

@@ -40,7 +40,7 @@ BackendStatus::State state(const FakeSettings& settings, std::string& words) {
 
 }  // namespace
 
-TEST_CASE("the version is found in what /version may answer, and decides the form of the command") {
+TEST_CASE("the version is found in every known answer of /version, and selects the form of the command") {
   CHECK(find_version(R"({"version":"3.5.2"})") == Version{3, 5});
   CHECK(find_version(R"({"api":"1.0","service_version":"3.4"})") == Version{3, 4});
   CHECK(find_version("12\n3.10.1") == Version{3, 10});
@@ -62,7 +62,7 @@ TEST_CASE("an address is a host and a port, and nothing else") {
     CHECK_FALSE(parse_url(bad));
 }
 
-TEST_CASE("the first message says who we are, from 3.5 on; no force is asked for that a hand could feel") {
+TEST_CASE("from 3.5 on, the first message names the program; the test force is too small to feel") {
   HaplyFake fake;
   HaplyOptions options;
   options.url = fake.url();
@@ -80,7 +80,7 @@ TEST_CASE("the first message says who we are, from 3.5 on; no force is asked for
   CHECK(messages[2].ends_with(R"({"vector":{"x":0,"y":0,"z":0}}}}]})"));
 }
 
-TEST_CASE("a service that takes the force by another key than its version says is refused, and the error says so") {
+TEST_CASE("a service that expects another force key than its version has is refused, with the reason") {
   FakeSettings settings;
   settings.version = "3.5.0";
   settings.takes = "values";
@@ -100,7 +100,7 @@ TEST_CASE("a service that takes the force by another key than its version says i
   CHECK(refusal(settings).find("neither \"vector\" nor \"values\"") != std::string::npos);
 }
 
-TEST_CASE("what hinders the opening is said, with where it looked") {
+TEST_CASE("a failed opening reports the cause and the address") {
   FakeSettings settings;
   CHECK(refusal(settings, "FFFF").find("has no Inverse3 called 'FFFF'") != std::string::npos);
   settings.inventory = R"({"session_id":1})";
@@ -122,7 +122,7 @@ TEST_CASE("what hinders the opening is said, with where it looked") {
   CHECK_THROWS_WITH_AS(HaplyDevice{nowhere}, doctest::Contains(gone.c_str()), DeviceError);
 }
 
-TEST_CASE("a service that gives out less than it is asked for is used, and it is said") {
+TEST_CASE("a service that reduces the force is used, and this is reported") {
   FakeSettings settings;
   settings.gives = 0.3;
   HaplyFake fake(settings);
@@ -134,7 +134,7 @@ TEST_CASE("a service that gives out less than it is asked for is used, and it is
         "the service gives 30 % of the requested force: check its force scale and force gate");
 }
 
-TEST_CASE("each state of the back-end is told in words") {
+TEST_CASE("each state of the back-end has a message") {
   using S = BackendStatus::State;
   std::string words;
   FakeSettings settings;
@@ -156,13 +156,13 @@ TEST_CASE("each state of the back-end is told in words") {
   CHECK(status_at("here").state == S::fault);
 }
 
-TEST_CASE("an exchange with the service takes no memory") {
-  // This service has given all its answers beforehand, so that nothing in this process takes memory but the client.
+TEST_CASE("an exchange with the service allocates no memory") {
+  // The service prepares all answers before, so that only the client could allocate memory in this process.
   Listener listener;
   const auto soon = [] { return os::now_ns() + 20'000'000'000; };
   constexpr int answers = 120;
   std::thread server([&] {
-    listener.accept(soon());  // /version: gone at once
+    listener.accept(soon());  // /version: closes at once
     os::Socket client = listener.accept(soon());
     std::string head(4096, '\0');
     std::size_t n = 0;

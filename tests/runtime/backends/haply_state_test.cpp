@@ -29,7 +29,7 @@ std::optional<double> number(const std::string& text) { return JsonReader(text).
 
 }  // namespace
 
-TEST_CASE("JSON is what RFC 8259 says, and nothing else") {
+TEST_CASE("only JSON as in RFC 8259 is accepted") {
   for (const char* good :
        {"0", "-0.5e-3", " [1, {\"a\": [true, false, null]}, \"\\u00e9\\n\\\"\"] ", "{}", "\"\xc3\xa9\""}) {
     CAPTURE(std::string(good));
@@ -45,14 +45,14 @@ TEST_CASE("JSON is what RFC 8259 says, and nothing else") {
   CHECK_FALSE(is_json(std::string("\"a\0b\"", 5)));
 }
 
-TEST_CASE("nesting has an end, however deep the text is") {
+TEST_CASE("the depth of nesting is limited") {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   CHECK(is_json(nested(32)));
   CHECK_FALSE(is_json(nested(33)));
   CHECK_FALSE(is_json(nested(200'000)));
 }
 
-TEST_CASE("numbers are read to the last bit, whatever the locale; outside the range of a double there is none") {
+TEST_CASE("numbers are read exactly in every locale; a number outside the range of a double is refused") {
   std::setlocale(LC_ALL, "de_DE.UTF-8");
   Noise noise(1);
   bool same = true;
@@ -76,7 +76,7 @@ TEST_CASE("numbers are read to the last bit, whatever the locale; outside the ra
   CHECK_FALSE(number("null"));
 }
 
-TEST_CASE("a state is read whatever the order of its fields, and whatever else there is") {
+TEST_CASE("a state is read with its fields in any order, and with unknown fields") {
   haply::State state;
   CHECK(read_state(R"({"new":{"x":[1,2]},"session_id":7,"inverse3":[
     {"state":{"mode":"x","cursor_position":{"z":0.15,"x":0.01,"y":-0.12,"w":9},)"
@@ -110,7 +110,7 @@ TEST_CASE("a state is read whatever the order of its fields, and whatever else t
   CHECK(state.arm_count == 0);
 }
 
-TEST_CASE("what is missing or of another kind is missing; what is not JSON is refused whole") {
+TEST_CASE("a field of the wrong type counts as missing; text that is not JSON is refused") {
   haply::State state;
   for (const char* text : {"{}", R"({"inverse3":null})", R"({"inverse3":{}})", R"({"inverse3":[]})"}) {
     CHECK(read_state(text, state));
@@ -133,7 +133,7 @@ TEST_CASE("what is missing or of another kind is missing; what is not JSON is re
   CHECK(state.arm_count == state.arms.size());
 }
 
-TEST_CASE("a device's name is kept when it can stand in a command as it is") {
+TEST_CASE("a device's name is kept if a command can contain it unescaped") {
   CHECK(Name("049D").view() == "049D");
   for (const char* bad : {"a\\u0041", "a b", "\x01", "\xc3\xa9"}) CHECK(Name(bad).empty());
   CHECK(Name(std::string(64, 'x')).view().size() == 64);
@@ -143,7 +143,7 @@ TEST_CASE("a device's name is kept when it can stand in a command as it is") {
   CHECK(write_force(std::string(64, 'x'), ForceKey::vector, {widest, widest, widest}, out) < 300);
 }
 
-TEST_CASE("the axes are the service's turned by a quarter about x; the grip points along its own y") {
+TEST_CASE("our axes are the service's axes rotated by 90 degrees about x; the grip points along its own y") {
   CHECK(ours({1, 2, 3}) == std::array<double, 3>{1, 3, -2});
   CHECK(theirs(ours({1, 2, 3})) == Vector{1, 2, 3});
   CHECK(pointing({1, 0, 0, 0}) == std::array<double, 3>{0, 0, -1});  // straight away from the user
@@ -158,7 +158,7 @@ TEST_CASE("the axes are the service's turned by a quarter about x; the grip poin
   CHECK_FALSE(pointing({1e300, 1e300, 0, 0}));
 }
 
-TEST_CASE("whatever comes in, reading ends: random frames, texts, and true ones with a few bytes changed") {
+TEST_CASE("reading ends for every input: random frames, random texts, and valid ones with changed bytes") {
   Noise noise(20);
   for (int i = 0, n = test::cases(20'000); i < n; ++i) test::read_anything(test::spoilt_input(noise));
 }

@@ -40,7 +40,7 @@ TEST_CASE("a library that lacks functions is refused, with their names and what 
              "library in PUNCTURA_TEST_LIBRARY."));
 }
 
-TEST_CASE("without a library the message lists all places and what to do") {
+TEST_CASE("without a library, the message lists all searched places and what to do") {
   const auto loaded = load_makers_library(search({"/nowhere/a.so", "/nowhere/b.so"}), "", {});
   CHECK(loaded.state == BackendState::library_not_found);
   CHECK(loaded.detail ==
@@ -48,7 +48,7 @@ TEST_CASE("without a library the message lists all places and what to do") {
         "PUNCTURA_TEST_LIBRARY.");
 }
 
-TEST_CASE("a library that is named is the only one tried: by the caller before the variable") {
+TEST_CASE("only a named library is tried: the caller's name, then the variable's") {
   CHECK(load_makers_library(search({fake_library}), "/nowhere/c.so", {}).state == BackendState::library_not_found);
   const test::Environment named("PUNCTURA_TEST_LIBRARY", "/nowhere/d.so");
   const auto missing = load_makers_library(search({fake_library}), "", {});

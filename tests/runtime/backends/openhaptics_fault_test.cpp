@@ -1,4 +1,4 @@
-// What goes wrong on the HD device, and what the motors do then.
+// Failures of the HD device, and the motors' force after them.
 #include "core/support/paper_scene.hpp"
 #include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned long long moment = 1800, for_ever = ~0ull, ten_ms = 16;
 
-/// In the tissue at tick `moment`, with force on.
+/// A run that is in the tissue at tick `moment`, with force on.
 struct InTissue {
   explicit InTissue(double temperature = 0) {
     reset_fake_hd([&](fake_hd_settings& s) { s.temperature = temperature; });
@@ -56,7 +56,7 @@ const Trouble troubles[] = {
 
 }  // namespace
 
-TEST_CASE("after every fault the motors' force is zero within 10 ms, and stays zero") {
+TEST_CASE("after every fault the motors' force is zero within 10 ms and stays zero") {
   for (const Trouble& trouble : troubles) {
     CAPTURE(trouble.what);
     InTissue t;
@@ -79,20 +79,20 @@ TEST_CASE("after every fault the motors' force is zero within 10 ms, and stays z
   }
 }
 
-TEST_CASE("after an error of the library the step hears of it once, and no tick comes any more") {
+TEST_CASE("the step gets an error of the library once, and no tick follows") {
   InTissue t;
   auto& ring = t.loop->listen(8192);
   fake_hd().inject(FAKE_HD_ERROR_AT_END, 0x300, moment, 1);
   t.go();
   const auto ticks = t.loop->report().ticks;
-  CHECK(ticks == moment + 2);  // the one whose force was not sent, and one more that says so
+  CHECK(ticks == moment + 2);  // the tick whose force was not sent, and one that reports it
   int unhealthy = 0;
   ring.pop(8192, [&](const Snapshot& s) { unhealthy += s.sample.healthy ? 0 : 1; });
   CHECK(unhealthy == 1);
   CHECK(t.loop->fault_history().back().fault == Fault::device);
 }
 
-TEST_CASE("a calibration that is lost on the way ends force, and says what to do") {
+TEST_CASE("a calibration lost during a run ends the force, with advice") {
   InTissue t;
   fake_hd().inject(FAKE_HD_CALIBRATION, 0x5002, moment, 1);
   t.go(2 * moment);
@@ -104,7 +104,7 @@ TEST_CASE("a calibration that is lost on the way ends force, and says what to do
   CHECK(t.device->trouble().find("calibrate") != std::string::npos);
 }
 
-TEST_CASE("warnings are counted and told, and force goes on") {
+TEST_CASE("warnings are counted and reported, and the force continues") {
   InTissue t;
   fake_hd().inject(FAKE_HD_ERROR_AT_BEGIN, 0x200, 100, 25);
   fake_hd().inject(FAKE_HD_ERROR_AT_END, 0x203, 200, 1);
@@ -127,7 +127,7 @@ TEST_CASE("hot motors get no force") {
   CHECK_FALSE(any);
 }
 
-TEST_CASE("stop leaves zero force; twice, and from a destructor while running, it does no harm") {
+TEST_CASE("stop leaves zero force; a second stop, or the destructor of a running device, is harmless") {
   for (int k = 0; k < 5; ++k) {
     InTissue t;
     t.go(moment);
@@ -148,7 +148,7 @@ TEST_CASE("stop leaves zero force; twice, and from a destructor while running, i
   }
 }
 
-TEST_CASE("a stopped device starts again, after a fault too, and its clock goes on") {
+TEST_CASE("a stopped device starts again, also after a fault, and its clock continues") {
   InTissue t;
   double last = -1;
   for (int k = 0; k < 4; ++k) {
@@ -166,12 +166,12 @@ TEST_CASE("a stopped device starts again, after a fault too, and its clock goes 
   CHECK(fake_hd().misuses() == 0);
 }
 
-TEST_CASE("a scheduler that has ceased to call is told, and stopping still leaves zero force") {
+TEST_CASE("a scheduler that stops calling is reported, and stop still leaves zero force") {
   InTissue t;
   fake_hd().inject(FAKE_HD_FREEZE, 0, moment, 1);
   t.go(2 * moment);
   CHECK(t.device->trouble().find("not called") != std::string::npos);
-  CHECK(held_force() != zero);  // nobody can do anything about it before the stop
+  CHECK(held_force() != zero);  // before the stop, nothing can change it
   t.loop->stop();
   CHECK(held_force() == zero);
   CHECK(fake_hd().misuses() == 0);

@@ -1,4 +1,4 @@
-// The scene of K06 section 4 through the HD library, a fake one.
+// The scene of K06 section 4 through the fake HD library.
 #include <algorithm>
 #include <cmath>
 
@@ -53,8 +53,7 @@ double largest_force(const Run& r) {
 
 }  // namespace
 
-TEST_CASE(
-    "the forces of the HD device are those of the core at the same positions, to the last bit, and reach the motors") {
+TEST_CASE("the HD device gets the forces of the core at the same positions, bit for bit, and they reach the motors") {
   for (double rate : {1600.0, 1000.0, 2000.0}) {
     const Run r = run(rate, false);
     ServoStep offline = build(r.scene, {}, r.limits);
@@ -78,7 +77,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("hand, device and scene through the HD library do what they do offline") {
+TEST_CASE("hand, device and scene behave through the HD library as they do offline") {
   const Run r = run(1600, false, 7);
   Experiment offline(paper_scene(1e-4), StrokesMotion(the_stroke(), 7), Vector3d(0, -1, 0), {}, {}, 7);
   double position_error = 0, force_error = 0;
@@ -87,12 +86,11 @@ TEST_CASE("hand, device and scene through the HD library do what they do offline
     position_error = std::max(position_error, std::abs(s.sample.position[1] - live.sample.position[1]));
     force_error = std::max(force_error, std::abs(s.force[1] - live.force[1]));
   }
-  CHECK(position_error < 1e-12);  // millimetres and back round the last digits
+  CHECK(position_error < 1e-12);  // the conversion to millimetres and back rounds the last digits
   CHECK(force_error < 1e-9);
 }
 
-TEST_CASE(
-    "on a path known exactly, the force is the offline curve's to within one tick's motion, and steadily the law's") {
+TEST_CASE("on an exact path, the force equals the offline curve within the motion of one tick; sliding, also the law") {
   for (double rate : {1600.0, 1000.0}) {
     const Run r = run(rate, true);
     auto insertion = build_insertion(r.scene);
@@ -117,7 +115,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a tick takes no memory") {
+TEST_CASE("a tick allocates no memory") {
   reset_fake_hd();
   ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene());
   loop.arm();

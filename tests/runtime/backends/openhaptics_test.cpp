@@ -40,7 +40,7 @@ std::string refusal(const OpenHapticsOptions& options) {
 
 bool says(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
-/// A file of this test's own: the name of its source need not be that of a file.
+/// A file that is not a library.
 struct NoLibrary {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("punctura-no-library-" + std::to_string(os::now_ns()));
@@ -57,7 +57,7 @@ std::string all_statements(const Device& device) {
 
 }  // namespace
 
-TEST_CASE("each state of the back-end is told in words") {
+TEST_CASE("each state of the back-end has a message") {
   const auto available = status_with([](auto&) {});
   CHECK(available.state == BackendState::available);
   CHECK(says(available.detail, "Simulated Omni, serial number F-0001"));
@@ -83,7 +83,7 @@ TEST_CASE("each state of the back-end is told in words") {
   CHECK(says(uncalibrated.detail, "inkwell"));
 }
 
-TEST_CASE("a library that is not there is told with all the places where it was looked for") {
+TEST_CASE("a missing library is reported with all searched places") {
   const auto status = backends::openhaptics.status();
   if (status.state == BackendState::library_not_found)  // on a machine with OpenHaptics it is something else
     for (const auto& place : hd::usual_places()) CHECK(says(status.detail, place.c_str()));
@@ -94,21 +94,21 @@ TEST_CASE("a library that is not there is told with all the places where it was 
   CHECK(says(nowhere.detail, "/nowhere/libHD.so"));
 }
 
-TEST_CASE("a file that is there but is no library is told with the reason") {
+TEST_CASE("a file that is not a library is reported with the reason") {
   const NoLibrary file;
   const auto loaded = hd::load(file.path.string().c_str());
   CHECK(loaded.state == BackendState::library_not_found);
   CHECK(says(loaded.detail, "does not load"));
 }
 
-TEST_CASE("functions that the library lacks are named, all of them") {
+TEST_CASE("all missing functions of the library are named") {
   const Environment library("PUNCTURA_HD_LIBRARY", FAKE_HD_INCOMPLETE);
   const auto status = backends::openhaptics.status();
   CHECK(status.state == BackendState::symbol_missing);
   CHECK(says(status.detail, "hdGetString, hdUpdateCalibration"));
 }
 
-TEST_CASE("the default device opens under each of its usual names, another one under its own only") {
+TEST_CASE("the default device opens under each usual name, another device only under its own name") {
   for (const char* name : {"Default Device", "Default PHANToM"}) {
     reset_fake_hd([&](auto& s) {
       s.name = name;
@@ -125,7 +125,7 @@ TEST_CASE("the default device opens under each of its usual names, another one u
   CHECK(says(refusal(options), "\"Right\""));
 }
 
-TEST_CASE("a device says what it is, in SI units") {
+TEST_CASE("a device describes itself in SI units") {
   reset_fake_hd();
   const OpenHapticsDevice device(with_fake_hd());
   const DeviceInfo& info = device.info();
@@ -139,7 +139,7 @@ TEST_CASE("a device says what it is, in SI units") {
   CHECK(says(all_statements(device), "tested against simulated libraries only"));
 }
 
-TEST_CASE("the rate is the one asked for where the device has it, else 1000 Hz, and in any case what is measured") {
+TEST_CASE("the requested rate is used if the device has it, else 1000 Hz; the measured rate is reported") {
   const auto rate_of = [](double wanted, auto&& change) {
     reset_fake_hd(change);
     OpenHapticsDevice device(with_fake_hd(wanted));
@@ -157,7 +157,7 @@ TEST_CASE("the rate is the one asked for where the device has it, else 1000 Hz, 
   CHECK(rate_of(1600, [](auto& s) { s.real_rate = 1450; }) == doctest::Approx(1450).epsilon(1e-4));
 }
 
-TEST_CASE("the calibration is renewed where that needs no hand, and asked for where it does") {
+TEST_CASE("calibration runs by itself if no hand is needed; otherwise the user is asked") {
   reset_fake_hd([](auto& s) { s.calibration = 0x5001; });
   CHECK(says(all_statements(OpenHapticsDevice(with_fake_hd())), "calibration: renewed"));
   reset_fake_hd([](auto& s) { s.calibration = 0x5002; });
@@ -170,7 +170,7 @@ TEST_CASE("the calibration is renewed where that needs no hand, and asked for wh
   CHECK(fake_hd().devices_open() == 0);
 }
 
-TEST_CASE("one device at a time is open in a process") {
+TEST_CASE("a process can open only one device at a time") {
   reset_fake_hd();
   const OpenHapticsDevice first(with_fake_hd());
   CHECK(says(refusal(with_fake_hd()), "already open in this process"));
@@ -178,7 +178,7 @@ TEST_CASE("one device at a time is open in a process") {
   CHECK(backends::openhaptics.status().state == BackendState::in_use);
 }
 
-TEST_CASE("a device that must not be closed is handed on to the next that opens it") {
+TEST_CASE("a device that must stay open is passed to the next open call") {
   reset_fake_hd();
   auto options = with_fake_hd();
   options.keep_device = true;
@@ -191,8 +191,7 @@ TEST_CASE("a device that must not be closed is handed on to the next that opens 
   CHECK(fake_hd().devices_open() == 0);
 }
 
-TEST_CASE(
-    "the axis is minus the rotation's third column, of length 1 whatever the library rounds; buttons come through") {
+TEST_CASE("the axis is minus the third column of the rotation, with length 1 despite rounding; buttons are read") {
   for (double stretch : {1.0, 1.004, 0.5}) {
     reset_fake_hd([&](auto& s) {
       s.stretch = stretch;
@@ -205,7 +204,7 @@ TEST_CASE(
     until_tick(fake_hd().ticks() + 20);
     const Snapshot s = loop.latest();
     CHECK(s.sample.buttons == 2);
-    if (stretch == 0.5) {  // no rotation at all: for the gate to judge
+    if (stretch == 0.5) {  // not a rotation: the gate decides
       CHECK(s.fault == Fault::bad_axis);
     } else {
       CHECK(s.fault == Fault::none);
@@ -215,7 +214,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("at the real pace, on the real clock, it runs too") {
+TEST_CASE("it also runs in real time on the real clock") {
   reset_fake_hd([](auto& s) { s.fast_ticks = 0; });
   auto options = with_fake_hd(1000);
   options.now_ns = os::now_ns;

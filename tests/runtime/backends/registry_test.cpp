@@ -9,7 +9,7 @@
 
 using namespace punctura;
 
-TEST_CASE("every back-end is listed once, with its state in words; the simulated one is always there") {
+TEST_CASE("every back-end is listed once with its state; the simulated one is always available") {
   const auto all = enumerate_devices();
   for (const auto& status : all) {
     CAPTURE(status.backend);
@@ -21,11 +21,11 @@ TEST_CASE("every back-end is listed once, with its state in words; the simulated
   CHECK(all.back().state == BackendStatus::State::available);
 }
 
-TEST_CASE("a back-end is opened by its name, at the rate asked for where it can") {
+TEST_CASE("a back-end opens by its name, at the requested rate if possible") {
   CHECK(open_device("simulated", {1000, "", ""})->info().rate == 1000);
 }
 
-TEST_CASE("a name that no back-end has, and a rate that cannot be, are told") {
+TEST_CASE("an unknown back-end and an invalid rate are reported") {
   CHECK_THROWS_WITH_AS(open_device("abacus"), doctest::Contains("simulated"), DeviceError);
   CHECK_THROWS_AS(open_device("simulated", {0, "", ""}), DeviceError);
   CHECK_THROWS_AS(open_device("simulated", {unknown, "", ""}), DeviceError);
@@ -43,7 +43,7 @@ const Backend mine{"mine", mine_status, open_mine};
 const Backend another_simulated{"simulated", mine_status, open_mine};
 }  // namespace
 
-TEST_CASE("a back-end that was registered is listed before the others, and opens by its name; a name is there once") {
+TEST_CASE("a registered back-end is listed first and opens by its name; each name is listed once") {
   const std::size_t before = enumerate_devices().size();
   register_backend(mine);
   const auto all = enumerate_devices();

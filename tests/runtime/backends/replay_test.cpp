@@ -24,7 +24,7 @@ DeviceInfo recorded(double rate = 1600) {
   return info;
 }
 
-/// So many readings on the way from 2 mm above the membrane to 3 mm below.
+/// Readings on the way from 2 mm above the membrane to 3 mm below, `n` of them.
 std::vector<DeviceSample> readings_of_a_stroke(std::size_t n) {
   std::vector<DeviceSample> all;
   for (std::size_t k = 0; k < n; ++k)
@@ -60,7 +60,7 @@ bool same_forces(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b)
 }
 }  // namespace
 
-TEST_CASE("a run that is replayed through its own scene gives its forces again, to the last bit") {
+TEST_CASE("a replay through the recorded scene gives the recorded forces, bit for bit") {
   SimulatedOptions options;
   options.real_time = false;
   options.ticks = 5000;
@@ -74,7 +74,7 @@ TEST_CASE("a run that is replayed through its own scene gives its forces again, 
       first, snapshots(std::make_shared<ReplayDevice>(samples_of(first), simulated->info(), fast), paper_scene(1e-3))));
 }
 
-TEST_CASE("in real time no sample is left out, and none keeps another time than it was recorded at") {
+TEST_CASE("in real time, the replay skips no sample and keeps the recorded times") {
   const auto samples = readings_of_a_stroke(200);
   auto device = std::make_shared<ReplayDevice>(samples, recorded(8000), in_real_time);
   const std::int64_t begin = os::now_ns();
@@ -88,7 +88,7 @@ TEST_CASE("in real time no sample is left out, and none keeps another time than 
   CHECK(same);
 }
 
-TEST_CASE("a replay that is stopped has not ended, and begins anew when it is started again") {
+TEST_CASE("a stopped replay has not ended, and starts again from the beginning") {
   auto device = std::make_shared<ReplayDevice>(readings_of_a_stroke(100'000), recorded(), in_real_time);
   ServoLoop loop(device, paper_scene());
   loop.start();
@@ -97,7 +97,7 @@ TEST_CASE("a replay that is stopped has not ended, and begins anew when it is st
   const auto ticks = loop.report().ticks;
   CHECK_FALSE(device->finished());
   CHECK(loop.report().ticks == ticks);
-  loop.stop();  // twice does no harm
+  loop.stop();  // a second stop is harmless
   loop.reset();
   loop.start();
   while (loop.report().ticks == ticks) std::this_thread::yield();
@@ -106,7 +106,7 @@ TEST_CASE("a replay that is stopped has not ended, and begins anew when it is st
   CHECK(loop.latest().fault == Fault::none);
 }
 
-TEST_CASE("what the recorded device reported is judged again: its fault, a gap in its time") {
+TEST_CASE("the replay's gate finds the recorded device's faults again, also a gap in time") {
   auto samples = readings_of_a_stroke(100);
   samples[50].healthy = false;
   auto device = std::make_shared<ReplayDevice>(samples, recorded(), fast);
@@ -122,7 +122,7 @@ TEST_CASE("what the recorded device reported is judged again: its fault, a gap i
         Fault::missed_deadline);
 }
 
-TEST_CASE("a replay passes for the recorded device, by another name") {
+TEST_CASE("a replay has the properties of the recorded device, but another name") {
   auto info = recorded();
   info.max_force = 1.5;
   info.encoder_step = 2e-5;
@@ -136,14 +136,14 @@ TEST_CASE("a replay passes for the recorded device, by another name") {
   CHECK(ReplayDevice({}, device.info(), fast).info().model == "Some 1, recorded");  // the replay of a recorded replay
 }
 
-TEST_CASE("a recording without a rate is refused; one without a tick ends at once") {
+TEST_CASE("a recording without a rate is refused; a recording without ticks ends at once") {
   CHECK_THROWS_AS(ReplayDevice({}, recorded(unknown)), DeviceError);
   CHECK_THROWS_AS(ReplayDevice({}, recorded(0)), DeviceError);
   CHECK(
       snapshots(std::make_shared<ReplayDevice>(std::vector<DeviceSample>{}, recorded(), fast), paper_scene()).empty());
 }
 
-TEST_CASE("the registry knows replay, never takes it by itself, and says how it is given a recording") {
+TEST_CASE("the registry lists replay, never chooses it by default, and explains how to name a recording") {
   for (const auto& status : enumerate_devices()) {
     if (status.backend != "replay") continue;
     CHECK(status.state == BackendStatus::State::no_device);

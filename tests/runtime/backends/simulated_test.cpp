@@ -20,7 +20,7 @@ void until_finished(SimulatedDevice& device) {
 }
 }  // namespace
 
-TEST_CASE("as fast as possible, the loop on the simulated device is the offline experiment, to the last bit") {
+TEST_CASE("run as fast as possible, the loop on the simulated device equals the offline experiment, bit for bit") {
   const std::uint64_t ticks = 5000;
   SimulatedOptions options;
   options.real_time = false;
@@ -47,7 +47,7 @@ TEST_CASE("as fast as possible, the loop on the simulated device is the offline 
   CHECK(ring.lost() == 0);
 }
 
-TEST_CASE("stop ends with zero force at the plant, and no tick comes after it") {
+TEST_CASE("stop leaves zero force on the plant, and no tick follows") {
   SimulatedOptions options;
   options.realtime = {0, -1, false, false};
   auto made = std::make_unique<SimulatedDevice>(Target({0, -2e-3, 0}), options);
@@ -60,10 +60,10 @@ TEST_CASE("stop ends with zero force at the plant, and no tick comes after it") 
   CHECK(device.last_force() == zero);
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
   CHECK(loop.report().ticks == ticks);
-  loop.stop();  // twice does no harm
+  loop.stop();  // a second stop is harmless
 }
 
-TEST_CASE("a spoilt reading ends the force that the plant feels in the same tick, for good") {
+TEST_CASE("an invalid reading ends the plant's force in the same tick, until a reset") {
   SimulatedOptions options;
   options.real_time = false;
   auto made = std::make_unique<SimulatedDevice>(Target({0, 2e-3, 0}), options);
@@ -84,7 +84,7 @@ TEST_CASE("a spoilt reading ends the force that the plant feels in the same tick
   loop.stop();
 }
 
-TEST_CASE("the stylus can be pointed, and its button held, while it runs") {
+TEST_CASE("direction and button of the stylus can be set during a run") {
   SimulatedOptions options;
   options.real_time = false;
   auto made = std::make_unique<SimulatedDevice>(Target({0, 2e-3, 0}), options);

@@ -35,7 +35,7 @@ TEST_CASE("a failed preparation ends the thread before its ticks, and it can sta
   CHECK(ran);
 }
 
-TEST_CASE("a thread whose work has ended counts as running until it is stopped; to stop twice has no effect") {
+TEST_CASE("a thread whose work has ended counts as running until stop(); a second stop has no effect") {
   TickingThread thread;
   CHECK(thread.start({}, [] {}));
   CHECK_THROWS_AS(thread.start({}, [] {}), DeviceError);
@@ -44,7 +44,7 @@ TEST_CASE("a thread whose work has ended counts as running until it is stopped; 
   CHECK_NOTHROW(thread.refuse_second_loop());
 }
 
-TEST_CASE("real-time scheduling is asked for in the thread itself, before the preparation") {
+TEST_CASE("the thread itself requests real-time scheduling, before the preparation") {
   TickingThread thread;
   os::RealtimeSettings nothing_but_priority{80, -1, false, false};
   std::size_t known = 0;

@@ -89,7 +89,7 @@ TEST_CASE("a batch has the bits of Proxy1d with each instruction set, block, num
           CHECK(all.run(c.ticks, {c.depth.data(), n, 1}, {force.data(), n, 1}, options).finished());
           CHECK(same_bits_all(force, c.force));
         }
-      // In parts, with the numbers of a trial one after the other.
+      // In several runs, with the layout in which the numbers of a trial follow each other.
       std::vector<double> depth(c.depth.size()), rows(c.depth.size());
       for (std::size_t k = 0; k < c.ticks; ++k)
         for (std::size_t i = 0; i < c.trials; ++i) depth[i * c.ticks + k] = c.depth[k * c.trials + i];
@@ -140,7 +140,7 @@ TEST_CASE("a run of a batch that cannot finish changes no state") {
   CHECK(std::memcmp(force.data(), c.force.data(), 300 * 40 * sizeof(double)) == 0);
 }
 
-TEST_CASE("an exception in a block or in watch() ends all threads and arrives at the caller") {
+TEST_CASE("an exception in a block or in watch() ends all threads and reaches the caller") {
   batch::Work work;
   const auto good = [] { return true; };
   CHECK_THROWS_WITH(batch::for_each_block(

@@ -14,7 +14,7 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
-/// A clock that only the test moves, and the settings of a loop that goes by it.
+/// A clock that only the test advances, and the settings of a loop that uses it.
 std::int64_t clock_ns = 0;
 LoopSettings by_test_clock() {
   LoopSettings settings;
@@ -30,7 +30,7 @@ Scene stiff_scene() {
   return scene;
 }
 
-/// A loop on a device of its own, armed, after a second in front of the wall.
+/// A loop on its own device, armed, after a second in front of the wall.
 struct ArmedRun {
   std::shared_ptr<HandCranked> device = std::make_shared<HandCranked>();
   ServoLoop loop{device, stiff_scene(), by_test_clock()};
@@ -42,7 +42,7 @@ struct ArmedRun {
   }
 };
 
-/// Forces that went to a device over many runs, one a tick.
+/// The forces that a device got in many runs, one for each tick.
 class Felt {
  public:
   void add(const Tick::Force& force) { squares_.push_back(to_vector(force).squaredNorm()); }
@@ -62,7 +62,7 @@ class Felt {
 };
 }  // namespace
 
-TEST_CASE("through many random runs on one device no 10 s exceed its rating") {
+TEST_CASE("in many random runs on one device, no window of 10 s exceeds its rating") {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> share(0, 1);
   auto device = std::make_shared<HandCranked>();
@@ -101,12 +101,12 @@ TEST_CASE("the force that a device holds after its last tick counts until the st
   clock_ns += 1'000'000'000;
   const auto held = to_vector(device->move(1e-3, -6e-3, 400)).squaredNorm();
   REQUIRE(held > 3);
-  clock_ns += 200'000'000;  // ticks have ceased
+  clock_ns += 200'000'000;  // no more ticks
   loop.stop();
   CHECK(device->motor_use.spent > 0.15 * held);
 }
 
-TEST_CASE("time between two runs is rest, and a run that follows at once has none") {
+TEST_CASE("time between two runs counts as rest; a run that follows at once has no rest") {
   auto device = std::make_shared<HandCranked>();
   {
     ServoLoop loop(device, stiff_scene(), by_test_clock());
@@ -129,7 +129,7 @@ TEST_CASE("time between two runs is rest, and a run that follows at once has non
   CHECK(much_later.spent() == 0);
 }
 
-TEST_CASE("a loop that starts again goes on with what its device has given") {
+TEST_CASE("a restarted loop continues with the force budget that its device has used") {
   ArmedRun run;
   auto& [device, loop] = run;
   CHECK(loop.latest().ceiling == 3.3);
@@ -140,7 +140,7 @@ TEST_CASE("a loop that starts again goes on with what its device has given") {
   device->tick(2e-3);
   CHECK(loop.latest().ceiling < 3.3);
   loop.stop();
-  clock_ns += 60'000'000'000;  // rest, for a loop that starts again, too
+  clock_ns += 60'000'000'000;  // the time also counts as rest for a restarted loop
   loop.start();
   device->tick(2e-3);
   CHECK(loop.latest().ceiling == 3.3);

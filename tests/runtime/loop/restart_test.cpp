@@ -1,4 +1,4 @@
-// A loop that is stopped and started again, and what other threads ask of it meanwhile.
+// A loop that is stopped and started again, with requests of other threads at the same time.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@ using namespace punctura::test;
 
 namespace {
 
-/// A hand-cranked device whose clock begins anew with each start, as that of every back-end may.
+/// A HandCranked device whose clock restarts with each start, as the clock of any back-end may.
 struct Restarted {
   Restarted() : device(std::make_shared<FedDevice>(at_1600_hz(), false)), loop(device, paper_scene()) {}
   static DeviceInfo at_1600_hz() {
@@ -36,7 +36,7 @@ struct Restarted {
 
 }  // namespace
 
-TEST_CASE("what was stopped starts again without a fault, disarmed, and gives force once it is armed") {
+TEST_CASE("a stopped loop starts again without a fault, disarmed, and gives force after arming") {
   Restarted r;
   for (int run = 0; run < 3; ++run) {
     r.loop.start();
@@ -50,7 +50,7 @@ TEST_CASE("what was stopped starts again without a fault, disarmed, and gives fo
   }
 }
 
-TEST_CASE("arming before a start counts, whether it is the first or not; a pause of the run before does not") {
+TEST_CASE("arming before any start takes effect; a pause of the previous run does not") {
   Restarted r;
   for (int run = 0; run < 2; ++run) {
     r.loop.arm();
@@ -61,15 +61,15 @@ TEST_CASE("arming before a start counts, whether it is the first or not; a pause
   }
 }
 
-TEST_CASE("a stop that no tick has seen holds back nothing later") {
+TEST_CASE("a stop that no tick has seen has no later effect") {
   Restarted r;
   r.loop.start();
   r.move(2e-3, 1e-3, 10);
-  r.loop.arm();  // no tick any more: neither this nor the stop is obeyed
+  r.loop.arm();  // no tick follows, so neither this nor the stop takes effect
   r.loop.stop();
   r.loop.start();
   r.move(2e-3, 1e-3, 10);
-  CHECK(r.loop.latest().state == ServoState::disarmed);  // what was asked of the run before is over with it
+  CHECK(r.loop.latest().state == ServoState::disarmed);  // requests of the previous run end with it
   r.loop.stop();
   r.loop.reset();
   r.loop.arm();
@@ -78,7 +78,7 @@ TEST_CASE("a stop that no tick has seen holds back nothing later") {
   CHECK(r.loop.latest().state == ServoState::active);
 }
 
-TEST_CASE("a latched fault outlives a stop and a start; a reset leaves it") {
+TEST_CASE("a latched fault stays through a stop and a start, until a reset") {
   Restarted r;
   r.loop.start();
   r.move(2e-3, 1e-3, 10);
@@ -94,7 +94,7 @@ TEST_CASE("a latched fault outlives a stop and a start; a reset leaves it") {
   CHECK(r.loop.latest().state == ServoState::active);
 }
 
-TEST_CASE("the scene that runs after a stop is the one that was asked for last") {
+TEST_CASE("after a stop, the last requested scene runs") {
   Restarted r;
   auto one = paper_scene(), two = paper_scene();
   one.membranes[0].membrane.friction = 0.05;
@@ -114,7 +114,7 @@ TEST_CASE("the scene that runs after a stop is the one that was asked for last")
   CHECK(membrane.lower == doctest::Approx(law.band(membrane.depth).lower));
 }
 
-TEST_CASE("a device that ticks for one loop is refused to a second, and the first goes on") {
+TEST_CASE("a second loop cannot use a running device, and the first loop continues") {
   Restarted r;
   r.loop.start();
   ServoLoop second(r.device, paper_scene());
@@ -124,7 +124,7 @@ TEST_CASE("a device that ticks for one loop is refused to a second, and the firs
   CHECK(r.loop.report().ticks == 10);
 }
 
-TEST_CASE("the end of a program stops every loop that runs, and only those") {
+TEST_CASE("the end of a program stops every running loop, and no other") {
   Restarted first, second, third;
   first.loop.start();
   second.loop.start();
@@ -136,7 +136,7 @@ TEST_CASE("the end of a program stops every loop that runs, and only those") {
   CHECK(first.loop.running());
 }
 
-TEST_CASE("the history of a fault is whole or empty, however the reset of another thread falls") {
+TEST_CASE("the history of a fault is complete or empty, whenever another thread resets") {
   auto device = std::make_shared<HandCranked>();
   ServoLoop loop(device, paper_scene());
   loop.start();

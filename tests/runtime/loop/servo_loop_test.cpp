@@ -20,7 +20,7 @@ struct Cranked {
     device = made.get();
     loop = std::make_unique<ServoLoop>(std::move(made), std::move(scene), settings);
   }
-  /// Armed, through the ramp, and in the tissue.
+  /// Arms, waits for the end of the ramp, and moves into the tissue.
   void into_tissue() {
     loop->start();
     loop->arm();
@@ -43,7 +43,7 @@ TEST_CASE("a loop gives the force of its scene, tick by tick, after start and ar
   CHECK(armed.loop->latest().state == ServoState::active);
 }
 
-TEST_CASE("a tick takes no memory, whatever is asked of the loop meanwhile") {
+TEST_CASE("a tick allocates no memory, whatever other threads request of the loop") {
   Cranked c;
   c.loop->listen(64);
   c.into_tissue();
@@ -54,7 +54,7 @@ TEST_CASE("a tick takes no memory, whatever is asked of the loop meanwhile") {
   CHECK(allocations() == before);
 }
 
-TEST_CASE("pause ends force at once; force comes back only through the outside") {
+TEST_CASE("a pause ends the force at once; it returns only after the tip was outside") {
   Cranked c;
   c.into_tissue();
   c.loop->pause();
@@ -95,7 +95,7 @@ TEST_CASE("a new scene is taken between two ticks, and the hand feels no jump") 
     const double held = c.device->move(-3e-3, -3e-3, 50)[1];
     auto scene = paper_scene();
     scene.membranes[0].membrane.friction = friction;
-    c.loop->exchange(scene);  // nobody ticks meanwhile: it gives up waiting, and the next tick takes it
+    c.loop->exchange(scene);  // no tick comes: the call stops waiting, and the next tick takes the scene
     double last = held, largest_step = 0;
     for (int k = 0; k < 640; ++k) {
       const double f = c.device->tick(-3e-3)[1];
@@ -111,7 +111,7 @@ TEST_CASE("a new scene is taken between two ticks, and the hand feels no jump") 
   }
 }
 
-TEST_CASE("a scene that cannot be is refused, and the old one runs on") {
+TEST_CASE("an invalid scene is refused, and the old one continues") {
   Cranked c;
   c.into_tissue();
   auto scene = paper_scene();
@@ -120,7 +120,7 @@ TEST_CASE("a scene that cannot be is refused, and the old one runs on") {
   CHECK(c.device->move(-3e-3, -3.5e-3, 400)[1] > 0.3);
 }
 
-TEST_CASE("a membrane in another place starts afresh: no force until the tip has been outside") {
+TEST_CASE("a membrane at another place starts new: no force until the tip has been outside") {
   Cranked c;
   c.into_tissue();
   auto scene = paper_scene();
@@ -131,7 +131,7 @@ TEST_CASE("a membrane in another place starts afresh: no force until the tip has
   CHECK(c.loop->latest().force == zero);
 }
 
-TEST_CASE("T is the device's own period, whatever the scene asks for") {
+TEST_CASE("T is the device's own period, whatever rate the scene has") {
   Cranked c(paper_scene(), 1000);
   CHECK(c.loop->scene().servo.rate == 1000);
   auto at_1000 = paper_scene();
@@ -157,7 +157,7 @@ TEST_CASE("limits are never wider than the device's own ratings") {
   CHECK(loop.latest().limits.peak > 0);
 }
 
-TEST_CASE("a device that stands elsewhere, turned and scaled, feels the same force in its own axes") {
+TEST_CASE("with a placement (moved, rotated, scaled) the device gets the same force in its own axes") {
   // The device points along its +x where the scene points down, is 0.1 m away, moves half as far, and its tip is 20 mm
   // ahead.
   LoopSettings settings;
@@ -184,14 +184,14 @@ TEST_CASE("a device that stands elsewhere, turned and scaled, feels the same for
   CHECK(plain.loop->latest().force[1] > 0.3);
 }
 
-TEST_CASE("a placement that cannot be is refused") {
+TEST_CASE("an invalid placement is refused") {
   LoopSettings settings;
   settings.placement.scale = 0;
   settings.placement.rotation = {0, 0, 0, 0};
   CHECK_THROWS_AS(Cranked(paper_scene(), 1600, settings), SceneError);
 }
 
-TEST_CASE("every tick's snapshot goes to every listener; a listener that sleeps loses its own only") {
+TEST_CASE("every listener gets every snapshot; a slow listener loses only its own") {
   Cranked c;
   auto& awake = c.loop->listen(256);
   auto& asleep = c.loop->listen(400);
@@ -206,7 +206,7 @@ TEST_CASE("every tick's snapshot goes to every listener; a listener that sleeps 
   CHECK(asleep.lost() == 4000 - 400);
 }
 
-TEST_CASE("periods, compute times and late ticks are counted on the clock that the loop was given") {
+TEST_CASE("periods, compute times and late ticks are measured with the given clock") {
   static std::int64_t now;
   now = 1;
   LoopSettings settings;

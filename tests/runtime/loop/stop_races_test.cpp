@@ -1,4 +1,4 @@
-// What one thread asks of a loop while another one stops it, as the end of a program does.
+// Requests to a loop while another thread stops it, as at the end of a program.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ Scene with_friction(double friction) {
   return scene;
 }
 
-/// Its driver's stop waits for the test.
+/// A device whose stop() waits for the test.
 class SlowToStop : public HandCranked {
  public:
   void stop() noexcept override {
@@ -48,7 +48,7 @@ bool slides_with(HandCranked& device, ServoLoop& loop, double friction) {
 }  // namespace
 
 TEST_CASE("a new scene and the stop of another thread free each servo step once") {
-  auto device = std::make_shared<HandCranked>();  // it never ticks: an exchange waits until the stop
+  auto device = std::make_shared<HandCranked>();  // it never ticks, so an exchange waits until the stop
   ServoLoop loop(device, paper_scene());
   std::atomic<bool> over{false};
   std::atomic<int> exchanges{0};
@@ -92,7 +92,7 @@ TEST_CASE("the scene can be read in one thread while another one exchanges it") 
   changing.join();
 }
 
-TEST_CASE("a new scene does not wait for a driver that does not stop, and is the scene of the next run") {
+TEST_CASE("a new scene does not wait for a driver that does not stop, and the next run uses it") {
   auto device = std::make_shared<SlowToStop>();
   ServoLoop loop(device, with_friction(0.05));
   loop.start();
@@ -110,7 +110,7 @@ TEST_CASE("a new scene does not wait for a driver that does not stop, and is the
   loop.stop();
 }
 
-TEST_CASE("a stop waits for a start that is under way: no run is left over") {
+TEST_CASE("a stop waits for a start in progress, so no run is left over") {
   struct SlowToStart : HandCranked {
     void start(Tick tick) override {
       starting.set_value();

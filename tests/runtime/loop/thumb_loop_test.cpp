@@ -81,7 +81,7 @@ TEST_CASE("the thumb gets force only while the needle's device gets force") {
   hands.loop->pause();
   hands.many(3, -9e-3, -9e-3, 2e-3, 2e-3);
   CHECK(hands.felt == 0);
-  CHECK(hands.loop->latest().syringe.force < -1);  // the model goes on
+  CHECK(hands.loop->latest().syringe.force < -1);  // the model continues
 }
 
 TEST_CASE("a fault of the thumb's device ends the force of both") {
@@ -133,7 +133,7 @@ TEST_CASE("a reset clears both faults and fills the syringe; the thumb's place i
   CHECK(hands.loop->latest().syringe.left < 1e-15);
 }
 
-TEST_CASE("a thumb's device that never ticks is a fault after a second") {
+TEST_CASE("a thumb's device that never ticks causes a fault after a second") {
   TwoHands hands;
   hands.loop->start();
   for (int i = 0; i < 1500; ++i) hands.tick(1e-3, 0, true, false);
@@ -142,7 +142,7 @@ TEST_CASE("a thumb's device that never ticks is a fault after a second") {
   CHECK(hands.loop->latest().fault == Fault::thumb);
 }
 
-TEST_CASE("the ratings of the thumb's device limit its force, and both ticks take no memory") {
+TEST_CASE("the ratings of the thumb's device limit its force, and both ticks allocate no memory") {
   TwoHands hands;
   auto weak = std::make_shared<HandCranked>();
   weak->described().max_force = 0.5;
@@ -154,7 +154,7 @@ TEST_CASE("the ratings of the thumb's device limit its force, and both ticks tak
   CHECK(allocations() == before);
 }
 
-TEST_CASE("a change of the scene does not jump under the thumb") {
+TEST_CASE("a change of the scene causes no jump of the thumb's force") {
   const auto largest_step = [](TwoHands& hands) {
     double largest = 0, before = hands.felt;
     for (int i = 0; i < 800; ++i) {
@@ -227,13 +227,13 @@ TEST_CASE("a thumb's device runs in one loop at a time, and the other loop canno
   CHECK(hands.felt > 1);
 }
 
-TEST_CASE("what the thumb felt is in the record") {
+TEST_CASE("the record contains the thumb's felt force") {
   TwoHands hands;
   hands.press_in_the_wall();
   CHECK(hands.loop->latest().sample.thumb_felt == doctest::Approx(-hands.felt).epsilon(0.01));
 }
 
-TEST_CASE("a stop ends both devices, and one device cannot be both hands") {
+TEST_CASE("a stop ends both devices, and one device cannot serve both hands") {
   TwoHands hands;
   hands.press_in_the_wall();
   hands.loop->stop();
@@ -257,7 +257,7 @@ TEST_CASE("a simulated thumb pushes without a second device") {
   device->move(-9e-3, -9e-3, 3200);
   CHECK(loop.latest().syringe.force == doctest::Approx(-3).epsilon(0.01));
   const double pushed = loop.latest().sample.thumb;
-  loop.push_plunger(std::nan(""));  // as 0: the thumb lets go, and does not jump
+  loop.push_plunger(std::nan(""));  // counts as 0: the thumb releases and does not jump
   device->move(-9e-3, -9e-3, 1);
   CHECK(loop.latest().sample.thumb == doctest::Approx(pushed).epsilon(0.01));
   loop.push_plunger(0);

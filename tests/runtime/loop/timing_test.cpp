@@ -11,7 +11,7 @@
 using namespace punctura;
 
 namespace {
-/// A clock that moves only when somebody sleeps on it, or when the test says so.
+/// A clock that advances only by sleeps on it or by the test.
 struct FakeClock {
   struct State {
     std::int64_t now = 1000;
@@ -26,7 +26,7 @@ struct FakeClock {
 };
 }  // namespace
 
-TEST_CASE("ticks come at absolute times: a late one does not move the later ones") {
+TEST_CASE("ticks come at absolute times: a late tick does not delay the next ones") {
   FakeClock::State state;
   Pacer<FakeClock> pacer(1600, {&state});
   for (int k = 1; k <= 1600; ++k) {
@@ -36,7 +36,7 @@ TEST_CASE("ticks come at absolute times: a late one does not move the later ones
   CHECK(state.now == 1000 + 1'000'000'000);
 }
 
-TEST_CASE("ticks whose time has passed are left out and counted, not made up for in a burst") {
+TEST_CASE("missed ticks are skipped and counted, not made up in a burst") {
   FakeClock::State state;
   Pacer<FakeClock> pacer(1000, {&state});
   pacer.wait();
@@ -56,7 +56,7 @@ TEST_CASE("a rate that does not divide a second does not drift") {
   CHECK(std::abs(state.now - 1000 - 10'000'000'000) <= 1);
 }
 
-TEST_CASE("the bins of a histogram follow each other without a gap, each an eighth of an octave") {
+TEST_CASE("the bins of a histogram have no gap; each is an eighth of an octave wide") {
   for (std::size_t i = 0; i + 1 < Histogram::bins; ++i) {
     REQUIRE(Histogram::bin(Histogram::edge(i)) == i);
     REQUIRE(Histogram::bin(Histogram::edge(i + 1) - 1) == i);

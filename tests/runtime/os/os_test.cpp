@@ -1,4 +1,4 @@
-// What every operating system's file must do, on the system that the tests run on.
+// The functions of os.hpp, on the system that runs the tests.
 #include "punctura_runtime/os/os.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 
 using namespace punctura;
 
-TEST_CASE("a sleep ends at its time or later, never before; one whose time has passed ends at once") {
+TEST_CASE("a sleep never ends early; a sleep until a past time ends at once") {
   for (int k = 0; k < 20; ++k) {
     const std::int64_t until = os::now_ns() + 700'000;
     os::sleep_until_ns(until);
@@ -21,7 +21,7 @@ TEST_CASE("a sleep ends at its time or later, never before; one whose time has p
   os::sleep_until_ns(0);
 }
 
-TEST_CASE("what the scheduler does not grant is said with the reason, and does no harm") {
+TEST_CASE("a refused real-time priority is reported with the reason and does no harm") {
   std::vector<os::RealtimeItem> items;
   std::thread([&] { items = os::make_realtime({80, 0, false, true}); }).join();
   CHECK_FALSE(items.empty());
@@ -32,7 +32,7 @@ TEST_CASE("what the scheduler does not grant is said with the reason, and does n
   }
 }
 
-TEST_CASE("a processor that is not there is not granted, and said by its number") {
+TEST_CASE("a missing processor is refused and named by its number") {
   std::vector<os::RealtimeItem> items;
   for (const int processor : {64, 4095, 1 << 20})
     std::thread([&] {
@@ -43,7 +43,7 @@ TEST_CASE("a processor that is not there is not granted, and said by its number"
   CHECK(items[1].what == "processor 4095");
 }
 
-TEST_CASE("macOS is told the loop's own period, within what it accepts") {
+TEST_CASE("macOS gets the loop's period, clamped to the accepted range") {
   const os::RealtimeSettings asked{70, 1, false, true};
   const auto at_1600 = asked.at_rate(1600);
   CHECK(at_1600.period == 1 / 1600.0);
@@ -69,7 +69,7 @@ TEST_CASE("the error of a library that does not exist names it") {
   CHECK(error.find("/nowhere/libnothing.so") != std::string::npos);
 }
 
-TEST_CASE("a connection that nobody takes is refused in words, by its deadline") {
+TEST_CASE("a connection that nobody accepts ends by its deadline, with a message") {
   std::uint16_t port = 0;
   {
     const test::Listener listener;
@@ -80,10 +80,10 @@ TEST_CASE("a connection that nobody takes is refused in words, by its deadline")
   const auto socket = os::Socket::connect("127.0.0.1", port, os::now_ns() + 3'000'000'000, error);
   CHECK_FALSE(socket);
   CHECK(error.size() > 10);
-  CHECK(error.find("error 1") == std::string::npos);  // a bare number says nothing to anybody
+  CHECK(error.find("error 1") == std::string::npos);  // a number alone does not help the user
 }
 
-TEST_CASE("sockets carry bytes both ways, end at their deadline, and say when the other side has gone") {
+TEST_CASE("sockets carry bytes both ways, obey their deadline, and report that the other side has closed") {
   test::Listener listener;
   const auto soon = [] { return os::now_ns() + 10'000'000'000; };
   std::string error;

@@ -11,7 +11,7 @@ using namespace punctura;
 
 namespace {
 
-/// Every number of it can be told from tick and count, so that a reader sees what is not whole.
+/// A snapshot whose numbers follow from tick and count, so that a reader detects a torn one.
 Snapshot numbered(std::uint64_t tick, std::uint32_t membranes) {
   Snapshot s{};
   s.tick = tick;
@@ -46,7 +46,7 @@ Ticks taken(SnapshotRing& ring, std::size_t limit) {
 
 }  // namespace
 
-TEST_CASE("a ring hands over what was put in, in order") {
+TEST_CASE("a ring returns the records in the order in which they were put in") {
   SnapshotRing ring(40, 1);
   for (std::uint64_t i = 0; i < 3; ++i) CHECK(ring.push(numbered(i, 1)));
   CHECK(taken(ring, 2) == Ticks{0, 1});
@@ -55,7 +55,7 @@ TEST_CASE("a ring hands over what was put in, in order") {
   CHECK(ring.lost() == 0);
 }
 
-TEST_CASE("a ring takes no more memory than its most, whatever was asked for") {
+TEST_CASE("a ring never takes more memory than its limit") {
   for (const std::size_t membranes : {std::size_t{0}, std::size_t{1}, max_membranes}) {
     SnapshotRing ring(~std::size_t{0} / 2, membranes);
     CHECK(ring.capacity() == SnapshotRing::most_snapshots(membranes));
@@ -67,7 +67,7 @@ TEST_CASE("a ring takes no more memory than its most, whatever was asked for") {
   }
 }
 
-TEST_CASE("a full ring loses the new record, and counts it; it holds as many as it said") {
+TEST_CASE("a full ring drops the new record and counts it; it holds as many records as it reports") {
   SnapshotRing ring(100, 2);
   for (std::uint64_t i = 0; i < 110; ++i) ring.push(numbered(i, 2));
   CHECK(ring.lost() == 10);
@@ -77,7 +77,7 @@ TEST_CASE("a full ring loses the new record, and counts it; it holds as many as 
   CHECK(got.back() == 99);
 }
 
-TEST_CASE("a ring made for few membranes takes a snapshot with as many as there can be") {
+TEST_CASE("a ring made for few membranes also takes a snapshot with the largest number of membranes") {
   SnapshotRing ring(1, 0);
   for (std::uint64_t i = 0; i < 100; ++i) {
     CHECK(ring.push(numbered(i, i % 2 ? max_membranes : 3)));
@@ -86,7 +86,7 @@ TEST_CASE("a ring made for few membranes takes a snapshot with as many as there 
   CHECK(ring.lost() == 0);
 }
 
-TEST_CASE("snapshots of any length follow each other round the ring") {
+TEST_CASE("snapshots of different lengths wrap around the end of the ring") {
   SnapshotRing ring(50, 3);
   std::uint64_t next = 0, seed = 1;
   for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("snapshots of any length follow each other round the ring") {
   CHECK(next == 20000);
 }
 
-TEST_CASE("across two threads nothing is lost in silence, doubled or torn") {
+TEST_CASE("between two threads, no record is torn or duplicated, and each lost one is counted") {
   SnapshotRing ring(64, 4);
   const std::uint64_t n = 300000;
   std::thread writer([&] {
@@ -121,7 +121,7 @@ TEST_CASE("across two threads nothing is lost in silence, doubled or torn") {
   CHECK(seen + ring.lost() == n);
 }
 
-TEST_CASE("the latest value is never half of one and half of another, and never goes back") {
+TEST_CASE("the latest value is never torn and never goes back") {
   struct Value {
     std::uint64_t a = 0, b = 0;
   };
@@ -154,7 +154,7 @@ struct Counted {
 std::atomic<int> Counted::alive{0};
 }  // namespace
 
-TEST_CASE("what is handed over arrives once, and what it replaces is freed by the side that offered it") {
+TEST_CASE("Handover delivers an object once; the offering thread frees the replaced one") {
   {
     Handover<Counted> handover;
     std::atomic<bool> done{false};
@@ -168,7 +168,7 @@ TEST_CASE("what is handed over arrives once, and what it replaces is freed by th
           last_taken = mine->value;
         }
         handover.pending() ? void() : std::this_thread::yield();
-        if (done) handover.collect();  // the offering side has gone home
+        if (done) handover.collect();  // the offering thread has ended
       }
       delete mine;
     });

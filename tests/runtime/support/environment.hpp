@@ -1,4 +1,4 @@
-// A variable of the environment for the length of a test.
+// Sets an environment variable for the duration of a test.
 #pragma once
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ class Environment {
  private:
   void set(const char* value) const {
 #ifdef _WIN32
-    _putenv_s(name_, value ? value : "");  // an empty one is none
+    _putenv_s(name_, value ? value : "");  // an empty value removes the variable
 #else
     value ? setenv(name_, value, 1) : unsetenv(name_);
 #endif

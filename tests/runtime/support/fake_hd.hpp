@@ -1,4 +1,4 @@
-// The fake HD library as tests hold it: the same one that the back-end loads.
+// The tests' access to the fake HD library, the same instance that the back-end loads.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@
 
 namespace punctura::test {
 
-/// What the fake exports for us.
+/// The functions that the fake exports for tests.
 struct FakeHdControls {
   std::string error;
   void* library = os::load_library(FAKE_HD, error);
@@ -45,7 +45,7 @@ inline const FakeHdControls& fake_hd() {
   return controls;
 }
 
-/// As fast as possible, on a clock of its own, unless `change` says otherwise.
+/// Settings: as fast as possible, with a simulated clock. `change` may change them.
 template <typename Change>
 void reset_fake_hd(Change&& change) {
   fake_hd_settings settings;
@@ -67,7 +67,7 @@ inline OpenHapticsOptions with_fake_hd(double rate = 1600) {
   return options;
 }
 
-/// Waits until the fake has come so far; on the wall's clock a minute is enough for anything.
+/// Waits until the fake has made this many ticks; fails after a minute.
 inline void until_tick(unsigned long long tick) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (fake_hd().ticks() < tick && std::chrono::steady_clock::now() < end) std::this_thread::yield();

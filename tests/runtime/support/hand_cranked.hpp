@@ -1,4 +1,4 @@
-// A device whose ticks the test itself makes, one after the other, on its own thread.
+// A device whose ticks the test makes itself, one after the other, on the test's thread.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace {
 constexpr double rate = 1600;
 std::int64_t soon() { return os::now_ns() + 20'000'000'000; }
 
-/// Exactly n more bytes; false when the client has gone.
+/// Reads exactly n bytes. Returns false if the client has closed the connection.
 bool read(os::Socket& client, std::string& to, std::size_t n) {
   to.resize(n);
   for (std::size_t at = 0, got = 0; at < n; at += got)
@@ -23,7 +23,7 @@ bool read(os::Socket& client, std::string& to, std::size_t n) {
 
 unsigned byte(const std::string& text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Reads a client's frame by the letter of RFC 6455; 0 when it is not masked or the client has gone.
+/// Reads a client's frame, RFC 6455. Returns 0 if it is not masked or the client has closed the connection.
 unsigned read_frame(os::Socket& client, std::string& payload) {
   std::string head, mask;
   if (!read(client, head, 2) || (byte(head, 1) & 0x80) == 0) return 0;
@@ -62,7 +62,7 @@ std::string decimal(double value) {
   return text;
 }
 
-/// In the service's axes, where z is up and y away: ours are (x, z, -y) of it.
+/// Converts to the service's axes (z up, y away from the user). Punctura's axes are its (x, z, -y).
 std::string vector_text(const std::array<double, 3>& ours) {
   return R"({"x":)" + decimal(ours[0]) + R"(,"y":)" + decimal(-ours[2]) + R"(,"z":)" + decimal(ours[1]) + "}";
 }
@@ -144,7 +144,7 @@ void HaplyFake::speak(os::Socket& client) {
     if (first != 0x81) break;
     on = answer(client, payload);
   }
-  // Nobody says anything any more: the device is idle.
+  // No more messages: the device is idle.
   for (int i = 0; i < 100 && begun_; ++i) pass({0, 0, 0});
   left_ = true;
 }
@@ -171,7 +171,7 @@ bool HaplyFake::answer(os::Socket& client, const std::string& message) {
   return send(client, state(false));
 }
 
-/// The force of a message in Punctura's axes; none where the message does not have it under the right key.
+/// The force of a message in Punctura's axes; empty if the message has no force under the right key.
 std::array<double, 3> HaplyFake::wanted(const std::string& message) const {
   const std::size_t at = message.find("{\"" + settings_.takes + "\":{");
   if (at == std::string::npos) return {0, 0, 0};
@@ -220,7 +220,7 @@ bool HaplyFake::send(os::Socket& client, const std::string& text) {
   return true;
 }
 
-/// True while the connection goes on.
+/// Returns false to end the connection.
 bool HaplyFake::mishap(os::Socket& client) {
   if (!spoilt_) mishap_at_ = static_cast<std::size_t>(tick_);
   spoilt_ = true;

@@ -1,8 +1,8 @@
 // A simulated Inverse Service with a simulated Inverse3 in a simulated hand, in the test's own process.
 //
-// Its contract is the real one's: on connecting it sends one inventory, then exactly one state for each message; a
-// force lasts for one period and not beyond, so a client that falls silent leaves the device idle. Time passes by
-// messages: no clock is read.
+// It behaves like the real service: after connecting it sends one inventory, then exactly one state for each message. A
+// force lasts for one period only, so the device is idle if the client stops sending. Each message advances the time by
+// one period; no clock is read.
 #pragma once
 
 #include <atomic>
@@ -19,19 +19,19 @@
 namespace punctura::test {
 
 struct FakeSettings {
-  std::string version = "3.5.2";     ///< what /version tells; empty: 404
-  std::string takes = "vector";      ///< the one key of set_cursor_force that it knows
+  std::string version = "3.5.2";     ///< the answer of /version; empty: 404
+  std::string takes = "vector";      ///< the only accepted key of set_cursor_force
   bool closes_on_wrong_key = false;  ///< instead of leaving the force at zero
   bool grip = true;
   double gives = 1;  ///< the share of a force that its echo shows
   std::string id = "049D";
   std::string status = R"("calibrated":true,"in_use":false,"power_supply":true,"ready":true)";
-  std::string inventory;  ///< in place of the true one
+  std::string inventory;  ///< replaces the real one if not empty
   Strokes strokes{{0, 5e-3, 0}, {0, -10e-3, 0}, 1, 1.0, 0.6, 0.0};
   std::uint64_t seed = 7;
 };
 
-/// What happens at one message in place of an answer, and after it for ever.
+/// A failure that replaces the answer to one message, and lasts from then on.
 enum class Mishap {
   none,
   removed,
@@ -46,7 +46,7 @@ enum class Mishap {
   no_grip
 };
 
-/// How answers travel.
+/// How answers are split into frames and packets.
 enum class Travel { whole, byte_by_byte, in_fragments, with_pings };
 
 class HaplyFake {
@@ -56,12 +56,12 @@ class HaplyFake {
 
   std::string url() const { return "ws://127.0.0.1:" + std::to_string(listener_.port()); }
   void begin();                                 ///< the hand's motion starts with the next message
-  void happen(Mishap what, std::size_t after);  ///< so many messages from begin() on
+  void happen(Mishap what, std::size_t after);  ///< after this many messages from begin() on
   void travel(Travel how) { travel_ = how; }
-  std::function<void()> on_message;  ///< before any message is answered; set before the first
+  std::function<void()> on_message;  ///< called before each answer; set it before the first message
 
-  /// The force on the plant in each period from begin() on, N, in Punctura's axes, and after which of them the mishap
-  /// came.
+  /// The force on the plant in each period from begin() on, N, in Punctura's axes, and the period of the
+  /// failure.
   std::vector<std::array<double, 3>> forces();
   std::size_t mishap_at();
   std::vector<std::string> messages();  ///< the first ones of the last connection, up to 16

@@ -1,4 +1,4 @@
-// Waits for connections from this machine: a simulated service stands behind it.
+// Accepts connections from this machine for a simulated service.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class Listener {
   ~Listener();
 
   std::uint16_t port() const noexcept { return port_; }
-  os::Socket accept(std::int64_t deadline) noexcept;  ///< empty if nobody has come by then
+  os::Socket accept(std::int64_t deadline) noexcept;  ///< empty if no client connects before the deadline
 
  private:
   os::Socket::Handle handle_ = os::Socket::none;
