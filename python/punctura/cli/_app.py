@@ -12,7 +12,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -92,11 +92,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 wait_for_stderr_again()
 
 
-def _as_sentence(message: Warning | str, category: type[Warning], *place: Any) -> str:
+def _as_sentence(
+    message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
+) -> str:
     """A warning as the command line tells it: without a place in Punctura's sources."""
     if issubclass(category, UnusualWarning):
         return f"punctura: warning: {message}\n"
-    return _usual_warning(message, category, *place)
+    return _usual_warning(message, category, filename, lineno, line)
 
 
 def _words(error: Exception) -> str:
