@@ -75,7 +75,7 @@ def command(
     )  # fmt: skip
     if trace.is_dir():
         if scene or report or plan:
-            raise typer.BadParameter("a folder gives --out DIR; --scene, --report and --plan need one trace")
+            raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out DIR")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out DIR for the results", param_hint="--out")
         _folder(trace, out, task, processes, as_json)

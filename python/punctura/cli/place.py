@@ -30,7 +30,7 @@ def command(
 ) -> None:
     """Asks for one pose and writes a placement file for `punctura run --placement`. Gives no force."""
     if device.startswith("replay:"):
-        raise typer.BadParameter("a recorded motion is held by nobody", param_hint="--device")
+        raise typer.BadParameter("a replay has no hand that holds a pose; choose another device", param_hint="--device")
     if not out.parent.is_dir() or out.is_dir():
         raise typer.BadParameter(f"{out} cannot be written: no such folder, or a folder itself", param_hint="--out")
     if not math.isfinite(tip_offset_mm):

@@ -109,9 +109,11 @@ def command(
     of_the_page = {"--port": port, "--no-browser": no_browser, "--recordings": recordings, "--exercise": exercise}
     for name, given in of_the_page.items():
         if given and headless:
-            raise typer.BadParameter("is of the page, and --headless has none", param_hint=name)
+            raise typer.BadParameter("is an option of the page; leave it out with --headless", param_hint=name)
     if placement and device.startswith("replay:"):
-        raise typer.BadParameter("recorded positions stand in the scene already", param_hint="--placement")
+        raise typer.BadParameter(
+            "recorded positions are already in the scene's frame; leave it out with a replay", param_hint="--placement"
+        )
     stands = load_placement(placement) if placement else None
     allowed = load_limits(limits) if limits else Limits()
     if max_force is not None:

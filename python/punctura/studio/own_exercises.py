@@ -1,4 +1,4 @@
-"""The folder of the exercises that were made in the page. Nothing outside it is read or written by a page's wish."""
+"""The folder of the exercises that were made in the page. A page cannot read or write files outside of it."""
 
 from __future__ import annotations
 

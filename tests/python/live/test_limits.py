@@ -200,9 +200,9 @@ def test_the_command_line_tells_a_force_above_the_devices_rating(tmp_path):
         (("--max-force-N", "0"), "for --max-force-N: must be greater than 0"),
         (("--limits", "nowhere.toml"), "'nowhere.toml' does not exist"),
         (("--limits", "{buttons}"), "it can never be held"),
-        (("--port", "8080"), "--headless has none"),
+        (("--port", "8080"), "leave it out with --headless"),
         (("--device", "simulated:another"), "one simulated device only"),
-        (("--device", "replay:x.parquet", "--placement", "{buttons}"), "stand in the scene already"),
+        (("--device", "replay:x.parquet", "--placement", "{buttons}"), "already in the scene's frame"),
     ],
 )
 def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, words):

@@ -137,7 +137,7 @@ def test_place_writes_what_run_takes(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--device", "replay:x.parquet"), "held by nobody"),
+        (("--device", "replay:x.parquet"), "has no hand that holds a pose"),
         (("--out", "nowhere/p.toml"), "cannot be written"),
         (("--tip-offset-mm", "nan"), "finite"),
     ],
