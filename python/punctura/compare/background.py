@@ -19,7 +19,7 @@ def step_back() -> None:
     word = os.environ.get(NICE, "")
     level = min(int(word), LOWEST) if word.isdecimal() else LOWEST
     if hasattr(os, "nice"):
-        os.nice(level)
+        os.nice(max(0, level - os.nice(0)))  # without rights, a process cannot become less nice
     for file, value in (("autogroup", level), ("oom_score_adj", 1000)):
         with contextlib.suppress(OSError):  # another system, or a kernel without it
             Path("/proc/self", file).write_text(str(value))

@@ -27,7 +27,7 @@ struct MembraneBlock {
 /// The coupling of each trial, which is the same at all membranes: RelaxingCoupling::Constants.
 struct CouplingBlock {
   LaneNumbers K, g, inv_g, free_share;
-  LaneNumbers a[max_branches], k[max_branches];
+  std::array<LaneNumbers, max_branches> a, k;
   std::size_t branches;
 };
 
