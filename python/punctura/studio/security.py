@@ -146,10 +146,12 @@ class Guard:
         size = 0
         most = MOST_TRACE if _sends_a_file(scope) else MOST_BODY
         begun = False
+        rest = _has_body(scope)  # of the body, that was not read yet
 
         async def counted() -> Message:
-            nonlocal size
+            nonlocal size, rest
             message = await receive()
+            rest = rest and message.get("more_body", False)
             size += len(message.get("body", b""))
             if size > most:
                 raise TooLarge
@@ -160,6 +162,8 @@ class Guard:
             if message["type"] == "http.response.start":
                 begun = True
                 _dress(message, scope["path"])
+                if rest:  # else the server would read and drop it, however long it is
+                    MutableHeaders(scope=message)["connection"] = "close"
             await send(message)
 
         try:
@@ -174,6 +178,11 @@ class Guard:
 
 def _sends_a_file(scope: Scope) -> bool:
     return scope["method"] == "POST" and scope["path"] in FILES
+
+
+def _has_body(scope: Scope) -> bool:
+    headers = Headers(scope=scope)
+    return "transfer-encoding" in headers or headers.get("content-length", "0") != "0"
 
 
 def _socket_tokens(scope: Scope) -> list[str]:

@@ -9,7 +9,7 @@ import re
 import signal
 import subprocess
 import sys
-from importlib.metadata import version
+from importlib.metadata import entry_points, version
 
 import pytest
 from heed import heed_signals
@@ -256,3 +256,26 @@ def test_a_bar_shows_itself_on_a_terminal_only_and_after_a_second_only(monkeypat
     with progress.progress_bar("simulate", pipe) as tell:
         tell(0.2)
     assert pipe.getvalue() == ""
+
+
+AT_ITS_FIRST_IMPORT = """
+import os, signal, sys
+import punctura_command
+
+class Interrupts:
+    def find_spec(self, name, path=None, target=None):
+        if name == "numpy":
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupts())
+punctura_command.main()
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_an_interrupt_while_python_still_imports_prints_no_traceback():
+    [program] = entry_points(group="console_scripts", name="punctura")
+    assert program.value == "punctura_command:main"
+    command = [sys.executable, "-c", AT_ITS_FIRST_IMPORT]
+    done = subprocess.run(command, capture_output=True, text=True, preexec_fn=heed_signals)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGINT, "punctura: interrupted\n")

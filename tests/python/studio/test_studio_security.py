@@ -101,6 +101,24 @@ def test_a_body_that_is_too_large_is_refused(guarded):
     assert get(guarded, "/api/schema?token=TOKEN", **{"Content-Length": "9" * 30})[0] in (400, 413)
 
 
+@pytest.mark.parametrize(
+    "request_line", ["GET /assets/a.js", "GET /api/schema?token=TOKEN", "DELETE /nothing?token=TOKEN"]
+)
+@pytest.mark.parametrize("length", ["Transfer-Encoding: chunked", "Content-Length: 60000"])
+def test_a_body_without_an_end_is_not_read_after_the_answer(guarded, request_line, length):
+    address = ("127.0.0.1", guarded.address.port)
+    head = f"{request_line} HTTP/1.1\r\nHost: 127.0.0.1:{address[1]}\r\n{length}\r\n\r\n"
+    with socket.create_connection(address, 20) as connection:
+        connection.sendall(head.replace("TOKEN", guarded.address.token).encode())
+        answer = http.client.HTTPResponse(connection)
+        answer.begin()
+        assert answer.getheader("connection") == "close"
+        answer.read()
+        with contextlib.suppress(ConnectionResetError):
+            assert connection.recv(1) == b""
+    assert get(guarded, "/assets/a.js")[1]["connection"] is None
+
+
 TRICKS = [
     "../x",
     "..%2fx",
