@@ -1,4 +1,4 @@
-"""The report of a study: a table of the results, and Sobol indices."""
+"""The report of a study: a table of the results, pictures, and Sobol indices."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 
 from punctura.files.whole_file import write_whole
 from punctura.study.folder import Folder
+from punctura.study.pictures import draw
 from punctura.study.plan import Plan
 
 Array = npt.NDArray[np.float64]
@@ -28,6 +29,10 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
     ]
     lines += ["| result | trials | without | mean | sd | 5 % | median | 95 % |", "|---|---|---|---|---|---|---|---|"]
     indices: list[str] = []
+    pictures: list[str] = []
+    variables = [one.path for one in plan.variables]
+    table = pq.read_table(folder.table, columns=variables)
+    values = {path: table[path].to_numpy() for path in variables}
     for name in names:
         column = pq.read_table(folder.table, columns=[name])[name].to_numpy().astype(np.float64)
         good = column[np.isfinite(column)]
@@ -36,6 +41,8 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
             told = " | ".join(f"{x:.4g}" for x in numbers)
         else:
             told = " | ".join(["-"] * 5)
+        if (picture := draw(plan, folder, name, column, values)) is not None:
+            pictures.append(f"![{name}]({picture.relative_to(folder.path).as_posix()})")
         lines.append(f"| {name} | {len(column)} | {len(column) - len(good)} | {told} |")
         if plan.file.method == "sobol":
             indices += _indices(plan, name, column)
@@ -47,8 +54,13 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
             f"bootstrap intervals of {_RESAMPLES} resamples. The randomness of the hand is one more source of variance."
         )
         lines += ["", "## Sobol indices", "", about, "", head, "|---|---|---|---|---|---|", *indices]
+    about = (
+        "The distribution of each result, and how it goes with each variable: a point for each trial or, with "
+        "many trials, the median and the range from 5 to 95 %."
+    )
+    lines += ["", "## Pictures", "", about, "", *[line for picture in pictures for line in (picture, "")]]
     path = folder.path / "report.md"
-    write_whole(path, ("\n".join(lines) + "\n").encode())
+    write_whole(path, ("\n".join(lines).rstrip() + "\n").encode())
     return path, faults
 
 

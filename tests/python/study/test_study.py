@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ GRID = """
 scene = "k06-fig12"
 method = "grid"
 duration_s = 0.3
+results = ["peak", "drop[0]"]
 chunk = 2
 seed = 5
 [motion]
@@ -101,6 +104,40 @@ def test_rows_do_not_depend_on_threads_or_interruptions(tmp_path: Path, monkeypa
     assert one.equals(two) and one["row"].to_pylist() == list(range(6))
     assert one["seed"].to_pylist() == list(range(5, 11))
     assert run_study(plan, tmp_path / "two").kept == 6
+
+
+def test_a_killed_run_loses_no_row_and_doubles_none(tmp_path: Path) -> None:
+    path = written(tmp_path, GRID)
+    plan = load_plan(path)
+    run_study(plan, tmp_path / "whole", threads=1)
+    code = (
+        "import os, sys\nfrom punctura.study import load_plan, run_study\nfrom punctura.study.folder import Folder\n"
+        "save = Folder.save\n"
+        "def dying(self, number, table):\n"
+        "    if number == 1: os._exit(9)\n"
+        "    save(self, number, table)\n"
+        "Folder.save = dying\n"
+        "run_study(load_plan(sys.argv[1]), sys.argv[2])"
+    )
+    killed = subprocess.run([sys.executable, "-c", code, str(path), str(tmp_path / "killed")], check=False)
+    assert killed.returncode == 9 and sorted(p.name for p in (tmp_path / "killed").glob("*.parquet")) == [
+        "chunk-000000.parquet"
+    ]
+    assert run_study(plan, tmp_path / "killed").kept == 2
+    whole, again = (pq.read_table(tmp_path / name / "trials.parquet") for name in ("whole", "killed"))
+    assert again.equals(whole) and again["row"].to_pylist() == list(range(6))
+
+
+def test_the_report_has_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = load_plan(written(tmp_path, GRID))
+    run_study(plan, tmp_path / "out")
+    report = (tmp_path / "out" / "report.md").read_text()
+    assert "![drop[0]](pictures/drop_0.svg)" in report
+    points = (tmp_path / "out" / "pictures" / "peak.svg").read_text()
+    monkeypatch.setattr("punctura.study.pictures._MOST_POINTS", 3)
+    run_study(plan, tmp_path / "out")
+    bands = (tmp_path / "out" / "pictures" / "peak.svg").read_text()
+    assert points.startswith("<?xml") and bands != points
 
 
 def test_a_folder_holds_one_study_and_serves_one_run(tmp_path: Path) -> None:
