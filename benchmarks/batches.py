@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import json
 import statistics
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -19,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from batch_rows import batch_table, measure_batches
 from program import ROOT, ProgramError, build
 from punctura import Coupling, LineBatch, Membrane, Needle, ThickLaw
 from rival_batches import Array, constants, jax_batch, motion, numba_batch, numpy_batch
@@ -66,16 +66,7 @@ def rivals() -> dict[str, Any]:
 
 
 def table(result: dict[str, Any]) -> list[str]:
-    lines = ["ns per trial and tick, in processor time of one thread: median (fastest); times faster than scalar"]
-    for row in result["rows"]:
-        lines.append(f"  {row['solver']}, {row['trials']} trials, {row['ticks']} ticks")
-        for name, t in row["contestants"].items():
-            lines.append(f"    {name:9} {t['median_ns']:7.2f} ({t['fastest_ns']:6.2f}) {t['times_faster']:6.2f}")
-    for row in result["hands"]:
-        lines.append(f"  a simulated hand, {row['solver']}, one second at 1600 Hz; scalar is Experiment, tick by tick")
-        for name, t in row["contestants"].items():
-            lines.append(f"    {name:9} {t['median_ns']:7.2f} ({t['fastest_ns']:6.2f}) {t['times_faster']:6.2f}")
-    lines.append(f"  bytes for each trial: {result['bytes_per_trial']}, and its law")
+    lines = batch_table(result)
     lines.append(
         f"Transcriptions, paper, {TRIALS} trials, {TICKS} ticks: median (fastest); times the time of LineBatch"
     )
@@ -92,10 +83,8 @@ def main() -> int:
     options = parser.parse_args()
     try:
         program = options.program or build(ROOT / "build/bench", "bench_batch")
-        done = subprocess.run([str(program), "--seconds", str(options.seconds)], stdout=subprocess.PIPE, text=True)
-        if done.returncode != 0:
-            raise ProgramError(f"{program} ended with {done.returncode}; see its message above")
-        result = {"machine": machine(), "versions": versions()} | json.loads(done.stdout) | {"rivals": rivals()}
+        measured = measure_batches(program, options.seconds)
+        result = {"machine": machine(), "versions": versions()} | measured | {"rivals": rivals()}
     except ProgramError as error:
         print(error, file=sys.stderr)
         return 3

@@ -1,9 +1,9 @@
 """The benchmarks. See docs/bench.md.
 
 Measures the model's ns per tick, compared with a hand-written loop and a NumPy loop, and the wake-up latency of the
-servo loop, compared with cyclictest.
+servo loop, compared with cyclictest, and many trials at once, in lanes and on two threads.
 
-python benchmarks/run.py [--check] [--json FILE] [--seconds S] [--wakeup-seconds S]
+python benchmarks/run.py [--check] [--json FILE] [--seconds S] [--batch-seconds S] [--wakeup-seconds S]
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from batch_rows import batch_table, measure_batches
 from numpy_loop import LOOPS, Array
 from program import ROOT, ProgramError, build, call
 from ratios import Ratio, all_ratios, over_cyclictest
@@ -88,6 +89,8 @@ def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, 
     """Prints and writes the results. Returns the exit status: 1 if `check` is set and a target is missed, else 0."""
     print("\n".join(table(result)), end="\n\n")
     print("\n".join(verdicts(ratios)))
+    if batches := result.get("batch"):
+        print("\n" + "\n".join(batch_table(batches)))
     if wakeups := result.get("wakeups"):
         print("\n" + "\n".join(wakeup_table(wakeups)), end="\n\n")
         of_wakeups = over_cyclictest(wakeups)
@@ -109,6 +112,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all results and the machine's data")
     parser.add_argument("--seconds", type=float, default=0.5, help="seconds for each of 29 rows (default %(default)s)")
     parser.add_argument(
+        "--batch-seconds",
+        type=float,
+        default=1,
+        metavar="S",
+        help="seconds for each of 14 rows of many trials; 0 skips them (default %(default)s)",
+    )
+    parser.add_argument(
         "--wakeup-seconds",
         type=float,
         default=20,
@@ -121,6 +131,9 @@ def main(arguments: list[str] | None = None) -> int:
         program = build(ROOT / "build/bench")
         print("Measuring ticks, one dot per row:", file=sys.stderr)
         result = measure(program, options.seconds)
+        if options.batch_seconds > 0:
+            print("Measuring many trials, one dot per row:", file=sys.stderr)
+            result["batch"] = measure_batches(build(ROOT / "build/bench", "bench_batch"), options.batch_seconds)
         if options.wakeup_seconds > 0:
             wakeups = build(ROOT / "build/bench", "bench_wakeups")
             print("Measuring wake-ups, one dot per condition:", file=sys.stderr)

@@ -1,8 +1,11 @@
 // Batches of proxies on a line, and of trials with a simulated hand, against the core stepped tick by tick, in one
 // program and over the same trials.
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <functional>
 #include <numbers>
 
 #include "../timing.hpp"
@@ -89,14 +92,19 @@ std::vector<Result> measure(Work& work, Solver solver, double seconds) {
   return results;
 }
 
-/// Trials of a second with a simulated hand: Experiment tick by tick without any summary, then batches with theirs.
-/// Exits with 3 if the work of a trial differs in one bit.
-std::vector<Result> measure_hands(std::size_t trials, Solver solver, double seconds) {
+/// Trials of a second at 1600 Hz with a simulated hand, through a wall of K06 or of measured tissue.
+batch::SceneBatch hands(std::size_t trials, Solver solver, bool tissue) {
   Scene scene;
   scene.needle = {1.08e-3, 0.28};
   scene.coupling = {400, 1};
   scene.servo.solver = solver;
   scene.membranes.push_back({"wall", {570, 0.41, 0.2, 1e-3}, {0, 0, 0}, {0, -1, 0}});
+  if (tissue) {
+    auto& wall = scene.membranes[0].tissue;
+    wall.profile = {{0, -0.1, 0.05}, {1e-3, -0.3, 0.1}, {2e-3, -0.5, 0.2}, {3e-3, -0.6, 0.25}, {4e-3, -0.4, 0.3}};
+    wall.cutting = 0.3;
+    wall.set = 0.2;
+  }
   const Strokes strokes{{0, 3e-3, 0}, {0, -12e-3, 0}, 1, 0.4, 0.1, 0.1};
   batch::SceneBatch all{.scene = scene, .motion = strokes, .trials = trials, .axis = {0, -1, 0}, .duration = 1};
   batch::Varied friction{"membrane[0].friction", {}};
@@ -105,10 +113,20 @@ std::vector<Result> measure_hands(std::size_t trials, Solver solver, double seco
     all.seeds.push_back(i);
   }
   all.varied.push_back(friction);
+  return all;
+}
+
+/// Experiment tick by tick without any summary, then batches with theirs. Exits with 3 if the work of a trial differs
+/// in one bit.
+std::vector<Result> measure_hands(std::size_t trials, Solver solver, bool tissue, double seconds) {
+  const batch::SceneBatch all = hands(trials, solver, tissue);
+  const auto& strokes = std::get<Strokes>(all.motion);
+  const std::vector<double>& friction = all.varied[0].values;
+  Scene scene = all.scene;
   batch::SceneResults results;
   std::vector<bench::Contestant> contestants{{"core", [&] {
                                                 for (std::size_t i = 0; i < trials; ++i) {
-                                                  scene.membranes[0].membrane.friction = friction.values[i];
+                                                  scene.membranes[0].membrane.friction = friction[i];
                                                   Experiment run(scene, StrokesMotion(strokes, i), all.axis, {}, {}, i);
                                                   for (int k = 0; k < 1600; ++k) run.step();
                                                 }
@@ -136,6 +154,60 @@ std::vector<Result> measure_hands(std::size_t trials, Solver solver, double seco
   for (std::size_t i = 0; i < contestants.size(); ++i)
     found.push_back({contestants[i].name, times.spreads[i], bench::ratio(times.rounds[0], times.rounds[i])});
   return found;
+}
+
+/// ns of the same work with 1 and with 2 threads, in turn: the fastest round of each.
+struct Threads {
+  double wall[2] = {1e300, 1e300};
+  double computed[2] = {1e300, 1e300};  ///< processor time of all threads
+};
+Threads measure_threads(std::size_t ticks, double seconds, const std::function<void(const batch::RunOptions&)>& run) {
+  using Clock = std::chrono::steady_clock;
+  Threads fastest;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  for (int round = 0; round < 11 || Clock::now() < end; ++round)
+    for (const std::size_t threads : {1u, 2u}) {
+      batch::RunOptions options;
+      options.threads = threads;
+      options.watch = [](std::size_t, std::size_t) { return true; };  // one thread then starts as two do
+      const auto start = Clock::now();
+      const std::clock_t computed_start = std::clock();
+      run(options);
+      const double computed = 1e9 * static_cast<double>(std::clock() - computed_start) / CLOCKS_PER_SEC;
+      const double wall = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+      const auto keep = [&](double& least, double ns) { least = std::min(least, ns / static_cast<double>(ticks)); };
+      keep(fastest.wall[threads - 1], wall);
+      keep(fastest.computed[threads - 1], computed);
+    }
+  return fastest;
+}
+
+void print_threads(double seconds) {
+  const char* separator = "";
+  const auto print = [&](const char* what, const char* solver, const Threads& ns) {
+    std::printf(
+        "%s\n    {\"what\": \"%s\", \"solver\": \"%s\", \"one_ns\": %.4g, \"two_ns\": %.4g, \"one_computed_ns\": %.4g, "
+        "\"two_computed_ns\": %.4g}",
+        separator, what, solver, ns.wall[0], ns.wall[1], ns.computed[0], ns.computed[1]);
+    separator = ",";
+    std::fprintf(stderr, ".");
+  };
+  for (const Solver solver : {Solver::paper, Solver::exact}) {
+    const char* name = solver == Solver::paper ? "paper" : "exact";
+    Work work(4096, 800);
+    const auto n = static_cast<std::ptrdiff_t>(work.trials);
+    batch::LineBatch batch(period, solver);
+    for (std::size_t i = 0; i < work.trials; ++i) batch.add(work.laws[i].pieces(), work.couplings[i]);
+    print("line", name, measure_threads(work.trials * work.ticks, seconds, [&](const batch::RunOptions& options) {
+            batch.reset();
+            batch.run(work.ticks, {work.depth.data(), n, 1}, {work.force.data(), n, 1}, options);
+          }));
+    const batch::SceneBatch all = hands(256, solver, false);
+    batch::SceneResults results;
+    print("hand", name, measure_threads(all.trials * 1600, seconds, [&](const batch::RunOptions& options) {
+            batch::run(all, results, options);
+          }));
+  }
 }
 
 void print(const std::vector<Result>& results) {
@@ -168,13 +240,18 @@ int main(int argc, char** argv) {
     }
   }
   std::printf("\n  ], \"hands\": [");
-  for (const Solver solver : {Solver::paper, Solver::exact}) {
-    std::printf("%s\n    {\"solver\": \"%s\", \"contestants\": {", solver == Solver::paper ? "" : ",",
-                solver == Solver::paper ? "paper" : "exact");
-    print(measure_hands(64, solver, seconds));
-    std::printf("}}");
-    std::fprintf(stderr, ".");
-  }
+  first = true;
+  for (const Solver solver : {Solver::paper, Solver::exact})
+    for (const bool tissue : {false, true}) {
+      std::printf("%s\n    {\"solver\": \"%s\", \"wall\": \"%s\", \"contestants\": {", first ? "" : ",",
+                  solver == Solver::paper ? "paper" : "exact", tissue ? "tissue" : "K06");
+      first = false;
+      print(measure_hands(64, solver, tissue, seconds));
+      std::printf("}}");
+      std::fprintf(stderr, ".");
+    }
+  std::printf("\n  ], \"threads\": [");
+  print_threads(seconds);
   std::printf("\n  ],\n  \"bytes_per_trial\": %zu\n}\n", sizeof(batch::LineBlock) / batch::block_lanes);
   std::fprintf(stderr, "\n");
 }

@@ -4,6 +4,7 @@ import json
 import subprocess
 from pathlib import Path
 
+import instructions
 import numpy as np
 import program
 import pytest
@@ -126,3 +127,26 @@ def test_a_program_that_finds_its_contestants_unequal_ends_the_measurements(monk
     monkeypatch.setattr(run, "build", lambda folder: Path("bench_ticks"))
     assert run.main([]) == 3
     assert "ended with 3" in capsys.readouterr().err
+
+
+def test_rows_of_many_trials_are_printed_with_their_ratios(capsys):
+    row = {"scalar": timing(10.0) | {"times_faster": 1}, "avx2": timing(2.0) | {"times_faster": 5}}
+    rows = [{"solver": "paper", "trials": 32, "ticks": 400, "contestants": row}]
+    hands = [{"solver": "exact", "wall": "tissue", "contestants": row}]
+    times = {"two_computed_ns": 100.0}
+    threads = [times | {"what": "hand", "solver": "exact", "one_ns": 100.0, "two_ns": 60.0, "one_computed_ns": 95.0}]
+    batch = {"rows": rows, "hands": hands, "threads": threads, "bytes_per_trial": 154}
+    result = measured() | {"batch": batch}
+    run.report(result, all_ratios(result), None, check=False)
+    printed = capsys.readouterr().out
+    assert "proxies on a line, paper, 32 trials, 400 ticks" in printed and "a wall of tissue" in printed
+    assert "hand  exact   100.00   60.00   1.67   1.90" in printed
+
+
+def test_a_count_of_instructions_that_grew_by_more_than_2_percent_is_marked():
+    lines, good = instructions.table(
+        {"1-D paper": 102.1, "1-D exact": 101.0, "new": 3.0}, {"1-D paper": 100.0, "1-D exact": 100.0}
+    )
+    assert not good and [line.endswith("MORE") for line in lines] == [True, False, False]
+    assert "no stored count" in lines[2]
+    assert instructions.table({"1-D paper": 101.9}, {"1-D paper": 100.0})[1]
