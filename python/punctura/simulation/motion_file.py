@@ -16,6 +16,7 @@ from punctura.simulation.lines import read_lines
 from punctura.simulation.motion_error import MotionError
 
 BLOCK_BYTES = 2 << 20
+KEPT_BYTES = 8 << 20  # of text, whose numbers take about as much
 LONGEST_LINE = 1 << 16  # bytes
 
 Array = NDArray[np.float64]
@@ -43,13 +44,26 @@ class MotionFile:
                 raise MotionError(path, 0, "is empty; it must hold a line of column names and the motion below it")
             self.columns = read_header(header, path)
             self._data_start = file.tell()
+        self._kept: list[Block] | None = None
 
     @property
     def has_axis(self) -> bool:
         return set(AXIS) <= set(self.columns)
 
     def blocks(self) -> Iterator[Block]:
-        """Yields the motion from its start, about 2 MB of text at a time."""
+        """Yields the motion from its start, about 2 MB of text at a time. A file of up to 8 MB is parsed once."""
+        if self._kept is not None:
+            yield from self._kept
+            return
+        kept: list[Block] = []
+        for block in self._read():
+            if self.size <= KEPT_BYTES:
+                kept.append(block)
+            yield block
+        if self.size <= KEPT_BYTES:
+            self._kept = kept
+
+    def _read(self) -> Iterator[Block]:
         line = 2
         with self.path.open("rb") as file:
             file.seek(self._data_start)

@@ -19,8 +19,9 @@ from punctura.scene import load_scene, scene_text
 from punctura.simulation.arrays import simulate_arrays
 from punctura.simulation.depth_note import depth_note
 from punctura.simulation.even import Evenness
-from punctura.simulation.motion_error import MotionError
+from punctura.simulation.motion_error import TABLES, MotionError
 from punctura.simulation.motion_file import MotionFile
+from punctura.simulation.motion_table import MotionTable
 from punctura.simulation.rate import resampler_for
 from punctura.simulation.resample import ROWS_AT_ONCE, Resampler, unit, with_axis
 from punctura.simulation.summary import MembraneSummary, SimulationSummary
@@ -67,9 +68,9 @@ def simulate(
 
     scene: a Scene, a scene file, or the name of a ready scene.
 
-    From file to file: motion is a CSV file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path a .csv or .parquet
-    file. Files of any length take the same memory. Raises ConfigurationError, MotionError or OSError; then, and after
-    Ctrl-C, no output file is left.
+    From file to file: motion is a CSV, Parquet or NumPy file with time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z], out_path
+    a .csv or .parquet file. Files of any length take the same memory. Raises ConfigurationError, MotionError or
+    OSError; then, and after Ctrl-C, no output file is left.
 
     In memory: motion is an array of positions (n, 3), m, or of depths (n,), m, below the first membrane's surface along
     its inward normal. time (n,), s, evenly sampled: the motion is resampled linearly if its rate is not the servo rate.
@@ -101,7 +102,7 @@ def _simulate_file(
     scene = scene if isinstance(scene, Scene) else load_scene(scene)
     _check_target(source, target)
 
-    motion = MotionFile(source)
+    motion = MotionTable(source) if source.suffix.lower() in TABLES else MotionFile(source)
     even = _survey(motion, tell)
     summary = SimulationSummary(name, str(source), str(target), servo_rate_hz=scene.servo.rate)
     summary.rows_in = even.count
@@ -148,7 +149,7 @@ def _check_target(source: Path, target: Path) -> None:
         raise ConfigurationError(problems)
 
 
-def _survey(motion: MotionFile, tell: Tell) -> Evenness:
+def _survey(motion: MotionFile | MotionTable, tell: Tell) -> Evenness:
     """Reads the whole motion once, so that errors are found before the computation."""
     even = Evenness(motion.path)
     for block in motion.blocks():
@@ -184,7 +185,7 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
     return resampler
 
 
-def _parts(motion: MotionFile, resampler: Resampler | None, tell: Tell) -> Iterator[_Part]:
+def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, tell: Tell) -> Iterator[_Part]:
     for block in motion.blocks():
         for i in range(0, len(block.time), ROWS_AT_ONCE):
             rows = slice(i, i + ROWS_AT_ONCE)
