@@ -21,7 +21,8 @@ class Uncertainty:
         self.fit = fit
         self.variance = fit.sse / max(n - p, 1)
         gram = fit.jacobian.T @ fit.jacobian
-        scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+        steepest = max(float(np.diag(gram).max(initial=0)), 1e-200)
+        scale = np.sqrt(np.maximum(np.diag(gram), 1e-24 * steepest))  # some parameters have no effect
         values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)

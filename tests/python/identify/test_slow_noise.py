@@ -4,6 +4,8 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.identify.fit import Misfit, fit
+from punctura.identify.intervals import estimates
+from punctura.identify.parameters import MEMBRANE as MEMBRANE_NAMES
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.slow_noise import Mixture, spread
 from punctura.identify.uncertainty import Uncertainty
@@ -62,3 +64,17 @@ def test_the_place_of_a_pop_between_two_samples_is_not_known():
     found = fit(Misfit(made, start), ["membrane[0].surface", "tissue.stiffness", "coupling_stiffness"], start)
     error = np.sqrt(Uncertainty(found).covariance[0, 0])  # of the depth where the wall pops
     assert error == pytest.approx(20e-3 / 200 / np.sqrt(12), rel=0.2)
+
+
+def test_a_parameter_without_any_effect_is_not_identifiable():
+    time, depth = motion(speed=20e-3)
+    in_only = depth[: int(np.argmax(depth))]
+    force = force_of(in_only) + 1e-3 * np.random.default_rng(1).normal(size=len(in_only))
+    row = default_membrane()
+    row[:5] = [5e-3, 600, 0.3, 0.2, 0.5e-3]
+    row[MEMBRANE_NAMES.index("set")] = 0.1
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(4000))
+    names = ["membrane[0].surface", "tissue.stiffness", "tissue.set", "coupling_stiffness"]
+    made = Trace(in_only, force, time[: len(in_only)])
+    found = {one.name: one.identifiable for one in estimates(fit(Misfit(made, start), names, start))}
+    assert found == {name: name != "tissue.set" for name in names}
