@@ -22,6 +22,10 @@ def command(
     workers: Annotated[
         int | None, typer.Option("--workers", min=1, help="Number of threads. Default: one for each processor.")
     ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option("--scheduler", help="Compute on the workers of this Dask scheduler.", metavar="ADDRESS"),
+    ] = None,
     replay: Annotated[
         int | None,
         typer.Option("--replay", min=0, help="Run this row again: its scene and recording go to --out.", metavar="ROW"),
@@ -43,7 +47,7 @@ def command(
         return
     try:
         with progress_bar("study") as tell:
-            summary = run_study(loaded, folder, workers, tell)
+            summary = run_study(loaded, folder, workers, tell, scheduler)
     except (KeyboardInterrupt, Ended):
         typer.echo(f"punctura: {folder} keeps the finished chunks: the same command goes on with the others", err=True)
         raise

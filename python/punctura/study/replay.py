@@ -9,10 +9,10 @@ from pathlib import Path
 from punctura._core import ServoLoop
 from punctura.record import Recorder
 from punctura.scene.write import save_scene
+from punctura.study.chunk import run_trials
 from punctura.study.design import design
 from punctura.study.folder import StudyError
 from punctura.study.plan import Plan
-from punctura.study.run import run_part
 
 
 def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path, Path]:
@@ -24,7 +24,7 @@ def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path,
     trials = design(plan)
     if not 0 <= row < len(trials.seeds):
         raise StudyError(f"{plan.path}: there is no row {row}; the rows are 0 to {len(trials.seeds) - 1}")
-    result = run_part(plan, trials, row, row + 1, threads=1, duration=0.0)
+    result = run_trials(plan, trials.part(row, row + 1), row, threads=1, duration=0.0)
     scene, experiment = result.scene(0), result.experiment(0)
     duration = plan.duration or experiment.duration
     ticks = len(experiment.run(duration))

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import pyarrow as pa
 
-from punctura import BatchResult, __version__, batch
-from punctura.errors import ConfigurationError
+from punctura import __version__
 from punctura.progress import Progress, reporting
 from punctura.scene.write import scene_text
+from punctura.study.chunk import chunk_table, run_trials
+from punctura.study.cluster import Part, on_cluster
 from punctura.study.design import Design, design
 from punctura.study.folder import Folder, StudyError
 from punctura.study.plan import Plan
@@ -35,12 +36,17 @@ class StudySummary:
 
 
 def run_study(
-    plan: Plan, out: str | os.PathLike[str], threads: int | None = None, progress: Progress = None
+    plan: Plan,
+    out: str | os.PathLike[str],
+    threads: int | None = None,
+    progress: Progress = None,
+    scheduler: str | None = None,
 ) -> StudySummary:
     """Runs all trials that the folder `out` does not hold yet, and writes trials.parquet and report.md there.
 
-    threads: default: one for each processor; the rows do not depend on it. Raises ConfigurationError if a trial's
-    numbers are no scene, StudyError, OSError.
+    threads: default: one for each processor; the rows do not depend on it. scheduler: the address of a Dask scheduler,
+    whose workers compute the trials instead. Raises ConfigurationError if a trial's numbers are no scene, StudyError,
+    OSError.
     """
     folder, all_of_them = Folder(Path(out)), design(plan)
     n, size = len(all_of_them.seeds), plan.file.chunk
@@ -52,48 +58,35 @@ def run_study(
             kept = n
             folder.drop_chunks()
         else:
-            for begin in starts:  # all trials are checked before the first one runs
-                run_part(plan, all_of_them, begin, min(begin + size, n), threads, duration=0.0)
-            for number, begin in enumerate(starts):
-                end = min(begin + size, n)
-                if folder.has(number, end - begin):
-                    kept += end - begin
+            parts = []
+            for number, begin in enumerate(starts):  # all trials are checked before the first one runs
+                part = Part(number, begin, all_of_them.part(begin, min(begin + size, n)))
+                run_trials(plan, part.trials, begin, threads, duration=0.0)
+                if folder.has(number, len(part.trials.seeds)):
+                    kept += len(part.trials.seeds)
                 else:
-                    folder.save(number, _table(plan, run_part(plan, all_of_them, begin, end, threads), begin))
-                tell(end / n)
+                    parts.append(part)
+            done = kept
+            for number, table in _computed(plan, parts, threads, scheduler):
+                folder.save(number, table)
+                done += table.num_rows
+                tell(done / n)
             folder.join(len(starts))
         report, faults = write_report(plan, folder)
     return StudySummary(str(plan.path), str(folder.table), str(report), n, kept, faults)
 
 
-def run_part(
-    plan: Plan, trials: Design, begin: int, end: int, threads: int | None = None, duration: float | None = None
-) -> BatchResult:
-    """The trials from `begin` up to `end`. duration: s; default: the plan's. Raises ConfigurationError."""
-    part = trials.part(begin, end)
-    try:
-        return batch(
-            plan.scene,
-            plan.motion,
-            vary=part.values,
-            seeds=part.seeds,
-            duration=plan.duration if duration is None else duration,
-            plant=plan.plant,
-            hand=plan.hand,
-            threads=threads,
-        )
-    except ConfigurationError as bad:
-        raise ConfigurationError(bad.problems, f"{plan.path}: trials from row {begin} on") from None
-    except MemoryError as bad:
-        raise StudyError(f"{plan.path}: {bad} Give a smaller chunk.") from None
-
-
-def _table(plan: Plan, result: BatchResult, begin: int) -> pa.Table:
-    table = result.to_arrow()
-    kept = [*(one.path for one in plan.variables), "seed", *plan.results]
-    names = [*kept, *([] if "fault" in kept else ["fault"])]
-    row = pa.array(np.arange(begin, begin + len(result), dtype=np.int64))
-    return table.select(names).add_column(0, "row", row)
+def _computed(
+    plan: Plan, parts: Sequence[Part], threads: int | None, scheduler: str | None
+) -> Iterator[tuple[int, pa.Table]]:
+    """The table of each part, with the part's number; from a cluster, in any order."""
+    if not parts:
+        return
+    if scheduler is not None:
+        yield from on_cluster(scheduler, plan, parts)
+        return
+    for part in parts:
+        yield part.number, chunk_table(plan, part.trials, part.begin, threads)
 
 
 def _digest(plan: Plan, trials: Design) -> str:

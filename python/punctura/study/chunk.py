@@ -1,0 +1,43 @@
+"""The rows of some trials of a plan."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyarrow as pa
+
+from punctura import BatchResult, batch
+from punctura.errors import ConfigurationError
+from punctura.study.design import Design
+from punctura.study.folder import StudyError
+from punctura.study.plan import Plan
+
+
+def run_trials(
+    plan: Plan, trials: Design, begin: int, threads: int | None = None, duration: float | None = None
+) -> BatchResult:
+    """These trials, which begin at row `begin`. duration: s; default: the plan's. Raises ConfigurationError."""
+    try:
+        return batch(
+            plan.scene,
+            plan.motion,
+            vary=trials.values,
+            seeds=trials.seeds,
+            duration=plan.duration if duration is None else duration,
+            plant=plan.plant,
+            hand=plan.hand,
+            threads=threads,
+        )
+    except ConfigurationError as bad:
+        raise ConfigurationError(bad.problems, f"{plan.path}: trials from row {begin} on") from None
+    except MemoryError as bad:
+        raise StudyError(f"{plan.path}: {bad} Give a smaller chunk.") from None
+
+
+def chunk_table(plan: Plan, trials: Design, begin: int, threads: int | None = None) -> pa.Table:
+    """The rows of these trials, as they are in the table of a study."""
+    result = run_trials(plan, trials, begin, threads)
+    table = result.to_arrow()
+    kept = [*(one.path for one in plan.variables), "seed", *plan.results]
+    names = [*kept, *([] if "fault" in kept else ["fault"])]
+    row = pa.array(np.arange(begin, begin + len(result), dtype=np.int64))
+    return table.select(names).add_column(0, "row", row)
