@@ -12,6 +12,7 @@ from punctura import Needle
 from punctura.record import open_recording
 from punctura.trace.columns import ROLES, candidates, split_name
 from punctura.trace.read import is_recording
+from punctura.trace.size import check_file
 from punctura.trace.tables import read_table
 
 EXAMPLES = 3  # numbers of a column that are shown
@@ -47,6 +48,7 @@ class Look:
 def look_at(path: str | os.PathLike[str]) -> Look:
     """Reads the names and the first numbers of a trace file. Nothing is guessed. Raises TraceError, OSError."""
     path = Path(path)
+    check_file(path)
     if is_recording(path):
         recording = open_recording(path)
         return Look(recording.rows, (), (), recording.info.scene.needle)

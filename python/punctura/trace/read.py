@@ -16,7 +16,7 @@ from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns, unit_size
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
-from punctura.trace.size import check_size
+from punctura.trace.size import check_file, check_size
 from punctura.trace.tables import Table, read_table
 from punctura.trace.trace import Finding, Trace, TraceError
 
@@ -40,6 +40,7 @@ def read_trace(
     None: as the file shows, and a number that can be read in two ways is an error. Raises TraceError, OSError.
     """
     path = Path(path)
+    check_file(path)
     with path.open("rb") as file:
         head = file.read(4)
     if head != b"PAR1" or is_recording(path):

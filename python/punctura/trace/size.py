@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Collection
 from pathlib import Path
 
@@ -9,7 +10,23 @@ from punctura.trace.trace import TraceError
 
 MOST_NUMBERS = 100_000_000  # rows times columns: 800 MB in memory
 MOST_COLUMNS = 1_000
+MOST_BYTES = 2_000_000_000  # of a file: 20 for each number
 LONGEST_NAME = 200  # characters of a column's name
+
+
+def check_file(path: Path) -> None:
+    """Raises TraceError for a pipe or a device, which may never end, OSError. Call it before the file is opened."""
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise TraceError(f"{path}: is a pipe or a device; save the trace in a file")
+
+
+def check_bytes(path: Path) -> None:
+    """Raises TraceError for a file that is too large, OSError."""
+    size = path.stat().st_size
+    if size > MOST_BYTES:
+        text = f"{path}: has {size / 1e9:,.1f} GB; the limit is {MOST_BYTES / 1e9:g} GB"
+        raise TraceError(f"{text}. Export only depth, force and time, or fewer rows")
 
 
 def check_size(path: Path, rows: int, columns: int) -> None:

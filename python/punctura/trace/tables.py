@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from punctura.trace.decimals import Decimal, numbers
 from punctura.trace.heading import column_names, first_row
 from punctura.trace.packed import check_mat, check_workbook
-from punctura.trace.size import check_names, check_size
+from punctura.trace.size import check_bytes, check_names, check_size
 from punctura.trace.text import read_text
 from punctura.trace.trace import MissingPackage, TraceError
 
@@ -25,6 +25,7 @@ Table = dict[str, Array]  # by the name of the column; a cell that holds no numb
 
 def read_table(path: Path, decimal: Decimal | None = None) -> Table:
     """All columns of a file. decimal: the mark in front of decimals in a text file. Raises TraceError, OSError."""
+    check_bytes(path)
     readers = {".parquet": _parquet, ".mat": _mat, ".xlsx": _xlsx}
     reader = readers.get(path.suffix.lower())
     table = read_text(path, decimal) if reader is None else reader(path)

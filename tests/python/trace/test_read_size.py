@@ -1,5 +1,6 @@
 """Files of some kilobytes that expand to more than a trace may hold are refused before memory is taken for them."""
 
+import os
 import subprocess
 import sys
 import warnings
@@ -12,6 +13,7 @@ import pytest
 import scipy.io
 from openpyxl import Workbook
 from punctura.trace import TraceError, read_trace
+from punctura.trace.look import look_at
 
 LONG = "depth_" + "x" * 300
 
@@ -111,3 +113,21 @@ def test_a_message_lists_a_few_of_many_columns(tmp_path):
     csv(tmp_path / "a.csv", columns(900))
     with pytest.raises(TraceError, match="'column29' and 870 more"):
         read_trace(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("read", [read_trace, look_at])
+def test_a_pipe_and_a_device_are_refused_before_they_are_opened(tmp_path, read):
+    if not hasattr(os, "mkfifo"):
+        pytest.skip("makes a pipe")
+    os.mkfifo(tmp_path / "a.csv")
+    for path in (tmp_path / "a.csv", "/dev/zero"):
+        with pytest.raises(TraceError, match=f"{path}: is a pipe or a device; save the trace in a file"):
+            read(path)
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.mat", "a.xlsx"])
+def test_a_file_with_a_hole_of_a_terabyte_is_refused(tmp_path, name):
+    with (tmp_path / name).open("wb") as file:
+        file.truncate(10**12)
+    with pytest.raises(TraceError, match=f"{name}: has 1,000.0 GB; the limit is 2 GB. Export only"):
+        read_trace(tmp_path / name)
