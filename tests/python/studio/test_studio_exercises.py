@@ -106,7 +106,7 @@ def test_the_command_line_tells_what_is_wrong_with_a_file_before_anything_runs(t
     done = punctura(*COMMAND, "--exercise", tmp_path / "none.toml")
     assert done.status == 2 and "no such file" in done.stderr
     done = punctura(*COMMAND, "--headless", "--exercise", bad)
-    assert done.status == 2 and "is of the page" in done.stderr
+    assert done.status == 2 and "is an option of the page" in done.stderr
 
 
 def test_a_warning_is_printed_and_listed(tmp_path, own, punctura, monkeypatch):
