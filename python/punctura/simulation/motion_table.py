@@ -16,6 +16,7 @@ from punctura.simulation.motion_error import MotionError
 from punctura.simulation.motion_file import Block
 
 ROWS = 1 << 16
+MOST_EXPANDED = 800_000_000  # bytes of an .npz file, which is in memory as a whole: 100 million numbers
 
 Array = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ class MotionTable:
         self.path = path
         try:
             names, self.size = self._parquet() if path.suffix.lower() == ".parquet" else self._numpy()
-        except (pa.ArrowException, ValueError, EOFError, zipfile.BadZipFile, KeyError) as bad:
+        except (pa.ArrowException, ValueError, EOFError, MemoryError, zipfile.BadZipFile, KeyError) as bad:
             if isinstance(bad, MotionError):
                 raise
             raise MotionError(path, 0, f"cannot be read as a {path.suffix} file ({bad})") from None
@@ -72,6 +73,12 @@ class MotionTable:
             return schema.names, file.metadata.num_rows
 
     def _numpy(self) -> tuple[list[str], int]:
+        if zipfile.is_zipfile(self.path):
+            with zipfile.ZipFile(self.path) as archive:
+                size = sum(part.file_size for part in archive.infolist())
+            if size > MOST_EXPANDED:
+                what = f"expands to {size / 1e6:,.0f} MB; the limit is {MOST_EXPANDED / 1e6:,.0f} MB"
+                raise MotionError(self.path, 0, f"{what}. Save it as .npy or .parquet, which are read in parts")
         loaded = np.load(self.path, mmap_mode="r", allow_pickle=False)
         if isinstance(loaded, np.ndarray):
             if loaded.ndim != 2 or loaded.shape[1] not in (4, 7):

@@ -78,3 +78,13 @@ def test_a_short_csv_file_is_parsed_once(write, tmp_path, monkeypatch):
     monkeypatch.setattr(motion_file, "_fast_numbers", lambda *a: read.append(1) or fast(*a))
     simulate("k06-fig12", motion, tmp_path / "out.csv")
     assert len(read) == 1
+
+
+def test_a_small_npz_file_that_expands_is_refused_before_it_takes_memory(tmp_path, monkeypatch):
+    path = tmp_path / "m.npz"
+    np.savez_compressed(path, time=np.zeros(1 << 20), position=np.zeros((1 << 20, 3)))
+    assert path.stat().st_size < 100_000
+    monkeypatch.setattr(motion_table, "MOST_EXPANDED", 30_000_000)
+    monkeypatch.setattr(np, "load", None)
+    with pytest.raises(MotionError, match=r"m.npz: expands to 34 MB; the limit is 30 MB. Save it as .npy or .parquet"):
+        simulate("k06-fig12", path, tmp_path / "out.csv")
