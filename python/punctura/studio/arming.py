@@ -14,7 +14,7 @@ from punctura._core import ServoLoop
 
 
 class Arming:
-    """`pause` from any thread; everything else from the worker's."""
+    """`pause` and `withhold` from any thread; everything else from the worker's."""
 
     def __init__(self) -> None:
         self.armed = False
@@ -32,7 +32,7 @@ class Arming:
             self.armed = False
 
     def withhold(self) -> None:
-        """No run gives force until a person turns it on: there was a fault, or the ticks ceased."""
+        """No run gives force until a person turns it on: after a fault, ceased ticks, or a failed start."""
         with self._lock:
             self._withheld = True
             self.armed = False

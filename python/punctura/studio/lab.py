@@ -59,7 +59,7 @@ class Lab:
 
     async def bundle(self, request: Request) -> Response:
         """The zip file of the same comparison; with the same id, of the scene that was compared."""
-        job = self._job(request.query_params)
+        job = await run_in_threadpool(self._job, request.query_params)  # it reads files: a disk may be slow
         if job.variation and (name := request.query_params.get("id", "")):
             if name not in self._scenes:
                 raise LabError("the studio no longer has the scene of this variation; simulate it again")

@@ -65,6 +65,7 @@ class Runs:
         try:
             self.start_run()
         except Exception:  # the device does not start again: there is no tick, and nothing to record
+            self.arming.withhold()
             self.end_run()
             raise
 

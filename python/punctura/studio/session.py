@@ -56,7 +56,7 @@ class Session(Runs):
         self._rounds = Rounds()
         self._target: Target | None = None
         self._stopping = threading.Event()
-        self._watchdog = Watchdog(lambda loop, words: self.jobs.post(lambda: self._ticks_ceased(loop, words)))
+        self._watchdog = Watchdog(self._tell_ceased)
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
 
     def start(self) -> None:
@@ -91,6 +91,11 @@ class Session(Runs):
         """From any thread: takes the force away at once, even if the worker is busy."""
         self.arming.pause(lambda: self.run.loop)
 
+    def _tell_ceased(self, loop: ServoLoop, words: str) -> None:
+        """From the watchdog's thread. No request that waits for the worker may arm a new run before it hears of it."""
+        self.arming.withhold()
+        self.jobs.post(lambda: self._ticks_ceased(loop, words))
+
     def target(self, wish: Target) -> None:
         """From any thread: where the simulated hand must go. A later target replaces one that still waits."""
         waiting, self._target = self._target, wish
@@ -105,7 +110,6 @@ class Session(Runs):
     def _ticks_ceased(self, loop: ServoLoop, words: str) -> None:
         """The watchdog stops this loop."""
         if loop is self.run.loop:
-            self.arming.withhold()
             self.out.say(no_ticks(words))
             self.defects.guard(self.end_run)
             if trouble := loop.device.trouble():  # after the stop: the driver may take time to answer

@@ -184,7 +184,7 @@ def test_a_recording_that_is_too_long_for_a_motion_is_refused_before_it_is_read(
     with monkeypatch.context() as patched, pytest.raises(ValueError, match="longer than 1 s; choose a shorter"):
         patched.setattr("punctura.compare.motion.LONGEST_S", 1.0)
         recorded_motion(opened)
-    with monkeypatch.context() as patched, pytest.raises(ValueError, match="5000 ticks; at most 4999 can move"):
+    with monkeypatch.context() as patched, pytest.raises(ValueError, match="5000 ticks; the limit is 4999"):
         patched.setattr("punctura.compare.motion.MOST_TICKS", 4999)
         recorded_motion(opened)
 

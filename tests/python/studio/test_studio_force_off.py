@@ -1,7 +1,10 @@
 """Only a person turns the force on again, after it was turned off or after a fault."""
 
 import pytest
-from punctura._core import ServoState
+from punctura._core import DeviceError, ServoState
+from punctura.studio.run import Run
+
+from .test_studio_busy import busy
 
 UNARMED = int(ServoState.disarmed)
 NEW_RUNS = [
@@ -56,8 +59,24 @@ def test_no_new_run_gives_force_until_a_person_turns_it_on(served, page, off, re
     assert page.status()["armed"]
 
 
-def test_no_new_run_gives_force_after_the_ticks_have_ceased(served, page):
-    session = served.session
-    session.call(lambda: session._ticks_ceased(session.run.loop, "the ticks have ceased")).result(60)
+def test_what_waits_for_the_worker_while_the_ticks_cease_does_not_arm(served, page):
+    page.wait(lambda: page.last.ticks["state"][-1] != UNARMED)
+    session, before = served.session, page.run
+    with busy(session):
+        page.send('{"id": 1001, "do": "load", "scene": "k06-fig10"}')
+        session._tell_ceased(session.run.loop, "the ticks have ceased")  # the watchdog's thread
+    page.wait(lambda: page.run > before and page.last.run == page.run and page.last.first_tick > 10)
+    assert page.last.ticks["state"][-1] == UNARMED and not page.status()["armed"]
+
+
+def test_after_a_device_that_did_not_start_no_run_gives_force_by_itself(served, page, monkeypatch):
+    page.wait(lambda: page.last.ticks["state"][-1] != UNARMED)
+
+    def refused(_run):
+        raise DeviceError("the cable is out")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Run, "start", refused)
+        assert "the cable is out" in page.ask(do="load", scene="k06-fig10")["text"]
     begin(served, page, {"do": "load", "scene": "k06-fig10"})
     assert page.last.ticks["state"][-1] == UNARMED and not page.status()["armed"]

@@ -114,8 +114,8 @@ export class LocalStudio {
         return DONE;
       case "arm":
         this.run.arm();
-        this.armed = true;
-        this.withheld = false;
+        this.withheld = this.fault !== NO_FAULT; // a fault ends by a reset only
+        this.armed = !this.withheld;
         return DONE;
       case "pause":
         this.run.pause();
