@@ -72,7 +72,7 @@ PUNCTURA_API punctura_status punctura_problem(int32_t index, const char** path, 
 
 typedef struct punctura_scene punctura_scene;
 
-/* From the text of a scene file. docs/scenes.md. */
+/* From the text of a scene file. docs/scene-file.md. */
 PUNCTURA_API punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene);
 
 /* From lines PATH = NUMBER and PATH = "WORD", in SI units, with the paths of punctura_scene_set() and

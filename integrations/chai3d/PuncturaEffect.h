@@ -3,7 +3,7 @@
 //   auto* tissue = new chai3d::cMesh();                            // any object; the scene is in its frame
 //   tissue->addEffect(new cPuncturaEffect(tissue, scene_text));    // the text of a scene file
 //
-// The header needs CHAI3D 3.2 or newer and links with libpunctura (docs/c-abi.md).
+// The header needs CHAI3D 3.3 and links with libpunctura (docs/c-abi.md).
 #pragma once
 
 #include <chrono>
@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "effects/CGenericEffect.h"
 #include "math/CVector3d.h"
@@ -28,11 +29,13 @@ class cPuncturaEffect : public chai3d::cGenericEffect {
   using Clock = std::function<double()>;  ///< seconds
 
   /// scene: the text of a scene file. Its frame is that of `parent`. metres_per_unit: of the CHAI3D world.
-  /// Throws std::invalid_argument with all problems of the scene.
+  /// Throws std::invalid_argument with all problems of the scene, or if metres_per_unit is not positive.
   cPuncturaEffect(chai3d::cGenericObject* parent, const std::string& scene, double metres_per_unit = 1,
                   Clock clock = steady_seconds)
       : cGenericEffect(parent), metres_per_unit_(metres_per_unit), clock_(std::move(clock)) {
     punctura_scene* made = nullptr;
+    if (!(metres_per_unit > 0) || std::isinf(metres_per_unit))
+      throw std::invalid_argument("metres_per_unit must be positive: 1 for a world in metres, 0.001 for millimetres");
     if (!punctura_check_abi()) throw std::invalid_argument("punctura.h and libpunctura do not fit together");
     if (punctura_scene_from_toml(scene.data(), scene.size(), &made) != PUNCTURA_OK)
       throw std::invalid_argument(punctura_last_error());
@@ -45,7 +48,8 @@ class cPuncturaEffect : public chai3d::cGenericEffect {
   }
 
   /// The direction in which the needle points, in the frame of the parent. Call it in each haptic cycle for a device
-  /// with orientation. Without it, the needle points along -z; a scene with direction = "motion" does not read it.
+  /// with orientation. Without it, the needle points along -y, straight down in the frame of a scene; a scene with
+  /// direction = "motion" does not read it.
   void setAxis(const chai3d::cVector3d& axis) { axis_ = axis; }
 
   /// The ticks so far, for tests and displays.
@@ -103,7 +107,7 @@ class cPuncturaEffect : public chai3d::cGenericEffect {
   std::unique_ptr<punctura_insertion, Free> insertion_;
   double metres_per_unit_, rate_ = 0;
   Clock clock_;
-  chai3d::cVector3d axis_{0, 0, -1};
+  chai3d::cVector3d axis_{0, -1, 0};
   unsigned int tool_ = 0;
   bool has_tool_ = false;
   double time_ = std::nan(""), start_ = 0;

@@ -32,6 +32,10 @@ int main(int, char** arguments) {
   chai3d::cGenericObject object;
   double now = 1e6;
   cPuncturaEffect effect(&object, scene, 1, [&] { return now; });
+  const auto equal = [&](const chai3d::cVector3d& force, std::size_t k) {
+    const double numbers[3] = {force.x(), force.y(), force.z()};
+    return std::memcmp(numbers, &rows[9 * k + 6], sizeof numbers) == 0;
+  };
   const auto force_at = [&](cPuncturaEffect& of, std::size_t k) {
     chai3d::cVector3d force;
     of.setAxis({rows[9 * k + 3], rows[9 * k + 4], rows[9 * k + 5]});
@@ -41,7 +45,7 @@ int main(int, char** arguments) {
   bool same = true;
   for (std::size_t k = 0; k < n; ++k) {
     now = 1e6 + static_cast<double>(k) / 1600;
-    same &= std::memcmp(force_at(effect, k).v, &rows[9 * k + 6], 3 * sizeof(double)) == 0;
+    same &= equal(force_at(effect, k), k);
   }
   require(same && n == 4000, "every force equals the core's, one haptic cycle a tick");
   require(effect.ticks() == n, "one tick a cycle");
@@ -52,23 +56,42 @@ int main(int, char** arguments) {
   for (std::size_t k = 0; k < n; ++k)
     for (int i = 0; i < 3; ++i) {
       now = 2e6 + (static_cast<double>(k) + i / 3.0) / 1600;
-      const chai3d::cVector3d force = force_at(fast, k);
-      same &= std::memcmp(force.v, &rows[9 * k + 6], 3 * sizeof(double)) == 0;
+      same &= equal(force_at(fast, k), k);
     }
   require(same && fast.ticks() == n, "three cycles a tick give the same forces");
 
+  // Who calls no setAxis() has a needle that points down, into a scene whose membranes lie flat.
+  cPuncturaEffect down(&object, scene, 1, [&] { return now; });
   chai3d::cVector3d force;
+  for (int k = 0; k < 800; ++k) {
+    now = 3e6 + k / 1600.0;
+    down.computeForce({0, 1e-3 - 5e-3 * k / 1600, 0}, {}, 0, force);
+  }
+  require(force.y() > 0.1, "the needle points down by itself");
+
+  // A position that is no number gives no force, and the tick after it continues.
+  now += 1 / 1600.0;
+  require(!down.computeForce({0, std::nan(""), 0}, {}, 0, force) && force.y() == 0, "no force at NaN");
+  now += 1 / 1600.0;
+  down.computeForce({0, 1e-3 - 5e-3 * 799 / 1600, 0}, {}, 0, force);
+  require(force.y() > 0.1, "the tick after NaN continues");
+
   now += 1;
   require(!effect.computeForce({0, 0, 0}, {}, 0, force) && force.y() == 0, "no force after a gap");
   require(!effect.computeForce({0, -0.005, 0}, {}, 1, force), "one point only");
   effect.setEnabled(false);
   require(!effect.computeForce({0, -0.005, 0}, {}, 0, force), "no force of a disabled effect");
-  try {
-    cPuncturaEffect wrong(&object, "name = 1");
-    require(false, "an error for a wrong scene");
-  } catch (const std::invalid_argument& e) {
-    require(std::string(e.what()).find("needle") != std::string::npos, e.what());
-  }
+  const auto refused = [&](const std::string& text, double metres_per_unit, const char* named) {
+    try {
+      cPuncturaEffect wrong(&object, text, metres_per_unit);
+      require(false, named);
+    } catch (const std::invalid_argument& e) {
+      require(std::string(e.what()).find(named) != std::string::npos, e.what());
+    }
+  };
+  refused("name = 1", 1, "needle");
+  refused(scene, 0, "metres_per_unit");
+  refused(scene, std::nan(""), "metres_per_unit");
   if (failures == 0) std::printf("chai3d: %zu forces equal the core's bit for bit\n", n);
   return failures;
 }
