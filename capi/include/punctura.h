@@ -129,6 +129,9 @@ PUNCTURA_API punctura_status punctura_scene_field(const punctura_scene* scene, i
 PUNCTURA_API int32_t punctura_scene_membrane_count(const punctura_scene* scene);
 /* Finds all problems of the scene. */
 PUNCTURA_API punctura_status punctura_scene_check(const punctura_scene* scene);
+/* Numbers that are allowed but probably in a wrong unit, one line each, for example a needle of 1.08 m. "" if there are
+ * none, and for NULL. Valid until the next call of this function by this thread. */
+PUNCTURA_API const char* punctura_scene_unusual(const punctura_scene* scene);
 
 /* ---- What all steps have in common ----
  *
@@ -280,7 +283,8 @@ PUNCTURA_API punctura_status punctura_servo_disarm(punctura_servo* servo); /* Ti
 /* Clears a fault and the state of the model. The servo is then disarmed. */
 PUNCTURA_API punctura_status punctura_servo_reset(punctura_servo* servo); /* Tick */
 /* Tick. record->force is the force for the device. It is 0 unless the state is PUNCTURA_ACTIVE. A sample that is no
- * number is a fault, not an error: the status is PUNCTURA_OK. record->struct_size must be set. */
+ * number is a fault, not an error: the status is PUNCTURA_OK. record->struct_size must be set. If the status is not
+ * PUNCTURA_OK, no tick was made, and the forces of the record are 0. */
 PUNCTURA_API punctura_status punctura_servo_step(punctura_servo* servo, const punctura_sample* sample,
                                                  punctura_record* record);
 PUNCTURA_API punctura_status punctura_servo_peek(punctura_servo* servo, const punctura_sample* sample,

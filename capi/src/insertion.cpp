@@ -45,8 +45,10 @@ punctura_status punctura_insertion_commit(punctura_insertion* insertion) {
 
 punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t count, const double* positions,
                                        const double* axes, size_t axis_stride, double* forces) {
-  if (!insertion || !positions || !axes || !forces || (axis_stride != 0 && axis_stride != 3))
+  if (!insertion || !positions || !axes || !forces || (axis_stride != 0 && axis_stride != 3)) {
+    for (size_t i = 0; forces && i < count; ++i) no_force(forces + 3 * i);
     return PUNCTURA_BAD_ARGUMENT;
+  }
   SceneInsertion& object = insertion->stepping();
   punctura_status status = ok;
   for (size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "punctura/scene/usual.hpp"
 #include "punctura/scene/values.hpp"
 #include "structs.hpp"
 
@@ -266,4 +267,15 @@ punctura_status punctura_scene_check(const punctura_scene* scene) {
     auto problems = check(scene->scene);
     return problems.empty() ? ok : fail(std::move(problems));
   });
+}
+
+const char* punctura_scene_unusual(const punctura_scene* scene) {
+  thread_local std::string text;
+  text.clear();
+  if (!scene) return "";
+  guarded([&] {
+    for (const std::string& line : punctura::unusual(scene->scene)) text += (text.empty() ? "" : "\n") + line;
+    return ok;
+  });
+  return text.c_str();
 }

@@ -57,6 +57,15 @@ punctura_status tick(SceneServo& servo, const punctura_sample& sample, punctura_
   return ok;
 }
 
+/// No tick: the record of the last one must not keep a force.
+punctura_status no_tick(punctura_record* record) noexcept {
+  if (known_size(record)) {
+    for (double& f : record->force) f = 0;
+    record->thumb_force = 0;
+  }
+  return PUNCTURA_BAD_ARGUMENT;
+}
+
 }  // namespace
 
 punctura_status punctura_limits_init(punctura_limits* limits, size_t size) {
@@ -103,12 +112,12 @@ punctura_status punctura_servo_reset(punctura_servo* servo) {
 }
 
 punctura_status punctura_servo_step(punctura_servo* servo, const punctura_sample* sample, punctura_record* record) {
-  if (!servo || !known_size(sample) || !known_size(record)) return PUNCTURA_BAD_ARGUMENT;
+  if (!servo || !known_size(sample) || !known_size(record)) return no_tick(record);
   return tick(servo->stepping(), *sample, record);
 }
 
 punctura_status punctura_servo_peek(punctura_servo* servo, const punctura_sample* sample, punctura_record* record) {
-  if (!servo || !known_size(sample) || !known_size(record)) return PUNCTURA_BAD_ARGUMENT;
+  if (!servo || !known_size(sample) || !known_size(record)) return no_tick(record);
   return tick(servo->peeking(), *sample, record);
 }
 

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
     fprintf(stderr, "%s\n", punctura_last_error());
     return 1;
   }
+  fputs(punctura_scene_unusual(scene), stderr); /* a number in a wrong unit, if there is one */
   punctura_scene_get(scene, "servo.rate", &rate);
   for (k = 0; k <= (int)rate; ++k) { /* one second at 10 mm/s, straight down */
     const double position[3] = {0, 1e-3 - 10e-3 * k / rate, 0}, axis[3] = {0, -1, 0};

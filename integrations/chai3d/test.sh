@@ -19,4 +19,5 @@ fi
   ${chai3d_DIR:+-Dchai3d_DIR="$chai3d_DIR"} && cmake --build "$work/build"; } >>"$work/log" 2>&1 ||
   { tail -n 40 "$work/log"; exit 1; }
 "$work/build/world" "$reference"
-"$work/build/example" "$reference/scene.toml" --hand | awk '{ print; if ($3 > most) most = $3 } END { exit !(most > 0.4) }'
+"$work/build/example" "$reference/scene.toml" --hand |
+  awk '{ print; if ($3 > most) most = $3 } END { exit !(most > 0.4) }'

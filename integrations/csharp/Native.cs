@@ -79,7 +79,7 @@ namespace Punctura
 
     internal static class Native
     {
-        internal const int Abi = 1;
+        internal const int Abi = 1, NoPeek = 4, NoNumber = 5;
         const string Library = "punctura";
         const CallingConvention C = CallingConvention.Cdecl;
 
@@ -118,6 +118,8 @@ namespace Punctura
         internal static extern int punctura_scene_membrane_count(Scene scene);
         [DllImport(Library, CallingConvention = C)]
         internal static extern int punctura_scene_check(Scene scene);
+        [DllImport(Library, CallingConvention = C)]
+        internal static extern IntPtr punctura_scene_unusual(Scene scene);
 
         [DllImport(Library, CallingConvention = C)]
         internal static extern int punctura_insertion_new(Scene scene, out IntPtr insertion);

@@ -28,7 +28,9 @@ namespace Punctura
         internal static void Check(int status)
         {
             if (status == 0) return;
-            string kept = From(Native.punctura_last_error());
+            // A tick keeps no text: the last error is then an older one.
+            bool tick = status == Native.NoPeek || status == Native.NoNumber;
+            string kept = tick ? "" : From(Native.punctura_last_error());
             throw new PuncturaException(status, kept.Length > 0 ? kept : From(Native.punctura_status_text(status)));
         }
     }
@@ -119,6 +121,8 @@ namespace Punctura
         }
 
         public int MembraneCount { get { return Native.punctura_scene_membrane_count(this); } }
+        /// <summary>Numbers that are probably in a wrong unit, one line each; "" if there are none.</summary>
+        public string Unusual() { return Text.From(Native.punctura_scene_unusual(this)); }
         /// <summary>Throws PuncturaException with all problems.</summary>
         public void Check() { Text.Check(Native.punctura_scene_check(this)); }
 

@@ -27,8 +27,9 @@ static void free_one(double number) {
 
 static void check(punctura_status status) {
   if (status == PUNCTURA_OK) return;
-  mexErrMsgIdAndTxt("punctura:error", "%s",
-                    *punctura_last_error() ? punctura_last_error() : punctura_status_text(status));
+  /* A tick keeps no text: the last error is then an older one. */
+  const int older = status == PUNCTURA_NO_PEEK || status == PUNCTURA_NO_NUMBER || !*punctura_last_error();
+  mexErrMsgIdAndTxt("punctura:error", "%s", older ? punctura_status_text(status) : punctura_last_error());
 }
 
 static void require(int holds, const char* text) {

@@ -35,5 +35,6 @@ end
 assert(! isempty(strfind(error_of(@() PuncturaInsertion(strrep(text, 'friction', 'frictoin'))), 'frictoin')));
 assert(! isempty(strfind(error_of(@() b.restore(kept(1:end - 1))), 'bytes')));
 assert(! isempty(strfind(error_of(@() b.run(p(1:2, :), axes)), '3 rows')));
+assert(! isempty(strfind(error_of(@() b.commit()), 'no tick to commit')));  % not the older error
 clear a b
 printf('octave: %d forces equal the core''s bit for bit, also peeked and after a restored state\n', n);

@@ -108,6 +108,8 @@ export class Memory {
   }
   error(status) {
     const { c, scratch } = this;
+    // A tick keeps no text: the last error is then an older one.
+    if (status === 4 || status === 5) return new PuncturaError(this.text(c.punctura_status_text(status)), []);
     const problems = [];
     for (let i = 0; i < c.punctura_problem_count(); ++i) {
       this.c.punctura_problem(i, scratch, scratch + 8, scratch + 16);

@@ -27,7 +27,8 @@ for (const [k, row] of rows.entries()) {
   deepStrictEqual(fromFile.peek(...poses[k]), [...row.slice(6)], `peek, tick ${k}`);
   fromFile.commit();
 }
-throws(() => fromFile.commit(), /no tick to commit/);
+throws(() => new Insertion("name = 1"), /needle/);
+throws(() => fromFile.commit(), /no tick to commit/); // not the older error
 fromFile.state = kept[0];
 for (let k = 1500; k < 1600; ++k) deepStrictEqual(fromFile.step(...poses[k]), [...rows[k].slice(6)], `again, tick ${k}`);
 const { phase, depth: inside, lower, upper, axialForce } = fromFile.membrane(0);

@@ -127,4 +127,14 @@ TEST_CASE("C ABI: a servo gives the record of the core's step; a program in C99 
   CHECK(record.state == PUNCTURA_FAULTED);
   CHECK(record.force[1] == 0);
   CHECK(std::string(punctura_fault_text(record.fault)).find("not a number") != std::string::npos);
+
+  // A call that makes no tick leaves no force of an earlier tick in the record.
+  record.force[1] = record.thumb_force = 3;
+  sample.struct_size = 8;
+  CHECK(punctura_servo_step(servo.get(), &sample, &record) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(record.force[1] == 0);
+  CHECK(record.thumb_force == 0);
+  record.force[1] = 3;
+  CHECK(punctura_servo_peek(servo.get(), nullptr, &record) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(record.force[1] == 0);
 }

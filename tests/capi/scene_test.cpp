@@ -154,6 +154,14 @@ TEST_CASE("C ABI: numbers and words of a scene by their path; every problem is r
   CHECK(punctura_scene_set(scene.get(), "needle.diameter", 1e-3) == PUNCTURA_OK);
   CHECK(punctura_scene_set(scene.get(), "membrane[0].stiffness", 500) == PUNCTURA_OK);
 
+  CHECK(std::string(punctura_scene_unusual(scene.get())) == "");
+  CHECK(std::string(punctura_scene_unusual(nullptr)) == "");
+  CHECK(punctura_scene_set(scene.get(), "needle.diameter", 1.08) == PUNCTURA_OK);
+  CHECK(punctura_scene_check(scene.get()) == PUNCTURA_OK);
+  CHECK(std::string(punctura_scene_unusual(scene.get())) ==
+        "needle.diameter = 1.08 m is unusual. If you meant 1.08 mm, write 0.00108");
+  CHECK(punctura_scene_set(scene.get(), "needle.diameter", 1e-3) == PUNCTURA_OK);
+
   CHECK(punctura_scene_set_word(scene.get(), "display.force_scale", "automatic") == PUNCTURA_OK);
   CHECK(punctura_scene_check(scene.get()) == PUNCTURA_OK);
   CHECK(punctura_scene_set(scene.get(), "display.force_scale", 0.3) == PUNCTURA_OK);

@@ -75,6 +75,10 @@ TEST_CASE("C ABI: what is no number gives NaN and changes nothing; NULL is refus
 
   CHECK(punctura_insertion_step(nullptr, p, capi_axis, force) == PUNCTURA_BAD_ARGUMENT);
   CHECK(std::isnan(force[0]));
+  double forces[6] = {0, 0, 0, 0, 0, 0};
+  CHECK(punctura_insertion_run(a.insertion.get(), 2, p, capi_axis, 1, forces) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(std::isnan(forces[0]));
+  CHECK(std::isnan(forces[5]));
   CHECK(std::isnan(punctura_proxy1d_step(nullptr, 0)));
   CHECK(punctura_servo_step(nullptr, nullptr, nullptr) == PUNCTURA_BAD_ARGUMENT);
   CHECK(punctura_insertion_new(nullptr, nullptr) == PUNCTURA_BAD_ARGUMENT);

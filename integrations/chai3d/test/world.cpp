@@ -1,5 +1,5 @@
-// The effect in a world of CHAI3D itself: a cursor moves on the reference motion, and every force is the core's, bit for
-// bit.   world REFERENCE
+// The effect in a world of CHAI3D itself: a cursor moves on the reference motion, and every force is the core's.
+//   world REFERENCE
 #include <chai3d.h>
 
 #include <cstdio>

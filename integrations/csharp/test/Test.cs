@@ -73,6 +73,19 @@ static class Test
             }
             catch (PuncturaException e) { Require(e.Message.Contains("membrane[0].friction = -1"), e.Message); }
         }
+        using (Scene scene = Scene.FromToml(toml))
+        using (var insertion = new Insertion(scene))
+        {
+            try
+            {
+                insertion.Commit();
+                Require(false, "an error for a commit without a peek");
+            }
+            catch (PuncturaException e) { Require(e.Message.Contains("no tick to commit"), e.Message); }
+            Require(scene.Unusual() == "", scene.Unusual());
+            scene["needle.diameter"] = 1.08;
+            Require(scene.Unusual().Contains("If you meant 1.08 mm"), scene.Unusual());
+        }
     }
 
     static void Device(string toml)

@@ -4,6 +4,9 @@ use std::os::raw::{c_char, c_void};
 
 pub const ABI: i32 = 1;
 pub const OK: i32 = 0;
+/// Statuses of ticks, which keep no text: the last error is an older one.
+pub const NO_PEEK: i32 = 4;
+pub const NO_NUMBER: i32 = 5;
 
 pub type Scene = c_void;
 pub type Insertion = c_void;
@@ -70,6 +73,7 @@ extern "C" {
     pub fn punctura_scene_free(scene: *mut Scene);
     pub fn punctura_scene_set(scene: *mut Scene, path: *const c_char, value: f64) -> i32;
     pub fn punctura_scene_get(scene: *const Scene, path: *const c_char, value: *mut f64) -> i32;
+    pub fn punctura_scene_unusual(scene: *const Scene) -> *const c_char;
     pub fn punctura_scene_set_word(scene: *mut Scene, path: *const c_char, word: *const c_char) -> i32;
 
     pub fn punctura_insertion_new(scene: *const Scene, insertion: *mut *mut Insertion) -> i32;

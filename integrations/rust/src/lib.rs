@@ -48,7 +48,8 @@ fn check(status: i32) -> Result<(), Error> {
     }
     // SAFETY: these functions take no pointer.
     let (kept, meaning) = unsafe { (text(ffi::punctura_last_error()), text(ffi::punctura_status_text(status))) };
-    Err(Error { status, text: if kept.is_empty() { meaning } else { kept } })
+    let older = status == ffi::NO_PEEK || status == ffi::NO_NUMBER || kept.is_empty();
+    Err(Error { status, text: if older { meaning } else { kept } })
 }
 
 fn c(text: &str) -> Result<CString, Error> {
@@ -93,6 +94,11 @@ impl Scene {
     pub fn set(&mut self, path: &str, value: f64) -> Result<(), Error> {
         let path = c(path)?;
         check(unsafe { ffi::punctura_scene_set(self.0, path.as_ptr(), value) })
+    }
+    /// Numbers that are probably in a wrong unit, one line each; "" if there are none.
+    pub fn unusual(&self) -> String {
+        // SAFETY: the handle is a scene; the text is copied at once.
+        text(unsafe { ffi::punctura_scene_unusual(self.0) })
     }
     /// Sets a word by its path, for example `servo.solver` to `paper`.
     pub fn set_word(&mut self, path: &str, word: &str) -> Result<(), Error> {

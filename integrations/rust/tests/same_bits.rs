@@ -46,6 +46,7 @@ fn the_forces_are_those_of_the_core_stepped_peeked_and_restored() {
     assert!(stepped.membrane(0).upper >= stepped.membrane(0).lower);
     assert!(stepped.step([f64::NAN, 0.0, 0.0], [0.0, -1.0, 0.0])[0].is_nan());
     assert!(stepped.restore(&kept[1..]).unwrap_err().text.contains("bytes"));
+    assert!(peeked.commit().unwrap_err().text.contains("no tick to commit")); // not the older error
 }
 
 #[test]
@@ -66,6 +67,9 @@ fn an_error_names_the_path() {
     assert_eq!(scene.get("membrane[0].friction"), Ok(-1.0));
     assert!(Insertion::new(&scene).err().unwrap().text.contains("membrane[0].friction = -1"));
     assert!(scene.set_word("servo.solver", "fast").is_err());
+    assert_eq!(scene.unusual(), "");
+    scene.set("needle.diameter", 1.08).unwrap();
+    assert!(scene.unusual().contains("If you meant 1.08 mm"));
 }
 
 #[test]
