@@ -3,4 +3,4 @@
 source "$(dirname "$0")/../tools.sh"
 with_package mujoco "mujoco>=4,<5"
 cd "$here"
-PUNCTURA_LONG=1 "$python" -m pytest -q -p no:cacheprovider test_mujoco.py
+PYTHONPATH=$here PUNCTURA_LONG=1 "$python" -m pytest -q -p no:cacheprovider test_mujoco.py test_wrong_use.py

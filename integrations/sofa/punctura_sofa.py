@@ -27,7 +27,8 @@ class PuncturaController(Sofa.Core.Controller):
     tissue: MechanicalObject Rigid3d that the membranes move with, or None. tissue_field: its ConstantForceField, which
     gets the opposite force. tip (3,), axis (3,): of the needle in its own frame, m. metres_per_unit: of SOFA's world.
 
-    Between two steps the needle moves in a straight line, with all ticks of the scene's rate.
+    Between two steps the needle moves in a straight line, with all ticks of the scene's rate. When SOFA's time goes
+    back, the needle starts anew.
     """
 
     def __init__(
@@ -39,17 +40,16 @@ class PuncturaController(Sofa.Core.Controller):
         self.needle, self.field, self.tissue, self.tissue_field = needle, field, tissue, tissue_field
         self.tip, self.axis, self.metres = np.array(tip, float), np.array(axis, float), metres_per_unit
         self.model = PosedNeedle(scene if isinstance(scene, Scene) else load_scene(scene))
-        self.time = 0.0
         self.force = np.zeros(3)
 
     def onAnimateBeginEvent(self, event: dict[str, float]) -> None:
-        self.time += event["dt"]
+        time = float(self.needle.getContext().time.value)  # goes back when the simulation is reset
         body = np.array(self.needle.position.value[0], float)
         arm = turned(body[3:], self.tip / self.metres)
         place = self._place()
         into = np.array([-1, -1, -1, 1]) * place[3:]  # the inverse turn
         tip = turned(into, body[:3] + arm - place[:3]) * self.metres
-        force = self.model.move(self.time, tip, turned(into, turned(body[3:], self.axis)))
+        force = self.model.move(time, tip, turned(into, turned(body[3:], self.axis)))
         self.force = turned(place[3:], force)
         give(self.field, self.force / self.metres, arm)
         if self.tissue_field is not None:

@@ -35,6 +35,7 @@ forces = np.empty((len(rows), 6))
 for k, row in enumerate(rows):
     needle.position.value[0] = [*row[:3], *turns[k]]
     controller.onAnimateBeginEvent(period)
+    needle.context.time.value += period["dt"]
     forces[k] = field.forces.value[0]
 pointed = np.array([turned(turn, np.array([0.0, 0.0, 1.0])) for turn in turns])
 core = pn.Insertion(scene).run(rows[:, :3], pointed).force
@@ -55,6 +56,7 @@ for k, row in enumerate(rows):
     centre = tip - turned(turn, np.array([0, 0, 80.0]))
     needle.position.value[0] = [*centre, *turn]
     controller.onAnimateBeginEvent(period)
+    needle.context.time.value += period["dt"]
     assert np.allclose(controller.force, turned(place[3:], core[k]), atol=1e-6), k
     on_needle, on_tissue = field.forces.value[0], opposite.forces.value[0]
     assert np.allclose(on_needle[:3] * 1e-3, controller.force) and np.allclose(on_tissue[:3], -on_needle[:3])

@@ -53,7 +53,8 @@ class Attachment:
         if self._acting:
             raise RuntimeError(
                 "the needles act through acting() now, so step() would make the step twice. Call "
-                "mujoco.mj_step(model, data), or leave the block of acting() first"
+                "mujoco.mj_step(model, data), or leave the block of acting() first. If another thread is in step(), "
+                "wait for it: one thread at a time may use an Attachment"
             )
         with self.acting():
             self._mujoco.mj_step(self.model, data)
@@ -103,6 +104,8 @@ class Attachment:
             needles.end_step(data.time)
             self._follows(data, needles)
             needles.pending = pending = self._tick(data, needles, seen)
+            if needles.last is None:
+                self._warn_behind(needles)
         needles.applied.put(data, seen.point, seen.in_world(pending.force))
         self._warn(data, needles, seen)
 
@@ -112,6 +115,11 @@ class Attachment:
             return needles.ahead(data.time, seen.tip, seen, nothing)
         needles.applied.put(data, seen.point, seen.in_world(needles.force))
         free, compliance = without(self.model, data, seen, needles.force)
+        if not np.isfinite(free).all():
+            raise RuntimeError(
+                "MuJoCo gives an acceleration that is not finite: look at data.ctrl, data.qfrc_applied and "
+                "data.xfrc_applied. The needles did not move on"
+            )
         return needles.ahead(data.time, free, seen, compliance)
 
     # State
@@ -183,6 +191,8 @@ class Attachment:
 
     def _of(self, data: Any) -> Needles:
         self._usable()
+        if data.model._address != self.model._address:
+            raise ValueError("this MjData belongs to another model than the needles: attach() them to its model")
         needles = self._needles.get(data)
         if needles is None:
             needles = self._needles[data] = Needles(self._links, self._timestep)
@@ -199,6 +209,19 @@ class Attachment:
                 "s: data was stepped, reset or set without them (MuJoCo itself resets data that became unstable). Use "
                 "step() for every step, restore() to go back, and reset() to begin anew"
             )
+
+    def _warn_behind(self, needles: Needles) -> None:
+        """Warns if a needle begins behind a membrane."""
+        for link, insertion in zip(self._links, needles.insertions, strict=True):
+            phases = zip(insertion.scene.membranes, insertion.phases, strict=True)
+            behind = [membrane.name for membrane, phase in phases if phase == Phase.barred]
+            if behind:
+                warnings.warn(
+                    f"site {link.needle!r} begins behind {', '.join(map(repr, behind))} and gets no force from there "
+                    "until it has been in front. To continue in tissue, or in a copy of an MjData, use save() and "
+                    "restore()",
+                    stacklevel=3,
+                )
 
     def _warn(self, data: Any, needles: Needles, seen: Relative) -> None:
         """Warns once a link if an explicit force cannot be stable."""

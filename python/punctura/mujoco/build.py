@@ -6,7 +6,7 @@ import weakref
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from punctura import Insertion, Scene, ServoSettings
+from punctura import ConfigurationError, DisplaySettings, Insertion, Scene, ServoSettings
 from punctura.extras import optional
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.kinematics import Link
@@ -39,8 +39,8 @@ def attach_needles(model: Any, needles: Sequence[NeedleInTissue], *, implicit: b
     implicit: the force is the one at the end of the step, which the force itself changes (docs/mujoco.md); otherwise
     the one at its start, with a StabilityWarning for a needle that is too light for that.
 
-    Raises ModuleNotFoundError without MuJoCo, ValueError for an unknown site, body or membrane or a model that has an
-    Attachment already, ConfigurationError for a time step that no scene can have.
+    Raises ModuleNotFoundError without MuJoCo; TypeError if a scene is no Scene; ValueError for an unknown site, body or
+    membrane, a model that has an Attachment already, or a time step that no scene can have.
     """
     mujoco = optional("mujoco", "mujoco", "punctura.mujoco")
     if model._address in _attached:
@@ -62,6 +62,8 @@ def _forget(model: Any) -> None:
 
 def _links(mujoco: Any, model: Any, given: NeedleInTissue) -> list[Link]:
     """One link for each body that carries membranes of the needle."""
+    if not isinstance(given.scene, Scene):
+        raise TypeError(f"scene is {given.scene!r}, not a punctura.Scene: give punctura.load_scene(...)")
     site = _number(mujoco, model, "site", given.needle)
     holder = int(model.site_bodyid[site])
     body_of = given.tissue
@@ -86,8 +88,13 @@ def _links(mujoco: Any, model: Any, given: NeedleInTissue) -> list[Link]:
 
 
 def _at_the_rate_of(model: Any, scene: Scene, membranes: Sequence[Any]) -> Scene:
-    servo = ServoSettings(rate=1 / model.opt.timestep, low_pass=0, solver=scene.servo.solver)
-    return Scene(scene.name, scene.needle, scene.coupling, membranes, servo, scene.direction)
+    try:
+        servo = ServoSettings(rate=1 / model.opt.timestep, low_pass=0, solver=scene.servo.solver)
+    except (ConfigurationError, ZeroDivisionError):
+        raise ValueError(
+            f"model.opt.timestep is {model.opt.timestep:g} s: needles need a time step from 0.01 ms to 10 ms"
+        ) from None
+    return scene.replace(membranes=membranes, servo=servo, display=DisplaySettings(), syringe=None)
 
 
 def _number(mujoco: Any, model: Any, kind: str, name: str) -> int:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from punctura import Insertion, Phase
+from punctura import Insertion, Phase, Scene
 from punctura.mujoco.applied import Applied
 from punctura.mujoco.frames import Array, Relative
 from punctura.mujoco.implicit import solve
@@ -26,6 +26,13 @@ class Tick(NamedTuple):
     force: Array  # (L, 3) N, on the needles
 
 
+def _steepest(scene: Scene) -> float:
+    """K + B/T, with all relaxation branches, of all membranes that can hold the needle, N/m."""
+    coupling = scene.coupling
+    one = coupling.stiffness + sum(branch.stiffness for branch in scene.relaxation)
+    return len(scene.membranes) * (one + coupling.damping * scene.servo.rate)
+
+
 class Needles:
     """One Insertion a link, and the last tick."""
 
@@ -36,10 +43,7 @@ class Needles:
         self.insertions: list[Insertion] = [copy.copy(link.insertion) for link in links]
         self.pending: Tick | None = None  # the tick of the step that MuJoCo is making
         self.last: Tick | None = None  # the last tick that was made
-        self.steepest = max(  # K + B/T of all membranes that can hold one needle
-            len(i.scene.membranes) * (i.scene.coupling.stiffness + i.scene.coupling.damping * i.scene.servo.rate)
-            for i in self.insertions
-        )
+        self.steepest = max(_steepest(insertion.scene) for insertion in self.insertions)
 
     @property
     def force(self) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -20,6 +21,10 @@ class Data:
 class MechanicalObject:
     def __init__(self, pose: list[float]) -> None:
         self.position = Data([pose])
+        self.context = SimpleNamespace(time=SimpleNamespace(value=0.0))
+
+    def getContext(self) -> SimpleNamespace:
+        return self.context
 
 
 class ConstantForceField:
