@@ -21,10 +21,12 @@ _START = (
     "from runpy import run_module; run_module({!r}, run_name='__main__', alter_sys=True)"
 )
 WAIT_S = 2.0
+ENDS_S = 0.01  # between two looks whether a worker that has closed its output has ended
 ALIVE_S = 0.25  # after which a client that has gone is noticed
 LONGEST_S = 1800.0  # of one computation
 NOTHING = b"\n"
-TOO_LONG = "the computation was ended because it took more than {:g} minutes; try fewer runs, or a shorter recording"
+TOO_LONG = "the computation was ended because it took more than {:g} minutes; {}"
+clock = time.monotonic  # the tests use another
 MOST_ERRORS = 4096  # bytes of the worker's last error messages
 
 
@@ -47,12 +49,13 @@ def take_place(place: threading.BoundedSemaphore) -> None:
 
 
 def lines_of(
-    command: list[str], asked: bytes, failed: Callable[[str], bytes], folder: Path | None = None
+    command: list[str], asked: bytes, failed: Callable[[str], bytes], advice: str, folder: Path | None = None
 ) -> Iterator[bytes]:
     """The lines of a worker that reads `asked` from standard input. Closing the iterator ends the worker.
 
-    failed: the line for a worker that ended early, from the reason. folder: where it works. An empty line comes after
-    ALIVE_S without another, so that a client that has gone is noticed. After LONGEST_S the worker is ended.
+    failed: the line for a worker that ended early, from the reason. advice: what to do if it takes too long. folder:
+    where it works. An empty line comes after ALIVE_S without another, so that a client that has gone is noticed. After
+    LONGEST_S the worker is ended, unless a line comes: it may be the result, so the worker gets WAIT_S to end.
     """
     environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as given:
@@ -71,15 +74,22 @@ def lines_of(
         lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         reader = threading.Thread(target=_read, args=(worker.stdout, lines), name="punctura-lab", daemon=True)
         reader.start()
-        ends_at = time.monotonic() + LONGEST_S
+        ends_at = clock() + LONGEST_S
         try:
             while line := _next(lines):
-                if time.monotonic() > ends_at:
-                    yield failed(TOO_LONG.format(LONGEST_S / 60))
-                    return
-                if line == NOTHING and worker.poll() is not None:
+                quiet = line == NOTHING
+                if quiet and _has_ended(worker):
                     _kill(worker)  # the children of a worker that has died keep its output open
+                elif clock() > (ends_at if quiet else ends_at + WAIT_S):
+                    yield failed(TOO_LONG.format(LONGEST_S / 60, advice))
+                    return
                 yield line
+            while not _has_ended(worker):  # it has closed its output
+                if clock() > ends_at + WAIT_S:
+                    yield failed(TOO_LONG.format(LONGEST_S / 60, advice))
+                    return
+                time.sleep(ENDS_S)
+            _kill(worker)
             if code := worker.wait():
                 yield failed(_why(code, errors))
         finally:
@@ -89,8 +99,17 @@ def lines_of(
             worker.wait()
 
 
+def _has_ended(worker: subprocess.Popen[bytes]) -> bool:
+    """Whether the worker has ended. It is not waited for: until `wait`, no other process gets its number."""
+    if hasattr(os, "waitid"):  # not with Python before 3.13 on macOS
+        return os.waitid(os.P_PID, worker.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+    return worker.poll() is not None
+
+
 def _kill(worker: subprocess.Popen[bytes]) -> None:
-    """Ends a worker and its children."""
+    """Ends a worker and its children. Does nothing after `wait`: another process may have the number by then."""
+    if worker.returncode is not None:
+        return
     if os.name != "posix":
         worker.kill()
         return

@@ -122,7 +122,8 @@ def _number(asked: QueryParams, name: str) -> float:
 
 def _lines(job: Job) -> Iterator[bytes]:
     """The worker's lines as they come."""
-    return lines_of(COMMAND, job.model_dump_json().encode(), lambda why: json.dumps({"error": why}).encode() + b"\n")
+    asked, failed = job.model_dump_json().encode(), lambda why: json.dumps({"error": why}).encode() + b"\n"
+    return lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording")
 
 
 def _zipped(job: Job) -> Iterator[bytes]:

@@ -22,7 +22,7 @@ from punctura.studio.wire.requests import LoadText, NumberedRequest, Pause, Take
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
-MOST_ORDERS = 64  # requests that wait for the ones before them
+MOST_ORDERS = 64  # requests that wait for the ones before them; the next ones are refused
 
 
 class Order(NamedTuple):
@@ -78,7 +78,10 @@ async def _send(socket: WebSocket, viewer: Viewer) -> None:
 
 
 async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:
-    """Does quick requests at once, above all a pause; the others wait in `orders`."""
+    """Does quick requests at once, above all a pause; the others wait in `orders`.
+
+    It never waits for room there: a pause behind a full queue must be read at once.
+    """
     while True:
         message = await socket.receive()
         if message["type"] == "websocket.disconnect":
@@ -88,8 +91,10 @@ async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, o
         if text is None:
             raise Closed("Requests are text.")
         answer = _answer(text, viewer, hub, session)
+        if isinstance(answer, Order) and orders.full():
+            answer = _no_room(answer.request)
         if isinstance(answer, Order):
-            await orders.put(answer)
+            orders.put_nowait(answer)
         elif answer is not None:
             viewer.put(answer.model_dump_json())
 
@@ -113,6 +118,14 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
     if isinstance(request, Pause):
         session.pause()
     return Order(request, session.arming.pauses)
+
+
+def _no_room(request: NumberedRequest) -> Reply:
+    """The reply while the queue is full. A pause has been done already."""
+    if isinstance(request, Pause):
+        return Reply(id=request.id, ok=True)
+    text = f"not done: {MOST_ORDERS} earlier requests of this page still wait; try again when they are done"
+    return Reply(id=request.id, ok=False, text=text)
 
 
 def _refused(request: NumberedRequest, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:

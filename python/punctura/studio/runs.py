@@ -49,10 +49,17 @@ class Runs:
         """The present run has started."""
 
     def begin(
-        self, loaded: Loaded, pose: Pose | None = None, record: str | None = None, about: dict[str, Any] | None = None
+        self,
+        loaded: Loaded,
+        pose: Pose | None = None,
+        record: str | None = None,
+        about: dict[str, Any] | None = None,
+        remind: bool = True,
     ) -> None:
-        """Starts a new run. record: the name of its recording. If it fails, the present scene runs again, and the
-        error is raised."""
+        """Starts a new run. If it fails, the present scene runs again, and the error is raised.
+
+        record: the name of its recording. remind: tell if the force is still off, because a person asked for this run.
+        """
         path = self.shelf.file(record) if record else None
         self.end_run()
         try:
@@ -63,7 +70,7 @@ class Runs:
             raise
         self.recording = record or ""
         try:
-            self.start_run()
+            self.start_run(remind)
         except Exception:  # the device does not start again: there is no tick, and nothing to record
             self.arming.withhold()
             self.end_run()
@@ -81,9 +88,9 @@ class Runs:
         self.begin(loaded, pose, record, about)
         self.activities.begin(activity, self.run.loop.scene)
 
-    def begin_again(self) -> None:
+    def begin_again(self, remind: bool = True) -> None:
         """Runs the present scene again, without a recording, from the pose in which the hand began."""
-        self.begin(self.run.loaded, self.run.pose)
+        self.begin(self.run.loaded, self.run.pose, remind=remind)
 
     def edit(self, loaded: Loaded) -> None:
         """Sets another scene in the present run. Raises ConfigurationError, ValueError; then nothing has changed."""
@@ -101,7 +108,7 @@ class Runs:
         """Clears a fault. If the ticks had ceased, a new run begins. There is no force until the user asks for it."""
         self.arming.withhold()
         if not self.run.loop.running:
-            self.begin_again()
+            self.begin_again(remind=False)
         self.run.loop.reset()
 
     def set_compare(self, on: bool) -> None:
@@ -137,8 +144,8 @@ class Runs:
 
         self.takes.finish(recorder, tell)
 
-    def start_run(self) -> None:
-        """Starts the present run, which has not ticked yet."""
+    def start_run(self, remind: bool = True) -> None:
+        """Starts the present run, which has not ticked yet. remind: tell if the force is still off."""
         self.pump = Pump(self.run, self.out, self.kept_ticks)
         self.pump.compare(self.compare)
         self.pump.estimate(self.estimate)
@@ -147,7 +154,7 @@ class Runs:
         self.out.say(no_fault())
         self.activities.tell_idle()
         self.out.say(scene_message(self.run, self.pump.laws(), new_run=True))
-        if not self.arming.armed:
+        if remind and not self.arming.armed:
             self.out.say(Notice(text=STILL_OFF))
         self.run.start()
         self.watch()

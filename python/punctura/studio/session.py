@@ -152,12 +152,12 @@ class Session(Runs):
                 self.defects.guard(self._take_turn)
                 pump_at = max(pump_at + PUMP_S, now)
             if self.activities.due(now):
-                self.defects.guard(self.begin_again)
+                self.defects.guard(lambda: self.begin_again(remind=False))
             if now >= status_at:
                 status_at = now + STATUS_S
                 self.defects.guard(self._tell_status)
                 if self._rounds.due(self.run.loop.device, bool(self.recording), now):
-                    self.defects.guard(self.begin_again)
+                    self.defects.guard(lambda: self.begin_again(remind=False))
 
     def _take_turn(self) -> None:
         self.turn(max(AT_ONCE, int(4 * PUMP_S * self.run.rate)))

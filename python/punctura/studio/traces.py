@@ -26,6 +26,7 @@ from punctura.studio.wire.identified import ErrorLine
 
 FILE, IDENTIFY = FILES
 COMMAND = worker("punctura.studio.trace_worker")
+ADVICE = "try a number of membranes instead of auto, or a part of the trace"
 MOST_RECEIVED = 2  # files at a time, so that a slow page does not keep another one waiting
 LONGEST_WORD = 200  # characters of a value
 ENDINGS = {".csv", ".tsv", ".txt", ".parquet", ".mat", ".xlsx"}  # others could be code, such as .py
@@ -130,6 +131,6 @@ def _lines(job: TraceJob, folder: Path) -> Iterator[bytes]:
         return ErrorLine(text=why[:1].upper() + why[1:]).model_dump_json().encode() + b"\n"
 
     try:
-        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, folder)
+        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, ADVICE, folder)
     finally:
         shutil.rmtree(folder, ignore_errors=True)

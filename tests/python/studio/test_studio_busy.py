@@ -4,7 +4,7 @@ import threading
 from contextlib import contextmanager
 
 import pytest
-from punctura.studio import session
+from punctura.studio import live, session
 from punctura.studio.shelf import Shelf
 from waiting import wait_until
 
@@ -53,6 +53,22 @@ def test_pause_takes_the_force_away_while_a_request_before_it_reads_a_file(serve
     finally:
         over.set()
     page.wait(lambda: [r["id"] for r in page.of("reply")] == [1001, 1002])
+
+
+def test_a_pause_behind_a_full_queue_takes_the_force_away_at_once(served, page):
+    page.wait(lambda: state(served) != UNARMED)
+    many = range(1001, 1001 + 2 * live.MOST_ORDERS)
+    with busy(served.session):
+        for number in many:
+            page.send(f'{{"id": {number}, "do": "arm"}}')
+        page.send('{"id": 2001, "do": "pause"}')
+        page.wait(lambda: state(served) == UNARMED)
+        page.wait(lambda: any(reply["id"] == 2001 and reply["ok"] for reply in page.of("reply")))
+    page.wait(lambda: len(page.of("reply")) == len(many) + 1)
+    refused = {reply["id"] for reply in page.of("reply") if not reply["ok"]}
+    assert refused == set(many[live.MOST_ORDERS + 1 :])  # one is being done
+    assert "earlier requests of this page still wait" in next(r["text"] for r in page.of("reply") if not r["ok"])
+    assert state(served) == UNARMED and not page.status()["armed"]
 
 
 @pytest.mark.parametrize("before", ['"do": "arm"', '"do": "load", "scene": "k06-fig10"'])

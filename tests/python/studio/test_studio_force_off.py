@@ -59,6 +59,15 @@ def test_no_new_run_gives_force_until_a_person_turns_it_on(served, page, off, re
     assert page.status()["armed"]
 
 
+def test_no_run_that_begins_by_itself_reminds_of_the_force_that_is_off(served, page):
+    turned_off(served, page)
+    served.session.call(served.session.run.stop).result(60)
+    before = page.run
+    assert page.ask(do="reset")["ok"]
+    page.wait(lambda: page.run > before and page.last.run == page.run)
+    assert not any("force is still off" in notice["text"] for notice in page.of("notice"))
+
+
 def test_what_waits_for_the_worker_while_the_ticks_cease_does_not_arm(served, page):
     page.wait(lambda: page.last.ticks["state"][-1] != UNARMED)
     session, before = served.session, page.run

@@ -128,10 +128,30 @@ def ended(mark):
 
 @pytest.mark.parametrize("address", ["compare", "bundle"])
 def test_a_computation_that_hangs_is_ended_with_its_children_and_told(served, monkeypatch, hangs, address):
-    monkeypatch.setattr(computing, "LONGEST_S", 6.0)
+    monkeypatch.setattr(computing, "clock", lambda: computing.LONGEST_S + 1 if hangs.exists() else 0.0)
     _, body = get(served, f"/api/lab/{address}", **VARIATION)
-    assert "was ended because it took more than 0.1 minutes; try fewer runs" in body.decode()
+    assert "was ended because it took more than 30 minutes; try fewer runs" in body.decode()
     wait_until(lambda: ended(hangs))
+
+
+@pytest.mark.parametrize("program", ["print('result')", "print('result'); raise SystemExit(1)"])
+def test_the_group_of_a_worker_is_ended_before_its_number_is_free(monkeypatch, program):
+    killed, kill = [], os.killpg
+    # Popen knows the exit status only after it has waited for the process, which frees its number.
+    waited = lambda number: not Path(f"/proc/{number}").exists()  # noqa: E731
+    monkeypatch.setattr(os, "killpg", lambda number, how: (killed.append(waited(number)), kill(number, how)))
+    lines = computing.lines_of([sys.executable, "-c", program], b"", str.encode, "")
+    result, *failed = [line for line in lines if line.strip()]
+    assert result == b"result\n" and len(failed) == ("Exit" in program)
+    assert killed and not any(killed)
+
+
+def test_a_result_that_comes_as_the_time_ends_is_kept(monkeypatch):
+    monkeypatch.setattr(computing, "_next", lambda lines: lines.get(timeout=60))
+    times = iter([0.0])
+    monkeypatch.setattr(computing, "clock", lambda: next(times, computing.LONGEST_S + 1))
+    command = [sys.executable, "-c", "print('result')"]
+    assert list(computing.lines_of(command, b"", str.encode, "")) == [b"result\n"]
 
 
 @pytest.mark.parametrize("address", ["compare", "bundle"])
