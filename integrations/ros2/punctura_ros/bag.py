@@ -8,11 +8,12 @@ Needs no ROS: the package rosbags reads bags of ROS 1 and 2.
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
 from punctura.trace import Trace, TraceError
-from rosbags.highlevel import AnyReader
+from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.typesys import Stores, get_typestore
 
 POSE, WRENCH = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/WrenchStamped"
@@ -32,7 +33,7 @@ def bag_trace(bag: Path, pose: str, wrench: str, axis: list[float], *, inverted:
     along = (poses[:, 1:] - poses[0, 1:]) @ direction
     inside = (forces[:, 0] >= poses[0, 0]) & (forces[:, 0] <= poses[-1, 0])
     if inside.sum() < 2:
-        raise TraceError(f"{bag}: fewer than two wrenches lie between the first and the last pose")
+        raise TraceError("fewer than two wrenches lie between the first and the last pose")
     time = forces[inside, 0]
     force = forces[inside, 1:] @ direction * (1 if inverted else -1)
     return Trace(np.interp(time, poses[:, 0], along), force, time - time[0], str(bag))
@@ -62,7 +63,12 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--inverted", action="store_true", help="the sensor measures the force on the tissue")
     parser.add_argument("-o", "--out", type=Path, required=True, help="the CSV file to write")
     given = parser.parse_args(arguments)
-    trace = bag_trace(given.bag, given.pose, given.wrench, given.axis, inverted=given.inverted)
+    if not np.any(given.axis):
+        parser.error("--axis is 0 0 0: it must be the direction of the insertion")
+    try:
+        trace = bag_trace(given.bag, given.pose, given.wrench, given.axis, inverted=given.inverted)
+    except (TraceError, AnyReaderError, OSError) as error:
+        sys.exit(f"{given.bag}: {error}")
     table = np.column_stack([trace.time, trace.depth * 1e3, trace.force])
     np.savetxt(given.out, table, "%.9g", ",", header="time_s,depth_mm,force_N", comments="")
     print(f"{given.out}: {len(table)} samples, {np.ptp(trace.depth) * 1e3:.1f} mm, {trace.force.max():.2f} N")

@@ -7,6 +7,7 @@ import rclpy
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from punctura import load_scene
 from punctura.poses import PosedNeedle
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
@@ -43,22 +44,29 @@ class NeedleNode(Node):
 
     def on_pose(self, message: PoseStamped) -> None:
         if self._frame and message.header.frame_id != self._frame:
-            self.get_logger().warning(f"a pose in {message.header.frame_id!r}, not in {self._frame!r}: not used")
+            self._warn(f"a pose in {message.header.frame_id!r}, not in {self._frame!r}: not used")
             return
         at, starts = message.pose.position, self._needle.starts
+        time = seconds(message.header.stamp)
+        if time == 0:  # not set, as by `ros2 topic pub`
+            time = self.get_clock().now().nanoseconds * 1e-9
         try:
             axis = rotated(message.pose.orientation, self._axis)
-            force = self._needle.move(seconds(message.header.stamp), [at.x, at.y, at.z], axis)
+            force = self._needle.move(time, [at.x, at.y, at.z], axis)
         except ValueError as error:
-            self.get_logger().warning(f"this pose is not used: {error}")
+            self._warn(f"this pose is not used: {error}")
             return
         if 0 < starts < self._needle.starts:
-            self.get_logger().warning("a gap in the times of the poses: the needle starts anew")
+            self._warn("a gap in the times of the poses: the needle starts anew")
         answer = WrenchStamped()
         answer.header.stamp = message.header.stamp
         answer.header.frame_id = message.header.frame_id
         answer.wrench.force.x, answer.wrench.force.y, answer.wrench.force.z = (float(f) for f in force)
         self._publisher.publish(answer)
+
+    def _warn(self, text: str) -> None:
+        """At most once a second and call: poses come often."""
+        self.get_logger().warning(text, throttle_duration_sec=1.0)
 
 
 def main() -> None:
@@ -66,7 +74,7 @@ def main() -> None:
     node = NeedleNode()
     try:
         rclpy.spin(node)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         node.destroy_node()

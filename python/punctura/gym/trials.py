@@ -35,6 +35,10 @@ class Trials:
     def __init__(
         self, task: Task, n: int, population: Population | None, plant: Plant | None, hand: Hand | None, threads: int
     ) -> None:
+        if n < 1:
+            raise ValueError(f"num_envs is {n}: there must be at least 1 environment")
+        if not isinstance(population, Population | None):
+            raise TypeError(f"population is {population!r}, not a punctura.gym.Population")
         self.task, self.n = task, n
         self.population = population or Population(load_scene(task.scene), task.vary)
         count = len(self.population.scene.membranes)
@@ -60,9 +64,13 @@ class Trials:
         return np.zeros((self.n, len(OBSERVATION)), np.float32)
 
     def step(self, action: npt.ArrayLike) -> Outcome:
-        """action (n,): share of the fastest speed; clipped to -1 ... 1. Raises ValueError if one is not finite."""
+        """action (n,) or (n, 1): share of the fastest speed; clipped to -1 ... 1. Raises ValueError for another number
+        of actions, or if one is not finite."""
         task = self.task
-        share = np.clip(np.asarray(action, dtype=float).reshape(self.n), -1, 1)
+        given = np.asarray(action, dtype=float)
+        if given.size != self.n or given.shape[:1] not in ((), (self.n,)):
+            raise ValueError(f"the actions have the shape {given.shape}; they need {(self.n, 1)}")
+        share = np.clip(given.reshape(self.n), -1, 1)
         step = self.fleet.step(share * task.fastest, self.ticks)
         period = self.ticks / self.rate
         self._time += period

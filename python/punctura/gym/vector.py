@@ -47,10 +47,13 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observations, dict[str, Any]]:
         """New scenes, and all needles in front of the skin. seed: a number s for s, s + 1, ..., or one for each."""
-        super().reset(seed=seed if isinstance(seed, int) else None)
-        seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, int) else seed
-        if seeds is None:
-            seeds = [None] * self.num_envs
+        seeds: Sequence[int | None]
+        if isinstance(seed, int | np.integer):
+            super().reset(seed=int(seed))
+            seeds = [int(seed) + i for i in range(self.num_envs)]
+        else:
+            super().reset()
+            seeds = [None] * self.num_envs if seed is None else seed
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed must have one number for each of the {self.num_envs} environments")
         for i, own in enumerate(seeds):
@@ -67,7 +70,10 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
         if not self._random:
             raise RuntimeError("the trials have not begun: call reset()")
         begins = self._ended
-        out = self.trials.step(np.where(begins, 0, np.asarray(actions, float).reshape(self.num_envs)))
+        moved = np.array(actions, float)
+        if moved.shape[:1] == (self.num_envs,):
+            moved[begins] = 0
+        out = self.trials.step(moved)
         for i in np.flatnonzero(begins):
             self.trials.start(int(i), self._random[i])
             out.observation[i] = 0

@@ -167,6 +167,13 @@ def test_wrong_use_is_refused_with_a_sentence():
     with pytest.raises(ValueError, match="one number for each of the 2"):
         env.reset(seed=[1, 2, 3])
     env.reset(seed=1)
+    with pytest.raises(ValueError, match=r"the actions have the shape \(3, 1\); they need \(2, 1\)"):
+        env.step(np.zeros((3, 1), np.float32))
+    with pytest.raises(ValueError, match="num_envs is 0: there must be at least 1"):
+        pg.NeedleVectorEnv("StopAfterPop", 0)
+    with pytest.raises(TypeError, match=r"3, not a punctura\.gym\.Population"):
+        pg.NeedleEnv("StopAfterPop", population=3)
+    env.reset(seed=np.int64(5))
     with pytest.raises(ValueError, match=r"speed\[1\] must be finite"):
         env.step(np.array([[0], [np.nan]], np.float32))
 

@@ -21,7 +21,8 @@ class Logger:
     def info(self, text: str) -> None:
         self.lines.append(text)
 
-    warning = info
+    def warning(self, text: str, *, throttle_duration_sec: float) -> None:
+        self.lines.append(text)
 
 
 class Node:
@@ -32,6 +33,7 @@ class Node:
         self.publishers_by_topic: dict[str, Publisher] = {}
         self.callbacks: dict[str, Callable[[object], None]] = {}
         self.logger = Logger()
+        self.clock_ns = 10**18
 
     def declare_parameter(self, name: str, default: object) -> None:
         self.parameters[name] = self.overrides.get(name, default)
@@ -47,5 +49,8 @@ class Node:
 
     def get_logger(self) -> Logger:
         return self.logger
+
+    def get_clock(self) -> SimpleNamespace:
+        return SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=self.clock_ns))
 
     def destroy_node(self) -> None: ...
