@@ -96,7 +96,9 @@ set_up() {
   node=$(command -v node || true)
   export PATH="$venv/bin:$PATH"
   deps="$(digest_files pyproject.toml tools/build_backend)"
-  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime python web) ${CXX:-}"
+  # capi and integrations/fmi are in the package, too: the binary of the FMUs
+  sources="$deps $(digest_files pyproject.toml CMakeLists.txt cmake core runtime capi integrations/fmi python web)"
+  sources="$sources ${CXX:-}"
   if ! stamped build-tools "$deps $node"; then
     step "Build tools from PyPI" build-tools pip_build_tools
     stamp build-tools "$deps $node"

@@ -6,6 +6,7 @@ python integrations/fmi/check.py REFERENCE FOLDER
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
@@ -58,6 +59,14 @@ class Slave:
             self.fmu.setFMUState(self.fmu.deserializeFMUState(state))
 
 
+def refused(call: Callable[[], object], what: str) -> None:
+    try:
+        call()
+    except Exception:
+        return
+    raise AssertionError(f"{what} was accepted")
+
+
 def check(file: Path, rows: np.ndarray, rate: float) -> None:
     problems = validate_fmu(str(file))
     assert not problems, problems
@@ -86,13 +95,14 @@ def check(file: Path, rows: np.ndarray, rate: float) -> None:
         before = at
         assert np.isfinite(held.step(j * 0.01, 0.01, at)).all()
 
-    wrong = kept[:-1]
-    try:
-        slave.restore(wrong)
-    except Exception:
-        pass
-    else:
-        raise AssertionError("a state of another size was accepted")
+    damaged = [bytes([*kept[:i], kept[i] ^ 1, *kept[i + 1 :]]) for i in range(0, len(kept), 37)]
+    for wrong in (kept[:-1], *damaged):
+        refused(lambda wrong=wrong: slave.restore(wrong), "a state of another size, or a damaged one")
+    for wrong in (-1e-3, np.nan, 1e9):  # odd steps change nothing
+        refused(lambda wrong=wrong: slave.step(10, wrong, rows[0, :6]), f"a step of {wrong} s")
+    slave.restore(kept)
+    slave.step(n // 2 / rate, 0, rows[n // 2, :6])  # a step of 0 has no tick
+    assert list(rows[n // 2, 6:]) == slave.step(n // 2 / rate, 1 / rate, rows[n // 2, :6]), "after a step of 0"
     print(f"{file.name}: {n} forces equal the core's bit for bit, also after a restored state and in sub-steps")
 
 

@@ -24,6 +24,9 @@ enum Reference : std::uint32_t {
   parameter_reference = 1000,  ///< 1000 + k: number k of scene.txt
 };
 
+/// Of one step: about a minute of computing. A wrong unit of time must not hang the simulator.
+inline constexpr std::uint64_t most_ticks = 1'000'000'000;
+
 /// Everything that changes during a run, beside the state of the insertion.
 struct Run {
   std::array<double, 6> input{};       ///< position, m; axis
@@ -42,7 +45,8 @@ struct Saved {
   Run run;
   std::vector<unsigned char> insertion;  ///< empty before the end of the initialization
 
-  std::size_t size() const noexcept { return sizeof(Run) + insertion.size(); }
+  /// With the checksum at the end.
+  std::size_t size() const noexcept { return sizeof(Run) + insertion.size() + sizeof(std::uint64_t); }
   void write(unsigned char* to) const noexcept;
 };
 
