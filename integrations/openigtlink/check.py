@@ -61,7 +61,8 @@ def check_network(scene: Path, rows: np.ndarray, rate: float) -> None:
     thread.start()
     client = pyigtl.OpenIGTLinkClient(host="127.0.0.1", port=port)
     offline = NeedleServer(str(scene), [0.0, 0.0, 1.0], 20)
-    client.send_message(pyigtl.TransformMessage(np.eye(4), device_name=SCENE), wait=True)
+    # A place with a scale is not used, and does not end the server.
+    client.send_message(pyigtl.TransformMessage(np.diag([2.0, 2, 2, 1]), device_name=SCENE), wait=True)
     strongest = 0.0
     try:
         for k in range(0, 1200, 16):

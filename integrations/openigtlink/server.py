@@ -72,7 +72,10 @@ def serve(server: pyigtl.OpenIGTLinkServer, needle: NeedleServer, running: Calla
         message = server.wait_for_message(NEEDLE, timeout=0.1)
         for other in server.get_latest_messages():
             if other.device_name == SCENE:
-                needle.place_scene(other.matrix)
+                try:
+                    needle.place_scene(other.matrix)
+                except ValueError as error:
+                    print(f"this transform is not used: {error}")
             elif other.device_name == NEEDLE:
                 message = other
         if message is None:

@@ -153,6 +153,10 @@ static class Test
                 }
                 Require(peak > 0.5 && needle.Force.y < peak && needle.body.force.y == needle.Force.y, "a pop");
                 Call(needle, "OnGUI");
+                needle.body.force = new Vector3(0, 0, 0);
+                needle.transform.position = new Vector3(0, float.NaN, 0);
+                Call(needle, "FixedUpdate");
+                Require(needle.body.force.y == 0 && double.IsNaN(needle.ExactForce.Y), "no force at NaN for the body");
                 Require(GUI.Shown.StartsWith("needle: 0") && GUI.Shown.EndsWith(" N"), GUI.Shown);
                 Console.WriteLine("component (stand-ins for Unity): peak " + peak.ToString("0.000") + " N, then " + GUI.Shown);
             }

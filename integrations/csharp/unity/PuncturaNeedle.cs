@@ -74,7 +74,8 @@ namespace Punctura
             lastPosition = position;
             lastAxis = axis;
             Force = Axes.ToUnity(ExactForce);
-            if (body != null) body.AddForceAtPosition(Force, transform.position);
+            bool number = ExactForce.X == ExactForce.X;  // not after a position that is not finite
+            if (body != null && number) body.AddForceAtPosition(Force, transform.position);
         }
 
         static Triple Between(Triple a, Triple b, double share)
