@@ -62,15 +62,15 @@ def _run(
         try:
             finish = prepare(loop) if prepare else None
             supervisor.start()
-            with signals.raised():
-                ended = False
-                while not ended:
-                    ended = supervisor.wait(POLL_S)
-                    summary.add(listener.read())
-                    summary.fault = summary.fault or watched.silence
-                    if summary.fault and ended:  # not before the stop: the driver may take time to answer
-                        summary.blame(device)
-                    if watch:
+            ended = False
+            while not ended:
+                ended = supervisor.wait(POLL_S)
+                summary.add(listener.read())  # a signal in this line must not lose the ticks that were read
+                summary.fault = summary.fault or watched.silence
+                if summary.fault and ended:  # not before the stop: the driver may take time to answer
+                    summary.blame(device)
+                if watch:
+                    with signals.raised():
                         watch(summary)
         finally:
             try:

@@ -168,7 +168,10 @@ def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):
 class Interrupts:
     """Sends a signal to this process before the n-th line that the main thread executes in these files."""
 
-    FILES = ("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/wake_socket.py", "/contextlib.py")
+    FILES = (
+        *("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/wake_socket.py", "/contextlib.py"),
+        "/live/summary.py",
+    )
 
     def __init__(self, n):
         self.left = n
@@ -197,8 +200,9 @@ def interrupted_run(n):
     sys.settrace(interrupts)
     try:
         run_live(device, SCENE, prepare=prepare)
-    except Ended:
+    except Ended as end:
         happened.append("Ended")
+        assert end.summary is None or end.summary.gaps == 0, f"line {n}: the summary lacks ticks"
     finally:
         sys.settrace(None)
         left_behind = signal.signal(signal.SIGTERM, before)

@@ -59,7 +59,7 @@ def test_it_is_shown_as_what_it_is_and_its_hand_is_left_alone(haply):
 def test_it_stays_open_from_run_to_run_and_is_recorded(haply):
     _, server, page = haply
     assert page.ask(do="start_recording", name="arm")["ok"]
-    page.wait(lambda: page.last.run == 1 and page.ticks > 100)
+    page.wait(lambda: page.last.run == 1)  # no more ticks: a busy machine may be later than the 15 ms that end a run
     stopped = page.ask(do="stop_recording")
     assert stopped["ok"] and stopped["data"]["lost"] == 0, stopped
     page.wait(lambda: page.last.run == 2)
