@@ -8,7 +8,6 @@ from pathlib import Path
 
 from punctura._core import Placement
 from punctura.cli._headless import USUAL_SCENE, Wishes, begun, say
-from punctura.exercise import load_exercise
 from punctura.live import DroppingStream
 
 
@@ -19,7 +18,9 @@ def run_page(
 
     Raises DeviceError, Ended if a signal ended the run, StudioError (its text says what to do), ConfigurationError.
     """
-    from punctura.studio import serve  # imported here, because importing the server takes long
+    # Imported here, because importing the server takes long.
+    from punctura.exercise import load_exercise
+    from punctura.studio import serve
     from punctura.studio.catalog import Exercises
     from punctura.studio.loaded import from_name
     from punctura.studio.run import Settings

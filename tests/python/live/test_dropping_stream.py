@@ -166,7 +166,7 @@ from punctura.cli._streams import never_wait_for_stderr
 def command(*_, **__):
     never_wait_for_stderr()
     raise RuntimeError("a defect")
-app.build_app = lambda: command
+app.build_app = lambda *_: command
 app.main()
 """
 
