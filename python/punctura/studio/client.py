@@ -21,7 +21,7 @@ from punctura.studio.wire.frames import Frame, decode_ticks
 
 T = TypeVar("T")
 Json = dict[str, Any]
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 
 
 class StudioClient:

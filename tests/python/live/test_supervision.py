@@ -98,7 +98,7 @@ def test_ticks_that_cease_end_a_run_also_in_another_thread(monkeypatch):
 def test_the_command_ends_after_its_time_while_nobody_reads_its_messages(tmp_path, blocked):
     command = [*RUN, "--duration", "1", "--record", str(tmp_path / "run.parquet"), "--json"]
     with BLOCKED[blocked]() as stderr:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, timeout=30)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, timeout=60)
     assert done.returncode == 0
     assert json.loads(done.stdout)["recording"]["lost"] == 0
     assert open_recording(tmp_path / "run.parquet").finished

@@ -73,7 +73,7 @@ def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
     service.removed = True
     fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
     assert fault["fault"] == "device" and fault["trouble"]
-    assert service.idle.wait(5)
+    assert service.idle.wait(60)
     assert page.ask(do="pause")["ok"]
     refused = page.ask(do="load", scene="k06-fig10")
     assert not refused["ok"] and refused["text"]

@@ -144,7 +144,7 @@ def test_a_recording_states_its_columns_and_its_needle(tmp_path):
 
 
 def test_a_file_that_is_too_large_is_refused(served, monkeypatch):
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=20)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
     head = {"Authorization": f"Bearer {served.address.token}", "Content-Length": str(MOST_TRACE + 1)}
     connection.request("POST", FILE, headers=head)
     assert connection.getresponse().status == 413
@@ -169,7 +169,7 @@ def test_a_file_that_comes_too_slowly_frees_the_place(served, monkeypatch):
 
 def test_a_file_is_sent_to_its_own_addresses_only_and_with_the_token(served):
     assert refused(served, "/api/schema", b"1")[0] == 405
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=20)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
     connection.request("POST", FILE, b"1")
     assert connection.getresponse().status == 401
 

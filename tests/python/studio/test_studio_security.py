@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 def get(server, path="/", method="GET", host=None, body=None, **headers):
     """Sends a request unchanged. Returns status, headers, body."""
     port, token = server.address.port, server.address.token
-    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
     connection.putrequest(method, path.replace("TOKEN", token), skip_host=True)
     for name, value in {"Host": host or f"127.0.0.1:{port}", **headers}.items():
         if value:
