@@ -1,6 +1,5 @@
 """The page when its server goes, and when someone else looks on."""
 
-
 from person import ready
 from playwright.sync_api import expect
 from studio_process import StudioProcess
