@@ -117,7 +117,7 @@ class EventFinderOf {
   };
 
   /// Switches to the next scene. A membrane at the same place keeps its contact under the new law, also if its number
-  /// differs. Other membranes start without history. InsertionOf::resume() does the same.
+  /// differs. Other membranes start without history. ConditionedProxies::resume() does the same.
   void take_scene() noexcept {
     scene_is_pending_ = false;
     std::swap(now_, next_);

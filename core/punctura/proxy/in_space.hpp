@@ -107,35 +107,6 @@ void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept 
     state.pieces = params.law.pieces(state.cos_beta);
 }
 
-/// Takes over the state of a proxy at the same membrane, which may have another law and another coupling.
-///
-/// Memory of the same type is kept. Otherwise the branches of the coupling begin without force, and a law with memory
-/// begins with an untouched wall. A needle that is inside has cut up to its present depth.
-template <typename L, typename C, typename OtherLaw, typename OtherCoupling>
-void resume(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-            const SpaceState<OtherLaw, OtherCoupling>& previous) noexcept {
-  state = {};
-  state.started = previous.started;
-  state.phase = previous.phase;
-  state.p = previous.p;
-  state.e = previous.e;
-  state.f = previous.f;
-  state.b = previous.b;
-  state.cos_beta = previous.cos_beta;
-  if constexpr (std::is_same_v<decltype(state.coupling), decltype(previous.coupling)>) {
-    state.coupling = previous.coupling;
-    if constexpr (requires { params.coupling.clear_unused(state.coupling); })
-      params.coupling.clear_unused(state.coupling);
-  }
-  if constexpr (std::is_same_v<decltype(state.law), decltype(previous.law)>) state.law = previous.law;
-  if (!inside(state.phase)) return;
-  if constexpr (LawWithMemory<L>) {
-    const auto depth = params.n.dot(state.p + state.e - params.a) / state.cos_beta;
-    if (depth > 0) params.law.advance(state.law, depth);
-  }
-  lay_out(params, state);
-}
-
 /// Fixes b and U at entry, K06 (41) and (17), for the lanes in which the tip has `passed` the surface. They stay
 /// until the tip leaves.
 ///

@@ -26,7 +26,11 @@ class Proxy1d {
       : Proxy1d(law, C(coupling, period), solver) {}
 
   /// Clears the state: e = f = 0, and the next sample is the first one.
-  void reset() noexcept { set_state({}); }
+  void reset() noexcept {
+    state_ = {};
+    depth_ = {};
+    band_ = {};
+  }
 
   /// One tick. p: depth of the device, m. Returns f, the force on the device, N. K06 (33).
   ///
@@ -43,13 +47,9 @@ class Proxy1d {
     return state_.f;
   }
 
-  /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
+  /// The complete state of the solver, to look at. To go back to a tick later, copy the whole proxy, or use
+  /// save_state() and load_state(): they also keep what tick() has beside it.
   const State& state() const noexcept { return state_; }
-  void set_state(const State& state) noexcept {
-    state_ = state;
-    depth_ = {};  // until the next step
-    band_ = {};
-  }
 
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);

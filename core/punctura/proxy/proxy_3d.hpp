@@ -2,14 +2,15 @@
 #pragma once
 
 #include <limits>
+#include <type_traits>
 
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/paper.hpp"
 
 namespace punctura {
 
-template <ObliqueLaw L, typename C, typename Storage>
-class InsertionOf;
+template <typename Proxy, typename Storage>
+class ConditionedProxies;
 
 /// The proxy of K06 Fig. 7. Inside, it moves only along b, the needle's direction at entry, and friction acts only
 /// along b.
@@ -33,7 +34,10 @@ class Proxy3d {
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
 
   /// Clears the state. A proxy that starts inside stays barred until it has been outside, in front.
-  void reset() noexcept { set_state({}); }
+  void reset() noexcept {
+    state_ = {};
+    keep({});
+  }
 
   /// One tick. p: position of the device, m. axis: the needle's unit direction. Returns the force on the device, N.
   /// K06 (41).
@@ -49,19 +53,31 @@ class Proxy3d {
     return params_.a == other.params().a && params_.n == other.params().n;
   }
   /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
+  ///
+  /// Memory of the same type is kept. Otherwise the branches of the coupling begin without force, and a law with memory
+  /// begins with an untouched wall. A needle that is inside has cut up to its present depth.
   template <typename OtherLaw, typename OtherCoupling>
   void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
-    punctura::resume(params_, state_, previous.state());
+    const auto& old = previous.state();
     keep(previous.tick());
+    state_ = {old.started, old.phase, old.p, old.e, old.f, old.b, old.cos_beta};
+    if constexpr (std::is_same_v<decltype(state_.coupling), std::remove_cvref_t<decltype(old.coupling)>>) {
+      state_.coupling = old.coupling;
+      if constexpr (requires { params_.coupling.clear_unused(state_.coupling); })
+        params_.coupling.clear_unused(state_.coupling);
+    }
+    if constexpr (std::is_same_v<decltype(state_.law), std::remove_cvref_t<decltype(old.law)>>) state_.law = old.law;
+    if (!inside(state_.phase)) return;
+    if constexpr (LawWithMemory<L>) {
+      const auto depth = params_.n.dot(position() - params_.a) / state_.cos_beta;
+      if (depth > 0) params_.law.advance(state_.law, depth);
+    }
+    lay_out(params_, state_);
   }
 
-  /// The complete state of the proxy. A proxy that gets a copy of it by set_state() continues with the same bits.
+  /// The complete state of the solver, to look at. To go back to a tick later, copy the whole proxy, or use
+  /// save_state() and load_state(): they also keep what tick() has beside it.
   const State& state() const noexcept { return state_; }
-  void set_state(const State& state) noexcept {
-    state_ = state;
-    axial_force_ = depth_ = {};  // until the next step
-    band_ = {};
-  }
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
     state.numbers(self.axial_force_, self.depth_, self.band_.lower, self.band_.upper);
@@ -90,8 +106,8 @@ class Proxy3d {
   Scalar depth() const noexcept { return depth_; }             ///< m, see SpaceTick
 
  private:
-  template <ObliqueLaw, typename, typename>
-  friend class InsertionOf;  // it checks p and axis once for all membranes
+  template <typename, typename>
+  friend class ConditionedProxies;  // it checks p and axis once for all membranes
 
   /// step() without the check of p and axis.
   const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include "punctura/model/storage.hpp"
 #include "punctura/model/vector3.hpp"
@@ -36,11 +35,6 @@ class EntryDirection {
     ticks_ = 0;
     length_ = 0;
     last_ = {};
-  }
-
-  /// Takes over the history of another EntryDirection of the same period. `previous` loses it. Allocates no memory.
-  void resume(EntryDirection& previous) noexcept {
-    if (previous.recent_.size() == recent_.size()) std::swap(*this, previous);
   }
 
   static void archive(auto& self, auto& state) {

@@ -21,7 +21,7 @@ namespace {
 
 using Site = SiteOf<ThickLaw>;
 using Fixed = InsertionOf<ThickLaw, SampledCoupling<double>, FixedStorage<3>>;
-static_assert(std::is_trivially_copyable_v<FixedVector<Fixed::Proxy, 3>>);
+static_assert(std::is_trivially_copyable_v<FixedVector<Proxy3d<ThickLaw>, 3>>);
 
 const SampledCoupling<double> coupling({400, 1}, T);
 

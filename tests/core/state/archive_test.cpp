@@ -81,6 +81,38 @@ TEST_CASE("a saved insertion continues in another object with the same bits") {
       }
 }
 
+TEST_CASE("a loaded or copied proxy has the whole last tick, and continues with the same bits") {
+  Noise noise(93);
+  const auto motion = random_motion(noise, 2000, 10e-3, T);
+  for (const Solver solver : {Solver::paper, Solver::exact}) {
+    const ThickLaw law(paper_needle, paper_membrane(1e-3));
+    Proxy1d line(law, Coupling{400, 1}, T, solver), loaded_line = line;
+    Proxy3d space(law, Vector3d(), down, Coupling{400, 1}, T, solver), loaded_space = space;
+    for (const double p : motion) {
+      const auto copied_line = line;
+      const auto copied_space = space;
+      REQUIRE(load_state(loaded_line, save_state(line)));
+      REQUIRE(load_state(loaded_space, save_state(space)));
+      for (const auto& other : {loaded_line.tick(), copied_line.tick()}) {
+        REQUIRE(other.force == line.force());
+        REQUIRE(other.proxy == line.position());
+        REQUIRE(other.depth == line.depth());
+        REQUIRE(other.band.lower == line.tick().band.lower);
+        REQUIRE(other.band.upper == line.tick().band.upper);
+      }
+      for (const auto& other : {loaded_space.tick(), copied_space.tick()}) {
+        REQUIRE(other.force == space.force());
+        REQUIRE(other.axial_force == space.axial_force());
+        REQUIRE(other.depth == space.depth());
+        REQUIRE(other.band.lower == space.band().lower);
+        REQUIRE(other.band.upper == space.band().upper);
+      }
+      REQUIRE(loaded_line.step(p) == line.step(p));
+      REQUIRE(loaded_space.step(p * down, down) == space.step(p * down, down));
+    }
+  }
+}
+
 TEST_CASE("the memory of a custom law and its pieces are saved") {
   Noise noise(8);
   const auto depths = random_motion(noise, 2000, 8e-3, T);
