@@ -19,53 +19,78 @@ namespace {
 using batch::Grid;
 using batch::LineBatch;
 
-/// A LineBatch with the Python objects of its laws.
-struct LawBatch : LineBatch, OneThread {
-  using LineBatch::LineBatch;
-};
+using Law = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>;
 
-std::size_t length_of(const nb::object& given) {
-  return nb::isinstance<nb::sequence>(given) ? nb::len(given) : 0;  // 0: one for all trials
-}
-
-void check_coupling_and_period(const Coupling& coupling, double period) {
-  std::vector<Problem> problems;
-  check(coupling, problems);
-  check_period(period, problems);
-  raise_if(problems);
-}
-
-/// The laws of the trials. They stay alive with the batch.
-struct Laws {
-  std::vector<std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>> laws;
-};
-
-LawBatch* make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period,
-               const std::string& solver, const std::optional<std::size_t>& trials) {
-  const std::size_t laws = length_of(law), couplings = length_of(coupling);
-  std::size_t n = trials.value_or(std::max<std::size_t>({laws, couplings, 1}));
-  for (const auto& [name, length] : {std::pair{"law", laws}, std::pair{"coupling", couplings}})
-    if (length != 0 && length != n)
-      throw nb::value_error((std::string(name) + " has " + std::to_string(length) + " elements, and there are " +
-                             std::to_string(n) + " trials: give one for each trial, or a single one for all")
+/// One for each trial, or a single one for all.
+template <typename T>
+struct Given {
+  Given(const nb::object& given, const char* name, const char* wanted, std::optional<std::size_t>& trials)
+      : single(!nb::isinstance<nb::sequence>(given)) {
+    const auto add = [&](const nb::object& one) {
+      try {
+        all.push_back(nb::cast<T>(one));
+      } catch (const nb::cast_error&) {
+        throw nb::type_error(
+            (std::string(name) + " must be " + wanted + ", not " + nb::cast<std::string>(nb::type_name(one.type())))
+                .c_str());
+      }
+    };
+    if (single) {
+      add(given);
+      return;
+    }
+    const std::size_t n = nb::len(given);
+    if (n != trials.value_or(n))
+      throw nb::value_error((std::string(name) + " has " + std::to_string(n) + " elements, and there are " +
+                             std::to_string(*trials) + " trials: give one for each trial, or a single one for all")
                                 .c_str());
+    trials = n;
+    all.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) add(given[i]);
+  }
+  const T& of(std::size_t trial) const { return all[single ? 0 : trial]; }
+  nb::object argument() const { return single ? nb::cast(all.front()) : nb::cast(all); }
+
+  bool single;
+  std::vector<T> all;
+};
+
+/// A LineBatch that keeps its constructor arguments. Copies share the laws.
+class LawBatch : public LineBatch, public OneThread {
+ public:
+  LawBatch(std::shared_ptr<const Given<Law>> laws, Given<Coupling> couplings, double period, Solver solver,
+           std::size_t trials)
+      : LineBatch(period, solver), laws_(std::move(laws)), couplings_(std::move(couplings)) {
+    reserve(trials);
+    for (std::size_t i = 0; i < trials; ++i)
+      std::visit([&](const auto& law) { add(law.pieces(), couplings_.of(i)); }, laws_->of(i));
+  }
+
+  void describe(auto& parameters) const {
+    LineBatch::describe(parameters);
+    for (const Law& one : laws_->all) std::visit([&](const auto& law) { law.pieces().describe(parameters); }, one);
+  }
+  std::vector<std::byte> save() const { return save_state(*this); }
+  bool load(std::span<const std::byte> state) { return load_state(*this, state); }
+  nb::tuple arguments() const {
+    return nb::make_tuple(laws_->argument(), couplings_.argument(), period(), name_of(solver()), trials());
+  }
+
+ private:
+  std::shared_ptr<const Given<Law>> laws_;
+  Given<Coupling> couplings_;
+};
+
+void make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period, const std::string& solver,
+          std::optional<std::size_t> trials) {
+  auto laws = std::make_shared<const Given<Law>>(law, "law", "a ThinLaw, ThickLaw or ProfileLaw", trials);
+  Given<Coupling> couplings(coupling, "coupling", "a Coupling", trials);
   std::vector<Problem> problems;
+  for (const Coupling& one : couplings.all)
+    if (problems.empty()) check(one, problems);
   check_period(period, problems);
   raise_if(problems);
-  auto kept = std::make_shared<Laws>();
-  kept->laws.reserve(laws == 0 ? 1 : laws);
-  using One = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw>;
-  if (laws == 0) kept->laws.push_back(nb::cast<One>(law));
-  for (std::size_t i = 0; i < laws; ++i) kept->laws.push_back(nb::cast<One>(law[i]));
-  new (self) LawBatch(period, solver_from(solver));
-  self->reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto one = nb::cast<Coupling>(couplings == 0 ? coupling : nb::object(coupling[i]));
-    check_coupling_and_period(one, period);
-    std::visit([&](const auto& l) { self->add(l.pieces(), one); }, kept->laws[laws == 0 ? 0 : i]);
-  }
-  self->keep(kept);
-  return self;
+  new (self) LawBatch(std::move(laws), std::move(couplings), period, solver_from(solver), trials.value_or(1));
 }
 
 /// An array of float64 with any strides, without a copy if it already is one.
@@ -139,6 +164,7 @@ void bind_batch(nb::module_& m) {
       m, "LineBatch", nb::is_final(),
       "Many independent trials of a proxy on a line, computed together. K06 section 3.1, (33)\n\n"
       "Each trial gets the bits that Proxy1d gives, whatever the instruction set, the block and the threads are.");
+  def_state(line);
   def_repr(line, "<LineBatch of {0.trials} trials>");
   line.def("__init__", &make, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
            nb::arg("trials") = nb::none(),

@@ -114,12 +114,11 @@ struct GivenTissueLaw : TissueLaw {
 template <typename T, typename... Options>
 void def_repr(nb::class_<T, Options...>& cls, const char* format) {
   cls.def("__repr__", [format](nb::handle self) {
-    try {
-      return nb::str(nb::str(format).attr("format")(self));
-    } catch (const nb::python_error& error) {  // see OneThread
-      if (!error.matches(PyExc_RuntimeError)) throw;
-      return nb::str("<{0.__class__.__name__}, at work in another thread>").format(self);
-    }
+    const char* now = format;
+    if constexpr (requires(const T& object) { object.at_work_elsewhere(); })
+      if (nb::inst_ready(self) && nb::inst_ptr<T>(self)->at_work_elsewhere())
+        now = "<{0.__class__.__name__}, at work in another thread>";
+    return nb::str(nb::str(now).attr("format")(self));
   });
 }
 

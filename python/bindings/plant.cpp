@@ -189,7 +189,9 @@ void bind_plant(nb::module_& m) {
       .def_prop_rw(
           "state", [](const Target& self) { return as_bytes(save_state(self)); },
           [](Target& self, const nb::bytes& state) {
-            if (!load_state(self, as_span(state))) throw nb::value_error("these bytes are no state of a Target");
+            if (!load_state(self, as_span(state)))
+              throw nb::value_error(
+                  "these bytes are no state of this Target: they are damaged, or of another version of punctura");
           },
           nb::for_getter(nb::sig("def state(self) -> bytes")),
           nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")), "The complete state as bytes.")

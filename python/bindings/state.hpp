@@ -27,9 +27,12 @@ class OneThread {
           "run() is at work on this object in another thread: use it in one thread at a time, or "
           "give each thread a copy of its own");
   }
-  /// The same for a reader. The thread of run() may read: it is then in `progress`, between two ticks.
+  /// Whether run() is in progress in another thread. The thread of run() may read: it is then in `progress`, between
+  /// two ticks.
+  bool at_work_elsewhere() const { return running_ && std::this_thread::get_id() != runner_; }
+  /// Throws RuntimeError while run() is in progress in another thread.
   void must_be_readable() const {
-    if (std::this_thread::get_id() != runner_) must_rest();
+    if (at_work_elsewhere()) must_rest();
   }
   class Running {
    public:

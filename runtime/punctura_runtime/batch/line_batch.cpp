@@ -55,6 +55,14 @@ void LineBatch::reset() noexcept {
   }
 }
 
+void LineBatch::complete_blocks() noexcept {
+  for (LineBlock& block : blocks_) clear_pieces(block);
+  if (trials_ == 0) return;
+  const std::size_t last = (trials_ - 1) % block_lanes;
+  for (LaneNumbers* numbers : {&blocks_.back().p, &blocks_.back().e, &blocks_.back().f})
+    std::fill(numbers->of + last, numbers->of + block_lanes, numbers->of[last]);
+}
+
 LineBatch::Outcome LineBatch::run(std::size_t ticks, const Grid<const double>& p, const Grid<double>& force,
                                   const RunOptions& options) {
   Outcome outcome;

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "punctura/model/vector3.hpp"
 #include "punctura/proxy/coupling.hpp"
 #include "punctura_runtime/batch/line_tables.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
@@ -37,15 +38,13 @@ class LineBatch {
  public:
   LineBatch(double period, Solver solver) noexcept : period_(period), solver_(solver) {}
 
-  /// Adds a trial. The band must stay where it is as long as the batch exists: see keep().
+  /// Adds a trial. The band must stay where it is as long as the batch and its copies exist.
   ///
   /// Pieces: a PiecewiseBand or ManyPieces.
   template <typename Pieces>
   void add(const Pieces& band, const Coupling& coupling) {
     add(table_of(band), SampledCoupling<double>(coupling, period_));
   }
-  /// Owns something that a trial uses.
-  void keep(std::shared_ptr<const void> owned) { kept_.push_back(std::move(owned)); }
   void reserve(std::size_t trials) { blocks_.reserve((trials + block_lanes - 1) / block_lanes); }
 
   std::size_t trials() const noexcept { return trials_; }
@@ -69,14 +68,38 @@ class LineBatch {
   /// If it does not finish, all trials keep the state from before.
   Outcome run(std::size_t ticks, const Grid<const double>& p, const Grid<double>& force, const RunOptions& options);
 
+  /// For save_state() and load_state().
+  static void archive(auto& self, auto& state) {
+    for (std::size_t trial = 0; trial < self.trials_; ++trial) {
+      auto& block = self.blocks_[trial / block_lanes];
+      const std::size_t lane = trial % block_lanes;
+      if (lane == 0) state.flag(block.started);
+      state.numbers(block.p.of[lane], block.e.of[lane], block.f.of[lane]);
+      state.require(is_place(block.p.of[lane]));
+    }
+    if constexpr (std::remove_reference_t<decltype(state)>::reading) self.complete_blocks();
+  }
+  /// The parameters but the bands, which are the caller's.
+  void describe(auto& parameters) const {
+    parameters.choice(solver_, Solver::exact);
+    parameters.numbers(period_);
+    parameters.index(trials_, 0);
+    for (std::size_t trial = 0; trial < trials_; ++trial) {
+      const LineBlock& block = blocks_[trial / block_lanes];
+      const std::size_t lane = trial % block_lanes;
+      parameters.numbers(block.K.of[lane], block.g.of[lane], block.inv_g.of[lane], block.B_over_D.of[lane]);
+    }
+  }
+
  private:
   void add(const BandTable& table, const SampledCoupling<double>& coupling);
+  /// After the states were set: the lanes behind the last trial repeat it, and each lane loads its piece.
+  void complete_blocks() noexcept;
 
   double period_;
   Solver solver_;
   std::size_t trials_ = 0;
   std::vector<LineBlock> blocks_;
-  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 }  // namespace punctura::batch

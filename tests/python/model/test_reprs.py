@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
-import inspect
 import io
-import pkgutil
 
 import numpy as np
 import punctura
 import pytest
+from exported import exported
 from punctura import _core
 from punctura.events import EventFinder
 from punctura.exercise import Attempt, ResultStore, load_exercise
@@ -19,20 +17,6 @@ from punctura.record import Recorder, open_recording
 SCENE = punctura.load_scene("k06-fig10")
 WALL = SCENE.membranes[0].membrane
 AXIS = [0.0, -1.0, 0.0]
-
-
-def exported() -> dict[str, type]:
-    modules = [
-        punctura,
-        *(importlib.import_module(f"punctura.{m.name}") for m in pkgutil.iter_modules(punctura.__path__)),
-    ]
-    modules.append(importlib.import_module("punctura.studio.client"))
-    return {
-        f"{module.__name__}.{name}": thing
-        for module in modules
-        for name in getattr(module, "__all__", None) or [n for n in vars(module) if n[0] != "_"]
-        if inspect.isclass(thing := getattr(module, name)) and thing.__module__.startswith("punctura")
-    }
 
 
 def test_no_exported_class_has_the_default_repr():

@@ -1,4 +1,4 @@
-"""State of experiments and motions: copies, pickle, bytes."""
+"""States of other experiments, and pickled motions. test_copies.py has the states of experiments."""
 
 import copy
 import pickle
@@ -24,30 +24,6 @@ def experiment(request):
     if request.param == "target":
         made.move_to(END)
     return made
-
-
-def rest(experiment):
-    ticks = experiment.run(1.5)
-    assert np.abs(ticks.model_force).max() > 0.05, "the motion meets a membrane"
-    return ticks
-
-
-@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-def test_a_copy_of_a_running_experiment_continues_with_the_same_bits(experiment, again):
-    other = again(experiment)
-    assert (other.ticks, other.duration, other.state) == (experiment.ticks, experiment.duration, experiment.state)
-    ours, theirs = rest(experiment), rest(other)
-    assert list(ours) == list(theirs)
-    for name in ours:
-        assert np.array_equal(ours[name], theirs[name], equal_nan=ours[name].dtype.kind == "f"), name
-
-
-def test_a_saved_state_restores_its_tick(experiment):
-    kept, ticks = experiment.state, experiment.ticks
-    wanted = rest(experiment)
-    experiment.state = kept
-    assert experiment.ticks == ticks
-    assert np.array_equal(rest(experiment).true_position, wanted.true_position)
 
 
 def test_the_state_of_another_experiment_is_refused(experiment):

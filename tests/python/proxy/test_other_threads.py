@@ -32,7 +32,13 @@ def experiment():
     return made, lambda progress: made.run(0.05, progress=progress)
 
 
+def batch():
+    made = pn.LineBatch(pn.ThinLaw(NEEDLE, MEMBRANE), SCENE.coupling, 1e-3)
+    return made, lambda progress: made.run(np.zeros(1000), progress=progress)
+
+
 CASES = [
+    (batch, "state"),
     (insertion, "depths phases tip force state"),
     (line, "force offset position depth phase state"),
     (space, "force offset position direction axial_force depth bounds phase state"),
@@ -64,3 +70,13 @@ def test_another_thread_reads_nothing_while_run_is_at_work(make, names):
         may_go_on.set()
         thread.join()
     assert all(getattr(made, name) is not None for name in names.split()) and read
+
+
+def test_a_repr_hides_no_other_error():
+    class Broken(pn.live.FedDevice):
+        @property
+        def info(self):
+            raise RuntimeError("the info is broken")
+
+    with pytest.raises(RuntimeError, match="the info is broken"):
+        repr(Broken(500))

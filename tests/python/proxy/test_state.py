@@ -1,4 +1,4 @@
-"""State of proxies and insertions: bytes, pickle, and peek."""
+"""Proxies and insertions: peek, reset, other threads, wrong arguments. test_copies.py has their states."""
 
 import copy
 import pickle
@@ -53,26 +53,6 @@ def model(request):
     return MAKERS[request.param]()
 
 
-@pytest.mark.parametrize("at", [0, 1, 1300, 2600])
-def test_a_pickled_object_continues_with_the_same_bits(model, at):
-    run(model, slice(0, at))
-    other = pickle.loads(pickle.dumps(model))
-    assert type(other) is type(model) and other.state == model.state
-    assert np.array_equal(other.force, model.force)
-    assert np.array_equal(run(other, slice(at, None)), run(model, slice(at, None)))
-    assert run(model, slice(0, None)).any(), "the motion meets the membrane"
-
-
-def test_a_saved_state_restores_its_tick(model):
-    run(model, slice(0, 1300))
-    kept = model.state
-    assert isinstance(kept, bytes)
-    wanted = run(model, slice(1300, None))
-    model.state = kept
-    assert model.state == kept
-    assert np.array_equal(run(model, slice(1300, None)), wanted)
-
-
 def test_peek_gives_what_a_step_would_and_changes_nothing(model):
     for k in (0, 1, 700, 1300, 2000):
         run(model, slice(k, k + 1))
@@ -83,19 +63,6 @@ def test_peek_gives_what_a_step_would_and_changes_nothing(model):
         assert np.array_equal(peeked, model.step(*args))
     with pytest.raises(ValueError, match="p must be finite"):
         model.peek(*((float("nan"),) if isinstance(model, Proxy1d) else ([0, float("nan"), 0], DOWN)))
-
-
-def test_bytes_that_are_no_state_of_this_object_are_refused(model):
-    run(model, slice(0, 1300))
-    kept = model.state
-    foreign = Proxy1d(ThickLaw(NEEDLE, MEMBRANE), Coupling(401, 1), T)
-    damaged = bytes(kept[:-9]) + bytes([kept[-9] ^ 1]) + kept[-8:]
-    for other in (b"", kept[:-1], kept + b"\0", bytes(len(kept)), foreign.state, damaged):
-        with pytest.raises(ValueError, match="no state of this"):
-            model.state = other
-        assert model.state == kept
-    with pytest.raises(TypeError):
-        model.state = "text"
 
 
 @pytest.mark.parametrize("change", [{"stiffness": 571.0}, {"thickness": 0.9e-3}, {"friction": 0.21}])

@@ -1,8 +1,6 @@
 """The plunger of a syringe, against a root search on its equations."""
 
-import copy
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -112,16 +110,13 @@ def test_the_thumb_feels_the_loss_of_resistance_with_liquid_and_with_a_bubble():
         assert left > 0.1 * ML
 
 
-def test_a_copy_and_a_pickle_continue_with_the_same_bits():
+def test_peek_changes_nothing_and_a_reset_fills_the_syringe():
     plunger = Plunger(Syringe(15e-3, 4 * ML, 0.3 * ML, 0.5, 1e-12, 2e9), Coupling(2000, 2), T)
     outlet = Outlet(1e11, 1 * KPA)
     for k in range(500):
         plunger.step(1e-5 * k, outlet)
-    others = copy.copy(plunger), copy.deepcopy(plunger), pickle.loads(pickle.dumps(plunger))
-    assert all(other.state == plunger.state for other in others)
     peeked = plunger.peek(5.1e-3, outlet)
     assert plunger.step(5.1e-3, outlet) == peeked
-    assert all(other.step(5.1e-3, outlet) == peeked for other in others)
     plunger.reset()
     assert plunger.liquid == 4 * ML and plunger.phase == Phase.sticking and plunger.left == 0
 
