@@ -35,7 +35,7 @@ def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law
     assert (np.diff(plotted["tick"]) == 1).all(), "every tick is in the plot"
 
 
-def test_the_phase_is_told_in_words(page):
+def test_the_phase_is_told_in_words_and_fits_a_phone(page):
     ready(page)
     expect(page.locator(".phases")).to_contain_text("outside")
     expect(page.locator(".phases thead")).to_contain_text("model force, N")
@@ -43,3 +43,5 @@ def test_the_phase_is_told_in_words(page):
     expect(page.locator(".phases")).to_contain_text("through")
     # A slow push may end at the edge of the band, where the needle still slides.
     expect(page.locator(".phases")).to_contain_text(re.compile("sticking|sliding in"))
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390, "on a phone, a part is beside the screen"
