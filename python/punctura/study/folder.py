@@ -69,24 +69,24 @@ class Folder:
         return self.path / f"chunk-{number:06}.parquet"
 
     def has(self, number: int, rows: int) -> bool:
-        """Whether a chunk is there, complete."""
+        """Whether a chunk is there, complete and not damaged."""
         return self._rows(self.chunk(number)) == rows
 
     def is_complete(self, rows: int) -> bool:
-        """Whether the table of all trials is there."""
+        """Whether the table of all trials is there and not damaged."""
         return self._rows(self.table) == rows
 
     def save(self, number: int, table: pa.Table) -> None:
         """Writes a chunk."""
         sink = pa.BufferOutputStream()
-        pq.write_table(table, sink)
+        pq.write_table(table, sink, write_page_checksum=True)
         write_whole(self.chunk(number), sink.getvalue().to_pybytes())
 
     def join(self, chunks: int) -> None:
         """Writes the table of all trials from the chunks, in order, and deletes the chunks."""
         with (
             whole_file(self.table) as place,
-            pq.ParquetWriter(place, pq.read_schema(self.chunk(0))) as writer,
+            pq.ParquetWriter(place, pq.read_schema(self.chunk(0)), write_page_checksum=True) as writer,
         ):
             for number in range(chunks):
                 writer.write_table(pq.read_table(self.chunk(number)))
@@ -98,7 +98,9 @@ class Folder:
 
     @staticmethod
     def _rows(path: Path) -> int | None:
+        """The rows of a file of which every page has the right checksum; None if it is damaged or not there."""
         try:
-            return int(pq.read_metadata(path).num_rows)
+            with pq.ParquetFile(path, page_checksum_verification=True) as file:
+                return sum(int(file.read_row_group(i).num_rows) for i in range(file.num_row_groups))
         except (OSError, pa.ArrowException):
             return None

@@ -128,6 +128,27 @@ def test_a_killed_run_loses_no_row_and_doubles_none(tmp_path: Path) -> None:
     assert again.equals(whole) and again["row"].to_pylist() == list(range(6))
 
 
+def test_damaged_files_are_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = load_plan(written(tmp_path, GRID))
+    out = tmp_path / "out"
+
+    def damage(path: Path) -> None:
+        data = bytearray(path.read_bytes())
+        data[40] ^= 0x10  # in a page; the footer with the number of rows stays readable
+        path.write_bytes(data)
+
+    run_study(plan, out)
+    whole = pq.read_table(out / "trials.parquet")
+    damage(out / "trials.parquet")
+    with monkeypatch.context() as stopped:
+        stopped.setattr(Folder, "join", lambda *_: None)
+        stopped.setattr("punctura.study.run.write_report", lambda *_: ("", 0))
+        assert run_study(plan, out).kept == 0
+    damage(out / "chunk-000001.parquet")
+    assert run_study(plan, out).kept == 4
+    assert pq.read_table(out / "trials.parquet").equals(whole)
+
+
 def test_the_report_has_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan = load_plan(written(tmp_path, GRID))
     run_study(plan, tmp_path / "out")
