@@ -55,7 +55,16 @@ class MotionTable:
                 yield np.column_stack([part[i : i + ROWS] for part in self._parts]).astype(np.float64)
             return
         with pq.ParquetFile(self.path) as file:
-            for batch in file.iter_batches(ROWS, columns=self.columns):
+            batches = file.iter_batches(ROWS, columns=self.columns)
+            while True:
+                try:
+                    batch = next(batches, None)
+                except (pa.ArrowException, OSError) as bad:  # a failing disk has an errno, a damaged page none
+                    if isinstance(bad, OSError) and bad.errno is not None:
+                        raise
+                    raise MotionError(self.path, 0, "is damaged: its rows cannot be read; write it again") from None
+                if batch is None:
+                    return
                 columns = [
                     batch.column(name).cast(pa.float64()).to_numpy(zero_copy_only=False) for name in self.columns
                 ]

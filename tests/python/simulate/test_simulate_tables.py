@@ -55,6 +55,18 @@ def test_errors_name_the_row_or_the_file(tmp_path, name):
     assert not (tmp_path / "out.csv").exists()
 
 
+@pytest.mark.parametrize("compression", ["snappy", "none"])
+def test_a_damaged_page_names_the_file(tmp_path, compression):
+    path = saved(tmp_path, "m.parquet", np.column_stack(strokes(50)))
+    pq.write_table(pq.read_table(path), path, compression=compression)
+    data = bytearray(path.read_bytes())
+    data[4:60] = b"\xff" * 56  # the header of the first page; the footer stays readable
+    path.write_bytes(data)
+    with pytest.raises(MotionError, match=r"m\.parquet: is damaged: its rows cannot be read"):
+        simulate("k06-fig12", path, tmp_path / "out.csv")
+    assert not (tmp_path / "out.csv").exists()
+
+
 def test_wrong_shapes_types_and_columns(tmp_path):
     rows = np.column_stack(strokes(50))
     for name, arrays, message in [
