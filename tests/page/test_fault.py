@@ -14,6 +14,7 @@ def test_after_a_fault_one_button_leads_out_of_it_and_the_sentence_says_what_is_
     expect(banner).to_contain_text("draw the needle out of the tissue and press “Turn force on”")
     expect(page.locator(".header")).to_contain_text("Fault")
     expect(page.locator(".header").get_by_role("button", name="Turn force")).to_have_count(0)
+    expect(page.locator(".health-figures")).to_contain_text("Fault: no force")
 
     kept = columns(saved(page, banner.get_by_role("link", name="Save the 1 000 ticks"), tmp_path))
     assert len(kept["tick"]) == 1000 and kept["depth_0_m"][0] > 0

@@ -4,6 +4,8 @@ import type { Spread, Status } from "../wire/messages.ts";
 import { drawHistogram } from "./histogram.ts";
 import { limitList } from "./limit_figures.ts";
 import { RateMeter } from "./rate.ts";
+import { servoState } from "./servo_state.ts";
+import { STATES } from "./words.ts";
 
 const MANY_LATE = 1e-4; // share of the ticks
 
@@ -43,7 +45,7 @@ export const healthPanel: Panel = (host, app) => {
     "Groups of ticks that this page was too slow to show",
   );
   const [viewersBox, setViewers] = figure("pages", "Connected pages");
-  const [forceBox, setForce] = figure("force", "Whether the force is turned on");
+  const [forceBox, setForce] = figure("force", "Whether the device gives the force of the model");
   const [handBox, setHand] = figure("hand", "Who moves the needle");
   for (const box of [lateBox, droppedBox, viewersBox]) box.hidden = !app.engine.studio;
   const period = spread("Period", "Time from the start of one tick to the next");
@@ -75,6 +77,8 @@ export const healthPanel: Panel = (host, app) => {
   host.append(nothing, all);
 
   app.hello.watch((hello) => hello && limits.show(hello.limits));
+  const tellForce = (): void => setForce(app.fault.value ? "Fault: no force" : (STATES[servoState(app)]?.words ?? "–"));
+  app.fault.watch(tellForce);
   let told = "";
   app.status.watch((status) => {
     all.hidden = status === null;
@@ -95,7 +99,7 @@ export const healthPanel: Panel = (host, app) => {
     setLost(status.lost.toLocaleString("en"), status.lost > 0);
     setDropped(status.dropped.toLocaleString("en"), status.dropped > 0);
     setViewers(String(status.viewers));
-    setForce(status.armed ? "Force on" : "Force off");
+    tellForce();
     setHand(HANDS[status.hand]);
     if (!host.hidden) {
       period.show(status.period, 1 / nominal);

@@ -3,12 +3,12 @@ import type { App } from "../state/app.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { TURN_ON, waitingFor } from "./fault_steps.ts";
+import { FAULTED, servoState } from "./servo_state.ts";
 import { CUT, STATES } from "./words.ts";
 
 const DISARMED = codeOf("state", "disarmed");
 const ACTIVE = codeOf("state", "active");
 const WAITING = codeOf("state", "waiting");
-const FAULTED = codeOf("state", "faulted");
 const TURN_OFF = "Turn force off";
 const HELD = 800; // ticks: a cut is shown for this long, so that it can be read
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
@@ -43,9 +43,7 @@ export function stateButton(app: App): HTMLElement {
   let last = 0;
   everyFrame((time) => {
     const { history } = app.live;
-    const known = history.length > 0 && app.connection.value.state === "open";
-    // A device that has stopped sends no tick with the state "faulted".
-    const now = !known ? -1 : app.fault.value ? FAULTED : (history.byteRow("state", history.end - 1)[0] ?? 0);
+    const now = servoState(app);
     if (now === shown && time - last < INTERVAL) return;
     last = time;
     const cut = now === ACTIVE ? lastCut(history, history.end - HELD) : null;

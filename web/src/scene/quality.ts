@@ -1,6 +1,7 @@
-const LATE_MS = 36; // a picture that takes longer than this is late: fewer than 28 a second
+const EACH_MS = 1000 / 30; // time of a picture at 30 a second
 const QUICK_MS = 22;
-const LATE_PICTURES = 12;
+const MOST_BEHIND_MS = 300;
+const LONGEST_MS = 100; // a longer picture counts as this: one stop of the page says little about its speed
 const QUICK_PICTURES = 120;
 const MOST_PATIENCE = 8 * QUICK_PICTURES;
 const STEP = 0.8;
@@ -8,14 +9,16 @@ const LOWEST = 0.6; // device pixels per CSS pixel, along each side
 const IDLE_MS = 400;
 
 /**
- * Sharpness of a moving picture. If pictures come late, they get fewer pixels, because fewer pixels are better than
- * fewer pictures. If they come early for a while, sharpness comes back; each attempt that fails doubles that while.
- * A picture takes the time until the browser asks for the next one, whether there is something new to draw or not.
+ * Sharpness of a moving picture. If fewer than 30 pictures a second come on average, they get fewer pixels, because
+ * fewer pixels are better than fewer pictures. If they come early for a while, sharpness comes back; each attempt that
+ * fails doubles that while. A picture takes the time until the browser asks for the next one, whether there is
+ * something new to draw or not.
  */
 export class Quality {
   ratio: number;
   private readonly lowest: number;
-  private late = 0;
+  /** How far the pictures are behind 30 a second, ms. */
+  private behind = 0;
   private quick = 0;
   private patience = QUICK_PICTURES;
   private raised = false;
@@ -47,9 +50,9 @@ export class Quality {
   }
 
   private judge(took: number): boolean {
-    this.late = took > LATE_MS ? this.late + 1 : Math.max(0, this.late - 1);
-    this.quick = took < QUICK_MS ? this.quick + 1 : took > LATE_MS ? 0 : this.quick;
-    if (this.late >= LATE_PICTURES && this.ratio > this.lowest) {
+    this.behind = Math.max(0, this.behind + Math.min(took, LONGEST_MS) - EACH_MS);
+    this.quick = took < QUICK_MS ? this.quick + 1 : took > EACH_MS + 1 ? 0 : this.quick;
+    if (this.behind >= MOST_BEHIND_MS && this.ratio > this.lowest) {
       if (this.raised) this.patience = Math.min(2 * this.patience, MOST_PATIENCE);
       return this.set(Math.max(this.lowest, this.ratio * STEP), false);
     }
@@ -60,7 +63,7 @@ export class Quality {
   private set(ratio: number, raised: boolean): true {
     this.ratio = ratio;
     this.raised = raised;
-    this.late = this.quick = 0;
+    this.behind = this.quick = 0;
     return true;
   }
 

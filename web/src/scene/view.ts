@@ -25,7 +25,8 @@ import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
 
 const COARSER =
-  "Pictures came late on this computer, so a moving picture has fewer pixels along each side. 100 %: all of them.";
+  "This computer drew fewer than 30 pictures a second, so a moving picture has fewer pixels along each side. " +
+  "100 %: all of them.";
 
 /** The 3D view of the needle and the membranes. It draws only after a change, at most once per frame. */
 export const view: Panel = (host, app) => {
@@ -65,6 +66,7 @@ export const view: Panel = (host, app) => {
     followInWords(app, speak);
     return;
   }
+  const drawRing = popRing(host); // behind the labels
   const labels = new Labels(host);
   const world = new World(stage, labels, theme);
   const hand = handOf(app);
@@ -78,7 +80,6 @@ export const view: Panel = (host, app) => {
   new ResizeObserver(() => {
     covered = bar.offsetTop + bar.offsetHeight;
   }).observe(bar);
-  const drawRing = popRing(host);
   const sliceFrame = new SliceFrame(theme, stage.scene);
   const probe = probeOf(app);
   sentence(host, app);

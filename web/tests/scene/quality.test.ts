@@ -36,10 +36,23 @@ it("pictures that come in time stay sharp, and so do single late ones and an idl
   pictures(quality, 300, 30);
   for (let i = 0; i < 100; i++) {
     pictures(quality, 1, 90);
-    pictures(quality, 3, 17);
+    pictures(quality, 4, 17);
   }
   pictures(quality, 100, 5000);
   expect(quality.ratio).toBe(2);
+});
+
+it("pictures of which some come late are coarser if they are fewer than 30 a second on average", () => {
+  const mixed = (late: number, inTime: number): Quality => {
+    const quality = new Quality(1);
+    for (let i = 0; i < 60; i++) {
+      pictures(quality, 1, late);
+      pictures(quality, 3, inTime);
+    }
+    return quality;
+  };
+  expect(mixed(50, 33).ratio).toBeLessThan(1); // 27 a second
+  expect(mixed(50, 26).ratio).toBe(1); // 31 a second
 });
 
 it("sharpness comes back when pictures come early, and waits twice as long after each failed attempt", () => {
@@ -81,7 +94,7 @@ it("a picture between two frames takes until the frame after that which shows it
   };
   for (let i = 0; i < 50; i++) drawnBetween(30);
   expect(quality.lowered).toBe(false);
-  for (let i = 0; i < 14; i++) drawnBetween(40);
+  for (let i = 0; i < 14; i++) drawnBetween(60);
   expect(quality.lowered).toBe(true);
 });
 
