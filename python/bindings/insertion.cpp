@@ -69,8 +69,7 @@ void bind_insertion(nb::module_& m) {
       "Gives the model's force without safety limits.");
   def_state(insertion);
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
-  def_init(insertion, {{"scene", "Scene"}}, make_insertion,
-           "Raises ConfigurationError with all problems of the scene.");
+  def_init(insertion, &make_insertion, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
   insertion.def_ro("scene", &SceneInsertion::scene)
       .def(
           "reset",

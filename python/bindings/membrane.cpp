@@ -130,17 +130,15 @@ void bind_membrane(nb::module_& m) {
               nb::sig("def profile(self) -> tuple[tuple[float, float, float], ...]"),
               "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)");
   const Tissue none;
-  def_init(tissue,
-           {{"grip", grip_type.c_str(), nb::str("linear")},
-            {"growth", "float", nb::float_(none.growth)},
-            {"grip_table", "Sequence[tuple[float, float]]", nb::make_tuple()},
-            {"tip_length", "float", nb::float_(none.tip_length)},
-            {"tail_length", "float", nb::float_(none.tail_length)},
-            {"tail_floor", "float", nb::float_(none.tail_floor)},
-            {"cutting", "float", nb::float_(none.cutting)},
-            {"set", "float", nb::float_(none.set)},
-            {"profile", "Sequence[tuple[float, float, float]]", nb::make_tuple()}},
-           &make_tissue,
+  def_init(tissue, &make_tissue, nb::arg("grip") = "linear", nb::arg("growth") = none.growth,
+           nb::arg("grip_table") = nb::make_tuple(), nb::arg("tip_length") = none.tip_length,
+           nb::arg("tail_length") = none.tail_length, nb::arg("tail_floor") = none.tail_floor,
+           nb::arg("cutting") = none.cutting, nb::arg("set") = none.set, nb::arg("profile") = nb::make_tuple(),
+           nb::sig(("def __init__(self, grip: " + grip_type +
+                    " = ..., growth: float = ..., grip_table: Sequence[tuple[float, float]] = ..., tip_length: float = "
+                    "..., tail_length: float = ..., tail_floor: float = ..., cutting: float = ..., set: float = ..., "
+                    "profile: Sequence[tuple[float, float, float]] = ...) -> None")
+                       .c_str()),
            "Tissue() is K06's membrane. A profile replaces grip and tail. docs/measured-tissue.md. Raises\n"
            "ConfigurationError.");
   def_value(tissue,
@@ -153,7 +151,7 @@ void bind_membrane(nb::module_& m) {
                                 "Creates a branch without checks. The scene that uses it checks all values.")
                     .def_ro("stiffness", &MaxwellBranch::stiffness, "K_m of the spring, N/m; 0 is no branch")
                     .def_ro("time_constant", &MaxwellBranch::time_constant, "tau: damping over stiffness, s");
-  def_init(branch, {{"stiffness", "float"}, {"time_constant", "float"}}, &make_branch, "Raises ConfigurationError.");
+  def_init(branch, &make_branch, nb::arg("stiffness"), nb::arg("time_constant"), "Raises ConfigurationError.");
   def_value(branch, {"stiffness", "time_constant"});
 
   auto placed =
@@ -182,17 +180,13 @@ void bind_membrane(nb::module_& m) {
           .def_ro("outflow_behind", &PlacedMembrane::outflow_behind, "The same for the space behind it")
           .def_ro("tissue", &PlacedMembrane::tissue, "What measured tissue adds to the membrane; Tissue() in K06");
   def_init(
-      placed,
-      {{"name", "str"},
-       {"membrane", "Membrane"},
-       {"point", three_numbers},
-       {"inward_normal", three_numbers},
-       {"behind", behind_type.c_str(), nb::str("tissue")},
-       {"look", look_type.c_str(), nb::str("plain")},
-       {"outflow", "Outlet", nb::cast(dense_tissue)},
-       {"outflow_behind", "Outlet", nb::cast(dense_tissue)},
-       {"tissue", "Tissue", nb::cast(Tissue{})}},
-      &make_placed,
+      placed, &make_placed, nb::arg("name"), nb::arg("membrane"), nb::arg("point"), nb::arg("inward_normal"),
+      nb::arg("behind") = "tissue", nb::arg("look") = "plain", nb::arg("outflow") = dense_tissue,
+      nb::arg("outflow_behind") = dense_tissue, nb::arg("tissue") = Tissue{},
+      nb::sig(("def __init__(self, name: str, membrane: Membrane, point: _Vector, inward_normal: _Vector, behind: " +
+               behind_type + " = ..., look: " + look_type +
+               " = ..., outflow: Outlet = ..., outflow_behind: Outlet = ..., tissue: Tissue = ...) -> None")
+                  .c_str()),
       "point: any point of the surface, m. inward_normal: a direction of any length but 0. behind: content between\n"
       "this membrane and the next. look: kind of tissue in the studio's picture. outflow,\n"
       "outflow_behind: what liquid from a syringe meets in the membrane and behind it; by default it cannot leave.\n"

@@ -83,7 +83,7 @@ void bind_model(nb::module_& m) {
                         "Creates a needle without checks. The scene that uses it checks all values.")
                     .def_ro("diameter", &Needle::diameter, "w, m")
                     .def_ro("tip_angle", &Needle::tip_angle, "theta, rad");
-  def_init(needle, {{"diameter", "float"}, {"tip_angle", "float"}}, &make_needle, "Raises ConfigurationError.");
+  def_init(needle, &make_needle, nb::arg("diameter"), nb::arg("tip_angle"), "Raises ConfigurationError.");
   def_value(needle, {"diameter", "tip_angle"});
 
   auto membrane =
@@ -99,21 +99,20 @@ void bind_model(nb::module_& m) {
           .def_ro("precompression", &Membrane::precompression, "c, N")
           .def_ro("friction", &Membrane::friction, "mu, -")
           .def_ro("thickness", &Membrane::thickness, "H, m; 0 selects the thin law");
-  def_init(membrane,
-           {{"stiffness", "float"}, {"precompression", "float"}, {"friction", "float"}, {"thickness", "float"}},
-           &make_membrane, "Raises ConfigurationError.");
+  def_init(membrane, &make_membrane, nb::arg("stiffness"), nb::arg("precompression"), nb::arg("friction"),
+           nb::arg("thickness"), "Raises ConfigurationError.");
   def_value(membrane, {"stiffness", "precompression", "friction", "thickness"});
 
   auto thin = bind_law<GivenThinLaw>(m, "ThinLaw",
                                      "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");
-  def_init(thin, {{"needle", "Needle"}, {"membrane", "Membrane"}}, &make_thin_law,
+  def_init(thin, &make_thin_law, nb::arg("needle"), nb::arg("membrane"),
            "Raises ConfigurationError with all problems.");
   def_value(thin, {"needle", "membrane"});
 
   auto thick = bind_law<GivenThickLaw>(m, "ThickLaw",
                                        "Law of a membrane of thickness H, crossed at an obliquity beta. K06 (16)-(19)");
-  def_init(thick, {{"needle", "Needle"}, {"membrane", "Membrane"}, {"obliquity", "float", nb::float_(0.0)}},
-           &make_thick_law, "obliquity: beta, rad. Raises ConfigurationError with all problems.");
+  def_init(thick, &make_thick_law, nb::arg("needle"), nb::arg("membrane"), nb::arg("obliquity") = 0.0,
+           "obliquity: beta, rad. Raises ConfigurationError with all problems.");
   def_value(thick, {"needle", "membrane", "obliquity"});
   thick.def_ro("obliquity", &GivenThickLaw::obliquity, "beta, rad")
       .def_prop_ro("H", &GivenThickLaw::thickness, "Thickness, m")

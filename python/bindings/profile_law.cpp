@@ -61,13 +61,10 @@ void bind_profile_law(nb::module_& m) {
       "No friction before the first knot; constant edges behind the last one. The edges may jump at the first knot,\n"
       "and at two knots of one depth. K06 (16)");
   def_bounds(law);
-  def_init(law,
-           {{"depth", "Sequence[float]"},
-            {"lower", "Sequence[float]"},
-            {"upper", "Sequence[float]"},
-            {"thickness", "float", nb::float_(0.0)},
-            {"obliquity", "float", nb::float_(0.0)}},
-           &make_profile_law,
+  def_init(law, &make_profile_law, nb::arg("depth"), nb::arg("lower"), nb::arg("upper"), nb::arg("thickness") = 0.0,
+           nb::arg("obliquity") = 0.0,
+           nb::sig("def __init__(self, depth: _Vector, lower: _Vector, upper: _Vector, thickness: float = ..., "
+                   "obliquity: float = ...) -> None"),
            "depth: of the knots, m, ascending. lower: phi_I there, N, 0 or less. upper: phi_O, N. thickness: H, m.\n"
            "obliquity: beta, rad. Raises ConfigurationError.");
   def_value(law, {"depth", "lower", "upper", "thickness", "obliquity"});

@@ -187,17 +187,15 @@ void bind_proxy(nb::module_& m) {
               "Creates a coupling without checks. The scene that uses it checks all values.")
           .def_ro("stiffness", &Coupling::stiffness, "K, N/m")
           .def_ro("damping", &Coupling::damping, "B, N s/m");
-  def_init(coupling, {{"stiffness", "float"}, {"damping", "float"}}, &make_coupling, "Raises ConfigurationError.");
+  def_init(coupling, &make_coupling, nb::arg("stiffness"), nb::arg("damping"), "Raises ConfigurationError.");
   def_value(coupling, {"stiffness", "damping"});
 
   auto line =
       nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
-  def_init(line,
-           {{"law", "ThinLaw | ThickLaw | ProfileLaw | TissueLaw"},
-            {"coupling", "Coupling"},
-            {"period", "float"},
-            {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
-           &make_line, "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
+  def_init(line, &make_line, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
+           nb::sig("def __init__(self, law: ThinLaw | ThickLaw | ProfileLaw | TissueLaw, coupling: Coupling, period: "
+                   "float, solver: typing.Literal['exact', 'paper'] = ...) -> None"),
+           "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
   def_state(line);
   def_repr(line, "<Proxy1d {0.phase.name}: depth {0.depth:g} m, force {0.force:g} N>");
   line.def(
@@ -232,15 +230,10 @@ void bind_proxy(nb::module_& m) {
 
   auto space =
       nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
-  def_init(space,
-           {{"needle", "Needle"},
-            {"membrane", "Membrane"},
-            {"point", three_numbers},
-            {"inward_normal", three_numbers},
-            {"coupling", "Coupling"},
-            {"period", "float"},
-            {"solver", "typing.Literal['exact', 'paper']", nb::str("exact")}},
-           &make_space,
+  def_init(space, &make_space, nb::arg("needle"), nb::arg("membrane"), nb::arg("point"), nb::arg("inward_normal"),
+           nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
+           nb::sig("def __init__(self, needle: Needle, membrane: Membrane, point: _Vector, inward_normal: _Vector, "
+                   "coupling: Coupling, period: float, solver: typing.Literal['exact', 'paper'] = ...) -> None"),
            "point: a, any point of the surface, m. inward_normal: direction of any length but 0. period: T, s. Raises\n"
            "ConfigurationError.");
   def_state(space);

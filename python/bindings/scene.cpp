@@ -148,17 +148,9 @@ void bind_scene_field(nb::module_& m) {
           .def_ro("min_open", &SceneField::min_open, "Whether the value must be greater than min")
           .def_ro("max_open", &SceneField::max_open, "Whether the value must be less than max")
           .def_ro("reason", &SceneField::reason, "The reason for the bounds");
-  def_init(field,
-           {{"path", "str"},
-            {"value", "float"},
-            {"symbol", "str"},
-            {"unit", "str"},
-            {"min", "float"},
-            {"max", "float"},
-            {"min_open", "bool"},
-            {"max_open", "bool"},
-            {"reason", "str"}},
-           &make_scene_field, "Scene.fields() creates these objects.");
+  def_init(field, &make_scene_field, nb::arg("path"), nb::arg("value"), nb::arg("symbol"), nb::arg("unit"),
+           nb::arg("min"), nb::arg("max"), nb::arg("min_open"), nb::arg("max_open"), nb::arg("reason"),
+           "Scene.fields() creates these objects.");
   def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
 }
 
@@ -184,7 +176,7 @@ void bind_scene(nb::module_& m) {
   auto syringe = nb::class_<SyringeSettings>(m, "SyringeSettings", "The syringe on a scene's needle. docs/syringe.md")
                      .def_ro("syringe", &SyringeSettings::syringe)
                      .def_ro("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger");
-  def_init(syringe, {{"syringe", "Syringe"}, {"thumb", "Coupling", nb::cast(SyringeSettings{}.thumb)}}, &make_settings,
+  def_init(syringe, &make_settings, nb::arg("syringe"), nb::arg("thumb") = SyringeSettings{}.thumb,
            "The scene that uses it checks all values.");
   def_value(syringe, {"syringe", "thumb"});
 
@@ -207,14 +199,12 @@ void bind_scene(nb::module_& m) {
                            "Encoder step for conditioning \"line_fit\", m; 0 for an ideal sensor")
                    .def_ro("sub_steps", &ServoSettings::sub_steps,
                            "Steps of the model in a tick, a whole number from 1 to 16. docs/pop-time.md");
-  def_init(servo,
-           {{"rate", "float", nb::float_(defaults.rate)},
-            {"low_pass", "float", nb::float_(defaults.low_pass)},
-            {"solver", "typing.Literal['exact', 'paper']", nb::str(name_of(defaults.solver).c_str())},
-            {"conditioning", "typing.Literal['low_pass', 'line_fit']", nb::str(name_of(defaults.conditioning))},
-            {"encoder_step", "float", nb::float_(defaults.encoder_step)},
-            {"sub_steps", "float", nb::float_(defaults.sub_steps)}},
-           &make_servo,
+  def_init(servo, &make_servo, nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
+           nb::arg("solver") = name_of(defaults.solver), nb::arg("conditioning") = name_of(defaults.conditioning),
+           nb::arg("encoder_step") = defaults.encoder_step, nb::arg("sub_steps") = defaults.sub_steps,
+           nb::sig("def __init__(self, rate: float = ..., low_pass: float = ..., solver: typing.Literal['exact', "
+                   "'paper'] = ..., conditioning: typing.Literal['low_pass', 'line_fit'] = ..., encoder_step: float = "
+                   "..., sub_steps: float = ...) -> None"),
            "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\" is K06's filter with cutoff\n"
            "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).\n"
            "sub_steps: steps of the model in a tick, 1 to 16; more find the time of a pop better. Raises\n"
@@ -231,8 +221,8 @@ void bind_scene(nb::module_& m) {
                          },
                          nb::sig("def force_scale(self) -> float | typing.Literal['automatic']"),
                          "How much of the model's force the device gives: a number, or \"automatic\"");
-  def_init(display, {{"force_scale", "float | typing.Literal['automatic']", nb::float_(DisplaySettings{}.force_scale)}},
-           &make_display,
+  def_init(display, &make_display, nb::arg("force_scale") = DisplaySettings{}.force_scale,
+           nb::sig("def __init__(self, force_scale: float | typing.Literal['automatic'] = ...) -> None"),
            "force_scale: how much of the model's force the device gives, greater than 0 and at most 1. \"automatic\"\n"
            "lowers it so that the limits in use never cut the friction along the needle. Raises ConfigurationError.");
   def_value(display, {"force_scale"});
@@ -266,17 +256,13 @@ void bind_scene(nb::module_& m) {
                "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
                "ConfigurationError.");
   def_init(
-      scene,
-      {{"name", "str"},
-       {"needle", "Needle"},
-       {"coupling", "Coupling"},
-       {"membranes", "Sequence[PlacedMembrane]"},
-       {"servo", "ServoSettings", nb::cast(defaults)},
-       {"direction", "typing.Literal['stylus', 'motion']", nb::str("stylus")},
-       {"display", "DisplaySettings", nb::cast(DisplaySettings{})},
-       {"syringe", "SyringeSettings | None", nb::none()},
-       {"relaxation", "Sequence[MaxwellBranch]", nb::make_tuple()}},
-      &make_scene,
+      scene, &make_scene, nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"),
+      nb::arg("servo") = defaults, nb::arg("direction") = "stylus", nb::arg("display") = DisplaySettings{},
+      nb::arg("syringe") = nb::none(), nb::arg("relaxation") = nb::make_tuple(),
+      nb::sig("def __init__(self, name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
+              "servo: ServoSettings = ..., direction: typing.Literal['stylus', 'motion'] = ..., display: "
+              "DisplaySettings = ..., syringe: SyringeSettings | None = ..., relaxation: Sequence[MaxwellBranch] = "
+              "...) -> None"),
       "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). relaxation: at\n"
       "most two branches beside the coupling. Raises ConfigurationError with all problems.");
   def_value(scene,

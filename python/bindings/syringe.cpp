@@ -92,14 +92,8 @@ void bind_syringe(nb::module_& m) {
           .def_ro("compliance", &Syringe::compliance, "C of barrel and seal, m^3/Pa")
           .def_ro("resistance", &Syringe::resistance, "R_c of the cannula for the liquid, Pa s/m^3")
           .def_prop_ro("area", &Syringe::area, "Area of the plunger, m^2");
-  def_init(syringe,
-           {{"bore", "float"},
-            {"liquid", "float"},
-            {"air", "float"},
-            {"friction", "float"},
-            {"compliance", "float"},
-            {"resistance", "float"}},
-           &make_syringe, "Raises ConfigurationError.");
+  def_init(syringe, &make_syringe, nb::arg("bore"), nb::arg("liquid"), nb::arg("air"), nb::arg("friction"),
+           nb::arg("compliance"), nb::arg("resistance"), "Raises ConfigurationError.");
   def_value(syringe, {"bore", "liquid", "air", "friction", "compliance", "resistance"});
 
   auto outlet = nb::class_<Outlet>(m, "Outlet", "What the opening of a needle leads to. docs/syringe.md")
@@ -109,13 +103,12 @@ void bind_syringe(nb::module_& m) {
                         "Creates an outlet without checks. The scene that uses it checks all values.")
                     .def_ro("resistance", &Outlet::resistance, "R_t for the liquid, Pa s/m^3; 0 in open air")
                     .def_ro("pressure", &Outlet::pressure, "P_t above that of the atmosphere, Pa");
-  def_init(outlet, {{"resistance", "float"}, {"pressure", "float", nb::float_(0.0)}}, &make_outlet,
-           "Raises ConfigurationError.");
+  def_init(outlet, &make_outlet, nb::arg("resistance"), nb::arg("pressure") = 0.0, "Raises ConfigurationError.");
   def_value(outlet, {"resistance", "pressure"});
 
   auto plunger = nb::class_<GivenPlunger>(m, "Plunger", nb::is_final(),
                                           "The plunger of a syringe under the thumb, tick by tick. docs/syringe.md");
-  def_init(plunger, {{"syringe", "Syringe"}, {"coupling", "Coupling"}, {"period", "float"}}, &make_plunger,
+  def_init(plunger, &make_plunger, nb::arg("syringe"), nb::arg("coupling"), nb::arg("period"),
            "period: T, s. Raises ConfigurationError.");
   def_state(plunger);
   def_repr(plunger, "<Plunger {0.phase.name}: {0.position:g} m, {0.force:g} N, {0.pressure:g} Pa>");

@@ -33,9 +33,7 @@ void bind_tissue_law(nb::module_& m) {
       .def_prop_ro("X", &GivenTissueLaw::tip_length, "Length of the tip, m. K06 (15), or Tissue.tip_length");
   def_bounds(law);
   def_init(
-      law,
-      {{"needle", "Needle"}, {"membrane", "Membrane"}, {"tissue", "Tissue"}, {"obliquity", "float", nb::float_(0.0)}},
-      &make_tissue_law,
+      law, &make_tissue_law, nb::arg("needle"), nb::arg("membrane"), nb::arg("tissue"), nb::arg("obliquity") = 0.0,
       "bounds() are those of an untouched wall. obliquity: beta, rad. Raises ConfigurationError with all problems.");
   def_value(law, {"needle", "membrane", "tissue", "obliquity"});
 }

@@ -51,9 +51,9 @@ def test_all_invalid_values_are_reported_together():
         (lambda: pn.Needle(diametre=1e-3, tip_angle=0.28), "no argument diametre; did you mean diameter?"),
         (lambda: pn.Needle(1e-3), "tip_angle is missing"),
         (lambda: pn.Needle("1 mm", 0.28), "diameter must be a number, not str"),
-        (lambda: pn.Needle(1e-3, 0.28, 3), "takes 2 arguments, not 3"),
+        (lambda: pn.Needle(1e-3, 0.28, 3), "takes 2 arguments by place, not 3"),
         (lambda: pn.Needle(1e-3, diameter=1e-3, tip_angle=0.28), "diameter is given twice"),
-        (lambda: pn.Membrane(570, 0.41, mu=0.2, thickness=1e-4), "friction is missing"),
+        (lambda: pn.Membrane(570, 0.41, mu=0.2, thickness=1e-4), "no argument mu; did you mean friction?"),
         (lambda: pn.Coupling(400, damping=None), "damping must be a number, not NoneType"),
         (lambda: pn.ThickLaw(pn.Needle(**NEEDLE), pn.Needle(**NEEDLE)), "membrane must be a Membrane, not Needle"),
         (
