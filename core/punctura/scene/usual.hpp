@@ -62,7 +62,8 @@ inline std::string unusual(const std::string& path, double written, double size 
   }
   for (const double factor : {1e-3, 1e3}) {
     if (!found(written * size * factor)) continue;
-    std::snprintf(text, sizeof text, "If you meant %g times as much, write %g", factor, written * factor);
+    std::snprintf(text, sizeof text, "If you meant a number 1000 times %s, write %g", factor < 1 ? "smaller" : "larger",
+                  written * factor);
     return text;
   }
   return "";

@@ -22,7 +22,7 @@ TEST_CASE("a number that is off by a factor of 1,000 is told with what to write"
 TEST_CASE("what to write is in the unit of the number") {
   CHECK(unusual("membrane[3].stiffness", 570, 1e3) == "If you meant 570 N/m, write 0.57");
   CHECK(unusual("needle.diameter", 1080, 1e-3) == "If you meant 1080 um, write 1.08");
-  CHECK(unusual("coupling.stiffness", 4e6) == "If you meant 0.001 times as much, write 4000");
+  CHECK(unusual("coupling.stiffness", 4e6) == "If you meant a number 1000 times smaller, write 4000");
   CHECK(unusual("needle.diameter", 1.08, 1e-3).empty());
 }
 
