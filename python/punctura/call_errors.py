@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 import difflib
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from punctura import _core
 
 
-def explained(function: Any, given: Sequence[Any], named: dict[str, Any], otherwise: str) -> str:
+def explained(function: Any, given: Sequence[Any], named: Mapping[str, object], otherwise: str) -> str:
     """The message of a TypeError. otherwise: nanobind's message, for a signature that cannot be read."""
     signature = _parsed(function.__nb_signature__[-1][0])
     if signature is None:
@@ -64,8 +64,8 @@ def _text(argument: ast.arg) -> str:
 
 
 def _assigned(
-    parameters: dict[str, tuple[str, bool]], by_place: int, values: list[Any], named: dict[str, Any]
-) -> tuple[list[str], dict[str, Any]]:
+    parameters: dict[str, tuple[str, bool]], by_place: int, values: list[Any], named: Mapping[str, object]
+) -> tuple[list[str], dict[str, object]]:
     """The faults of the names and numbers of the arguments, and the value of each parameter."""
     names = list(parameters)
     faults, unknown = [], []

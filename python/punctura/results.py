@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
+
+# A JSON object of any content: what a file of another version may hold, or a message before it is checked. A function
+# that knows the keys uses a TypedDict instead.
+JsonObject: TypeAlias = dict[str, Any]
 
 
 class Quantiles(TypedDict):

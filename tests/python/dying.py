@@ -11,4 +11,4 @@ def dies(path, task):
     """One trace ends its process, as a lack of memory does."""
     if path.endswith("dies.csv"):
         os.kill(os.getpid(), signal.SIGKILL)
-    return _failed(Path(path), task, "was reached")
+    return _failed(Path(path), task, "was reached"), False

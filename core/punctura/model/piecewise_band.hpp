@@ -64,8 +64,8 @@ struct PiecewiseBand {
 
   /// Index of the piece that contains depth q (m).
   ///
-  /// The needle is in the same piece in almost all ticks, so the processor predicts the branches. Code without branches,
-  /// which counts the breaks in front of q, was slower: a tick of the paper's solver on a line took 30 % longer.
+  /// The needle stays in a piece for many ticks, so the processor predicts the branches. Code without branches, which
+  /// counts the breaks in front of q, was slower: a tick of the paper's solver on a line took 30 % longer.
   constexpr std::size_t index(Scalar q) const noexcept {
     if (!(q >= breaks[0])) return 0;
     std::size_t i = 1;

@@ -10,7 +10,7 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 from pydantic import BaseModel, Field
@@ -23,6 +23,7 @@ from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
 from punctura.compare.vary import VaryError, vary
 from punctura.record import RecordingError, open_recording
 from punctura.record.scene_text import from_text
+from punctura.results import JsonObject
 
 DIGITS = 6
 Tell = Callable[[float, str], None]
@@ -47,8 +48,41 @@ class Job(BaseModel):
     zip: str = ""  # path of the zip file to write; without it, the comparison is printed
 
 
-def do(job: Job, tell: Tell) -> dict[str, Any]:
-    """Does a job; returns the comparisons as JSON, against depth and against time.
+class BandRecord(TypedDict):
+    """A quantity of all runs, and its mean, on a common axis. SI; None where there is no value."""
+
+    x: list[float | None]
+    runs: list[list[float | None]]
+    mean: list[float | None]
+    deviation: list[float | None]
+    count: list[int]
+
+
+class MembraneRecord(BandRecord):
+    """The resistance of a membrane."""
+
+    name: str
+
+
+class CurvesRecord(TypedDict):
+    """The curves of a comparison."""
+
+    bands: dict[str, BandRecord]
+    membranes: list[MembraneRecord]
+
+
+class CompareRecord(TypedDict):
+    """A comparison: the numbers of each run (Statistics), their differences and summary, and the curves."""
+
+    statistics: list[JsonObject]
+    differences: list[dict[str, float | None]]
+    summary: dict[str, JsonObject]
+    depth: CurvesRecord
+    time: CurvesRecord
+
+
+def do(job: Job, tell: Tell) -> CompareRecord | None:
+    """Does a job; returns the comparisons as JSON, against depth and against time; None if it wrote a zip file.
 
     Raises ValueError, RecordingError, OSError.
     """
@@ -60,7 +94,7 @@ def do(job: Job, tell: Tell) -> dict[str, Any]:
         check_ticks(sum(open_recording(path).rows for _, path in job.recordings))
         title = f"A variation of {job.variation.path}" if job.variation else "A comparison of recordings"
         save_bundle(runs, job.zip, job.on, title)
-        return {}
+        return None
     collectors = (Collector("depth"), Collector("time"))
     for run in runs:
         for collector in collectors:
@@ -95,7 +129,7 @@ def _varied(asked: Variation) -> Iterator[Run]:
     return vary(scene, asked.path, asked.values, motion)
 
 
-def as_json(comparison: Comparison) -> dict[str, Any]:
+def as_json(comparison: Comparison) -> CurvesRecord:
     """The curves of a comparison as JSON values, with DIGITS digits; null where there is no value."""
     each = zip(comparison.names, comparison.membranes, strict=False)
     return {
@@ -104,7 +138,7 @@ def as_json(comparison: Comparison) -> dict[str, Any]:
     }
 
 
-def _band(band: Band) -> dict[str, Any]:
+def _band(band: Band) -> BandRecord:
     return {
         "x": _numbers(band.x),
         "runs": [_numbers(row) for row in band.runs],
@@ -127,7 +161,7 @@ def main() -> None:
 
     try:
         job = Job.model_validate_json(sys.stdin.read())
-        say(comparison=do(job, lambda share, run: say(share=share, run=run)))
+        say(comparison=do(job, lambda share, run: say(share=share, run=run)) or {})
     except (ValueError, VaryError, RecordingError, PuncturaError, OSError) as error:
         say(error=str(error))
 

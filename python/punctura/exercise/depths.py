@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from punctura.exercise.bounds import LEAST_MM
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
 ROUNDING_MM = 1e-9  # rounding error of sums and differences of decimal numbers
 
-Table = dict[str, Any]  # a table of an exercise file with only the values that are valid by themselves
+Table: TypeAlias = dict[str, Any]  # a table of an exercise file with only the values that are valid by themselves
 
 
 def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -> Iterator[Problem]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Mapping
 
 from punctura.exercise.schema import ExerciseFile
 
@@ -20,7 +20,7 @@ def exercise_text(file: ExerciseFile) -> str:
     return "".join(parts)
 
 
-def _lines(table: dict[str, Any]) -> str:
+def _lines(table: Mapping[str, object]) -> str:
     return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import uuid
 from collections.abc import Iterable
-from typing import Any
+from typing import TypedDict
 
 from punctura.exercise.result import Result
 
@@ -15,18 +15,95 @@ HOME = "https://punctura.example"  # an address that belongs to nobody (RFC 2606
 NOBODY = "anonymous"
 
 
+class Account(TypedDict):
+    """A name in a school's system."""
+
+    homePage: str
+    name: str
+
+
+class Agent(TypedDict):
+    """A person or a group."""
+
+    objectType: str
+    name: str
+    account: Account
+
+
+class Verb(TypedDict):
+    """What the person did."""
+
+    id: str
+    display: dict[str, str]  # by language
+
+
+class Definition(TypedDict):
+    """The kind and the title of an exercise."""
+
+    type: str
+    name: dict[str, str]  # by language
+
+
+class Activity(TypedDict):
+    """The exercise."""
+
+    objectType: str
+    id: str
+    definition: Definition
+
+
+class Score(TypedDict):
+    """The goals that were met."""
+
+    scaled: float
+    raw: int
+    min: int
+    max: int
+
+
+class Outcome(TypedDict, total=False):
+    """The result. `success` is missing for an attempt, `score` without goals."""
+
+    completion: bool
+    duration: str
+    response: str
+    extensions: dict[str, float]
+    success: bool
+    score: Score
+
+
+class Context(TypedDict, total=False):
+    """The program, and the group if there is one."""
+
+    platform: str
+    team: Agent
+
+
+class Statement(TypedDict):
+    """An xAPI statement."""
+
+    id: str
+    actor: Agent
+    verb: Verb
+    object: Activity
+    result: Outcome
+    context: Context
+    timestamp: str
+    version: str
+
+
 def to_xapi(results: Iterable[Result], home: str = HOME) -> str:
     """One statement a line. home: the address (IRL) of the system that knows the persons' account names."""
     return "".join(json.dumps(statement(result, home), ensure_ascii=False) + "\n" for result in results)
 
 
-def statement(result: Result, home: str = HOME) -> dict[str, Any]:
+def statement(result: Result, home: str = HOME) -> Statement:
     """The statement of one attempt. The same result always has the same id."""
     home = home.rstrip("/")
     verb = _verb(result)
     exercise = f"{home}/exercises/{result.exercise}"
     person = result.person or NOBODY
-    said: dict[str, Any] = {
+    said: Statement = {
         "id": str(uuid.uuid5(uuid.NAMESPACE_URL, f"{home}/results/{result.name or result.date}")),
         "actor": {"objectType": "Agent", "name": person, "account": {"homePage": home, "name": person}},
         "verb": {"id": VERBS + verb, "display": {"en": verb}},
@@ -41,7 +118,11 @@ def statement(result: Result, home: str = HOME) -> dict[str, Any]:
         "version": "1.0.3",
     }
     if result.group:
-        group = {"objectType": "Group", "name": result.group, "account": {"homePage": home, "name": result.group}}
+        group: Agent = {
+            "objectType": "Group",
+            "name": result.group,
+            "account": {"homePage": home, "name": result.group},
+        }
         said["context"]["team"] = group
     return said
 
@@ -52,7 +133,7 @@ def _verb(result: Result) -> str:
     return "failed" if any(goal.state == "missed" for goal in result.goals) else "attempted"
 
 
-def _outcome(result: Result, verb: str, home: str) -> dict[str, Any]:
+def _outcome(result: Result, verb: str, home: str) -> Outcome:
     met = sum(goal.state == "met" for goal in result.goals)
     m = result.metrics
     measures = {
@@ -64,7 +145,7 @@ def _outcome(result: Result, verb: str, home: str) -> dict[str, Any]:
         "lateral_deviation_m": m.lateral_deviation,
         "time_to_target_s": m.time_to_target,
     }
-    outcome: dict[str, Any] = {
+    outcome: Outcome = {
         "completion": verb != "attempted",
         "duration": duration(m.total_time),
         "response": " ".join(result.reasons),

@@ -67,7 +67,7 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
         return out.observation[0], float(out.reward[0]), bool(out.terminated[0]), bool(out.truncated[0]), info
 
 
-def infos(out: Outcome) -> dict[str, Any]:
+def infos(out: Outcome) -> dict[str, npt.NDArray[Any]]:
     """The infos of a vector environment: a column and a mask for each word."""
     columns = {"success": out.success, "pierced": out.pierced, "fault": out.fault}
     everywhere = np.ones(len(out.fault), bool)

@@ -14,7 +14,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import pyarrow as pa
 import pyarrow.parquet
@@ -24,6 +24,7 @@ from punctura import Needle, PuncturaError
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
+from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
 from punctura.trace import MissingPackage, read_trace
 
 SUFFIXES = (".csv", ".txt", ".parquet", ".mat", ".xlsx")
@@ -42,7 +43,7 @@ class Task:
     order: Literal["recorded", "depth"] = "recorded"
     decimal: Literal[".", ","] | None = None
 
-    def key(self) -> dict[str, Any]:
+    def key(self) -> TaskRecord:
         """What a result depends on, beside its file."""
         needle = [self.needle.diameter, self.needle.tip_angle]
         return {"needle": needle, "membranes": self.membranes, "columns": dict(self.columns),
@@ -61,7 +62,7 @@ def identify_folder(
     task: Task,
     processes: int | None = None,
     progress: Callable[[float], None] = lambda _: None,
-) -> dict[str, Any]:
+) -> FolderRecord:
     """Identifies all traces of `folder` and writes `out`: a JSON file a trace, traces.parquet, population.parquet.
 
     A trace whose JSON file fits to the present file and task is not computed again. Returns the summary: how many were
@@ -75,16 +76,16 @@ def identify_folder(
             f"{out}: holds the traces; the results need another folder, because some are Parquet files, too"
         )
     out.mkdir(parents=True, exist_ok=True)
-    results: dict[str, dict[str, Any]] = {}
+    results: dict[str, TraceRecord] = {}
     for path in paths:
         known = _known(_result_file(out, path), path, task)
         if known is not None:
             results[path.name] = known
     kept = len(results)
     missing = [path for path in paths if path.name not in results]
-    for done, (path, result) in enumerate(_computed(missing, task, processes), 1):
-        results[path.name] = result or _failed(path, task, DIED)
-        if result is not None and not results[path.name].pop("again", False):
+    for done, (path, result, again) in enumerate(_computed(missing, task, processes), 1):
+        results[path.name] = result
+        if not again:
             write_whole(_result_file(out, path), json.dumps(result, indent=1).encode())
         progress(done / len(missing))
     return _summary(out, [results[path.name] for path in paths], kept)
@@ -98,19 +99,23 @@ def _result_file(out: Path, path: Path) -> Path:
     return out / f"{path.name}.json"
 
 
-def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Iterator[tuple[Path, dict[str, Any] | None]]:
-    """Each path with its result, as they come; None for a trace whose process died. The others do not die with it."""
+def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Iterator[tuple[Path, TraceRecord, bool]]:
+    """Each path with its result, as they come, and whether the next run shall try it again.
+
+    A trace whose process dies has failed; the others do not die with it.
+    """
     left = list(paths)
     with _pool(processes or os.cpu_count()) as pool:
         running = {pool.submit(_one, str(path), task): path for path in left}
         for future in as_completed(running):
             if not isinstance(future.exception(), BrokenProcessPool):
                 left.remove(running[future])
-                yield running[future], future.result()
+                yield running[future], *future.result()
     for path in left:  # one process died, and all lost their results; which one it was, is not known
         with _pool(1) as pool:
             alone = pool.submit(_one, str(path), task)
-            yield path, None if isinstance(alone.exception(), BrokenProcessPool) else alone.result()
+            died = isinstance(alone.exception(), BrokenProcessPool)
+            yield path, *((_failed(path, task, DIED), True) if died else alone.result())
 
 
 @contextmanager
@@ -139,8 +144,8 @@ def _follow_parent() -> None:
     threading.Thread(target=watch, name="punctura-parent", daemon=True).start()
 
 
-def _one(path: str, task: Task) -> dict[str, Any]:
-    """The result of one trace, in a process of its own. again: the next run is to try it again."""
+def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
+    """The result of one trace, in a process of its own, and whether the next run shall try it again."""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     try:
         trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
@@ -148,11 +153,11 @@ def _one(path: str, task: Task) -> dict[str, Any]:
     except Exception as error:  # a defect in one trace does not stop the others
         known = isinstance(error, (PuncturaError, OSError, ValueError, ArithmeticError))
         failed = _failed(Path(path), task, str(error) if known else f"{type(error).__name__}: {error}")
-        return failed | ({"again": True} if isinstance(error, (ImportError, MissingPackage)) else {})
-    return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}
+        return failed, isinstance(error, (ImportError, MissingPackage))
+    return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False
 
 
-def _failed(path: Path, task: Task, reason: str) -> dict[str, Any]:
+def _failed(path: Path, task: Task, reason: str) -> FailedRecord:
     return {"task": task.key(), "stamp": _stamp(path), "error": reason, "source": str(path), "parameters": []}
 
 
@@ -164,18 +169,20 @@ def _stamp(path: Path) -> list[int]:
     return [status.st_size, status.st_mtime_ns]
 
 
-def _known(result: Path, path: Path, task: Task) -> dict[str, Any] | None:
+def _known(result: Path, path: Path, task: Task) -> TraceRecord | None:
     """The earlier result of a trace, if neither its file nor the task has changed since."""
     try:
         told = json.loads(result.read_bytes())
     except (OSError, ValueError):
         return None
-    same = isinstance(told, dict) and told.get("task") == task.key() and told.get("stamp") == _stamp(path)
-    return told if same else None
+    if not (isinstance(told, dict) and told.get("task") == task.key() and told.get("stamp") == _stamp(path)):
+        return None
+    known: TraceRecord = told  # type: ignore[assignment]  # the same version of punctura wrote it
+    return known
 
 
-def _summary(out: Path, results: list[dict[str, Any]], kept: int) -> dict[str, Any]:
-    rows = [
+def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
+    rows: list[TraceRow] = [
         {"trace": _shown(told["source"]), "rmse_N": told["rmse_N"], "membranes": told["membranes"],
          "extensions": ", ".join(told["extensions"]), **parameter}
         for told in results if told["error"] is None for parameter in told["parameters"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
+from punctura.identify.records import IdentificationRecord
 from punctura.identify.scene import scene_of
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
@@ -56,7 +57,7 @@ class Identification:
         """The chosen extensions of K06."""
         return self.candidates[0].extensions
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> IdentificationRecord:
         """Everything as plain values for JSON: SI units, `rmse_N` among the numbers."""
         chosen, needle = self.candidates[0], self.parameters.needle
         return {

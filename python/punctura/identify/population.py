@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.identify.records import ParameterRecord, PopulationRow
+
 Array = NDArray[np.float64]
 
 
-def population(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def population(rows: Sequence[ParameterRecord]) -> list[PopulationRow]:
     """One row a parameter: the mean over traces, the spread between traces, and how far single traces are to be drawn.
 
-    rows: {"trace", "name", "value", "low", "high", "unit"}, one for each trace and parameter. Only parameters with both
-    bounds count. A parameter that is positive in all traces is described by its logarithm: mean is then the median of
-    the population, and spread a factor minus 1.
+    rows: one for each trace and parameter. Only parameters with both bounds count. A parameter that is positive in all
+    traces is described by its logarithm: mean is then the median of the population, and spread a factor minus 1.
     """
-    found = []
+    found: list[PopulationRow] = []
     for name in dict.fromkeys(row["name"] for row in rows):
-        used = [r for r in rows if r["name"] == name and r["low"] is not None and r["high"] is not None]
-        used = [r for r in used if r["high"] > r["low"]]
+        of_name = [row for row in rows if row["name"] == name]
+        used = [
+            (row["value"], low, high)
+            for row in of_name
+            if (low := row["low"]) is not None and (high := row["high"]) is not None and high > low
+        ]
         if len(used) < 2:
             continue
-        value, low, high = (np.array([r[key] for r in used], float) for key in ("value", "low", "high"))
+        value, low, high = np.array(used, float).T
         positive = bool((low > 0).all())
         if positive:
             value, low, high = np.log(value), np.log(low), np.log(high)
@@ -33,7 +37,7 @@ def population(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         shrinkage = float(np.mean(error**2 / (error**2 + between**2)))
         back = np.exp if positive else np.asarray
         found.append({
-            "name": name, "unit": used[0]["unit"], "traces": len(used), "mean": float(back(mean)),
+            "name": name, "unit": of_name[0]["unit"], "traces": len(used), "mean": float(back(mean)),
             "low": float(back(mean - 1.96 * of_mean)), "high": float(back(mean + 1.96 * of_mean)),
             "spread": float(np.expm1(between)) if positive else between, "spread_is_relative": positive,
             "shrinkage": shrinkage,

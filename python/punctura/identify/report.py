@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from punctura.identify.identify import Identification
+from punctura.identify.records import IdentificationRecord
 
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}"
@@ -41,7 +42,7 @@ def report_html(found: Identification) -> bytes:
     return page.encode()
 
 
-def _parameters(told: dict[str, Any]) -> str:
+def _parameters(told: IdentificationRecord) -> str:
     rows = []
     for p in told["parameters"]:
         low, high = ("?" if bound is None else f"{bound:.4g}" for bound in (p["low"], p["high"]))
@@ -53,7 +54,7 @@ def _parameters(told: dict[str, Any]) -> str:
     return f"<table><tr><th>parameter<th>value<th>low<th>high<th>unit<th>{''.join(rows)}</table>"
 
 
-def _models(told: dict[str, Any]) -> str:
+def _models(told: IdentificationRecord) -> str:
     rows = []
     for m in told["models"]:
         held_out = "-" if m["held_out_rmse_N"] is None else f"{m['held_out_rmse_N']:.3g}"

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from punctura.record.errors import RecordingError
+from punctura.results import JsonObject
 
 # Formats that this version reads. It writes the last one. In format 1 the gate limited the distance between two
 # readings, and `spent_N2s` did not exist.
@@ -98,7 +99,7 @@ class Description(_Part):
     spent_N2s: NotNegative = 0.0
     scene: str
     libraries: dict[str, str] = {}
-    about: dict[str, Any] = {}
+    about: JsonObject = {}
     summary: Summary = Summary()
     lost: dict[str, Count] = {}
     device_after: DeviceAfter = DeviceAfter()
@@ -106,7 +107,7 @@ class Description(_Part):
     replayed_by: str = ""
 
 
-def read_description(text: bytes, path: Path) -> tuple[dict[str, Any], Description]:
+def read_description(text: bytes, path: Path) -> tuple[JsonObject, Description]:
     """The JSON object as stored, and the checked description.
 
     Raises RecordingError, which names the file and each invalid field.
@@ -124,7 +125,7 @@ def read_description(text: bytes, path: Path) -> tuple[dict[str, Any], Descripti
         raise RecordingError(f"{path}: the run description is invalid: {_told(bad)}") from None
 
 
-def _json(text: bytes, path: Path) -> dict[str, Any]:
+def _json(text: bytes, path: Path) -> JsonObject:
     try:
         data = json.loads(text.decode(), parse_float=_finite, parse_constant=_finite)
         json.dumps(data, ensure_ascii=False).encode()  # fails for a lone surrogate, which can be read but not written

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 import pyarrow as pa
 
 from punctura.record.append_file import AppendFile, FileChange
 from punctura.record.errors import RecordingError
+from punctura.record.header import DeviceReport
 from punctura.record.parquet_file import parquet_output
 from punctura.record.part_file import PartFile
 from punctura.record.status import RecorderStatus
@@ -25,24 +26,38 @@ def part_path(path: Path) -> Path:
     return path.with_name(path.name + _SUFFIX)
 
 
+class FinishRecord(TypedDict):
+    """What the end of a recording adds to its header."""
+
+    device_after: DeviceReport
+    lost: dict[str, int]  # ticks by cause
+
+
 def save_finished(
-    part: PartFile, path: Path, more: dict[str, Any], progress: Callable[[float], None] | None = None
+    part: PartFile,
+    path: Path,
+    more: FinishRecord,
+    notes: Sequence[str],
+    progress: Callable[[float], None] | None = None,
 ) -> None:
-    """Writes the content of a .part file as Parquet, in constant memory."""
-    summary = part.survey.summary([*part.notes, *more.pop("notes", [])], part.damaged).model_dump()
-    summary["lost"] = max(summary["lost"], sum(more.get("lost", {}).values()))
-    with parquet_output(path, part.schema, part.info.data | {"summary": summary} | more, replace=False) as output:
+    """Writes the content of a .part file as Parquet, in constant memory.
+
+    more: for the header. notes: for its summary.
+    """
+    summary = part.survey.summary([*part.notes, *notes], part.damaged).model_dump()
+    summary["lost"] = max(summary["lost"], sum(more["lost"].values()))
+    with parquet_output(path, part.schema, {**part.info.data, "summary": summary, **more}, replace=False) as output:
         for batch in part.batches(progress):
             output.write(batch)
 
 
 def finish_recording(
-    path: Path, file: AppendFile, made: int, status: RecorderStatus, after: dict[str, Any]
+    path: Path, file: AppendFile, made: int, status: RecorderStatus, device: DeviceReport
 ) -> RecorderStatus:
     """Converts the file to Parquet and closes it. If anything fails, the ticks on the disk are kept.
 
     made: number of ticks of the loop since the recording began. Ticks that cannot be read back count as lost.
-    after: further fields for the header.
+    device: its report after the run, for the header.
     """
     trouble, part, change, written = status.trouble, None, None, status.rows
     try:
@@ -55,7 +70,7 @@ def finish_recording(
         if rows < written and not trouble:  # out of memory? Keep the file: it holds unread ticks
             trouble = f"only {rows} of the {written} ticks in the file could be read"
         if not trouble:
-            save_finished(part, path, after | {"lost": _causes(status), "notes": status.notes})
+            save_finished(part, path, {"device_after": device, "lost": _causes(status)}, status.notes)
             file.close()
             with suppress(OSError):  # the Parquet file is complete in any case
                 part.path.unlink()

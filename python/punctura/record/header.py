@@ -7,31 +7,62 @@ import json
 import math
 import time
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeAlias, TypedDict, TypeVar
 
 import numpy as np
 import pyarrow as pa
 
 from punctura._core import Device, ForceLimits, GateLimits, Scene, ServoLoop
 from punctura.record.build_id import build_id, machine
-from punctura.record.description import FORMATS, Description, read_description
+from punctura.record.description import FORMATS, Description, Value, read_description
 from punctura.record.errors import RecordingError
 from punctura.record.scene_text import from_text, to_text
 from punctura.record.schema import check_columns
+from punctura.results import JsonObject
 
 T = TypeVar("T")
+Plain: TypeAlias = str | bool | int | float  # a value in a JSON file
 
 FORMAT = FORMATS[-1]
 KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
-def describe_run(loop: ServoLoop) -> dict[str, Any]:
+class _Run(TypedDict):
+    format: int
+    build: str
+    machine: str
+    began: str
+    began_ns: int
+    rate_hz: float
+    period_s: float
+    device: dict[str, Plain]  # DeviceInfo
+    gate: dict[str, Plain]  # GateLimits
+    limits: dict[str, Plain]  # ForceLimits
+    spent_N2s: float
+    scene: str
+    libraries: dict[str, str]
+
+
+class RunRecord(_Run, total=False):
+    """The description as written when a recording begins. Description is the same, as read."""
+
+    about: JsonObject
+
+
+class DeviceReport(TypedDict):
+    """DeviceAfter, as written."""
+
+    statements: list[str]
+    trouble: str
+
+
+def describe_run(loop: ServoLoop, about: JsonObject | None = None) -> RunRecord:
     """The description as known when a recording begins."""
     rate = loop.scene.servo.rate
     now_ns = time.time_ns()
-    return {
+    described: RunRecord = {
         "format": FORMAT,
         "build": build_id(),
         "machine": machine(),
@@ -46,27 +77,30 @@ def describe_run(loop: ServoLoop) -> dict[str, Any]:
         "scene": to_text(loop.scene, rate),
         "libraries": {"pyarrow": pa.__version__, "numpy": np.__version__},
     }
+    if about:
+        described["about"] = about
+    return described
 
 
-def describe_device(device: Device) -> dict[str, Any]:
+def describe_device(device: Device) -> DeviceReport:
     """The device's report after a run."""
     return {"statements": list(device.statements()), "trouble": device.trouble()}
 
 
-def _fields(struct: object) -> dict[str, Any]:
+def _fields(struct: object) -> dict[str, Plain]:
     """The values of a plain struct. Values that are not JSON numbers become words: "nan", "inf"."""
     names = [name for name in dir(struct) if not name.startswith("_") and not callable(getattr(struct, name))]
     return {name: _plain(getattr(struct, name)) for name in names}
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Plain) -> Plain:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 class RecordingInfo:
     """The description of a recorded run. `data` is the JSON object; `said` holds the same fields, checked and typed."""
 
-    def __init__(self, data: dict[str, Any], said: Description, path: Path) -> None:
+    def __init__(self, data: JsonObject, said: Description, path: Path) -> None:
         self.data, self.said = data, said
         self._path = path
 
@@ -98,7 +132,7 @@ class RecordingInfo:
         return self.said.build
 
     @property
-    def about(self) -> dict[str, Any]:
+    def about(self) -> JsonObject:
         """Further data from the caller of Recorder; empty if none."""
         return self.said.about
 
@@ -107,7 +141,7 @@ class RecordingInfo:
         """Start of the recording, ns since 1970 by the wall clock."""
         return self.said.began_ns
 
-    def _struct(self, kind: Callable[..., T], name: str, values: dict[str, Any]) -> T:
+    def _struct(self, kind: Callable[..., T], name: str, values: Mapping[str, Value]) -> T:
         try:
             return kind(**{key: _number(value) for key, value in values.items()})
         except TypeError:
@@ -117,12 +151,12 @@ class RecordingInfo:
         raise RecordingError(f"{self._path}: {name} in the run description is invalid: {reason}")
 
 
-def _number(value: Any) -> Any:
+def _number(value: Value) -> float:
     """The inverse of _plain: a number from its word."""
     return float(value) if isinstance(value, str) else value
 
 
-def to_metadata(data: dict[str, Any], schema: pa.Schema) -> dict[bytes, bytes]:
+def to_metadata(data: Mapping[str, object], schema: pa.Schema) -> dict[bytes, bytes]:
     """Schema metadata with a checksum over description and columns."""
     return with_check_sum(json.dumps(data, ensure_ascii=False).encode(), schema)
 

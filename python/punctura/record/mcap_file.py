@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import pyarrow as pa
@@ -61,7 +61,7 @@ class _Messages:
             yield
         writer.finish()
 
-    def _channel(self, topic: str, name: str, schema: dict[str, Any]) -> int:
+    def _channel(self, topic: str, name: str, schema: Mapping[str, object]) -> int:
         made = self._writer.register_schema(name=name, encoding="jsonschema", data=json.dumps(schema).encode())
         return int(self._writer.register_channel(topic=topic, message_encoding="json", schema_id=made))
 
@@ -73,7 +73,7 @@ class _Messages:
         if math.isfinite(stamp) and 0 <= stamp < 2**63:
             self._stamp = int(stamp)
 
-    def _message(self, channel: int, tick: int, content: dict[str, Any]) -> None:
+    def _message(self, channel: int, tick: int, content: Mapping[str, object]) -> None:
         data = json.dumps(content, allow_nan=False, separators=(",", ":")).encode()
         self._writer.add_message(
             channel, log_time=self._stamp, publish_time=self._stamp, sequence=tick & 0xFFFFFFFF, data=data
@@ -84,14 +84,14 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _tick_schema(schema: pa.Schema) -> dict[str, Any]:
+def _tick_schema(schema: pa.Schema) -> dict[str, object]:
     return {
         "type": "object",
         "properties": {f.name: _json_type(f) for f in schema if f.name != NEW_SCENES},
     }
 
 
-def _json_type(field: pa.Field) -> dict[str, Any]:
+def _json_type(field: pa.Field) -> dict[str, object]:
     words = words_of(field.name)
     if words is not None:
         return {"type": ["string", "null"], "enum": [*words, None]}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -80,7 +80,9 @@ class _Groups:
 
 
 @contextmanager
-def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace: bool = True) -> Iterator[_Groups]:
+def parquet_output(
+    path: Path, schema: pa.Schema, data: Mapping[str, object], replace: bool = True
+) -> Iterator[_Groups]:
     """Writes a finished recording. The file gets its name only when it is complete; an error leaves no file.
 
     Dictionary encoding is off, because it merges different NaNs; numbers keep their bits. replace: see whole_file.
@@ -93,7 +95,7 @@ def parquet_output(path: Path, schema: pa.Schema, data: dict[str, Any], replace:
 
 
 def parquet_steps(
-    batches: Iterable[pa.RecordBatch], out: Any, schema: pa.Schema, data: dict[str, Any]
+    batches: Iterable[pa.RecordBatch], out: Any, schema: pa.Schema, data: Mapping[str, object]
 ) -> Iterator[None]:
     """Writes a finished recording to an open file, batch by batch."""
     schema = schema.with_metadata(to_metadata(data, schema))

@@ -7,7 +7,6 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -24,6 +23,7 @@ from punctura.record.schema import raw_batch
 from punctura.record.status import RecorderStatus
 from punctura.record.stream import Encoder
 from punctura.record.writer import Writer
+from punctura.results import JsonObject
 from punctura.ticks import COMMAND_SCENE, Ticks
 
 INTERVAL_S = 0.1  # between two batches
@@ -48,7 +48,7 @@ class Recorder:
     """
 
     def __init__(
-        self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: dict[str, Any] | None = None
+        self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: JsonObject | None = None
     ) -> None:
         """Call before loop.start(). capacity: number of snapshots in the ring; 32 MB at most, and a note in the file
         says if it was reduced. about: further JSON data for the file's description.
@@ -60,7 +60,7 @@ class Recorder:
         if loop.running:
             raise RecordingError("the loop is already running: create the Recorder before loop.start()")
         self._loop = loop
-        self._header = describe_run(loop) | ({"about": about} if about else {})
+        self._header = describe_run(loop, about)
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
         self._listener = loop.listen(capacity)
@@ -135,11 +135,10 @@ class Recorder:
             self._writer.join()
             if rows := self._backlog.rows():
                 self._drop(rows)
-            after = {"device_after": describe_device(self._loop.device)}
             if self._defect:
                 self._writer.note(self._defect)
             status = replace(self.status(), trouble=self._writer.trouble)
-            self._final = finish_recording(self.path, self._file, made, status, after)
+            self._final = finish_recording(self.path, self._file, made, status, describe_device(self._loop.device))
         return self._final
 
     def __enter__(self) -> Recorder:

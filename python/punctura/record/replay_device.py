@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any
 
 import numpy as np
 
 from punctura._core import DeviceInfo, ReplayDevice
 from punctura.record.columns import INPUTS
+from punctura.record.description import DeviceBefore
 from punctura.record.errors import RecordingError
 from punctura.record.recording import Recording, open_recording
 from punctura.record.schema import input_ticks
 from punctura.ticks import Ticks
-
-# Fields of the recorded device that the replay reports. An unknown number is a word in JSON ("nan").
-_WORDS = ("backend", "model", "serial", "has_orientation", "button_count")
-_NUMBERS = ("max_force", "continuous_force", "max_stiffness", "encoder_step")
 
 
 def replay_device(
@@ -33,8 +29,6 @@ def replay_device(
     samples = _samples(recording)
     try:
         rate, said = recording.info.said.rate_hz, recording.info.said.device
-        about: dict[str, Any] = {name: getattr(said, name) for name in _WORDS}
-        about |= {name: float(getattr(said, name)) for name in _NUMBERS}
         device = ReplayDevice(
             samples.position,
             samples.axis,
@@ -44,7 +38,7 @@ def replay_device(
             buttons=samples.buttons,
             healthy=samples.healthy,
             motor_temperature=samples.motor_temperature,
-            recorded=DeviceInfo(**about),
+            recorded=_info(said),
             real_time=real_time,
             priority=priority,
             processor=processor,
@@ -53,6 +47,20 @@ def replay_device(
         return device
     except (TypeError, ValueError) as bad:
         raise RecordingError(f"{recording.path}: its motion cannot be replayed as a device: {bad}") from None
+
+
+def _info(said: DeviceBefore) -> DeviceInfo:
+    return DeviceInfo(
+        backend=said.backend,
+        model=said.model,
+        serial=said.serial,
+        has_orientation=said.has_orientation,
+        button_count=said.button_count,
+        max_force=float(said.max_force),  # float(): an unknown number is the word "nan" in JSON
+        continuous_force=float(said.continuous_force),
+        max_stiffness=float(said.max_stiffness),
+        encoder_step=float(said.encoder_step),
+    )
 
 
 def _samples(recording: Recording) -> Ticks:

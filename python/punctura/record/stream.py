@@ -6,7 +6,7 @@ Any Arrow library reads the first stream. A further stream begins when a new sce
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pyarrow as pa
@@ -29,7 +29,7 @@ def check_sum(batch: pa.RecordBatch) -> bytes:
 class Encoder:
     """Encodes batches as bytes."""
 
-    def __init__(self, header: dict[str, Any]) -> None:
+    def __init__(self, header: Mapping[str, object]) -> None:
         self._header = header
         self._out = Collected()
         self._writer: pa.RecordBatchStreamWriter | None = None

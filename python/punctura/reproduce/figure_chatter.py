@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +17,16 @@ from punctura.reproduce.scenes import NEEDLE, Solver, k06_membrane
 from punctura.reproduce.style import new_figure, note
 from punctura.reproduce.words import read_words
 
-LINE: dict[Solver, dict[str, Any]] = {
+
+class LineStyle(TypedDict):
+    """How a solver's curves are drawn, in matplotlib's words."""
+
+    color: str
+    lw: float
+    zorder: int
+
+
+LINE: dict[Solver, LineStyle] = {
     "exact": {"color": palette.INSERTION.light, "lw": 1.4, "zorder": 4},
     "paper": {"color": palette.PAPER_FORM.light, "lw": 1.4, "zorder": 3},
 }
@@ -25,6 +34,10 @@ CLOSE_UP = slice(150, 166)  # ticks, counted from contact
 AFTER_ENTRY = 60  # ticks of panel a after the membrane is filled
 WINDOW_S = 0.15  # of the experiment, panel d
 FAST = 20e-3  # m/s, for comparison
+
+
+def _thin(solver: Solver) -> LineStyle:
+    return {**LINE[solver], "lw": 0.8}
 
 
 def figure_chatter(fig_10: Operation) -> Drawing:
@@ -95,7 +108,7 @@ def _close(axes: Axes, exact: SteadyEntry, paper: SteadyEntry) -> None:
 
 def _sweep(axes: Axes, counts: dict[Solver, list[int]]) -> None:
     for solver in SOLVERS:
-        axes.plot(SWEEP_MM, counts[solver], marker="o", ms=2.6, **{**LINE[solver], "lw": 0.8})
+        axes.plot(SWEEP_MM, counts[solver], marker="o", ms=2.6, **_thin(solver))
     axes.axvline(onset() * 1e3, color=palette.MUTED.light, lw=0.8, ls=(0, (3, 2)))
     axes.set(xscale="log", title="c  turns of the force on the way in", xlabel="thickness $H$  (mm)", ylabel="count")
     axes.set_xticks([0.02, 0.1, 0.5, 1, 4], ["0.02", "0.1", "0.5", "1", "4"])
@@ -109,7 +122,7 @@ def _experiment(axes: Axes, run: Operation) -> Table:
     window = slice(start, start + round(WINDOW_S * run.scene.servo.rate))
     time = (run.trace.time[window] - run.trace.time[start]) * 1e3
     for solver, force in zip(SOLVERS, (run.f_y_N, paper), strict=True):
-        axes.step(time, force[window], where="post", **{**LINE[solver], "lw": 0.8})
+        axes.step(time, force[window], where="post", **_thin(solver))
     axes.set(title="d  at the simulated device", xlabel="time  (ms)", ylabel="$f_y$  (N)")
     return {
         "time_ms": time,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -43,9 +42,9 @@ def figure(comparison: TraceComparison) -> Figure:
     upper.plot(x, trace.force, ".", ms=2.5, color=palette.MUTED.light, label="measured")
     for i, row in enumerate(comparison.rows):
         dashes = DASHES[i // len(COLOURS) % len(DASHES)]
-        style: dict[str, Any] = {"lw": 1.1, "color": COLOURS[i % len(COLOURS)], "ls": dashes}
-        upper.plot(x, row.force, label=f"{row.title}, {100 * row.rmse_share:.1f} %", **style)
-        lower.plot(x, trace.force - row.force, **style)
+        label = f"{row.title}, {100 * row.rmse_share:.1f} %"
+        for axes, curve in ((upper, row.force), (lower, trace.force - row.force)):
+            axes.plot(x, curve, label=label, lw=1.1, color=COLOURS[i % len(COLOURS)], ls=dashes)
     upper.set_ylabel("force against insertion (N)")
     lower.set_ylabel("measured less model (N)")
     lower.set_xlabel("time (s)" if on_time else "depth (mm)")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TypedDict
 
 from punctura.rivals.comparison import Row, TraceComparison
 
@@ -11,6 +11,45 @@ HEAD = (
     "model", "numbers", "rmse N", "% of peak", "AIC", "BIC", "held out N", "to 1st pop %", "its AIC", "rest mN",
     "hand mN",
 )  # fmt: skip
+
+
+class LayerRecord(TypedDict):
+    """A layer of a fitted rival."""
+
+    surface_m: float
+    numbers: dict[str, float]
+
+
+class ModelRecord(TypedDict):
+    """A row of the table, SI. None: no value."""
+
+    name: str
+    title: str
+    parameters: int
+    rmse_N: float
+    rmse_share_of_peak: float
+    aic: float | None
+    bic: float | None
+    held_out_rmse_N: float | None
+    first_stretch_rmse_share: float | None
+    first_stretch_aic: float | None
+    chatter_rest_N: float | None
+    chatter_hand_N: float | None
+    converged: bool
+    starts: int
+    starts_that_agree: int
+    layers: list[LayerRecord]
+
+
+class ComparisonRecord(TypedDict):
+    """The JSON of `punctura compare --json`."""
+
+    trace: str
+    samples: int
+    peak_N: float
+    effective_samples: float
+    models: list[ModelRecord]
+    notes: list[str]
 
 
 def table(comparison: TraceComparison) -> str:
@@ -63,7 +102,7 @@ def notes(comparison: TraceComparison) -> list[str]:
     return found
 
 
-def as_json(comparison: TraceComparison) -> dict[str, Any]:
+def as_json(comparison: TraceComparison) -> ComparisonRecord:
     """The numbers of the table in SI, for programs; None for what has no value."""
     return {
         "trace": comparison.trace.source,
@@ -75,7 +114,7 @@ def as_json(comparison: TraceComparison) -> dict[str, Any]:
     }
 
 
-def _entry(row: Row) -> dict[str, Any]:
+def _entry(row: Row) -> ModelRecord:
     return {
         "name": row.name,
         "title": row.title,

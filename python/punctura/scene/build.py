@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from decimal import Decimal
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
+
+from pydantic import BaseModel
 
 from punctura._core import (
     Coupling,
@@ -33,9 +35,11 @@ from punctura.scene.schema import (
     SyringeTable,
 )
 
+Values: TypeAlias = dict[str, Any]  # of one table, by the names of the core; the schema has their types
+
 # What stands in for a value that is missing or of the wrong type while the core looks at the others. Chosen so that
 # it never causes a problem in another field: friction times tan(tip_angle) stays far below 1, K06 (7).
-_STAND_INS: dict[str, Any] = {
+_STAND_INS: Values = {
     "name": "", "diameter": 1e-3, "tip_angle": 1e-6, "direction": "stylus", "stiffness": 1.0, "damping": 1.0,
     "rate": 1000.0, "low_pass": 0.0, "solver": "exact", "conditioning": "low_pass", "encoder_step": 0.0,
     "sub_steps": 1.0, "grip": "linear", "growth": 0.0, "tip_length": 0.0, "tail_length": 0.0, "tail_floor": 1.0,
@@ -62,10 +66,10 @@ class _Reader:
         self.keys: dict[str, str] = {}
         self.stand_ins: set[str] = set()
 
-    def table(self, raw: object, path: str, model: type[Any]) -> dict[str, Any]:
+    def table(self, raw: object, path: str, model: type[BaseModel]) -> Values:
         """The values of one table by the core's names; a default or a substitute for missing or unusable ones."""
         given: Mapping[str, Any] = raw if isinstance(raw, dict) else {}
-        values: dict[str, Any] = {}
+        values: Values = {}
         for key, info in model.model_fields.items():
             name, unit = split_key(key)
             if key == "gauge":
@@ -85,9 +89,9 @@ class _Reader:
                 values[name] = _STAND_INS.get(name, ())
         return values
 
-    def rows(self, values: dict[str, Any], path: str, kind: str) -> dict[str, Any]:
+    def rows(self, values: Values, path: str, kind: str) -> dict[str, list[Any]]:
         """The lists of a table (schema.ROWS), as rows; takes them out of `values`. As long as the shortest list."""
-        lists: dict[str, Any] = {}
+        lists: dict[str, list[Any]] = {}
         for name, columns in ROWS[kind].items():
             taken = [values.pop(split_key(key)[0]) for key in columns]
             lists[name] = list(zip(*taken, strict=False))
@@ -127,7 +131,9 @@ def scene_parts(data: Mapping[str, object], unsound: Collection[str] = ()) -> Pa
         rows = reader.rows(m, f"membrane[{i}]", "membrane")
         tip_and_tail = {name: m[name] for name in ("tip_length", "tail_length", "tail_floor")}
         hole = {name: m[name] for name in ("cutting", "set")}
-        tissue = Tissue.unchecked(m["grip"], m["growth"], **rows, **tip_and_tail, **hole)
+        tissue = Tissue.unchecked(
+            m["grip"], m["growth"], rows["grip_table"], profile=rows["profile"], **tip_and_tail, **hole
+        )
         membranes.append(PlacedMembrane.unchecked(*placed, outflow, behind, tissue))
     name = data.get("name")
     if not isinstance(tables, list) or "membrane" in unsound:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -71,12 +72,12 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     write_whole(Path(path), scene_text(scene).encode("utf-8"))
 
 
-def _attributes(struct: object, model: type[Any]) -> dict[str, Any]:
+def _attributes(struct: object, model: type[BaseModel]) -> dict[str, object]:
     names = [split_key(key)[0] for key in model.model_fields]
     return {name: getattr(struct, name) for name in names if hasattr(struct, name)}
 
 
-def _syringe(settings: SyringeSettings) -> dict[str, Any]:
+def _syringe(settings: SyringeSettings) -> dict[str, object]:
     thumb = {"thumb_stiffness": settings.thumb.stiffness, "thumb_damping": settings.thumb.damping}
     return _attributes(settings.syringe, SyringeTable) | thumb
 
@@ -90,16 +91,16 @@ def _outflow(placed: PlacedMembrane) -> dict[str, float]:
     return values
 
 
-def _tissue(tissue: Tissue) -> dict[str, Any]:
+def _tissue(tissue: Tissue) -> dict[str, object]:
     """Only what differs from K06's membrane."""
     none = Tissue()
     values = {name: value for name, value in _attributes(tissue, MembraneTable).items() if value != getattr(none, name)}
     return values | _lists("membrane", {"grip_table": tissue.grip_table, "profile": tissue.profile})
 
 
-def _lists(kind: str, rows: dict[str, Any]) -> dict[str, Any]:
+def _lists(kind: str, rows: Mapping[str, Sequence[tuple[float, ...]]]) -> dict[str, object]:
     """Rows of the core as the lists of a table (schema.ROWS); empty ones are left out."""
-    lists: dict[str, Any] = {}
+    lists: dict[str, object] = {}
     for name, columns in ROWS[kind].items():
         if rows[name]:
             each = zip(columns, zip(*rows[name], strict=True), strict=True)
@@ -107,7 +108,7 @@ def _lists(kind: str, rows: dict[str, Any]) -> dict[str, Any]:
     return lists
 
 
-def _table(head: str, model: type[Any], values: dict[str, Any]) -> list[str]:
+def _table(head: str, model: type[BaseModel], values: Mapping[str, object]) -> list[str]:
     lines = ["", head]
     for key in model.model_fields:
         name, unit = split_key(key)

@@ -109,7 +109,7 @@ def build_app(studio: Studio, port: int, token: str, connections: Connections) -
     """The application, behind its guard."""
 
     @asynccontextmanager
-    async def life(app: Any) -> AsyncIterator[dict[str, Any]]:
+    async def life(app: Any) -> AsyncIterator[dict[str, Connections]]:
         studio.hub.attach(asyncio.get_running_loop())
         watch = asyncio.create_task(connections.watch())
         yield {CONNECTIONS: connections}

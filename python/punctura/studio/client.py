@@ -17,10 +17,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
+from punctura.results import JsonObject
 from punctura.studio.wire.frames import Frame, decode_ticks
 
 T = TypeVar("T")
-Json = dict[str, Any]
 PATIENCE_S = 60.0
 
 
@@ -41,7 +41,7 @@ class StudioClient:
         parts = urlsplit(url)
         self.host = f"{parts.hostname}:{parts.port}"
         self.token = parse_qs(parts.query)["token"][0]
-        self.messages: list[Json] = []
+        self.messages: list[JsonObject] = []
         self.frames: list[Frame] = []
         self.last: Frame | None = None
         self.ticks = self.gaps = 0  # gaps: frames of a run that do not follow the frame before
@@ -75,17 +75,17 @@ class StudioClient:
         number = self.run if run is None else run
         self.send(json.dumps({"do": "target", "run": number, "position": position, "axis": axis}))
 
-    def ask(self, **request: Any) -> Json:
+    def ask(self, **request: Any) -> JsonObject:
         """Sends a request and returns its reply."""
         number = next(self._ids)
         self.send(json.dumps({"id": number, **request}))
         return self.wait(lambda: next((m for m in self.of("reply") if m["id"] == number), None))
 
-    def of(self, kind: str) -> list[Json]:
+    def of(self, kind: str) -> list[JsonObject]:
         """The messages of one kind so far."""
         return [m for m in list(self.messages) if m["kind"] == kind]
 
-    def status(self) -> Json:
+    def status(self) -> JsonObject:
         """The next status message."""
         n = len(self.of("status"))
         return self.wait(lambda: self.of("status")[n:])[0]

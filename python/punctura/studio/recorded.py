@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import struct
 from collections.abc import Iterator
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from punctura.errors import ConfigurationError
 from punctura.events import find_events
 from punctura.record import Recording
 from punctura.record.schema import ticks_of
+from punctura.results import JsonObject
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
@@ -49,7 +50,17 @@ def _text_of(recording: Recording) -> str:
     return scene_text(recording.info.scene)
 
 
-def overview(recording: Recording) -> dict[str, Any]:
+class OverviewRecord(TypedDict):
+    """A recording without its ticks."""
+
+    info: JsonObject  # the header of the file
+    scene: JsonObject  # SceneMessage
+    events: list[JsonObject]  # EventMessage
+    ticks: int
+    first_tick: int
+
+
+def overview(recording: Recording) -> OverviewRecord:
     """All except the ticks, as JSON. Reads the whole recording to find its events."""
     info = recording.info
     loaded = loaded_of(recording)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from punctura import Scene, Target
 from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice
 from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for, room_note
 from punctura.record import Recorder
+from punctura.results import JsonObject
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
 from punctura.ticks import Ticks
@@ -76,7 +76,7 @@ class Run:
         bench: Bench,
         loaded: Loaded,
         recording: Path | None = None,
-        about: dict[str, Any] | None = None,
+        about: JsonObject | None = None,
         pose: Pose | None = None,
     ) -> None:
         """about: for the header. pose: of the hand. Raises ConfigurationError, DeviceError, RecordingError."""

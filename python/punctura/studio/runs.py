@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from punctura.record import RecorderStatus
+from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
 from punctura.studio.defects import Defects
@@ -53,7 +53,7 @@ class Runs:
         loaded: Loaded,
         pose: Pose | None = None,
         record: str | None = None,
-        about: dict[str, Any] | None = None,
+        about: JsonObject | None = None,
         remind: bool = True,
     ) -> None:
         """Starts a new run. If it fails, the present scene runs again, and the error is raised.
@@ -82,7 +82,7 @@ class Runs:
         loaded: Loaded,
         pose: Pose | None = None,
         record: str | None = None,
-        about: dict[str, Any] | None = None,
+        about: JsonObject | None = None,
     ) -> None:
         """Starts a new run with this activity. Raises what `begin` and the activity's own `begin` raise."""
         self.begin(loaded, pose, record, about)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from punctura.compare.run import resistance
 from punctura.events import EventFinder
 from punctura.events.recorded import recorded_ticks
 from punctura.record import Recording
+from punctura.results import JsonObject
 from punctura.studio.view import membrane_views
 from punctura.ticks import Columns
 
@@ -24,7 +25,16 @@ MOST_EVENTS = 40  # events at which a bucket ends, so that rows between two even
 Array = npt.NDArray[np.float64]
 
 
-def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> dict[str, Any]:
+class TraceRecord(TypedDict):
+    """A drawing of a recording. None: a gap."""
+
+    time: list[float | None]
+    depth: list[float | None]
+    force: list[float | None]
+    membranes: list[JsonObject]  # MembraneView
+
+
+def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> TraceRecord:
     """The trace from `start` (s of the run) on, as JSON values. Raises RecordingError.
 
     time: of the run, s. depth: of the tip below the first surface, m. force: size of the model's total force, N,
@@ -40,11 +50,16 @@ def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL)
     thin = _Thinner(size)
     kept = [thin.add(*part) for part in _rows(recording, start)]
     rows = np.concatenate([*kept, thin.end()])
-    columns = {
-        name: [None if np.isnan(v) else round(float(v), digits) for v in rows[:, k]]
-        for k, (name, digits) in enumerate((("time", 5), ("depth", 7), ("force", 5)))
+    return {
+        "time": _rounded(rows[:, 0], 5),
+        "depth": _rounded(rows[:, 1], 7),
+        "force": _rounded(rows[:, 2], 5),
+        "membranes": [view.model_dump(mode="json") for view in membrane_views(info.scene)],
     }
-    return columns | {"membranes": [view.model_dump(mode="json") for view in membrane_views(info.scene)]}
+
+
+def _rounded(values: Array, digits: int) -> list[float | None]:
+    return [None if np.isnan(v) else round(float(v), digits) for v in values]
 
 
 def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:

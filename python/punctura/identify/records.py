@@ -1,0 +1,129 @@
+"""The keys of the JSON that an identification gives: of `--json`, and of the files of a folder of traces."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, TypedDict
+
+
+class NeedleRecord(TypedDict):
+    """The needle that made the trace."""
+
+    diameter_m: float
+    tip_angle_rad: float
+
+
+class ParameterRecord(TypedDict):
+    """A parameter with its 95 % interval, SI. A bound that is missing is None."""
+
+    name: str
+    value: float
+    low: float | None
+    high: float | None
+    unit: str
+    identifiable: bool
+
+
+class FindingRecord(TypedDict):
+    """Something unusual in the trace."""
+
+    kind: str
+    text: str
+    repaired: bool
+
+
+class ModelRecord(TypedDict):
+    """A model that was tried."""
+
+    name: str
+    extensions: list[str]
+    rmse_N: float
+    parameters: int  # their number
+    membranes: int
+    AICc: float | None  # None: more parameters than independent samples
+    BIC: float
+    held_out_rmse_N: float | None
+
+
+class IdentificationRecord(TypedDict):
+    """A whole identification."""
+
+    source: str
+    samples: int
+    effective_samples: float
+    membranes: int
+    extensions: list[str]
+    rmse_N: float
+    rmse_of_peak: float
+    held_out_rmse_N: float | None
+    needle: NeedleRecord
+    parameters: list[ParameterRecord]
+    correlations: list[list[float]]
+    findings: list[FindingRecord]
+    not_told: list[str]
+    models: list[ModelRecord]
+
+
+class TaskRecord(TypedDict):
+    """What the result of a trace depends on, beside its file."""
+
+    needle: list[float]
+    membranes: int | Literal["auto"]
+    columns: dict[str, str]
+    units: dict[str, str]
+    order: str
+    decimal: str | None
+    punctura: str  # version
+
+
+class IdentifiedRecord(IdentificationRecord):
+    """The file of a trace in a folder of results."""
+
+    task: TaskRecord
+    stamp: list[int]  # size and time of the trace's file
+    error: None
+
+
+class FailedRecord(TypedDict):
+    """The file of a trace that could not be read or fitted."""
+
+    task: TaskRecord
+    stamp: list[int]
+    error: str
+    source: str
+    parameters: list[ParameterRecord]  # empty
+
+
+TraceRecord: TypeAlias = IdentifiedRecord | FailedRecord
+
+
+class TraceRow(ParameterRecord):
+    """A row of traces.parquet."""
+
+    trace: str
+    rmse_N: float
+    membranes: int
+    extensions: str
+
+
+class PopulationRow(TypedDict):
+    """A row of population.parquet: a parameter over all traces."""
+
+    name: str
+    unit: str
+    traces: int
+    mean: float
+    low: float
+    high: float
+    spread: float
+    spread_is_relative: bool
+    shrinkage: float
+
+
+class FolderRecord(TypedDict):
+    """The summary of a folder."""
+
+    traces: int
+    identified: int
+    kept: int
+    failed: dict[str, str]  # the reason by the name of the trace
+    population: list[PopulationRow]
