@@ -91,10 +91,13 @@ class Api:
         return JSONResponse([asdict(entry) for entry in self._shelf.entries(but=self._session.recording)])
 
     def recording(self, request: Request) -> Response:
-        return JSONResponse(overview(self._shelf.open(_name(request))))
+        return JSONResponse(self._shelf.read(_name(request), lambda path: overview(open_recording(path))))
 
     def ticks(self, request: Request) -> Response:
-        return Download(tick_frames(self._shelf.open(_name(request))), media_type="application/octet-stream")
+        binary = "application/octet-stream"
+        return self._shelf.read(
+            _name(request), lambda path: Download(tick_frames(open_recording(path)), media_type=binary)
+        )
 
     def trace(self, request: Request) -> Response:
         asked = request.query_params
@@ -104,7 +107,8 @@ class Api:
             start, points = math.nan, 0
         if not (math.isfinite(start) and FEWEST <= points <= MOST):
             return _sentence(400, f"from is a time in s, points a number from {FEWEST} to {MOST}.")
-        return JSONResponse(thinned_trace(self._shelf.open(_name(request)), start, points))
+        thin = lambda path: thinned_trace(open_recording(path), start, points)  # noqa: E731
+        return JSONResponse(self._shelf.read(_name(request), thin))
 
     def delete(self, request: Request) -> Response:
         self._shelf.delete(_name(request), self._session.recording)
@@ -114,14 +118,7 @@ class Api:
         name, kind = safe_name(_name(request)), request.query_params.get("format", "parquet")
         if kind not in FORMATS:
             return _sentence(400, f"There is {', '.join(FORMATS)}.")
-        path = self._shelf.find(name)
-        try:
-            return self._file(path, name, kind)
-        except (RecordingError, OSError):
-            finished = self._shelf.find(name)
-            if finished == path:
-                raise
-            return self._file(finished, name, kind)  # the recording was finished while it was being read
+        return self._shelf.read(name, lambda path: self._file(path, name, kind))
 
     def _file(self, path: Path, name: str, kind: str) -> Response:
         if kind == "parquet" and path.suffix == SUFFIX:

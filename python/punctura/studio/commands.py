@@ -11,7 +11,7 @@ from punctura.errors import ConfigurationError
 from punctura.exercise import Exercise
 from punctura.exercise.space import need_membranes
 from punctura.live import room_note
-from punctura.record import RecorderStatus
+from punctura.record import RecorderStatus, open_recording
 from punctura.scene import scene_names
 from punctura.studio.catalog import DRAFT
 from punctura.studio.exercise_activity import ExerciseActivity
@@ -47,7 +47,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
         case ask.PushPlunger():
             return lambda session: _push_plunger(session, request.force)
         case ask.PlayMotion():
-            motion = motion_of(session.shelf.open(request.recording))
+            motion = session.shelf.read(request.recording, lambda path: motion_of(open_recording(path)))
             return lambda session: _moves_by_itself(session, lambda: session.hand.motion(*motion, time.monotonic()))
         case ask.TripFault():
             return lambda session: _needs_simulated(session, lambda: session.bench.simulated_device.trip())

@@ -7,9 +7,11 @@ import os
 import re
 import shutil
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.lock import in_use
@@ -19,6 +21,7 @@ from punctura.studio.names import LONGEST, BadName, safe_name
 SUFFIX = ".parquet"
 PART = ".part"
 LEFT_OVER_S = 3600.0  # after this time nobody still writes a hidden file
+T = TypeVar("T")
 _UNFINISHED = re.compile(r"\..+\.parquet\.[0-9a-f]{8}\.part")
 
 
@@ -110,7 +113,21 @@ class Shelf:
 
     def open(self, name: str) -> Recording:
         """Raises BadName, Missing, RecordingError."""
-        return open_recording(self.find(name))
+        return self.read(name, open_recording)
+
+    def read(self, name: str, act: Callable[[Path], T]) -> T:
+        """What `act` returns for the file, again if the recording was finished meanwhile: that moves the file.
+
+        Raises BadName, Missing, and what `act` raises.
+        """
+        path = self.find(name)
+        try:
+            return act(path)
+        except (RecordingError, OSError):
+            finished = self.find(name)
+            if finished == path:
+                raise
+            return act(finished)
 
     def delete(self, name: str, running: str = "") -> None:
         """Raises BadName, Missing, Busy, OSError. running: the name of the recording that this studio makes now.

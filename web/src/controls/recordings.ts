@@ -20,7 +20,6 @@ export const recordingsPanel: Panel = (host, app) => {
     note,
   );
   let rows = new Map<string, Row>();
-  let texts = new Map<string, string>();
 
   const mark = (): void => {
     const shown = library.nameOf(app.source.value);
@@ -33,12 +32,9 @@ export const recordingsPanel: Panel = (host, app) => {
   };
   library.entries.watch((entries) => {
     if (!entries) return;
-    // An unchanged row stays: the user may be using it.
     const before = rows;
-    const said = new Map(entries.map((entry) => [entry.name, JSON.stringify(entry)]));
-    const kept = (name: string): Row | undefined => (texts.get(name) === said.get(name) ? before.get(name) : undefined);
-    rows = new Map(entries.map((entry) => [entry.name, kept(entry.name) ?? recordingRow(library, entry)]));
-    texts = said;
+    rows = new Map(entries.map((entry) => [entry.name, before.get(entry.name) ?? recordingRow(library, entry)]));
+    for (const entry of entries) rows.get(entry.name)?.update(entry);
     const roots = [...rows.values()].map((row) => row.root);
     for (const old of [...list.children]) if (!roots.includes(old as HTMLElement)) old.remove();
     roots.forEach((root, i) => {

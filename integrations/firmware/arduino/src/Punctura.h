@@ -1,6 +1,6 @@
 // The needle on one axis, for firmware: Proxy1d<ThickLawF>. docs: integrations/firmware/README.md.
 #pragma once
-// Some cores of Arduino define these words as macros, which the C++ library cannot bear. The sketch keeps them.
+// Some cores of Arduino define these words as macros, which break the C++ library. The sketch keeps them.
 #pragma push_macro("min")
 #pragma push_macro("max")
 #pragma push_macro("abs")

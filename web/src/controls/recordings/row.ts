@@ -10,12 +10,15 @@ const FORMATS = ["parquet", "csv", "mcap"] as const;
 /** A recording in the list, with its facts and buttons. */
 export interface Row {
   readonly root: HTMLElement;
+  /** The same recording, with other facts. The buttons stay: the user may be about to click one. */
+  update(now: RecordingEntry): void;
   /** Shows whether it is replayed, and whether the plots compare with it. */
   mark(shown: boolean, compared: boolean): void;
   block(blocked: boolean, simulated: boolean): void;
 }
 
-export function recordingRow(library: Library, entry: RecordingEntry): Row {
+export function recordingRow(library: Library, first: RecordingEntry): Row {
+  let entry = first;
   const { app } = library;
   const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
     element("button", { type: "button", class: "small", title: help, onclick: act }, label);
@@ -99,14 +102,14 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   really.classList.add("danger");
   sure.append(keep, really);
 
-  const facts = [
-    entry.scene,
-    lengthText(entry.seconds),
-    dateText(entry.started),
-    entry.exercise && `exercise ${entry.exercise}`,
-    entry.lost > 0 && `${countText(entry.lost)} ticks lost`,
-    !entry.finished && "not finished",
-  ].filter((fact): fact is string => Boolean(fact));
+  const title = element("strong", { title: entry.name });
+  const facts = element("span", { class: "quiet" });
+  const update = (now: RecordingEntry): void => {
+    entry = now;
+    title.textContent = entry.title || entry.name;
+    facts.textContent = factsOf(entry).join(" · ");
+  };
+  update(first);
   const tools = element(
     "div",
     { class: "row-tools" },
@@ -116,18 +119,14 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
   const root = element(
     "li",
     { class: "recording" },
-    element(
-      "div",
-      { class: "what" },
-      element("strong", { title: entry.name }, entry.title || entry.name),
-      element("span", { class: "quiet" }, facts.join(" · ")),
-    ),
+    element("div", { class: "what" }, title, facts),
     tools,
     progress,
     line,
   );
   return {
     root,
+    update,
     mark: (shown, compared) => {
       root.classList.toggle("shown", shown);
       look.textContent = shown ? "Back to live" : "Replay";
@@ -143,3 +142,13 @@ export function recordingRow(library: Library, entry: RecordingEntry): Row {
     },
   };
 }
+
+const factsOf = (entry: RecordingEntry): string[] =>
+  [
+    entry.scene,
+    lengthText(entry.seconds),
+    dateText(entry.started),
+    entry.exercise && `exercise ${entry.exercise}`,
+    entry.lost > 0 && `${countText(entry.lost)} ticks lost`,
+    !entry.finished && "not finished",
+  ].filter((fact): fact is string => Boolean(fact));
