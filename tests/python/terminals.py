@@ -53,7 +53,7 @@ def go_on(slave):
     termios.tcflow(slave, termios.TCOON)
 
 
-def read_until(master, text, seconds=30):
+def read_until(master, text, seconds=120):
     """The output up to this text, with the program's line endings."""
     said = b""
     while text not in said.replace(b"\r\n", b"\n"):

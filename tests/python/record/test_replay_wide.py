@@ -38,7 +38,7 @@ def test_a_recording_has_the_scene_and_replays_it(start):
 
 def test_a_change_between_plain_and_wide_replays(start):
     plain, wide = load_scene("k06-fig12"), wide_scene()
-    run = start(ticks=6000, scene=plain)
+    run = start(ticks=6000, scene=plain, capacity=100_000)  # four runs without a clock, two in larger snapshots
     run.go()
     for scene in (wide, plain, wide):
         run.recorder.exchange(scene.replace(servo=plain.servo))

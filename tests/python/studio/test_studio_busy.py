@@ -38,12 +38,12 @@ def test_pause_takes_the_force_away_while_the_worker_waits(served, page):
 def test_pause_takes_the_force_away_while_a_request_before_it_reads_a_file(served, page, monkeypatch):
     reading, over = threading.Event(), threading.Event()
 
-    def open_slowly(_shelf, _name):
+    def read_slowly(_shelf, _name, _act):
         reading.set()
         over.wait(60)
         raise ValueError("a slow disk")
 
-    monkeypatch.setattr(Shelf, "open", open_slowly)
+    monkeypatch.setattr(Shelf, "read", read_slowly)
     page.wait(lambda: state(served) != UNARMED)
     try:
         page.send('{"id": 1001, "do": "play_motion", "recording": "slow"}')
