@@ -94,10 +94,7 @@ class Api:
         return JSONResponse(self._shelf.read(_name(request), lambda path: overview(open_recording(path))))
 
     def ticks(self, request: Request) -> Response:
-        binary = "application/octet-stream"
-        return self._shelf.read(
-            _name(request), lambda path: Download(tick_frames(open_recording(path)), media_type=binary)
-        )
+        return self._shelf.read(_name(request), _ticks_of)
 
     def trace(self, request: Request) -> Response:
         asked = request.query_params
@@ -107,8 +104,8 @@ class Api:
             start, points = math.nan, 0
         if not (math.isfinite(start) and FEWEST <= points <= MOST):
             return _sentence(400, f"from is a time in s, points a number from {FEWEST} to {MOST}.")
-        thin = lambda path: thinned_trace(open_recording(path), start, points)  # noqa: E731
-        return JSONResponse(self._shelf.read(_name(request), thin))
+        trace = self._shelf.read(_name(request), lambda path: thinned_trace(open_recording(path), start, points))
+        return JSONResponse(trace)
 
     def delete(self, request: Request) -> Response:
         self._shelf.delete(_name(request), self._session.recording)
@@ -196,6 +193,10 @@ def _of_whom(request: Request) -> tuple[str | None, str | None]:
 
 def _sentence(status: int, text: str) -> Response:
     return PlainTextResponse(text + "\n", status)
+
+
+def _ticks_of(path: Path) -> Response:
+    return Download(tick_frames(open_recording(path)), media_type="application/octet-stream")
 
 
 def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:

@@ -33,8 +33,8 @@ export const recordingsPanel: Panel = (host, app) => {
   library.entries.watch((entries) => {
     if (!entries) return;
     const before = rows;
+    for (const entry of entries) before.get(entry.name)?.update(entry);
     rows = new Map(entries.map((entry) => [entry.name, before.get(entry.name) ?? recordingRow(library, entry)]));
-    for (const entry of entries) rows.get(entry.name)?.update(entry);
     const roots = [...rows.values()].map((row) => row.root);
     for (const old of [...list.children]) if (!roots.includes(old as HTMLElement)) old.remove();
     roots.forEach((root, i) => {
