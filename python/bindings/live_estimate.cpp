@@ -88,7 +88,8 @@ void bind_live_estimate(nb::module_& m) {
   auto live = nb::class_<GivenLiveEstimate>(
       m, "LiveEstimate", nb::is_final(),
       "While a run goes on: the slope of the membrane in contact, the friction behind it, and punctures. From depth\n"
-      "and force alone, tick by tick. docs/live-estimate.md");
+      "and force alone, tick by tick. The standard deviations are those of noise about a straight line: where\n"
+      "the force is curved, that of a slope is some 1.5 times too large. docs/live-estimate.md");
   def_state(live);
   def_repr(live, "<LiveEstimate: {0.phase}, {0.punctures} punctures>");
   live.def(

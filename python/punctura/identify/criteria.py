@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
+from punctura.identify.slow_noise import misfit_beyond_slow_noise
 from punctura.trace import Segments, Trace, TraceError
 from punctura.trace.blocks import held_out
 from punctura.trace.information import Information, information
@@ -31,6 +33,11 @@ class Candidate:
     def extensions(self) -> tuple[str, ...]:
         """The extensions of K06, with "one tissue" if all walls share stiffness, friction and thickness."""
         return self.model.words
+
+    @cached_property
+    def beyond_slow_noise(self) -> float:
+        """-2 ln L of the fit, where slow noise may explain its residuals."""
+        return misfit_beyond_slow_noise(self.fit.residuals, self.fit.jacobian)
 
     def worth(self, effective: float) -> Information:
         """AIC (the corrected form) and BIC with this number of independent samples."""
@@ -59,10 +66,22 @@ class Rule:
         gain = old.worth(effective).bic - new.worth(effective).bic
         if len(new.fit.u) <= len(old.fit.u):
             return gain >= -EVIDENCE if len(new.fit.u) < len(old.fit.u) else gain > 0
-        if gain <= EVIDENCE:
+        if gain <= EVIDENCE or self._may_be_drift(new, old):
             return False
         after, before = self.held_out_error(new), self.held_out_error(old)
         return after is not None and (before is None or after <= WORSE * before)
+
+    @staticmethod
+    def _may_be_drift(new: Candidate, old: Candidate) -> bool:
+        """Whether `new` adds a relaxation that may be a slow drift of the sensor.
+
+        It is one unless BIC prefers `new` also where slow noise may explain what each model leaves.
+        """
+        more = set(new.model.names) - set(old.model.names)
+        if not any(name.startswith("relaxation") for name in more):
+            return False
+        gain = old.beyond_slow_noise - new.beyond_slow_noise
+        return gain - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
 
     def held_out_error(self, one: Candidate) -> float | None:
         """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""

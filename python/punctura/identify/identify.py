@@ -115,7 +115,8 @@ def identify(
     tell("intervals")
     found = estimates(final, (few_fit.parameters, *few_fit.others))
     effective = effective_samples(final.residuals, len(final.u))
-    return Identification(trace, segments, final, found, verdicts(found, trace, segments), candidates, effective)
+    said = verdicts(found, trace, segments, few_fit)
+    return Identification(trace, segments, final, found, said, candidates, effective)
 
 
 def _pops(trace: Trace, segments: Segments) -> int:

@@ -6,6 +6,7 @@ cannot take up (restricted maximum likelihood, Patterson and Thompson 1971), and
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ Array = NDArray[np.float64]
 
 SHARES = (0.02, 0.06, 0.2, 0.5, 0.8, 0.94, 1.0)  # of the variance, that is slow
 LONGEST = 2.0  # lengths of the trace, of the longest correlation
+SLOW = 1 / 40  # of the trace, is the least correlation length that counts as slow
 RATIO = 1.8  # from one correlation length to the next
 
 
@@ -69,25 +71,60 @@ def spread(residuals: Array, jacobian: Array, inverse: Array) -> Array:
 
     inverse: (J^T J)^-1. White noise counts as much as all other mixtures together before the trace is looked at.
     """
+    p = jacobian.shape[1]
+    total = np.zeros((p, p))
+    likely = _likely(residuals, jacobian)
+    most = max(weight for _, weight, _ in likely)
+    for mixture, weight, variance in likely:
+        if weight > 1e-4 * most:
+            total += weight * variance * (inverse @ (jacobian.T @ mixture.smeared(jacobian)) @ inverse)
+    return total
+
+
+def slow_and_white(residuals: Array, jacobian: Array) -> tuple[float, float]:
+    """Standard deviations of the slow and of the other noise, N, in the most likely mixture.
+
+    Slow is a correlation length of at least SLOW of the trace.
+    """
+    mixture, _, variance = max(_likely(residuals, jacobian), key=lambda one: one[1])
+    share = mixture.share if mixture.length >= SLOW * len(residuals) else 0.0
+    return float(np.sqrt(share * variance)), float(np.sqrt((1 - share) * variance))
+
+
+def _likely(residuals: Array, jacobian: Array) -> list[tuple[Mixture, float, float]]:
+    """Every mixture with its share of the likelihood and its variance, N^2."""
     n, p = jacobian.shape
-    scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
-    columns = np.column_stack((jacobian / scale, residuals))
     every = mixtures(n)
     worth, variances = np.empty(len(every)), np.empty(len(every))
-    for i, mixture in enumerate(every):
-        solved, log_det = mixture.solved(columns)
-        gram = columns.T @ solved
-        values, vectors = np.linalg.eigh(gram[:p, :p])
-        values = np.maximum(values, 1e-12 * values[-1])
-        taken = vectors.T @ gram[:p, p]
-        left = max(float(gram[p, p] - taken @ (taken / values)), 1e-300)
+    for i, (log_det, values, left) in enumerate(_explained(residuals, jacobian, every)):
         variances[i] = left / max(n - p, 1)
         worth[i] = -0.5 * (log_det + np.log(values).sum() + (n - p) * np.log(left))
     worth[1:] -= np.log(len(every) - 1)
     weights = np.exp(worth - worth.max())
     weights /= weights.sum()
-    total = np.zeros((p, p))
-    for mixture, weight, variance in zip(every, weights, variances, strict=True):
-        if weight > 1e-4 * weights.max():
-            total += weight * variance * (inverse @ (jacobian.T @ mixture.smeared(jacobian)) @ inverse)
-    return total
+    return list(zip(every, weights.tolist(), variances.tolist(), strict=True))
+
+
+def misfit_beyond_slow_noise(residuals: Array, jacobian: Array) -> float:
+    """-2 ln L of a fit, where slow noise of any mixture may explain the residuals, too; smaller is better.
+
+    The mixture is the most likely one, and the parameters follow it by the linear model. Fits of the same samples can
+    be compared, also if their parameters differ.
+    """
+    n = len(residuals)
+    explained = _explained(residuals, jacobian, mixtures(n))
+    return float(min(log_det + n * np.log(left / n) for log_det, _, left in explained))
+
+
+def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[tuple[float, Array, float]]:
+    """For each mixture: log det V, the eigenvalues of J^T V^-1 J (scaled), and what V^-1 leaves of the residuals."""
+    p = jacobian.shape[1]
+    scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
+    columns = np.column_stack((jacobian / scale, residuals))
+    for mixture in every:
+        solved, log_det = mixture.solved(columns)
+        gram = columns.T @ solved
+        values, vectors = np.linalg.eigh(gram[:p, :p])
+        values = np.maximum(values, 1e-12 * values[-1])
+        taken = vectors.T @ gram[:p, p]
+        yield log_det, values, max(float(gram[p, p] - taken @ (taken / values)), 1e-300)

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
+from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
+from punctura.identify.slow_noise import slow_and_white
 from punctura.trace import Segments, Trace
 
 _EXPERIMENTS = {
@@ -29,9 +33,26 @@ _EXPERIMENTS = {
 }  # fmt: skip
 
 
-def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments) -> tuple[str, ...]:
-    """One sentence for each thing that the trace cannot tell, with the experiment that would."""
-    return (*_not_identifiable(estimates), *_not_seen(trace, segments))
+SEEN = 0.002  # of the greatest force: a smaller drift does not matter
+DRIFTING = 1.5  # times the other noise: with more slow noise, the interval of a surface is too narrow
+
+
+def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> tuple[str, ...]:
+    """One sentence for each thing that the trace cannot tell, with the experiment that would.
+
+    fit: of all samples, or of the thinned ones, for the noise.
+    """
+    return (*_not_identifiable(estimates), *_not_seen(trace, segments), *_drifting(fit))
+
+
+def _drifting(fit: Fit) -> Iterator[str]:
+    slow, other = slow_and_white(fit.residuals, fit.jacobian)
+    if slow > DRIFTING * other and slow > SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
+        yield (
+            f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "
+            "interval of a surface is then too narrow. If the model is right (see punctura compare), this is a drift "
+            "of the sensor: let it warm up, record a second before contact, and repeat the insertion."
+        )
 
 
 def _not_identifiable(estimates: Sequence[Estimate]) -> Iterator[str]:

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -57,6 +58,20 @@ TEST_CASE("the recursive line is the weighted least-squares line") {
   const double slope = (w * xy - x * y) / (w * xx - x * x);
   CHECK(line.slope() == doctest::Approx(slope).epsilon(1e-4));
   CHECK(line.level() == doctest::Approx((y - slope * x) / w).epsilon(1e-4));
+}
+
+TEST_CASE("the intervals of a straight line hold the truth in 95 % of the lines") {
+  const double step = 2e-5;
+  int slopes = 0, levels = 0;
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    LiveLine line(1e-3, 1e-9);
+    Noise noise(seed);
+    for (int i = 0; i < 200; ++i) line.add(i == 0 ? 0 : step, 0.3 + 120 * i * step + 0.01 * noise.normal());
+    slopes += std::abs(line.slope() - 120) <= 1.96 * line.slope_error() ? 1 : 0;
+    levels += std::abs(line.level() - (0.3 + 120 * 199 * step)) <= 1.96 * line.level_error() ? 1 : 0;
+  }
+  CHECK(std::abs(slopes - 950) <= 25);  // 3.6 standard deviations of a count
+  CHECK(std::abs(levels - 950) <= 25);
 }
 
 TEST_CASE("a sudden drop of the force is found within 4 ms, and once") {
