@@ -45,7 +45,7 @@ void bind_limits(nb::module_&);
 void bind_tick_table(nb::module_&);
 void bind_thumb(nb::module_&);
 void bind_runtime(nb::module_&);
-void bind_given_devices(nb::module_&);
+void bind_python_devices(nb::module_&);
 void bind_devices(nb::module_&);
 void bind_replay(nb::module_&);
 void bind_batch(nb::module_&);

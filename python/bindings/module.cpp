@@ -31,7 +31,7 @@ NB_MODULE(_core, m) {
   bind_tick_table(m);
   bind_thumb(m);
   bind_runtime(m);
-  bind_given_devices(m);
+  bind_python_devices(m);
   bind_devices(m);
   bind_replay(m);
   bind_batch(m);

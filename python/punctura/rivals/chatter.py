@@ -23,8 +23,8 @@ from punctura.rivals.layers import Layer
 from punctura.ticks import Ticks
 
 Array = NDArray[np.float64]
-RATE = 1600.0  # Hz, K06 section 4
-COUNT = 0.055e-3  # m, of a PHANTOM Omni
+SERVO = ServoSettings(conditioning="line_fit")  # K06 section 4: its rate, and the encoders of a PHANTOM Omni
+RATE, COUNT = SERVO.rate, SERVO.encoder_step  # Hz, m
 SPEED = 20e-3  # m/s
 LEAD = 5e-3  # m in front of the first surface
 HELD_S, COUNTED_S = 2.0, 1.5
@@ -72,12 +72,7 @@ def scene_of(layers: tuple[Layer, ...], name: str = "rivals") -> Scene:
     placed = [
         PlacedMembrane(f"layer {i + 1}", unused, _point(layer.surface - first), DOWN) for i, layer in enumerate(layers)
     ]
-    return Scene(name, Needle(1.2e-3, 0.28), Coupling(400.0, 1.0), placed, device_settings())
-
-
-def device_settings() -> ServoSettings:
-    """A servo step for the encoders of a PHANTOM Omni."""
-    return ServoSettings(rate=RATE, conditioning="line_fit", encoder_step=COUNT)
+    return Scene(name, Needle(1.2e-3, 0.28), Coupling(400.0, 1.0), placed, SERVO)
 
 
 def places_of(surface: float, pop: float | None, deepest: float) -> list[float]:

@@ -12,7 +12,7 @@ from punctura.identify import Identification, identify
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Misfit
 from punctura.identify.scene import scene_of
-from punctura.rivals.chatter import DOWN, Chatter, chatter, device_settings
+from punctura.rivals.chatter import DOWN, SERVO, Chatter, chatter
 from punctura.trace import Trace
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ def _fit(trace: Trace, name: str, title: str, candidate: Candidate) -> K06Fit:
     force = Misfit(trace, parameters).forces(parameters)
     held_out = float("nan") if candidate.held_out is None else candidate.held_out
     plain = scene_of(parameters, title)
-    scene = Scene(plain.name, plain.needle, plain.coupling, plain.membranes, device_settings())
+    scene = Scene(plain.name, plain.needle, plain.coupling, plain.membranes, SERVO)
     surface = float(parameters.membranes[0, 0])
     return K06Fit(name, title, len(candidate.fit.u), force, trace.force - force, held_out, surface, scene)
 

@@ -63,8 +63,10 @@ inline void fetch([[maybe_unused]] const double* from, [[maybe_unused]] std::ptr
 }
 
 /// The ticks of several vectors. They take turns, so that the processor computes one while another waits for a result.
-template <typename V, typename Solver, bool shared, bool stores, std::size_t... j>
-[[gnu::flatten]] bool run_vectors(LineBlock& block, std::size_t start, const LineSpan& span,
+///
+/// start: the first lane. If it is an integral_constant, the numbers of the block have fixed places.
+template <typename V, typename Solver, bool shared, bool stores, typename Start, std::size_t... j>
+[[gnu::flatten]] bool run_vectors(LineBlock& block, Start start, const LineSpan& span,
                                   std::index_sequence<j...>) noexcept {
   using Vector = LineVector<V, Solver>;
   Vector vectors[] = {Vector(block, start + j * V::lanes, span)...};
@@ -96,10 +98,18 @@ bool run_line(LineBlock& block, const LineSpan& span) noexcept {
     // Several vectors hide the wait for a result. A vector of Portable is four plain doubles, which do so by
     // themselves; four such vectors take a compiler four times longer.
     constexpr std::size_t together = std::is_same_v<Isa, Portable> ? 1 : 4, width = together * V::lanes;
+    constexpr std::make_index_sequence<together> vectors;
+    constexpr std::size_t turns = block_lanes / width;
     bool good = true;
-    for (std::size_t start = 0; start < block_lanes; start += width)
-      good =
-          run_vectors<V, Solver, shared.value, stores.value>(b, start, s, std::make_index_sequence<together>()) && good;
+    const auto turn = [&](auto start) {
+      good = run_vectors<V, Solver, shared.value, stores.value>(b, start, s, vectors) && good;
+    };
+    if constexpr (turns <= 2)  // with more, the code for each would be long
+      [&]<std::size_t... i>(std::index_sequence<i...>) {
+        (turn(std::integral_constant<std::size_t, i * width>()), ...);
+      }(std::make_index_sequence<turns>());
+    else
+      for (std::size_t start = 0; start < block_lanes; start += width) turn(start);
     return good;
   };
   constexpr std::true_type yes;

@@ -83,8 +83,8 @@ export const healthPanel: Panel = (host, app) => {
   app.status.watch((status) => {
     all.hidden = status === null;
     nothing.hidden = status !== null;
-    if (!status) return;
-    const nominal = app.source.value.scene.value?.rate ?? app.hello.value?.device.rate ?? 1000;
+    const nominal = app.live.scene.value?.rate; // known before the first status
+    if (!status || !nominal) return;
     const { history } = app.live;
     // By the times of the ticks; their arrival at this page says nothing about a studio's loop. Without a studio, the
     // ticks have a time of their own, and only the page's clock tells how fast they are made.

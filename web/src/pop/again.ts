@@ -20,8 +20,9 @@ export function lastPop(source: Source): MembraneEvent | null {
 export function excerptAround(source: Source, event: MembraneEvent): Source | null {
   const of = source.excerpt?.of ?? source;
   const { first, end } = source.history;
-  if (event.tick < first || event.tick >= end) return null;
-  const ticks = Math.round(HALF * (source.scene.value?.rate ?? 1600));
+  const scene = source.scene.value;
+  if (!scene || event.tick < first || event.tick >= end) return null;
+  const ticks = Math.round(HALF * scene.rate);
   // The live history overwrites its old ticks. A whole copy also keeps the holes that the needle made before.
   const history = source.live ? copiedHistory(source.history) : source.history;
   const excerpt = {
@@ -31,7 +32,7 @@ export function excerptAround(source: Source, event: MembraneEvent): Source | nu
     last: Math.min(end - 1, event.tick + ticks),
   };
   const made = new Source(`${event.name}, slowly`, false, history, excerpt);
-  made.scene.value = source.scene.value;
+  made.scene.value = scene;
   made.laws.value = source.laws.value;
   made.events.value = source.events.value;
   made.cursor.value = excerpt.first;

@@ -21,14 +21,15 @@ export const playerBar: Panel = (host, app) => {
     host.replaceChildren();
     host.hidden = source.live;
     document.documentElement.classList.toggle("replaying", !source.live);
-    if (!source.live) close = fill(host, app, source, from);
+    const scene = source.scene.value; // a recording has one from the start
+    if (!source.live && scene) close = fill(host, app, source, scene.rate, from);
   });
 };
 
-/** from: the tick to begin at; null: the first, and it plays. */
-function fill(host: HTMLElement, app: App, source: Source, from: number | null): () => void {
+/** rate: ticks per second. from: the tick to begin at; null: the first, and it plays. */
+function fill(host: HTMLElement, app: App, source: Source, rate: number, from: number | null): () => void {
   const showing = showingOf(app, source);
-  const playback = new Playback(showing.first, showing.last, source.scene.value?.rate ?? 1600);
+  const playback = new Playback(showing.first, showing.last, rate);
   playback.speed = showing.speed;
   let used = false; // whether the user has used the bar
   let rested = 0; // ms since the end

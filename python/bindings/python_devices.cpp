@@ -95,7 +95,7 @@ void make_pacer(Pacer<>* self, double rate) {
 
 }  // namespace
 
-void bind_given_devices(nb::module_& m) {
+void bind_python_devices(nb::module_& m) {
   nb::class_<ReplayDevice, Device>(
       m, "ReplayDevice",
       "A device that plays a recorded motion: one tick per sample. It ignores the force and ends after the last\n"
