@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal, TypedDict
 
@@ -21,7 +22,8 @@ from punctura.compare.comparison import Band, Collector, Comparison
 from punctura.compare.motion import recorded_motion, stroke
 from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
 from punctura.compare.vary import VaryError, vary
-from punctura.record import RecordingError, open_recording
+from punctura.record import Recording, RecordingError
+from punctura.record.recording import read_recording
 from punctura.record.scene_text import from_text
 from punctura.results import JsonObject
 
@@ -91,7 +93,7 @@ def do(job: Job, tell: Tell) -> CompareRecord | None:
     if job.zip:
         from punctura.compare.bundle import check_ticks, save_bundle  # matplotlib takes long to import
 
-        check_ticks(sum(open_recording(path).rows for _, path in job.recordings))
+        check_ticks(sum(read_recording(path, lambda one: one.rows) for _, path in job.recordings))
         title = f"A variation of {job.variation.path}" if job.variation else "A comparison of recordings"
         save_bundle(runs, job.zip, job.on, title)
         return None
@@ -117,15 +119,18 @@ def _told(runs: Iterable[Run], count: int, tell: Tell) -> Iterator[Run]:
 
 def _recorded(recordings: list[tuple[str, str]]) -> Iterator[Run]:
     for name, path in recordings:
-        recording = open_recording(path)
-        if recording.rows > MOST_TICKS:
-            raise ValueError(f"{name} has {recording.rows} ticks; at most {MOST_TICKS} can be compared")
-        yield recorded_run(recording, name)
+        yield read_recording(path, partial(_run, name=name))
+
+
+def _run(recording: Recording, name: str) -> Run:
+    if recording.rows > MOST_TICKS:
+        raise ValueError(f"{name} has {recording.rows} ticks; at most {MOST_TICKS} can be compared")
+    return recorded_run(recording, name)
 
 
 def _varied(asked: Variation) -> Iterator[Run]:
     scene = from_text(asked.scene, Path("the scene"))
-    motion = recorded_motion(open_recording(asked.recording)) if asked.recording else stroke(scene, asked.speed)
+    motion = read_recording(asked.recording, recorded_motion) if asked.recording else stroke(scene, asked.speed)
     return vary(scene, asked.path, asked.values, motion)
 
 

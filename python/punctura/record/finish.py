@@ -26,6 +26,11 @@ def part_path(path: Path) -> Path:
     return path.with_name(path.name + _SUFFIX)
 
 
+def finished_path(path: Path) -> Path:
+    """Path of the finished recording of a .part file; any other path stays as it is."""
+    return path.with_name(path.name.removesuffix(_SUFFIX))
+
+
 class FinishRecord(TypedDict):
     """What the end of a recording adds to its header."""
 

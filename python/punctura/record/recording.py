@@ -6,7 +6,7 @@ import os
 import stat
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from punctura.record.description import FaultAt, Summary
 from punctura.record.errors import RecordingError
-from punctura.record.finish import part_path
+from punctura.record.finish import finished_path, part_path
 from punctura.record.header import RecordingInfo
 from punctura.record.parquet_file import ParquetRecording
 from punctura.record.part_file import PartFile
@@ -22,6 +22,7 @@ from punctura.record.schema import numbers, ticks_of
 from punctura.ticks import Ticks
 
 _PARQUET = b"PAR1"
+T = TypeVar("T")
 
 
 class Recording:
@@ -108,3 +109,19 @@ def open_recording(path: str | os.PathLike[str]) -> Recording:
         raise RecordingError(f"{file} is a folder, not a recording") from None
     except OSError as bad:
         raise RecordingError(f"{file} cannot be read: {bad.strerror or bad}") from None
+
+
+def read_recording(path: str | os.PathLike[str], act: Callable[[Recording], T]) -> T:
+    """What `act` returns for the recording at `path`, which may be its .part file.
+
+    If the recording is finished meanwhile, its .part file ends, and `act` is called again for the finished file.
+    Raises RecordingError and what `act` raises.
+    """
+    file = Path(path)
+    try:
+        return act(open_recording(file))
+    except (RecordingError, OSError):
+        finished = finished_path(file)
+        if finished == file or file.exists() or not finished.is_file():
+            raise
+        return act(open_recording(finished))

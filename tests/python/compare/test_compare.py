@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -14,9 +15,10 @@ import pytest
 from punctura._core import SimulatedDevice
 from punctura.compare import Motion, Run, VaryError, compare, recorded_motion, recorded_run, stroke, vary
 from punctura.compare.bundle import save_bundle
+from punctura.compare.worker import Job, Variation, do
 from punctura.events import crossing
 from punctura.live import stroke_ends
-from punctura.record import open_recording
+from punctura.record import Recording, RecordingError, open_recording
 from punctura.scene import scene_text
 from recorded import recorded
 
@@ -161,6 +163,41 @@ def test_the_motion_of_a_recording_moves_another_scene(recording, scene):
     assert motion.seconds > 0
     soft, hard = (one.model.max() for one in vary(scene, PATH, [300.0, 3000.0], motion))
     assert 0 < soft < hard
+
+
+@pytest.mark.parametrize("when", ["opened", "read"])
+@pytest.mark.parametrize("job", ["runs", "zip", "motion"])
+def test_a_recording_that_is_finished_while_a_job_reads_it_is_read_all_the_same(
+    tmp_path, recording, scene, monkeypatch, when, job
+):
+    part, whole = tmp_path / "one.parquet.part", tmp_path / "one.parquet"
+    if when == "opened":  # before the worker opens it, its .part file ends
+        shutil.copy(recording, whole)
+    else:
+        shutil.copy(recording, part)
+        batches = Recording.batches
+
+        def just_before(self, progress=None):
+            if self.path == part:
+                part.replace(whole)
+            return batches(self, progress)
+
+        monkeypatch.setattr(Recording, "batches", just_before)
+    runs = [("one", str(part))]
+    if job == "runs":
+        assert do(Job(recordings=runs), lambda share, run: None)["statistics"][0]["name"] == "one"
+    elif job == "zip":
+        assert do(Job(recordings=runs, zip=str(tmp_path / "one.zip")), lambda share, run: None) is None
+        assert (tmp_path / "one.zip").exists()
+    else:
+        moved = Variation(scene=scene_text(scene), path=PATH, values=[300.0], recording=str(part))
+        assert len(do(Job(variation=moved), lambda share, run: None)["statistics"]) == 1
+    assert whole.exists() and not part.exists()
+
+
+def test_a_recording_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(RecordingError, match=r"one\.parquet\.part: there is no such file"):
+        do(Job(recordings=[("one", str(tmp_path / "one.parquet.part"))]), lambda share, run: None)
 
 
 def test_the_zip_file_has_figure_data_scenes_and_how_to_cite(tmp_path, runs):
