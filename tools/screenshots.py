@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -59,7 +60,9 @@ def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str) ->
     """The page of a new studio."""
     with tempfile.TemporaryDirectory() as folder, StudioProcess(Path(folder), scene) as studio:
         viewport = {"width": size[0], "height": size[1]}
-        context = browser.new_context(viewport=viewport, color_scheme=colours, reduced_motion="reduce")
+        context = browser.new_context(
+            viewport=viewport, color_scheme=colours, reduced_motion="reduce", has_touch=size[0] <= TOUCHED
+        )
         context.set_default_timeout(do.PATIENCE)
         context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
         page = context.new_page()
@@ -71,11 +74,31 @@ def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str) ->
 def save(page: Page, path: Path) -> None:
     page.wait_for_timeout(STILL_MS)
     size = page.viewport_size
-    scrolls = size is not None and size["width"] < SCROLLS
-    whole = scrolls and not page.get_by_role("dialog").count()  # a dialog covers what the page shows
-    shot = page.screenshot(full_page=whole)
-    Image.open(io.BytesIO(shot)).quantize(256).save(path, optimize=True)
+    assert size
+    scrolls = size["width"] < SCROLLS and not page.get_by_role("dialog").count()  # a dialog covers what it scrolls
+    picture = scrolled(page, size["height"]) if scrolls else pictured(page)
+    picture.quantize(256).save(path, optimize=True)
     print(path, flush=True)
+
+
+def pictured(page: Page) -> Image.Image:
+    """What the window shows. A picture of a whole page would have the style for a mouse, whatever the pointer is."""
+    return Image.open(io.BytesIO(page.screenshot()))
+
+
+def scrolled(page: Page, height: int) -> Image.Image:
+    """The whole page, put together from pictures of the window."""
+    whole = page.evaluate("document.documentElement.scrollHeight")
+    pieces = []
+    for top in range(0, whole, height):
+        at = page.evaluate("top => { scrollTo(0, top); return scrollY; }", top)
+        page.wait_for_timeout(STILL_MS / 5)
+        pieces.append((round(at), pictured(page)))
+    page.evaluate("scrollTo(0, 0)")
+    picture = Image.new("RGB", (pieces[0][1].width, whole))
+    for at, piece in pieces:
+        picture.paste(piece, (0, at))
+    return picture
 
 
 def take(browser: Browser, out: Path, wanted: list[str]) -> None:
@@ -98,6 +121,8 @@ def take_all(browser: Browser, out: Path, wanted: list[str]) -> None:
             for width, height in SIZES:
                 page.set_viewport_size({"width": width, "height": height})
                 tools.send("Emulation.setTouchEmulationEnabled", {"enabled": width <= TOUCHED})
+                touched = page.evaluate("matchMedia('(pointer: coarse)').matches")
+                assert touched == (width <= TOUCHED), "the page does not have the style of its pointer"
                 for colours in ("light", "dark"):
                     page.emulate_media(color_scheme=colours, reduced_motion="reduce")
                     save(page, out / f"{name}-{width}-{colours}.png")
@@ -113,6 +138,7 @@ def main() -> int:
     if wrong := sorted(set(arguments.names) - known):
         parser.error(f"unknown: {', '.join(wrong)}; known: {', '.join(sorted(known))}")
     arguments.out.mkdir(parents=True, exist_ok=True)
+    os.environ.setdefault("PUNCTURA_LAB_NICE", "0")  # a computation of the Lab ends also on a busy computer
     with sync_playwright() as playwright:
         browser = launch(playwright)
         (take_all if arguments.all_states else take)(browser, arguments.out, arguments.names)

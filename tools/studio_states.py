@@ -142,7 +142,7 @@ def identified(page: Page) -> None:
     answer(form)
     form.get_by_role("button", name="Identify").click()
     dialog = page.get_by_role("dialog")
-    expect(dialog.get_by_role("button", name="Save report")).to_be_enabled(timeout=PATIENCE)
+    expect(dialog.get_by_role("button", name="Save report")).to_be_enabled(timeout=5 * PATIENCE)  # it computes
 
 
 def identified_below(page: Page) -> None:
@@ -161,9 +161,10 @@ def opened_tab(name: str) -> Act:
 
 
 def running(page: Page) -> None:
+    """The exercise with the longest time, so that it is running until all its pictures are taken."""
     ready(page)
     tab(page, "Exercises")
-    page.locator("article.exercise").first.get_by_role("button", name="Start").click()
+    page.locator("article.exercise", has_text="Epidural").get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
     push(page, "Shift+ArrowDown", 12)
 

@@ -16,14 +16,14 @@ COUNT = """
 window.drawn = { frames: 0, plots: 0, view: 0 };
 const frame = () => { window.drawn.frames++; requestAnimationFrame(frame); };
 requestAnimationFrame(frame);
-const picture = CanvasRenderingContext2D.prototype.drawImage;
+const wipe = CanvasRenderingContext2D.prototype.clearRect;
 let plot;
-CanvasRenderingContext2D.prototype.drawImage = function (...of) {
+CanvasRenderingContext2D.prototype.clearRect = function (...of) {
   if (this.canvas.className === 'plot-canvas') {
     plot ??= this.canvas;
     if (this.canvas === plot) window.drawn.plots++;
   }
-  return picture.apply(this, of);
+  return wipe.apply(this, of);
 };
 const clear = WebGL2RenderingContext.prototype.clear;
 WebGL2RenderingContext.prototype.clear = function (...of) { window.drawn.view++; return clear.apply(this, of); };
@@ -41,9 +41,9 @@ class WatchedPage:
         self._page.set_default_timeout(PATIENCE_MS)
         self._page.on("pageerror", lambda error: self.errors.append(str(error)))
         self._page.add_init_script(COUNT)
+        self._page.context.add_cookies([{"name": "punctura_tour", "value": "seen", "url": url}])
         self._page.goto(url)
         self._page.wait_for_function("window.drawn.plots > 0")
-        self._page.get_by_role("button", name="Skip the tour").click()
         self._tools = self._page.context.new_cdp_session(self._page)
         self._before, self._at = self._drawn(), time.monotonic()
 

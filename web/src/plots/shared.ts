@@ -19,6 +19,8 @@ export class Plots {
   readonly window = new Window();
   /** Width of the time plot, px. */
   width = 400;
+  /** Device pixels per px of the time plot. */
+  ratio = 1;
   private pausedByZoom = false;
 
   constructor(private readonly app: App) {
@@ -50,9 +52,10 @@ export class Plots {
     return window;
   }
 
-  /** The step in which a live window moves, s: some pixels, because each step draws the whole background again. */
+  /** The step in which a window moves, s: whole device pixels, so that drawn curves can be moved. */
   private step(): number {
-    return ((this.source.live && busy() ? BUSY_STEP : 1) * this.span.value) / this.width;
+    const pixels = Math.max(1, Math.round((this.source.live && busy() ? BUSY_STEP : 1) * this.ratio));
+    return (pixels / this.ratio) * (this.span.value / this.width);
   }
 
   /** Points at a tick; null: at none. */

@@ -46,9 +46,13 @@ function eachStretch(
 ): void {
   const values = history.byteColumn(column);
   for (let from = first; from < end; ) {
-    const value = values[history.slot(from)]!;
-    let to = from + 1;
-    while (to < end && values[history.slot(to)] === value) to++;
+    let slot = history.slot(from);
+    const value = values[slot]!;
+    let to = from;
+    do {
+      to++;
+      slot = slot + 1 < history.capacity ? slot + 1 : 0; // a call of slot() for each tick would take most of the time
+    } while (to < end && values[slot] === value);
     use(value, from, to);
     from = to;
   }

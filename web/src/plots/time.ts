@@ -9,12 +9,14 @@ import { type Theme, watchTheme } from "./kit/theme.ts";
 import { popCallout } from "./pop_callout.ts";
 import { reading } from "./reading.ts";
 import { scaleChip } from "./scale_chip.ts";
+import { Scrolled } from "./scrolled.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
-import { TimeDrawing, type TimePicture, timeCurves } from "./time_drawing.ts";
+import { TimeDrawing, timeCurves } from "./time_drawing.ts";
+import type { TimePicture } from "./time_picture.ts";
 import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
-const TAIL = 800; // ticks that the foreground draws each frame, at most
+const TAIL = 800; // ticks without states, limits and marks in the background, at most
 
 /** Force and depth against time, one above the other. */
 export const timePlots: Panel = (host, app) => {
@@ -98,6 +100,7 @@ export const timePlots: Panel = (host, app) => {
         return taken;
       },
     },
+    true,
   );
   watchTheme((now) => {
     theme = now;
@@ -116,35 +119,51 @@ export const timePlots: Panel = (host, app) => {
   };
 
   const turn = turns();
+  const scrolled = new Scrolled();
   let seen = "";
   let still = "";
   let back = "";
   let backEnd = 0;
+  const drawLines = (now: TimePicture, pixels: number | null, theme: Theme): void => {
+    const { end } = now.window;
+    if (pixels === null) drawing.drawLines(surface.beginLines(), now, theme);
+    else {
+      const edge = drawing.edgeOf(now, scrolled.end);
+      surface.scrollLines(pixels, MARGIN.left, edge, (pen) => drawing.drawNewLines(pen, now, edge, theme));
+    }
+    scrolled.end = end;
+  };
   everyFrame((time) => {
     if (!theme || surface.width < 40) return;
     plots.width = surface.width - MARGIN.left - MARGIN.right;
-    const { from, to, first, end } = plots.update();
+    plots.ratio = surface.ratio;
+    const window = plots.update();
+    const { from, to, first, end } = window;
     const { source } = plots;
     const { history } = source;
     const marks = source.events.value.length + source.punctures.value.length;
-    const counts = `${changes} ${surface.sizes} ${history.generation} ${marks}`;
-    const backState = `${counts} ${from} ${to} ${source.live}`;
-    const held = `${counts} ${source.live} ${surface.changes} ${source.cursor.value} ${source.pointed.value}`;
+    const looks = `${changes} ${surface.sizes} ${history.generation} ${source.live}`;
+    const backState = `${looks} ${marks} ${from} ${to}`;
+    const held = `${looks} ${marks} ${surface.changes} ${source.cursor.value} ${source.pointed.value}`;
     const state = `${held} ${from} ${to} ${first} ${end}`;
     if (state === seen || (held === still && !turn(time))) return; // new ticks alone wait for their turn
     seen = state;
     still = held;
-    if (backState !== back || end - backEnd > TAIL) {
+    const now = picture();
+    const pixels = scrolled.step(looks, window, (plots.width / (to - from)) * surface.ratio);
+    const added = pixels === null ? null : scrolled.end;
+    const ranged = drawing.arrange(now, surface.width, surface.height, time / 1e3, added);
+    if (backState !== back || ranged || end - backEnd > TAIL) {
       back = backState;
       backEnd = end;
-      drawing.arrange(picture(), surface.width, surface.height, time / 1e3);
-      drawing.drawBack(surface.beginBack(), picture(), theme);
-      curves.show(timeCurves(picture(), theme));
+      drawing.drawBack(surface.beginBack(), now, theme);
+      curves.show(timeCurves(now, theme));
     }
+    drawLines(now, ranged ? null : pixels, theme);
     point();
     callOut(drawing.force);
     const pen = surface.begin();
-    drawing.drawFront(pen, picture(), backEnd, theme);
+    drawing.drawFront(pen, picture(), theme);
     if (surface.box) {
       const { x1, x2 } = surface.box;
       const { top } = drawing.force;

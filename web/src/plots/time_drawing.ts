@@ -1,41 +1,24 @@
 import { MODEL_FORCE } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
-import type { LabComparison } from "../wire/files.ts";
 import { drawBadge } from "./badge.ts";
 import { drawMean } from "./band_mean.ts";
-import { DASH, forceCurves, meanCurve, membraneCurves, shownMembranes } from "./curves.ts";
-import { Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "./gather.ts";
+import { forceCurves, meanCurve, membraneCurves, shownMembranes } from "./curves.ts";
+import { Extent } from "./gather.ts";
 import { AutoRange } from "./kit/auto_range.ts";
 import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
-import { decimate } from "./kit/decimate.ts";
-import type { Curve, Hidden } from "./kit/legend.ts";
-import type { Pen, Stroke } from "./kit/pen.ts";
-import { Polyline } from "./kit/polyline.ts";
+import type { Curve } from "./kit/legend.ts";
+import type { Pen } from "./kit/pen.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
 import { drawReading } from "./reading.ts";
+import { TimeLines } from "./time_lines.ts";
 import { drawFound, drawLimits, drawMarks, drawStates, foundCurve, limitCurve } from "./time_marks.ts";
-import type { Window } from "./window.ts";
+import { hasThumb, MM, THUMB_DASH, type TimePicture, WIDE } from "./time_picture.ts";
+import { tickAt } from "./window.ts";
 
-const MM = 1e3;
 const FORCE_SHARE = 0.58;
-const THUMB_DASH = [8, 3] as const;
-const WIDE = 5; // px: the model's force stays visible behind an equal felt force
-const SIZES = [["model", "model_force"], ["felt", "force"]] as const; // biome-ignore format: a table
+const SCAN_S = 0.5; // while ticks are added, the ranges see at least so often that old ones have left the window
+const EDGE = 4; // px: half the widest line, and the soft edge of a thinner one
 
-/** The window of ticks to draw. Depths in mm; forces in N, positive if they push the needle out. */
-export interface TimePicture {
-  readonly source: Source;
-  readonly window: Window;
-  readonly pointed: number | null;
-  /** The tick at which the timeline stands. */
-  readonly cursor: number | null;
-  readonly hidden: Hidden;
-  /** Whether the table at the pointed tick leaves the depth out. */
-  readonly noDepth: boolean;
-  readonly comparison: LabComparison | null;
-}
-
-const hasThumb = (source: Source): boolean => Boolean(source.scene.value?.syringe);
 const thumbCurve = (source: Source, theme: Theme): Curve[] =>
   hasThumb(source) ? [{ id: "thumb", text: `thumb, ${MODEL_FORCE}`, colour: theme.accent, dash: THUMB_DASH }] : [];
 
@@ -54,12 +37,12 @@ export const timeCurves = ({ source, window, comparison }: TimePicture, theme: T
 export class TimeDrawing {
   readonly force = new Pane();
   readonly depth = new Pane();
+  private readonly lines = new TimeLines(this.force, this.depth);
   private readonly rangeForce = new AutoRange();
   private readonly rangeDepth = new AutoRange();
-  private readonly extent = new Extent();
-  private readonly path = new Polyline();
-  private xs = new Float32Array(0);
-  private ys = new Float32Array(0);
+  private readonly forces = new Extent();
+  private readonly depths = new Extent();
+  private scanned = Number.NEGATIVE_INFINITY; // time of the last look at all ticks of the window, s
 
   /** Resets the value ranges, for another part of the run. */
   forget(): void {
@@ -67,45 +50,51 @@ export class TimeDrawing {
     this.rangeDepth.forget();
   }
 
-  /** Computes the axes at the time `now`, s. */
-  arrange({ source, window, hidden }: TimePicture, width: number, height: number, now: number): void {
-    const { force, depth, extent } = this;
+  /**
+   * Computes the axes at the time `now`, s. from: the first tick that has come since the last call, if the window has
+   * only moved on. Returns whether the range of an axis of values has changed.
+   */
+  arrange(picture: TimePicture, width: number, height: number, now: number, from: number | null = null): boolean {
+    const { force, depth } = this;
     const across = width - MARGIN.left - MARGIN.right;
     const room = height - 2 * MARGIN.top - MARGIN.bottom;
     const upper = Math.round(FORCE_SHARE * room);
     force.place(MARGIN.left, MARGIN.top, across, upper);
     depth.place(MARGIN.left, 2 * MARGIN.top + upper, across, room - upper);
-    const { history } = source;
-    extent.forget();
-    extent.take(-0.1);
-    extent.take(0.1);
-    const shown = shownMembranes(history, hidden);
-    for (const i of shown) extent.takeColumn(history, window.first, window.end, "axial_force", i, -1);
-    this.room(window.end - window.first);
-    for (const [id, column] of SIZES) {
-      if (!hidden.shows(id)) continue;
-      gatherSize(history, window.first, window.end, column, 1, 0, this.ys);
-      extent.takeNumbers(this.ys, window.end - window.first);
-    }
-    if (hidden.shows("permitted")) extent.takeColumn(history, window.first, window.end, "ceiling", 0, 1);
-    if (hasThumb(source) && hidden.shows("thumb"))
-      extent.takeColumn(history, window.first, window.end, "thumb_force", 0, -1);
-    this.rangeForce.follow(extent.low, extent.high, now);
-    extent.forget();
-    extent.take(-1);
-    extent.take(1);
-    for (const i of shown) extent.takeColumn(history, window.first, window.end, "depth", i, MM);
+    const { window } = picture;
+    this.measure(picture, now, from);
+    const { forces, depths } = this;
+    const forceChanged = this.rangeForce.follow(forces.low, forces.high, now);
     // While the hand is far from the tissue, the range must not flatten the curve inside it.
-    this.rangeDepth.follow(Math.max(extent.low, -Math.max(10, 1.5 * extent.high)), extent.high, now);
+    const deep = Math.max(depths.low, -Math.max(10, 1.5 * depths.high));
+    const depthChanged = this.rangeDepth.follow(deep, depths.high, now);
     for (const pane of [force, depth]) pane.rangeX(window.from, window.to);
     force.rangeY(this.rangeForce.min, this.rangeForce.max);
     depth.rangeY(this.rangeDepth.min, this.rangeDepth.max);
+    return forceChanged || depthChanged;
+  }
+
+  private measure(picture: TimePicture, now: number, from: number | null): void {
+    const { forces, depths } = this;
+    const { window } = picture;
+    const all = from === null || !(now - this.scanned < SCAN_S);
+    if (all) {
+      this.scanned = now;
+      forces.forget();
+      depths.forget();
+      for (const [extent, least] of [[forces, 0.1], [depths, 1]] as const) {
+        extent.take(-least);
+        extent.take(least);
+      } // biome-ignore format: a table
+    }
+    this.lines.measure(picture, all ? window.first : Math.max(from, window.first), window.end, forces, depths);
   }
 
   /** Draws the whole plot. */
   draw(pen: Pen, picture: TimePicture, theme: Theme): void {
     this.drawBack(pen, picture, theme);
-    this.drawFront(pen, picture, picture.window.end, theme);
+    this.drawLines(pen, picture, theme);
+    this.drawFront(pen, picture, theme);
   }
 
   /** Draws the background, which stays the same while the window stays. */
@@ -118,33 +107,24 @@ export class TimeDrawing {
     drawMarks(pen, this.force, this.depth, source, window, theme);
     if (hidden.shows("found")) drawFound(pen, this.force, this.depth, source, window, theme);
     this.drawMeans(pen, picture, theme);
-    this.drawLines(pen, picture, window.first, window.end, theme);
   }
 
-  /** Draws the foreground: the new ticks, from the tick `from` on, the present tick and the pointed tick. */
-  drawFront(pen: Pen, picture: TimePicture, from: number, theme: Theme): void {
-    const { window } = picture;
-    this.drawLines(pen, picture, Math.max(window.first, from - 1), window.end, theme);
-    this.drawNow(pen, picture, theme);
+  /** Draws all curves of the window. */
+  drawLines(pen: Pen, picture: TimePicture, theme: Theme): void {
+    this.lines.draw(pen, picture, picture.window.first, picture.window.end, theme);
   }
 
-  private drawLines(pen: Pen, picture: TimePicture, first: number, end: number, theme: Theme): void {
-    const n = end - first;
-    if (n < 2) return;
-    this.room(n);
-    const { force, depth } = this;
-    const { history } = picture.source;
-    const { slope } = force.x;
-    gatherTime(history, first, end, slope, force.x.from - slope * force.x.min, this.xs);
-    pen.within(force.left, force.top, force.width, force.height, () =>
-      this.drawForces(pen, picture, first, end, theme),
-    );
-    pen.within(depth.left, depth.top, depth.width, depth.height, () => {
-      for (const i of shownMembranes(history, picture.hidden)) {
-        gather(history, first, end, "depth", i, MM * depth.y.slope, depth.y.px(0), this.ys);
-        this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
-      }
-    });
+  /** From where on the curves change when ticks from `end` on are added, px. */
+  edgeOf({ source, window }: TimePicture, end: number): number {
+    const last = Math.max(window.first, end - 1);
+    return Math.max(0, Math.floor(this.force.x.px(source.history.timeOf(last)) - EDGE));
+  }
+
+  /** Draws the curves to the right of `edge`, px. The caller clips the rest. */
+  drawNewLines(pen: Pen, picture: TimePicture, edge: number, theme: Theme): void {
+    const { source, window } = picture;
+    const first = tickAt(source.history, this.force.x.value(edge - EDGE)) - 1;
+    this.lines.draw(pen, picture, Math.max(window.first, first), window.end, theme);
   }
 
   /** Draws the mean of the compared runs from the last first contact on that the window shows. */
@@ -162,53 +142,8 @@ export class TimeDrawing {
       });
   }
 
-  private room(n: number): void {
-    if (this.xs.length >= n) return;
-    this.xs = new Float32Array(2 * n);
-    this.ys = new Float32Array(2 * n);
-  }
-
-  private drawForces(pen: Pen, { source, hidden }: TimePicture, first: number, end: number, theme: Theme): void {
-    const { history } = source;
-    const { y } = this.force;
-    const gain = y.slope;
-    const zero = y.px(0);
-    const n = end - first;
-    const looks = {
-      model: { colour: theme.text, width: WIDE, alpha: 0.25 },
-      felt: { colour: theme.text, width: 1.25 },
-    };
-    for (const [id, column] of SIZES) {
-      if (!hidden.shows(id)) continue;
-      gatherSize(history, first, end, column, gain, zero, this.ys);
-      this.drawLine(pen, n, looks[id]);
-    }
-    if (hasThumb(source) && hidden.shows("thumb")) {
-      gather(history, first, end, "thumb_force", 0, -gain, zero, this.ys);
-      this.drawLine(pen, n, { colour: theme.accent, width: 1.5, dash: THUMB_DASH });
-    }
-    if (hidden.shows("permitted")) {
-      gather(history, first, end, "ceiling", 0, gain, zero, this.ys);
-      this.drawLine(pen, n, { colour: theme.danger, width: 1.25, dash: DASH });
-    }
-    const compared = hidden.shows("other") && isCompared(history, first, end);
-    for (const i of shownMembranes(history, hidden)) {
-      if (compared) {
-        gatherOther(history, first, end, i, -gain, zero, this.ys);
-        this.drawLine(pen, n, { colour: theme.quiet, width: 1 });
-      }
-      gather(history, first, end, "axial_force", i, -gain, zero, this.ys);
-      this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
-    }
-  }
-
-  private drawLine(pen: Pen, n: number, stroke: Stroke): void {
-    this.path.clear();
-    decimate(this.xs, this.ys, 0, n, this.path);
-    if (this.path.count) pen.line(this.path, stroke);
-  }
-
-  private drawNow(pen: Pen, picture: TimePicture, theme: Theme): void {
+  /** Draws the foreground: the present tick and the pointed tick. */
+  drawFront(pen: Pen, picture: TimePicture, theme: Theme): void {
     const { source, window, pointed, cursor, hidden, noDepth } = picture;
     const { history } = source;
     const { force, depth } = this;

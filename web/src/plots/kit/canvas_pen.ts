@@ -21,9 +21,33 @@ export class CanvasPen implements Pen {
     this.context.drawImage(canvas, 0, 0, width, height);
   }
 
+  /** Moves the canvas' picture to the left by whole device pixels. */
+  scroll(canvas: HTMLCanvasElement, pixels: number): void {
+    const c = this.context;
+    c.save();
+    c.setTransform(1, 0, 0, 1, 0, 0);
+    c.globalCompositeOperation = "copy";
+    c.drawImage(canvas, -pixels, 0);
+    c.restore();
+  }
+
+  /** Clears a box. */
+  clear(x: number, y: number, width: number, height: number): void {
+    this.context.clearRect(x, y, width, height);
+  }
+
   line({ xs, ys, count }: Polyline, stroke: Stroke): void {
     const c = this.context;
     this.style(stroke);
+    const phase = stroke.dash ? (stroke.phase ?? 0) : Number.NaN;
+    const begin = (x: number, y: number): void => {
+      if (!Number.isNaN(phase)) {
+        c.stroke();
+        c.beginPath();
+        c.lineDashOffset = x + phase; // the dashes depend on the place alone, not on where a piece begins
+      }
+      c.moveTo(x, y);
+    };
     c.beginPath();
     let down = false;
     let drawn = 0;
@@ -32,7 +56,7 @@ export class CanvasPen implements Pen {
       const y = ys[i]!;
       if (Number.isNaN(y)) down = false;
       else if (!down) {
-        c.moveTo(x, y);
+        begin(x, y);
         if (i + 1 === count || Number.isNaN(ys[i + 1])) c.lineTo(x + 1, y); // makes a single point visible
         down = true;
       } else {
@@ -40,12 +64,13 @@ export class CanvasPen implements Pen {
         if (++drawn < CHUNK) continue;
         c.stroke();
         c.beginPath();
-        c.moveTo(x, y);
+        begin(x, y);
         drawn = 0;
       }
     }
     c.stroke();
     c.globalAlpha = 1;
+    c.lineDashOffset = 0;
   }
 
   area({ xs, ys, count }: Polyline, colour: string, alpha: number): void {

@@ -5,6 +5,8 @@ export interface Stroke {
   readonly width: number;
   readonly alpha?: number;
   readonly dash?: readonly number[];
+  /** px that dashes are ahead of x on the screen, so that they move with a line that is drawn piece by piece. */
+  readonly phase?: number;
 }
 export interface Lettering {
   readonly colour: string;

@@ -24,10 +24,13 @@ export class Surface {
   changes = 0;
   /** Counts the changes of size. */
   sizes = 0;
-  private ratio = 1;
+  /** Device pixels per CSS pixel. */
+  ratio = 1;
   private scale = 1; // of the drawing: --scale of the style sheet, for a projector
   private readonly back = document.createElement("canvas");
   private readonly backPen: CanvasPen;
+  private readonly lines = document.createElement("canvas");
+  private readonly linesPen: CanvasPen;
 
   constructor(
     host: HTMLElement,
@@ -38,11 +41,14 @@ export class Surface {
       /** Returns whether the key has a meaning here. */
       key(event: KeyboardEvent): boolean;
     },
+    /** Whether it has a layer of lines. */
+    private readonly lined = false,
   ) {
     this.canvas = element("canvas", { class: "plot-canvas", tabindex: 0, role: "application", "aria-label": label });
     host.append(this.canvas);
     this.pen = new CanvasPen(this.canvas.getContext("2d")!);
     this.backPen = new CanvasPen(this.back.getContext("2d")!);
+    this.linesPen = new CanvasPen(this.lines.getContext("2d")!);
     new ResizeObserver(() => this.fit(host)).observe(host);
     window.addEventListener("resize", () => this.fit(host)); // the page's zoom changes only the ratio
     this.fit(host);
@@ -55,10 +61,30 @@ export class Surface {
     return this.backPen;
   }
 
-  /** Copies the background to the screen; the caller draws the foreground on top. */
+  /** Clears the layer of lines, which lies on the background. */
+  beginLines(): CanvasPen {
+    this.linesPen.begin(this.width, this.height, this.ratio);
+    return this.linesPen;
+  }
+
+  /**
+   * Moves the layer of lines to the left by whole device pixels, clears what has come to the left of `start`, px, and
+   * calls `draw`, which draws the part from `from` on again.
+   */
+  scrollLines(pixels: number, start: number, from: number, draw: (pen: CanvasPen) => void): void {
+    const pen = this.linesPen;
+    if (pixels > 0) pen.scroll(this.lines, pixels);
+    pen.clear(0, 0, start, this.height);
+    const left = Math.floor(from * this.ratio) / this.ratio; // a box on whole device pixels has no soft edge
+    pen.clear(left, 0, this.width - left, this.height);
+    pen.within(left, 0, this.width - left, this.height, () => draw(pen));
+  }
+
+  /** Copies background and lines to the screen; the caller draws the foreground on top. */
   begin(): CanvasPen {
     this.pen.begin(this.width, this.height, this.ratio);
     this.pen.picture(this.back, this.width, this.height);
+    if (this.lined) this.pen.picture(this.lines, this.width, this.height);
     return this.pen;
   }
 
@@ -68,7 +94,7 @@ export class Surface {
     this.width = clientWidth / this.scale;
     this.height = clientHeight / this.scale;
     this.ratio = devicePixelRatio * this.scale;
-    for (const canvas of [this.canvas, this.back]) {
+    for (const canvas of [this.canvas, this.back, ...(this.lined ? [this.lines] : [])]) {
       canvas.width = Math.max(1, Math.round(clientWidth * devicePixelRatio));
       canvas.height = Math.max(1, Math.round(clientHeight * devicePixelRatio));
     }

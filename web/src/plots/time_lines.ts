@@ -1,0 +1,107 @@
+import { DASH, shownMembranes } from "./curves.ts";
+import { type Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "./gather.ts";
+import type { Pane } from "./kit/axes.ts";
+import { decimate } from "./kit/decimate.ts";
+import type { Pen, Stroke } from "./kit/pen.ts";
+import { Polyline } from "./kit/polyline.ts";
+import { colourOf, type Theme } from "./kit/theme.ts";
+import { hasThumb, MM, THUMB_DASH, type TimePicture, WIDE } from "./time_picture.ts";
+
+const SIZES = [["model", "model_force"], ["felt", "force"]] as const; // biome-ignore format: a table
+
+/** The curves against time, and their extents. Reuses its buffers from picture to picture. */
+export class TimeLines {
+  private readonly path = new Polyline();
+  private xs = new Float32Array(0);
+  private ys = new Float32Array(0);
+
+  constructor(
+    private readonly force: Pane,
+    private readonly depth: Pane,
+  ) {}
+
+  /** Takes the values of all shown curves from the tick `first` up to but not including `end`: N, and mm. */
+  measure({ source, hidden }: TimePicture, first: number, end: number, force: Extent, depth: Extent): void {
+    const { history } = source;
+    const shown = shownMembranes(history, hidden);
+    this.room(end - first);
+    for (const i of shown) {
+      force.takeColumn(history, first, end, "axial_force", i, -1);
+      depth.takeColumn(history, first, end, "depth", i, MM);
+    }
+    for (const [id, column] of SIZES) {
+      if (!hidden.shows(id)) continue;
+      gatherSize(history, first, end, column, 1, 0, this.ys);
+      force.takeNumbers(this.ys, end - first);
+    }
+    if (hidden.shows("permitted")) force.takeColumn(history, first, end, "ceiling", 0, 1);
+    if (hasThumb(source) && hidden.shows("thumb")) force.takeColumn(history, first, end, "thumb_force", 0, -1);
+  }
+
+  /** Draws the curves from the tick `first` up to but not including `end`. */
+  draw(pen: Pen, picture: TimePicture, first: number, end: number, theme: Theme): void {
+    const n = end - first;
+    if (n < 2) return;
+    this.room(n);
+    const { force, depth } = this;
+    const { history } = picture.source;
+    const { slope } = force.x;
+    gatherTime(history, first, end, slope, force.x.from - slope * force.x.min, this.xs);
+    pen.within(force.left, force.top, force.width, force.height, () =>
+      this.drawForces(pen, picture, first, end, theme),
+    );
+    pen.within(depth.left, depth.top, depth.width, depth.height, () => {
+      for (const i of shownMembranes(history, picture.hidden)) {
+        gather(history, first, end, "depth", i, MM * depth.y.slope, depth.y.px(0), this.ys);
+        this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
+      }
+    });
+  }
+
+  private drawForces(pen: Pen, { source, hidden }: TimePicture, first: number, end: number, theme: Theme): void {
+    const { history } = source;
+    const { x, y } = this.force;
+    const gain = y.slope;
+    const zero = y.px(0);
+    const n = end - first;
+    const phase = x.slope * x.min - x.from;
+    const looks = {
+      model: { colour: theme.text, width: WIDE, alpha: 0.25 },
+      felt: { colour: theme.text, width: 1.25 },
+    };
+    for (const [id, column] of SIZES) {
+      if (!hidden.shows(id)) continue;
+      gatherSize(history, first, end, column, gain, zero, this.ys);
+      this.drawLine(pen, n, looks[id]);
+    }
+    if (hasThumb(source) && hidden.shows("thumb")) {
+      gather(history, first, end, "thumb_force", 0, -gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: theme.accent, width: 1.5, dash: THUMB_DASH, phase });
+    }
+    if (hidden.shows("permitted")) {
+      gather(history, first, end, "ceiling", 0, gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: theme.danger, width: 1.25, dash: DASH, phase });
+    }
+    const compared = hidden.shows("other") && isCompared(history, first, end);
+    for (const i of shownMembranes(history, hidden)) {
+      if (compared) {
+        gatherOther(history, first, end, i, -gain, zero, this.ys);
+        this.drawLine(pen, n, { colour: theme.quiet, width: 1 });
+      }
+      gather(history, first, end, "axial_force", i, -gain, zero, this.ys);
+      this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
+    }
+  }
+
+  private drawLine(pen: Pen, n: number, stroke: Stroke): void {
+    this.path.clear();
+    decimate(this.xs, this.ys, 0, n, this.path);
+    if (this.path.count) pen.line(this.path, stroke);
+  }
+
+  private room(n: number): void {
+    if (this.xs.length >= n) return;
+    this.xs = new Float32Array(2 * n);
+    this.ys = new Float32Array(2 * n);
+  }
+}
