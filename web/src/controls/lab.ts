@@ -1,5 +1,5 @@
 import { element, type Panel } from "../panel.ts";
-import type { ExerciseResult, RecordingEntry } from "../wire/files.ts";
+import type { ExerciseResult, RecordingEntry, SceneField } from "../wire/files.ts";
 import { estimatePart } from "./lab/estimate.ts";
 import { compute, type Job } from "./lab/job.ts";
 import { pickRuns } from "./lab/pick.ts";
@@ -47,7 +47,7 @@ const comparisons: Panel = (host, app) => {
     }
   };
   const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
-  const vary = varyForm((job) => void start(job, `${job.path} varied`));
+  const vary = varyForm((job, title) => void start(job, title));
   host.append(tracePart(app), picked.root, vary.root, progress, trouble);
 
   const refresh = async (): Promise<void> => {
@@ -57,7 +57,8 @@ const comparisons: Panel = (host, app) => {
         app.api.json<ExerciseResult[]>("/api/results"),
       ]);
       picked.offer(entries, results);
-      vary.offer(await app.api.json("/api/lab/fields"), entries);
+      const fields = await app.api.json<SceneField[]>("/api/lab/fields");
+      vary.offer(fields, entries, app.live.scene.value?.membranes.map(({ name }) => name) ?? []);
     } catch (error) {
       trouble.textContent = wordsOf(error);
     }

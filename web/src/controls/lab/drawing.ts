@@ -5,6 +5,7 @@ import type { Pen } from "../../plots/kit/pen.ts";
 import { niceStep } from "../../plots/kit/scale.ts";
 import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { LabBand, LabComparison } from "../../wire/files.ts";
+import { shortNames } from "./fields.ts";
 
 export type On = "depth" | "time";
 export type Quantity = "model" | "felt" | "permitted";
@@ -18,7 +19,8 @@ export const QUANTITIES: Readonly<Record<Quantity, string>> = {
 };
 
 export function labCurves(comparison: LabComparison, theme: Theme): Curve[] {
-  const runs = comparison.statistics.map(({ name }, i) => ({ id: `run ${i}`, text: name, colour: colourOf(theme, i) }));
+  const names = shortNames(comparison.statistics.map(({ name }) => name));
+  const runs = names.map((text, i) => ({ id: `run ${i}`, text, colour: colourOf(theme, i) }));
   if (runs.length < 2) return runs;
   return [
     ...runs,

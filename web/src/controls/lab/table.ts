@@ -1,5 +1,6 @@
 import { element } from "../../panel.ts";
 import type { LabComparison, LabNumber } from "../../wire/files.ts";
+import { shortNames } from "./fields.ts";
 
 /** The columns: the number, its heading, and the factor from SI to the heading's unit. */
 const COLUMNS: readonly (readonly [name: LabNumber, head: string, gain: number, places: number])[] = [
@@ -19,11 +20,12 @@ const signed = (value: number, gain: number, places: number): string =>
 
 /** The numbers of each run with their difference to the first, and their mean and standard deviation. */
 export function labTable({ statistics, differences, summary }: LabComparison): HTMLElement {
+  const names = shortNames(statistics.map(({ name }) => name));
   const rows = statistics.map((run, row) =>
     element(
       "tr",
       {},
-      element("th", { scope: "row" }, run.name),
+      element("th", { scope: "row" }, names[row]!),
       ...COLUMNS.map(([name, , gain, places]) => {
         const more = differences[row]?.[name] ?? null;
         const words =

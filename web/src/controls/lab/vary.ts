@@ -1,5 +1,6 @@
 import { element } from "../../panel.ts";
 import type { RecordingEntry, SceneField } from "../../wire/files.ts";
+import { fieldWords } from "./fields.ts";
 import type { Job } from "./job.ts";
 
 type Variation = Exclude<Job, { recordings: unknown }>;
@@ -8,9 +9,10 @@ const MOST = 25; // runs, as in the studio
 const AROUND = 0.5; // the range that is offered first: half of the value on either side
 
 /** A form that chooses a field of the scene, its values and a motion. The runs are simulated in the studio. */
-export function varyForm(act: (job: Variation) => void): {
+export function varyForm(act: (job: Variation, title: string) => void): {
   readonly root: HTMLElement;
-  offer(fields: readonly SceneField[], entries: readonly RecordingEntry[]): void;
+  /** names: of the membranes. */
+  offer(fields: readonly SceneField[], entries: readonly RecordingEntry[], names: readonly string[]): void;
 } {
   const input = (label: string, more: Readonly<Record<string, string | number>>): [HTMLElement, HTMLInputElement] => {
     const made = element("input", { type: "number", step: "any", required: true, ...more });
@@ -25,7 +27,7 @@ export function varyForm(act: (job: Variation) => void): {
   let fields: readonly SceneField[] = [];
   const suggest = (): void => {
     const { value, unit: name } = fields.find(({ path }) => path === field.value) ?? { value: 0, unit: "" };
-    unit.textContent = `now ${Number(value.toPrecision(6))} ${name}`;
+    unit.textContent = `now ${Number(value.toPrecision(6))} ${name}; in the scene file: ${field.value}`;
     from.value = String(Number((value * (1 - AROUND)).toPrecision(4)));
     to.value = String(Number((value * (1 + AROUND)).toPrecision(4)));
   };
@@ -34,7 +36,7 @@ export function varyForm(act: (job: Variation) => void): {
   const form = element(
     "form",
     { class: "lab-vary" },
-    element("label", {}, element("span", {}, "Parameter (SI)"), field),
+    element("label", {}, element("span", {}, "Parameter"), field),
     unit,
     fromRow,
     toRow,
@@ -45,14 +47,15 @@ export function varyForm(act: (job: Variation) => void): {
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const chosen = motion.value.startsWith("stroke ") ? Number(motion.value.slice(7)) / 1e3 : motion.value.slice(10);
-    act({
+    const job = {
       path: field.value,
       from: Number(from.value),
       to: Number(to.value),
       count: Number(count.value),
       motion: chosen,
       id: Math.random().toString(36).slice(2),
-    });
+    };
+    act(job, `${field.selectedOptions[0]?.text ?? field.value} varied`);
   });
   return {
     root: element(
@@ -62,12 +65,12 @@ export function varyForm(act: (job: Variation) => void): {
       element("p", { class: "quiet" }, "The same motion, simulated once for each value. The run goes on meanwhile."),
       form,
     ),
-    offer: (offered, entries) => {
+    offer: (offered, entries, names) => {
       const [before, moved] = [field.value, motion.value];
       const valueAt = (path: string): number | undefined => fields.find((one) => one.path === path)?.value;
       const was = valueAt(before);
       fields = offered;
-      field.replaceChildren(...offered.map(({ path }) => element("option", { value: path }, path)));
+      field.replaceChildren(...offered.map(({ path }) => element("option", { value: path }, fieldWords(path, names))));
       motion.replaceChildren(
         ...SPEEDS.map((speed) => element("option", { value: `stroke ${speed}` }, `stroke at ${speed} mm/s`)),
         ...entries.map(({ name, title }) =>

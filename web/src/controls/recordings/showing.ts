@@ -52,7 +52,7 @@ function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Sour
   return {
     first: excerpt.first,
     last: excerpt.last,
-    kind: "Pop again, slowly:",
+    kind: "Pop again:",
     speeds: SLOWDOWNS.map((times) => [1 / times, `${times}× slower`]),
     get speed() {
       return 1 / slowdown;

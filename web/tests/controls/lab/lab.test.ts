@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { drawLab, labCurves } from "../../../src/controls/lab/drawing.ts";
+import { fieldWords, shortNames } from "../../../src/controls/lab/fields.ts";
 import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
 import { choose } from "../../../src/controls/lab/pick.ts";
 import { Hidden } from "../../../src/plots/kit/legend.ts";
@@ -48,6 +49,14 @@ describe("a comparison", () => {
     expect(queryOf({ ...job, motion: 0.005 })).toBe("path=membrane%5B0%5D.stiffness&from=1&to=2&count=3&speed=0.005");
     expect(queryOf({ ...job, motion: "Ann" })).toContain("motion=Ann");
     expect(bundlePath({ ...job, motion: 0.005, id: "x1" }, "time")).toContain("&id=x1&on=time");
+  });
+
+  it("names a field by its membrane, and a varied run by its value alone", () => {
+    expect(fieldWords("membrane[1].tip_length", ["skin", "vein wall"])).toBe("2 vein wall: tip length");
+    expect(fieldWords("needle.diameter", [])).toBe("needle: diameter");
+    expect(shortNames(["a.b = 1 N", "a.b = 2 N"])).toEqual(["1 N", "2 N"]);
+    expect(shortNames(["a.b = 1 N", "Ben"])).toEqual(["a.b = 1 N", "Ben"]);
+    expect(shortNames(["a.b = 1 N"])).toEqual(["a.b = 1 N"]);
   });
 
   it("has the first chosen run as its reference, wherever it stands in the list", () => {
