@@ -47,21 +47,24 @@ STATES: tuple[tuple[str, str, do.Act, tuple[int, int], str], ...] = (
     ("projector", "epidural", do.projector, LAPTOP, "dark"),
     ("trace", "k06-fig10", do.identified, LAPTOP, "light"),
     ("trace-dark", "k06-fig10", do.identified, LAPTOP, "dark"),
-    ("trace-phone", "k06-fig10", do.identified_below, PHONE, "light"),
-    ("trace-phone-dark", "k06-fig10", do.identified_below, PHONE, "dark"),
+    ("trace-phone", "k06-fig10", do.identified, PHONE, "light"),
+    ("trace-phone-dark", "k06-fig10", do.identified, PHONE, "dark"),
     ("phone", "venipuncture", do.popped, PHONE, "light"),
     ("tablet", "venipuncture", do.popped, TABLET, "light"),
     ("tablet-dark", "epidural", do.popped, TABLET, "dark"),
 )
 
+# What a person does after the window has its size.
+AFTER = {"trace-phone": do.to_parameters, "trace-phone-dark": do.to_parameters}
+
 
 @contextmanager
-def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str) -> Iterator[Page]:
+def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str, touched: bool = False) -> Iterator[Page]:
     """The page of a new studio."""
     with tempfile.TemporaryDirectory() as folder, StudioProcess(Path(folder), scene) as studio:
         viewport = {"width": size[0], "height": size[1]}
         context = browser.new_context(
-            viewport=viewport, color_scheme=colours, reduced_motion="reduce", has_touch=size[0] <= TOUCHED
+            viewport=viewport, color_scheme=colours, reduced_motion="reduce", has_touch=touched
         )
         context.set_default_timeout(do.PATIENCE)
         context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
@@ -105,8 +108,12 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
     for name, scene, act, size, colours in STATES:
         if wanted and name not in wanted:
             continue
-        with opened(browser, scene, size, colours) as page:
+        touched = size[0] <= TOUCHED
+        with opened(browser, scene, LAPTOP if touched else size, colours, touched) as page:
             act(page)
+            page.set_viewport_size({"width": size[0], "height": size[1]})
+            if name in AFTER:
+                AFTER[name](page)
             save(page, out / f"studio-{name}.png")
 
 

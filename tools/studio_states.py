@@ -145,9 +145,8 @@ def identified(page: Page) -> None:
     expect(dialog.get_by_role("button", name="Save report")).to_be_enabled(timeout=5 * PATIENCE)  # it computes
 
 
-def identified_below(page: Page) -> None:
-    """The same, further down: the parameters."""
-    identified(page)
+def to_parameters(page: Page) -> None:
+    """Scrolls the dialog of an identified trace to its parameters."""
     table = page.get_by_role("dialog").get_by_role("region", name="Parameters")
     table.evaluate("e => e.scrollIntoView({block: 'center'})")
 

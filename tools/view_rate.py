@@ -20,8 +20,8 @@ import time
 from pathlib import Path
 
 import numpy as np
+from punctura import Scene, load_scene
 from punctura.live import stroke_ends
-from punctura.scene import Scene, load_scene
 from punctura.studio.client import StudioClient
 from studio_process import StudioProcess
 from watched_page import WatchedPage

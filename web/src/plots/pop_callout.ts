@@ -20,11 +20,13 @@ export function popCallout(host: HTMLElement, app: App): (pane: Pane) => void {
     {
       type: "button",
       title: `${SHOW_AGAIN} (R in the view)`,
+      "aria-label": SHOW_AGAIN,
       onclick: () => {
         if (pop) showAgain(app, pop);
       },
     },
-    SHOW_AGAIN,
+    element("span", { class: "whole" }, SHOW_AGAIN),
+    element("span", { class: "short" }, "Again"),
   );
   const box = element("div", { class: "pop-callout", hidden: true }, words, again);
   host.append(box);

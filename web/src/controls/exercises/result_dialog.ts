@@ -87,6 +87,7 @@ export function openResult(
   });
   document.body.append(dialog);
   dialog.showModal();
+  dialog.scrollTop = 0; // the focus of its title may have scrolled it
   void drawTrace(app, result, exercise, place, stop.signal).then((entries) => {
     const entry = entries.find(({ name }) => name === result.recording);
     if (!entry) return;
