@@ -17,11 +17,14 @@ def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     drag_in(page, pops=1)
     drop = events(page, "pop").first.inner_text()
     page.get_by_role("button", name="Stop", exact=True).click()
+    name = page.get_by_role("textbox", name="Name of the recording")
+    name.fill("second try")  # while the first one is being finished
 
     entry = page.locator(".recording", has_text="first try")
     file = saved(page, entry.get_by_role("button", name="parquet"), tmp_path)
     ticks = parquet.read_table(file).column("tick").to_numpy()
     assert (np.diff(ticks) == 1).all()
+    expect(name).to_have_value("second try")
     again = replay(file)
     assert again.identical and again.complete
 

@@ -29,16 +29,17 @@ export function recordControl(app: App): HTMLElement {
     error.textContent = "";
     name.removeAttribute("aria-invalid");
     const wish = name.value.trim();
+    const stops = recording;
     // A refusal is shown at the field, not as a message of the page.
     const refusal = await app.engine
-      .ask(recording ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) })
+      .ask(stops ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) })
       .then((reply) => (reply.ok ? "" : reply.text || "the request was refused"))
       .catch(wordsOf);
     button.disabled = blockOf(app, "scene") !== null;
     if (refusal) {
       error.textContent = words(refusal);
-      if (!recording) name.setAttribute("aria-invalid", "true");
-    } else name.value = "";
+      if (!stops) name.setAttribute("aria-invalid", "true");
+    } else if (!stops) name.value = ""; // during a stop, a person may type the next name already
   });
   app.recording.watch((now) => {
     recording = now !== null;
