@@ -40,7 +40,7 @@ export const exercisesPanel: Panel = (host, app) => {
   };
   const past = pastResults(app, open, (result) => titleOf(result.exercise, result.title));
   const task = element("div", { class: "task" });
-  taskBar(task, app, titleOf);
+  const showTitle = taskBar(task, app, titleOf);
   document.getElementById("app")?.append(task);
   const maker = exerciseMaker(app, person, () => readList());
   const list = element("fieldset", { class: "exercise-list" });
@@ -68,6 +68,7 @@ export const exercisesPanel: Panel = (host, app) => {
       known = await app.api.json<ExerciseOverview[]>("/api/exercises");
       showList();
       showGoal(app, of);
+      showTitle();
     } catch (error) {
       list.replaceChildren(
         element(
@@ -96,7 +97,9 @@ export const exercisesPanel: Panel = (host, app) => {
     list.hidden = status?.running ?? false;
     maker.hidden = list.hidden;
     const ended = running && status !== null && !status.running;
+    const begun = !running && (status?.running ?? false);
     running = status?.running ?? false;
+    if (begun && !of(status!.exercise)) void readList(); // an exercise that another page tries before it is saved
     if (!ended || !status.result) return;
     await past.show(person);
     // A page without control gets a notice instead of a dialog.

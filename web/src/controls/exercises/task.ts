@@ -10,8 +10,11 @@ import { layersOf, spaceOf } from "./trace.ts";
 const RADIUS = 17;
 const AROUND = 2 * Math.PI * RADIUS;
 
-/** The running exercise, always in sight: what to do now, the goals, the time held and the clock. */
-export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => string): void {
+/**
+ * The running exercise, always in sight: what to do now, the goals, the time held and the clock. The returned function
+ * shows its title again, when the list of exercises has been read.
+ */
+export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => string): () => void {
   const title = element("h3", {});
   const instruction = element("p", { class: "instruction", role: "status" });
   const goals = element("div", { class: "task-goals" });
@@ -39,6 +42,10 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   });
   let shown = "";
   let began = false;
+  const showTitle = (): void => {
+    const name = app.exercise.value?.exercise;
+    title.textContent = name === undefined ? "" : titleOf(name);
+  };
   app.exercise.watch((status) => {
     const running = status?.running ?? false;
     root.hidden = !running;
@@ -48,7 +55,7 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
       began = false;
       return;
     }
-    title.textContent = titleOf(status.exercise);
+    showTitle();
     // The button that was pressed is hidden now. The keys of the view move the needle.
     if (!began && app.control.value.you)
       document.querySelector<HTMLElement>(".view-main > canvas")?.focus({ preventScroll: true });
@@ -60,6 +67,7 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
     if (states !== shown) goals.replaceChildren(goalList(status.goals));
     shown = states;
   });
+  return showTitle;
 }
 
 /** Tells the view what the running exercise asks to reach. */

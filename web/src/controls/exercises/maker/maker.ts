@@ -57,10 +57,12 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   };
   const attempt = async (): Promise<void> => {
     const who = { person: person.name.value, group: person.group.value };
+    clearTimeout(timer); // a check would clear what the reply says
     const reply = await app.ask({ do: "try_exercise", tables: tablesOf(draft!, scene()), ...who });
     if (tell(reply, "It runs now.")) await changed();
   };
   const save = async (): Promise<void> => {
+    clearTimeout(timer);
     const name = nameOf(draft!.title);
     const ask = { do: "save_exercise", name, tables: tablesOf(draft!, scene()) } as const;
     const reply = await app.ask({ ...ask, replace: replace.checked });
