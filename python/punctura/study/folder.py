@@ -34,7 +34,7 @@ class Folder:
     def locked(self) -> Iterator[None]:
         """Only one run at a time may use the folder. Raises StudyError."""
         self.path.mkdir(parents=True, exist_ok=True)
-        descriptor = os.open(self.path / "lock", os.O_RDWR | os.O_CREAT, 0o666)
+        descriptor = self._lock_file()
         try:
             if lock(descriptor) is False:
                 raise StudyError(f"{self.path}: another run of this study is going on; wait for it")
@@ -48,6 +48,15 @@ class Folder:
             ) from None
         finally:
             os.close(descriptor)
+
+    def _lock_file(self) -> int:
+        path = self.path / "lock"
+        try:  # a link could create a file in another folder
+            return os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        except OSError as error:
+            if error.errno != errno.ELOOP:
+                raise
+            raise StudyError(f"{path} is a symbolic link: delete it, and give the same command again") from None
 
     def claim(self, digest: str) -> None:
         """Marks the folder as that of one plan. Raises StudyError if it holds the trials of another one."""

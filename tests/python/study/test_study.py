@@ -172,6 +172,15 @@ def test_a_folder_holds_one_study_and_serves_one_run(tmp_path: Path) -> None:
         run_study(other, tmp_path / "out")
 
 
+def test_a_link_named_lock_creates_no_file_elsewhere(tmp_path: Path) -> None:
+    folder, elsewhere = tmp_path / "study", tmp_path / "elsewhere"
+    folder.mkdir()
+    (folder / "lock").symlink_to(elsewhere)
+    with pytest.raises(StudyError, match="lock is a symbolic link: delete it"), Folder(folder).locked():
+        pass
+    assert not elsewhere.exists()
+
+
 def test_a_row_again_is_the_row(tmp_path: Path) -> None:
     plan = load_plan(written(tmp_path, GRID))
     run_study(plan, tmp_path / "out")
