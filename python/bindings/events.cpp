@@ -43,9 +43,26 @@ class Column {
 
 /// Finds the events of a run, batch by batch.
 struct BatchFinder : EventFinder, OneThread {
-  BatchFinder(const Scene& scene, double given) : EventFinder(scene), rate(given) {}
+  /// next: a changed scene that waits for its tick.
+  BatchFinder(const Scene& scene, double given, const Scene* next) : EventFinder(scene), rate(given) {
+    if (next) change(*next);
+  }
   double rate;  // ticks per second, for runs without a time column
   std::uint64_t ticks = 0;
+
+  static void archive(auto& self, auto& state) {
+    EventFinder::archive(self, state);
+    state.index(self.ticks, std::numeric_limits<std::uint64_t>::max());
+  }
+  void describe(auto& parameters) const {
+    EventFinder::describe(parameters);
+    parameters.numbers(rate);
+  }
+  std::vector<std::byte> save() const { return save_state(*this); }
+  bool load(std::span<const std::byte> state) { return load_state(*this, state); }
+  nb::tuple arguments() const {
+    return nb::make_tuple(scene(), rate, waits_for_scene() ? nb::cast(newest_scene()) : nb::none());
+  }
 };
 
 struct Found : Event {
@@ -178,7 +195,10 @@ void bind_events(nb::module_& m) {
   auto finder =
       nb::class_<BatchFinder>(m, "EventFinder", "Finds events in batches of ticks: punctura.events.EventFinder.");
   def_repr(finder, "<EventFinder at {0.rate:g} Hz>");
-  finder.def(nb::init<const Scene&, double>(), nb::arg("scene"), nb::arg("rate"))
+  def_state(finder);
+  finder
+      .def(nb::init<const Scene&, double, const Scene*>(), nb::arg("scene"), nb::arg("rate"),
+           nb::arg("next") = nb::none())
       .def_ro("rate", &BatchFinder::rate, "Ticks a second of a run that does not tell the time, Hz")
       .def(
           "change",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "punctura/events/crossing.hpp"
 #include "punctura/servo/snapshot.hpp"
@@ -93,6 +94,16 @@ class BasicContact {
   template <typename Enter>
   void change_law(Enter&& enter) noexcept {
     if (inside_) crossing_ = enter(crossing_.cos_beta);
+  }
+
+  /// For save_state() and load_state() (state/archive.hpp). enter(cos_beta) returns the Crossing of the membrane.
+  template <typename Enter>
+  static void archive(auto& self, auto& state, Enter&& enter) {
+    state.flag(self.touched_);
+    state.flag(self.inside_);
+    state.flag(self.can_pop_);
+    state.numbers(self.peak_, self.crossing_.cos_beta);
+    if constexpr (std::remove_reference_t<decltype(state)>::reading) self.change_law(enter);
   }
 
  private:

@@ -64,6 +64,8 @@ class EventFinderOf {
   }
   /// Whether a changed scene waits for a tick with command_scene.
   bool waits_for_scene() const noexcept { return scene_is_pending_; }
+  /// The scene that waits, or the scene of the last tick.
+  const Scene& newest_scene() const noexcept { return scene_is_pending_ ? next_.scene : now_.scene; }
 
   /// The events of a tick, valid until the next call. They are sorted by membrane.
   std::span<const Event> step(const EventTick& tick) noexcept {
@@ -88,6 +90,18 @@ class EventFinderOf {
 
   /// The scene of the last tick.
   const Scene& scene() const noexcept { return now_.scene; }
+
+  /// For save_state() and load_state() (state/archive.hpp). A changed scene that waits is not in the state.
+  static void archive(auto& self, auto& state) {
+    for (auto& site : self.now_.sites)
+      Contact::archive(site.contact, state, [&](double cos_beta) { return self.now_.crossing(site, cos_beta); });
+  }
+  void describe(auto& parameters) const {
+    for (const Site& site : now_.sites) {
+      site.law.pieces(1).describe(parameters);
+      parameters.numbers(site.point, site.normal, site.thickness);
+    }
+  }
 
  private:
   struct Site {

@@ -4,9 +4,11 @@
 
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
+#include "punctura/state/archive.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -198,4 +200,28 @@ TEST_CASE("a tick allocates no memory, also if it changes the scene") {
   }
   CHECK(allocations() == before);
   CHECK(events == 2);
+}
+
+TEST_CASE("a saved finder continues with the same events, and a state of another scene is refused") {
+  const Scene scene = quick_scene();
+  ServoStep step = build(scene);
+  EventFinder first(scene), other(scene), thick(quick_scene(2e-3));
+  std::uint64_t k = 0;
+  for (const auto& [from, to] : {std::pair{-2e-3, 4e-3}, std::pair{4e-3, 15e-3}, std::pair{15e-3, -2e-3}}) {
+    for (double depth = from; from < to ? depth < to : depth > to; depth += from < to ? speed : -speed, ++k) {
+      const Snapshot& now = step.step(reading(k, -depth));
+      const auto one = first.step(now), two = other.step(now);
+      REQUIRE(one.size() == two.size());
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        CHECK(one[i].what == two[i].what);
+        CHECK(one[i].force_before == two[i].force_before);
+      }
+    }
+    const auto kept = save_state(first);
+    EventFinder loaded(scene);
+    REQUIRE(load_state(loaded, kept));
+    CHECK_FALSE(load_state(thick, kept));
+    CHECK(save_state(loaded) == kept);
+    other = loaded;
+  }
 }

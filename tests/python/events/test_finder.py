@@ -1,6 +1,8 @@
 """The event finder finds each event once, for any split of the ticks into batches."""
 
+import copy
 import itertools
+import pickle
 
 import numpy as np
 import punctura as pn
@@ -202,3 +204,26 @@ def test_an_event_without_a_time_is_refused_and_the_batch_is_not_taken():
         finder.add(ticks.replace(time=np.full(400, np.nan)))
     good = ticks.replace(time=time)
     assert finder.add(good) == other.add(good) != []
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda finder: pickle.loads(pickle.dumps(finder))])
+def test_a_copied_or_pickled_finder_continues_with_the_same_events(copied):
+    columns = restless(STILL, 3)
+    whole = found(STILL, columns)
+    for at in (whole[0].tick + 1, whole[2].tick, whole[4].tick + 1):
+        head, tail = cut(columns, [at])
+        first = EventFinder(STILL)
+        before = first.add(head)
+        second = copied(first)
+        assert before + first.add(tail) == before + second.add(tail) == whole
+
+
+def test_a_pickled_finder_keeps_the_scene_that_waits_for_its_tick():
+    thick = STILL.with_values({"membrane[0].thickness": 2 * STILL.membranes[0].membrane.thickness})
+    run = dict(along(STILL, ramp(STILL, -2e-3, 15e-3)))
+    run.pop("commands", None)  # so that the first tick takes the scene
+    finder = EventFinder(STILL)
+    finder.change(thick)
+    again = pickle.loads(pickle.dumps(finder))
+    assert again.add(run) == finder.add(run) == found(thick, run)
+    assert found(thick, run) != found(STILL, run)
