@@ -12,6 +12,28 @@ std::string nearest(const std::string& word, const nb::list& words) {
   return nb::len(found) > 0 ? "; did you mean " + nb::cast<std::string>(found[0]) + "?" : "";
 }
 
+std::size_t count_from(const nb::object& given, const char* name, std::size_t least, std::size_t most) {
+  const auto wrong = [&] {
+    return std::string(name) + " must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+           ", not " + nb::cast<std::string>(nb::repr(given));
+  };
+  const nb::object whole = nb::steal(PyNumber_Index(given.ptr()));
+  if (!whole) {
+    PyErr_Clear();
+    throw nb::type_error(wrong().c_str());
+  }
+  int overflow = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
+  if (overflow != 0 || number < 0 || static_cast<std::size_t>(number) < least ||
+      static_cast<std::size_t>(number) > most)
+    throw nb::value_error(wrong().c_str());
+  return static_cast<std::size_t>(number);
+}
+
+std::size_t threads_from(const nb::object& given) {
+  return given.is_none() ? 0 : count_from(given, "threads", 0, 4096);
+}
+
 void warn_unusual(const std::string& path, double value) {
   const std::string advice = unusual(path, value);
   if (advice.empty()) return;

@@ -1,6 +1,7 @@
 // Constructors, similar words, and warnings for numbers that are off by a factor of 1000.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,11 @@ namespace punctura::bindings {
 
 /// "; did you mean friction?", or empty if no word is similar.
 std::string nearest(const std::string& word, const nb::list& words);
+
+/// The whole number of an argument. Throws TypeError, and ValueError for one below `least` or above `most`.
+std::size_t count_from(const nb::object& given, const char* name, std::size_t least, std::size_t most);
+/// The argument `threads`: None or 0 is one for each processor.
+std::size_t threads_from(const nb::object& given);
 
 /// Defines the constructor of T: `make` with checks of its own. extra: nb::arg for each argument, and a doc.
 template <typename T, typename... A, typename... Extra>

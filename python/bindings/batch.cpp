@@ -98,7 +98,7 @@ using Depths = nb::ndarray<const double, nb::device::cpu>;
 using Forces = nb::ndarray<double, nb::ndim<2>, nb::device::cpu>;
 
 nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, const nb::object& threads,
-               std::size_t block, const std::optional<std::string>& instructions, const nb::object& progress) {
+               const nb::object& block, const std::optional<std::string>& instructions, const nb::object& progress) {
   const nb::object numpy = nb::module_::import_("numpy");
   const auto p = nb::cast<Depths>(numpy.attr("asarray")(depths, numpy.attr("float64")));
   const std::size_t n = self.trials();
@@ -121,8 +121,8 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
             .c_str());
   const Grid<double> force{array.data(), array.stride(0), array.stride(1)};
   batch::RunOptions options;
-  options.threads = threads.is_none() ? 0 : nb::cast<std::size_t>(threads);
-  options.block = block;
+  options.threads = threads_from(threads);
+  options.block = count_from(block, "block", 1, 1u << 20);
   options.code = &code_named(instructions);
   const Progress told(progress);
   options.watch = [&](std::size_t done, std::size_t all) {

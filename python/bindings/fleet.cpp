@@ -4,6 +4,7 @@
 #include <system_error>
 #include <thread>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "fleet_trial.hpp"
 #include "state.hpp"
@@ -149,10 +150,14 @@ void bind_fleet(nb::module_& m) {
       "The results of a trial do not depend on the other trials or on the number of threads.");
   def_repr(fleet, "<Fleet of {0.size} trials on {0.threads} threads>");
   fleet
-      .def(nb::init<const DeviceDynamics&, const Hand&, std::size_t>(), nb::arg("plant") = DeviceDynamics{},
-           nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
-           nb::sig("def __init__(self, plant: Plant = ..., hand: Hand = ..., threads: int = 0) -> None"),
-           "A fleet without trials. threads: 0 is one for each processor.")
+      .def(
+          "__init__",
+          [](Fleet* self, const DeviceDynamics& plant, const Hand& hand, const nb::object& threads) {
+            new (self) Fleet(plant, hand, threads_from(threads));
+          },
+          nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
+          nb::sig("def __init__(self, plant: Plant = ..., hand: Hand = ..., threads: int = 0) -> None"),
+          "A fleet without trials. threads: 0 is one for each processor.")
       .def_prop_ro("size", &Fleet::size, "Number of trials")
       .def_prop_ro("threads", &Fleet::threads)
       .def("place", &Fleet::place, nb::arg("i"), nb::arg("scene"), nb::arg("start"), nb::arg("axis"),

@@ -4,8 +4,9 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/variant.h>
 
-#include <stdexcept>
+#include <algorithm>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "simd_code.hpp"
 #include "ticks.hpp"
@@ -54,7 +55,7 @@ SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, st
 
 nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict& vary, std::size_t trials,
                     const nb::object& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& seeds,
-                    double duration, bool keep_force, std::size_t threads,
+                    double duration, bool keep_force, const nb::object& threads,
                     const std::optional<std::string>& instructions, const nb::object& progress) {
   std::vector<Input> kept;
   SceneBatch all{.scene = scene,
@@ -77,7 +78,7 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
 
   const Progress told(progress);
   batch::RunOptions options;
-  options.threads = threads;
+  options.threads = threads_from(threads);
   options.code = &code_named(instructions);
   options.watch = [&](std::size_t done, std::size_t of) {
     const WithLock lock;
@@ -87,7 +88,6 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
   };
   batch::SceneResults results;
   std::optional<batch::TrialProblems> wrong;
-  std::string unknown;
   std::vector<double> force;
   std::size_t ticks = 0;
   if (keep_force) {
@@ -95,19 +95,20 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
     force.resize(3 * trials * ticks);
     results.force = force.data();
   }
+  const std::vector<std::string> known = batch::paths(all);
+  for (const auto& [path, values] : all.varied) {
+    if (std::find(known.begin(), known.end(), path) != known.end()) continue;
+    const std::string near = nearest(path, nb::cast<nb::list>(nb::cast(known)));
+    throw nb::value_error(("vary: this batch has no number " + path + (near.empty() ? "." : near) +
+                           " scene.fields() lists those of the scene; hand, plant and strokes have theirs, as in "
+                           "\"hand.stiffness\"")
+                              .c_str());
+  }
   {
     const WithoutLock without;
-    try {
-      wrong = batch::check(all, options);
-      if (!wrong) batch::run(all, results, options);
-    } catch (const std::out_of_range& path) {
-      unknown = path.what();
-    }
+    wrong = batch::check(all, options);
+    if (!wrong) batch::run(all, results, options);
   }
-  if (!unknown.empty())
-    raise_if({{unknown, nothing,
-               "is not a number of this batch: scene.fields() lists those of the scene; plant, hand and strokes have "
-               "theirs, as in \"hand.stiffness\""}});
   if (wrong) {
     for (Problem& problem : wrong->problems)
       problem.path = "trial " + std::to_string(wrong->trial) + ": " + problem.path;
@@ -138,12 +139,15 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
 
 void bind_scene_batch(nb::module_& m) {
   m.def(
+      "batch_paths", [](const Scene& scene) { return batch::paths({.scene = scene, .motion = Strokes{}}); },
+      nb::arg("scene"), "Paths of the numbers that punctura.batch() can vary, with strokes at a simulated device.");
+  m.def(
       "run_scenes", &run_scenes, nb::arg("scene"), nb::arg("motion"), nb::arg("vary"), nb::arg("trials"),
       nb::arg("axis"), nb::arg("plant"), nb::arg("hand"), nb::arg("seeds"), nb::arg("duration"), nb::arg("keep_force"),
-      nb::arg("threads"), nb::arg("instructions").none(), nb::arg("progress").none(),
+      nb::arg("threads").none(), nb::arg("instructions").none(), nb::arg("progress").none(),
       nb::sig("def run_scenes(scene: Scene, motion: typing.Any, vary: dict[str, numpy.typing.NDArray[numpy.float64]], "
               "trials: int, axis: typing.Any, plant: Plant, hand: Hand, "
-              "seeds: numpy.typing.NDArray[numpy.uint64], duration: float, keep_force: bool, threads: int, "
+              "seeds: numpy.typing.NDArray[numpy.uint64], duration: float, keep_force: bool, threads: int | None, "
               "instructions: str | None, progress: Progress) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
       "The runs of punctura.batch(). Raises ConfigurationError, ValueError.");
 }

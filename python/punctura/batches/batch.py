@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from numbers import Real
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, run_scenes
 from punctura.batches.inputs import enough_memory, real_numbers, whole_seeds
-from punctura.batches.result import BatchResult, is_duration
+from punctura.batches.result import BatchResult
 from punctura.progress import Progress
 
 
@@ -47,11 +48,13 @@ def batch(
         if path in values:
             raise ValueError(f"vary has {path}, in which the scenes differ, too: give it in one of them")
         values[path] = np.ascontiguousarray(np.atleast_1d(real_numbers(f"vary: {path}", column)))
+        if values[path].size == 0:
+            raise ValueError(f"vary: {path} is empty: give one value for each trial")
     if not isinstance(motion, Strokes | RecordedMotion):
         motion = real_numbers("motion", motion)
     n = _trials(values, seeds, trials, None if isinstance(scene, Scene) else len(scene), motion)
-    if not is_duration(duration):
-        raise ValueError(f"duration must be 0 s or more, not {duration}")
+    if duration is not None and not (isinstance(duration, Real) and math.isfinite(duration) and duration >= 0):
+        raise ValueError(f"duration must be 0 s or more, not {duration!r}")
     if keep_force and isinstance(motion, Strokes | RecordedMotion) and (duration is None or "servo.rate" in values):
         raise ValueError("keep_force needs a duration and one servo.rate, so that all trials have as many ticks")
     _room(base, motion, n, len(values), duration, keep_force)
@@ -73,7 +76,7 @@ def batch(
         own,
         math.nan if duration is None else duration,
         keep_force,
-        threads or 0,
+        threads,
         instructions,
         progress,
     )

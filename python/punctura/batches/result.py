@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -111,8 +110,3 @@ class BatchResult:
         others = ("plant.", "hand.", "strokes.")
         chosen = (path for path in self.vary if (path.startswith(owner) if owner else not path.startswith(others)))
         return {path.removeprefix(owner): float(self.vary[path][i]) for path in chosen}
-
-
-def is_duration(seconds: float | None) -> bool:
-    """Whether it is a time that a run can last, s."""
-    return seconds is None or (math.isfinite(seconds) and seconds >= 0)

@@ -37,6 +37,11 @@ def command(
     Writes one row for each trial and a report. After an interruption, the same command goes on with the missing trials.
     """
     from punctura.study import load_plan, replay_row, run_study
+    from punctura.study.forecast import Forecast
+
+    def foretell(told: Forecast) -> None:
+        if told.is_worth_telling:
+            typer.echo(f"punctura: {told}", err=True)
 
     loaded = load_plan(plan)
     folder = out or plan.with_suffix(".study")
@@ -47,7 +52,7 @@ def command(
         return
     try:
         with progress_bar("study") as tell:
-            summary = run_study(loaded, folder, workers, tell, scheduler)
+            summary = run_study(loaded, folder, workers, tell, scheduler, foretell)
     except (KeyboardInterrupt, Ended):
         typer.echo(f"punctura: {folder} keeps the finished chunks: the same command goes on with the others", err=True)
         raise

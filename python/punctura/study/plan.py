@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import ValidationError
 
-from punctura._core import Hand, Plant, Scene, Strokes
+from punctura._core import Hand, Plant, Scene, Strokes, batch_paths
 from punctura.batches.result import result_names
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import Tables, read_tables
@@ -20,11 +21,7 @@ from punctura.study.schema import SCHEMA, PlanFile, VariableTable
 
 MOST_TRIALS = 100_000_000
 _NEEDED = {"uniform": ("low", "high"), "normal": ("mean", "sd"), "lognormal": ("median", "sigma")}
-_OWNERS = {
-    "hand": ("mass", "damping", "stiffness", "tremor_rms", "tremor_hz"),
-    "plant": ("mass", "friction", "encoder_step", "max_force"),
-    "strokes": ("duration", "rest", "variation"),
-}
+_OWNERS = ("hand", "plant", "strokes")  # of numbers that are not the scene's
 
 
 @dataclass(frozen=True)
@@ -136,20 +133,30 @@ def _is_finite(value: object) -> bool:
     return value is None or math.isfinite(float(str(value)))
 
 
+def _nearest(path: str, known: Sequence[str]) -> str:
+    near = difflib.get_close_matches(path, known, 1, 0.5)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
 def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
     if scene is None:
         return
-    known = {field.path for field in scene.fields()} | {f"{o}.{name}" for o, names in _OWNERS.items() for name in names}
+    known = batch_paths(scene)
     seen: set[str] = set()
     for at, path in [(f"variable[{i}].path", one.path) for i, one in enumerate(file.variable)]:
         if path not in known:
-            yield Problem(at, path, "is not a number of the scene, the hand, the plant or the strokes (docs/study.md)")
+            near = _nearest(path, known)
+            reason = "is not a number of the scene, the hand, the plant or the strokes"
+            yield Problem(at, path, f"{reason}{near} (docs/study.md)")
         if path in seen:
             yield Problem(at, path, "is given twice; give each path once")
         seen.add(path)
     for path in file.values:
         if path not in known or path.startswith("strokes."):
-            yield Problem(f"values.{path}", path, "is not a number of the scene, the hand or the plant (docs/study.md)")
+            near = _nearest(path, [one for one in known if not one.startswith("strokes.")])
+            yield Problem(
+                f"values.{path}", path, f"is not a number of the scene, the hand or the plant{near} (docs/study.md)"
+            )
     names = result_names(len(scene.membranes))
     for i, name in enumerate(file.results or ()):
         if name not in names:

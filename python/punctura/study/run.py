@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from time import monotonic
 
 import pyarrow as pa
 
@@ -17,10 +18,13 @@ from punctura.study.chunk import chunk_table, run_trials
 from punctura.study.cluster import Part, on_cluster
 from punctura.study.design import Design, design
 from punctura.study.folder import Folder, StudyError
+from punctura.study.forecast import Forecast, forecast
 from punctura.study.plan import Plan
 from punctura.study.report import write_report
 
 __all__ = ["StudyError", "StudySummary", "run_study"]
+
+CHECKING = 0.05  # of the time of a study, measured with trials of one second
 
 
 @dataclass(frozen=True)
@@ -41,11 +45,12 @@ def run_study(
     threads: int | None = None,
     progress: Progress = None,
     scheduler: str | None = None,
+    foretell: Callable[[Forecast], None] = lambda _: None,
 ) -> StudySummary:
     """Runs all trials that the folder `out` does not hold yet, and writes trials.parquet and report.md there.
 
     threads: default: one for each processor; the rows do not depend on it. scheduler: the address of a Dask scheduler,
-    whose workers compute the trials instead. Raises ConfigurationError if a trial's numbers are no scene, StudyError,
+    whose workers compute the trials instead. foretell: is called after the first chunk, if more follow. Raises ConfigurationError if a trial's numbers are no scene, StudyError,
     OSError.
     """
     folder, all_of_them = Folder(Path(out)), design(plan)
@@ -66,11 +71,15 @@ def run_study(
                     kept += len(part.trials.seeds)
                 else:
                     parts.append(part)
-            done = kept
+                tell(CHECKING * (number + 1) / len(starts))
+            done, began = kept, monotonic()
             for number, table in _computed(plan, parts, threads, scheduler):
                 folder.save(number, table)
                 done += table.num_rows
-                tell(done / n)
+                tell(1 - (1 - CHECKING) * (1 - done / n))
+                if done == kept + table.num_rows < n:
+                    took = monotonic() - began if scheduler is None else None
+                    foretell(forecast(folder, number, took, len(parts) - 1, len(starts), n - done))
             folder.join(len(starts))
         report, faults = write_report(plan, folder)
     return StudySummary(str(plan.path), str(folder.table), str(report), n, kept, faults)

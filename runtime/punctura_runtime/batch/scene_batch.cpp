@@ -20,32 +20,38 @@ class Trial {
  public:
   explicit Trial(const SceneBatch& all) : scene(all.scene), plant(all.plant), hand(all.hand), all_(all) {
     if (const auto* given = std::get_if<Strokes>(&all.motion)) strokes = *given;
+    const std::map<std::string, double*> known = numbers();
+    for (const Varied& one : all.varied) places_.push_back(known.at(one.path));
+  }
+  Trial(const Trial&) = delete;
+
+  /// Every number that may differ from trial to trial, by its path.
+  std::map<std::string, double*> numbers() {
     std::map<std::string, double*> known;
     for_each_value(scene, [&](const std::string& path, const Field&, double& number) { known[path] = &number; });
     const auto add = [&](const std::string& owner, const auto& fields, auto& values) {
       for (const auto& field : fields) known[owner + "." + std::string(field.name)] = &(values.*field.member);
     };
-    const bool device = !std::holds_alternative<Positions>(all.motion);
+    const bool device = !std::holds_alternative<Positions>(all_.motion);
     if (device) add("plant", plant_fields, plant);
     if (device) add("hand", hand_fields, hand);
-    if (std::holds_alternative<Strokes>(all.motion)) add("strokes", strokes_fields, strokes);
-    for (const Varied& one : all.varied) {
-      const auto place = known.find(one.path);
-      if (place == known.end()) throw std::out_of_range(one.path);
-      places_.push_back(place->second);
-    }
+    if (std::holds_alternative<Strokes>(all_.motion)) add("strokes", strokes_fields, strokes);
+    return known;
   }
-  Trial(const Trial&) = delete;
 
   void set(std::size_t i) noexcept {
     for (std::size_t k = 0; k < places_.size(); ++k) *places_[k] = all_.varied[k].values[i];
   }
 
-  std::vector<Problem> problems() const {
+  std::vector<Problem> problems(std::size_t i) const {
     std::vector<Problem> found = punctura::check(scene);
     check_fields(plant_fields, plant, "plant", found);
     check_fields(hand_fields, hand, "hand", found);
     check_fields(strokes_fields, strokes, "strokes", found);
+    if (!found.empty()) return found;
+    const double seconds = duration(i);
+    if (!(seconds * scene.servo.rate <= most_ticks))
+      found.push_back({"duration", seconds, "is too long: a trial has at most 1e9 ticks, a week at 1600 Hz"});
     return found;
   }
 
@@ -55,6 +61,14 @@ class Trial {
   Strokes strokes{};
 
  private:
+  /// Of trial i, s, at a simulated device; 0 along positions.
+  double duration(std::size_t i) const {
+    if (std::holds_alternative<Positions>(all_.motion)) return 0;
+    if (!std::isnan(all_.duration)) return all_.duration;
+    if (const auto* recorded = std::get_if<RecordedMotion>(&all_.motion)) return recorded->duration();
+    return StrokesMotion(strokes, all_.seeds[i]).duration();
+  }
+
   const SceneBatch& all_;
   std::vector<double*> places_;
 };
@@ -156,8 +170,13 @@ bool for_each_block_of_trials(const SceneBatch& all, const RunOptions& options, 
 
 }  // namespace
 
+std::vector<std::string> paths(const SceneBatch& all) {
+  std::vector<std::string> names;
+  for (const auto& [path, number] : Trial({.scene = all.scene, .motion = all.motion}).numbers()) names.push_back(path);
+  return names;
+}
+
 std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& options) {
-  Trial first(all);  // throws for an unknown path
   std::optional<TrialProblems> worst;
   std::mutex lock;
   Work work;
@@ -167,7 +186,7 @@ std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& opti
     Trial trial(all);
     for (std::size_t i = from; i < to && !work.stop; ++i, ++work.done) {
       trial.set(i);
-      std::vector<Problem> problems = trial.problems();
+      std::vector<Problem> problems = trial.problems(i);
       if (problems.empty()) continue;
       const std::lock_guard guard(lock);
       if (!worst || i < worst->trial) worst = {i, std::move(problems)};

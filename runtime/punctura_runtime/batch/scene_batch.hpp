@@ -57,8 +57,14 @@ struct TrialProblems {
   std::vector<Problem> problems;
 };
 
-/// Checks all trials. Returns the problems of the first trial that has some. Throws std::out_of_range, whose text is
-/// the path, for a path that is unknown.
+/// Most ticks of a trial: a week at 1600 Hz. A longer one is a mistake in the unit of its duration.
+inline constexpr double most_ticks = 1e9;
+
+/// The paths of the numbers that may differ from trial to trial.
+std::vector<std::string> paths(const SceneBatch& all);
+
+/// Checks all trials. Returns the problems of the first trial that has some. Throws std::out_of_range for a path that
+/// is not one of paths().
 std::optional<TrialProblems> check(const SceneBatch& all, const RunOptions& options);
 
 /// Runs all trials, which must have passed check(). Returns false if watch() stopped it.

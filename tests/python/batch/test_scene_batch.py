@@ -93,8 +93,8 @@ def test_recorded_motion_other_hands_and_a_table() -> None:
 def test_wrong_arguments() -> None:
     with pytest.raises(ConfigurationError, match=r"trial 2: membrane\[0\]\.friction"):
         batch(SCENE, STROKES, vary={"membrane[0].friction": [0.2, 0.3, -1]})
-    with pytest.raises(ConfigurationError, match=r"hand\.grip"):
-        batch(SCENE, STROKES, vary={"hand.grip": [1, 2]})
+    with pytest.raises(ConfigurationError, match=r"trial 0: duration = .*at most 1e9 ticks"):
+        batch(SCENE, STROKES, duration=1e12)
     with pytest.raises(ValueError, match="different numbers of trials"):
         batch(SCENE, STROKES, vary={"hand.mass": [0.1, 0.2]}, trials=3)
     with pytest.raises(ValueError, match="instructions"):
@@ -113,6 +113,11 @@ def test_wrong_arguments() -> None:
         r"seeds must be one number, or have shape \(2,\)": {"trials": 2, "seeds": np.ones((2, 2), int)},
         r"motion must hold real numbers, not complex128": {"motion": positions() + 0j},
         r"its rows have different lengths": {"motion": [[0, 0, 0], [0, 0]]},
+        r"no number hand\.stifness; did you mean hand\.stiffness\?": {"vary": {"hand.stifness": [1, 2]}},
+        r"vary: hand\.mass is empty": {"vary": {"hand.mass": []}},
+        r"threads must be a whole number from 0 to 4096, not -1": {"threads": -1},
+        r"threads must be a whole number .*, not 1\.5": {"threads": 1.5},
+        r"duration must be 0 s or more, not '1'": {"duration": "1"},
         r"vary: hand\.mass must hold real numbers, not text": {"vary": {"hand.mass": ["0.1"]}},
         r"1000000000000 trials need .* GB of memory": {"trials": 10**12},
         r"with the force of each of 1600000 ticks need": {"trials": 10**6, "duration": 1e3, "keep_force": True},

@@ -15,6 +15,7 @@ from punctura.record import open_recording
 from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.design import design
 from punctura.study.folder import Folder
+from punctura.study.forecast import Forecast
 
 GRID = """
 scene = "k06-fig12"
@@ -126,6 +127,24 @@ def test_a_killed_run_loses_no_row_and_doubles_none(tmp_path: Path) -> None:
     assert run_study(plan, tmp_path / "killed").kept == 2
     whole, again = (pq.read_table(tmp_path / name / "trials.parquet") for name in ("whole", "killed"))
     assert again.equals(whole) and again["row"].to_pylist() == list(range(6))
+
+
+def test_the_first_chunk_tells_how_long_and_how_much_disk_the_others_take(tmp_path: Path) -> None:
+    told: list[Forecast] = []
+    shares: list[float] = []
+    out = tmp_path / "out"
+    run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, foretell=told.append)
+    assert [one.trials for one in told] == [4]
+    assert told[0].seconds is not None and 0 < told[0].seconds < 60 and not told[0].is_worth_telling
+    assert 0.5 * (out / "trials.parquet").stat().st_size < told[0].bytes < told[0].free
+    assert shares == sorted(shares) and 0 < shares[0] < 0.1 and shares[-1] == 1
+
+
+def test_a_long_study_and_a_small_disk_are_told() -> None:
+    long = Forecast(99_000_000, 25_000.0, 8 * 10**9, 9 * 10**10)
+    assert long.is_worth_telling and str(long) == "99000000 trials are left: they need about 6.9 h and 8 GB of disk"
+    full = Forecast(10, None, 5 * 10**8, 4 * 10**8)
+    assert full.is_worth_telling and "they need 0.5 GB of disk, and 0.4 GB are free: name fewer results" in str(full)
 
 
 def test_damaged_files_are_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
