@@ -15,7 +15,8 @@ from punctura.trace import Trace, TraceError
 Array = NDArray[np.float64]
 
 NEARLY = 30.0  # variances of a sample by which another search may be worse and still count
-FURTHER, LITTLE = 30, 0.1  # evaluations after the last one, and what they must gain
+FURTHER, LITTLE = 30, 0.1  # evaluations of a round after the last one, and what it must gain
+ROUNDS = 20  # of them, at most
 
 
 class Misfit:
@@ -105,11 +106,18 @@ def fit(
     for blur in blurs:
         u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
-    if message and blurs[-1] == 0:
-        before = _cost(misfit, free, u)
+    before = _cost(misfit, free, u)
+    for _ in range(ROUNDS if blurs[-1] == 0 else 0):
+        if not message:
+            break
         u, more, message = _search(misfit, free, u, 0, FURTHER)
         count += more
-        if message and before - _cost(misfit, free, u) > LITTLE * before / len(misfit.trace):
+        cost = _cost(misfit, free, u)
+        if before - cost <= LITTLE * before / len(misfit.trace):
+            break
+        before = cost
+    else:
+        if message:
             raise TraceError(f"the fit did not end after {count} evaluations: {message}")
     return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
 

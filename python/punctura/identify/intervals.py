@@ -12,6 +12,7 @@ from punctura.identify.fit import Fit
 from punctura.identify.fit import fit as fitted
 from punctura.identify.parameters import UNITS, Parameters, kind_of
 from punctura.identify.profile import bound
+from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95, Uncertainty
 from punctura.trace import TraceError
 
@@ -41,7 +42,8 @@ class Estimate:
 
 
 def estimates(fit: Fit, others: Sequence[Parameters] = ()) -> tuple[Estimate, ...]:
-    """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one.
+    """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one. A
+    surface that can be farther away than the trace is long has no bounds.
 
     others: ends of other searches. One that explains the trace nearly as well as the fit has an interval of its own,
     and each estimate's interval reaches over all of them.
@@ -76,22 +78,22 @@ def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[P
     fit, free = main.fit, main.fit.free
     if value is None:
         return None
-    limit = CHI2_95 * main.variance * main.inflation[j]
+    limit = 0.8 * CHI2_95 * main.variance * main.inflation[j]
     names = [name for name in free.names if name != free.names[j]]
     at = float(np.log(value)) if free.logarithmic(j) else value
-    starts = [fit.parameters, *others]
+    last = fit.parameters
     for _ in range(SEARCHES):
         value = float(np.exp(at) if free.logarithmic(j) else at)
-        ends = []
-        for start in starts:
+        for start in (last, *others, *other_grips(last)):
             try:
-                ends.append(fitted(fit.misfit, names, start.with_values({free.names[j]: value}), evaluations=60))
+                end = fitted(fit.misfit, names, start.with_values({free.names[j]: value}), evaluations=60)
             except TraceError:
                 continue
-        best = min(ends, key=lambda end: end.sse, default=None)
-        if best is None or best.sse - fit.sse > 0.8 * limit:
+            if end.sse - fit.sse <= limit:
+                break
+        else:
             return value
-        starts = [best.parameters]
+        last = end.parameters
         at = fit.u[j] + OUTWARDS * (at - fit.u[j])
         if not free.low[j] < at < free.high[j]:
             return None
@@ -120,5 +122,7 @@ def _bounds(uncertainty: Uncertainty, j: int, used: float) -> tuple[float | None
         row = fit.free.derivatives(fit.u)[fit.free.place(j)]
         spread = float(np.sqrt(max(row @ uncertainty.covariance @ row, 0.0) * CHI2_95))
         value = float(fit.free.values(fit.u)[j])
+        if spread > float(np.ptp(fit.misfit.trace.depth)):
+            return None, None
         return value - spread, value + spread
     return bound(uncertainty, j, -1, used), bound(uncertainty, j, 1, used)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ Array = NDArray[np.float64]
 
 KNOTS = 12  # a wall
 PLACES = (0.5, 0.3, 0.7, 0.9)  # of a wall without a pop, shares of the way
+OTHER_SHARES = (0.5, 0.2, 0.05)  # of a grip, that are precompression
+STIFFER = 5.0  # times the spring
 LEAST_STIFFNESS, STIFFEST = 50.0, 2e5  # N/m, of a series spring
 
 
@@ -76,7 +79,7 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
     insertion = first_insertion(trace, segments)
     insertion = insertion[:: max(1, len(insertion) // 400)]
     contact = float(trace.depth[segments.contact] if segments.contact is not None else insertion.depth[0])
-    for share in PLACES if _seen_pops(trace, segments) < membranes else PLACES[:1]:
+    for share in PLACES if seen_pops(trace, segments) < membranes else PLACES[:1]:
         yield from _around(insertion, contact, *_pops(insertion, trace, segments, contact, membranes, share), needle)
 
 
@@ -94,7 +97,8 @@ def _around(insertion: Trace, contact: float, ends: Array, own: Array, needle: N
                 yield profile_fit(insertion, surfaces, lengths, thickness, stiffness)
 
 
-def _seen_pops(trace: Trace, segments: Segments) -> int:
+def seen_pops(trace: Trace, segments: Segments) -> int:
+    """Pops of the first stroke."""
     return sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
 
 
@@ -144,6 +148,23 @@ def _physical(fit: ProfileFit, needle: Needle, curved: bool) -> Parameters:
             row[MEMBRANE.index(name)] = value
         rows.append(row)
     return Parameters(needle, np.array(rows), default_coupling(fit.stiffness))
+
+
+def other_grips(parameters: Parameters) -> Iterator[Parameters]:
+    """The walls with the same grip on the full needle, but with other shares of it as precompression; then the same
+    behind a stiffer spring.
+
+    A trace that ends in the rise can be explained almost without precompression, and by much of it; by a soft spring,
+    and by a soft wall. These optima are apart: no way leads from one to the other along which the misfit falls.
+    """
+    diameter = parameters.needle.diameter
+    spring = parameters.get("coupling_stiffness")
+    for stiffness, share in product((spring, STIFFER * spring), OTHER_SHARES):
+        values = {"coupling_stiffness": stiffness}
+        for wall in (f"membrane[{i}]" for i in range(len(parameters.membranes))):
+            grip = parameters.get(f"{wall}.precompression") + parameters.get(f"{wall}.stiffness") * diameter
+            values |= {f"{wall}.precompression": share * grip, f"{wall}.stiffness": (1 - share) * grip / diameter}
+        yield parameters.with_values(values)
 
 
 def grip_shape(opening: Array, force: Array) -> tuple[float, float]:

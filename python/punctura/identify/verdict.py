@@ -13,6 +13,7 @@ from punctura.identify.slow_noise import slow_and_white
 from punctura.trace import Segments, Trace
 
 _EXPERIMENTS = {
+    "surface": "begin well before contact and go on until the pop is over",
     "stiffness": "insert until the tip is through, and withdraw",
     "precompression": "insert slowly through the first millimetre, with more samples there",
     "friction": "record the withdrawal too: it shows the friction without the tip",

@@ -50,8 +50,8 @@ def run_study(
     """Runs all trials that the folder `out` does not hold yet, and writes trials.parquet and report.md there.
 
     threads: default: one for each processor; the rows do not depend on it. scheduler: the address of a Dask scheduler,
-    whose workers compute the trials instead. foretell: is called after the first chunk, if more follow. Raises ConfigurationError if a trial's numbers are no scene, StudyError,
-    OSError.
+    whose workers compute the trials instead. foretell: is called after the first chunk, if more follow. Raises
+    ConfigurationError if a trial's numbers are no scene, StudyError, OSError.
     """
     folder, all_of_them = Folder(Path(out)), design(plan)
     n, size = len(all_of_them.seeds), plan.file.chunk

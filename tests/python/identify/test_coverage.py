@@ -4,6 +4,7 @@ import runpy
 from pathlib import Path
 
 import pytest
+from punctura.identify import identify
 from scipy.stats import binom
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
@@ -44,3 +45,12 @@ def test_intervals_hold_the_truth_with_slow_noise():
     rows = [row for seed in range(1, SOME + 1) for row in tried(seed, Conditions(drift=0.03))]
     told = [row for row in rows if row.told]
     assert len(told) > 4 * SOME and sum(row.held for row in told) >= len(told) - 2
+
+
+def test_two_explanations_of_a_rise_leave_its_spring_unknown():
+    """A soft spring and no precompression, or a stiff spring and half of the grip as precompression: both fit."""
+    trace, needle, truth = TOOL["random_trace"](9, Conditions(early=True))
+    found = identify(TOOL["until_half"](trace, truth, needle), needle, membranes=1)
+    known = {estimate.name for estimate in found.estimates if estimate.identifiable}
+    assert known == {"offset"}
+    assert any("membrane[0].surface is not identifiable" in verdict for verdict in found.verdicts)
