@@ -81,8 +81,19 @@ class LawBatch : public LineBatch, public OneThread {
   Given<Coupling> couplings_;
 };
 
+constexpr std::size_t most_trials = 1'000'000'000;
+
+/// Throws MemoryError if `count` things of `bytes` each have no room on this computer.
+void enough_memory(double bytes, std::size_t count, const char* what, const char* advice) {
+  const double needed = bytes * static_cast<double>(count);
+  if (needed < 1e9) return;
+  nb::module_::import_("punctura.batches.inputs").attr("enough_memory")(needed, std::to_string(count) + what, advice);
+}
+
 void make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period, const std::string& solver,
-          std::optional<std::size_t> trials) {
+          const nb::object& count) {
+  std::optional<std::size_t> trials;
+  if (!count.is_none()) trials = count_from(count, "trials", 0, most_trials);
   auto laws = std::make_shared<const Given<Law>>(law, "law", "a ThinLaw, ThickLaw or ProfileLaw", trials);
   Given<Coupling> couplings(coupling, "coupling", "a Coupling", trials);
   std::vector<Problem> problems;
@@ -90,7 +101,9 @@ void make(LawBatch* self, const nb::object& law, const nb::object& coupling, dou
     if (problems.empty()) check(one, problems);
   check_period(period, problems);
   raise_if(problems);
-  new (self) LawBatch(std::move(laws), std::move(couplings), period, solver_from(solver), trials.value_or(1));
+  const std::size_t n = trials.value_or(1);
+  enough_memory(sizeof(batch::LineBlock) / static_cast<double>(batch::block_lanes), n, " trials", "Take fewer trials.");
+  new (self) LawBatch(std::move(laws), std::move(couplings), period, solver_from(solver), n);
 }
 
 /// An array of float64 with any strides, without a copy if it already is one.
@@ -100,7 +113,8 @@ using Forces = nb::ndarray<double, nb::ndim<2>, nb::device::cpu>;
 nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, const nb::object& threads,
                const nb::object& block, const std::optional<std::string>& instructions, const nb::object& progress) {
   const nb::object numpy = nb::module_::import_("numpy");
-  const auto p = nb::cast<Depths>(numpy.attr("asarray")(depths, numpy.attr("float64")));
+  const nb::object given = real_numbers(depths, "p");
+  const auto p = nb::cast<Depths>(given);
   const std::size_t n = self.trials();
   const bool shared = p.ndim() == 1;
   if (!shared && !(p.ndim() == 2 && p.shape(1) == n))
@@ -112,6 +126,7 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
   nb::object result = out;
   if (result.is_none()) {
     const bool by_trial = !shared && p.stride(0) < p.stride(1);  // the same order in memory as p
+    enough_memory(sizeof(double) * static_cast<double>(n), ticks, " rows of forces", "Take fewer ticks at a time.");
     result = numpy.attr("empty")(nb::make_tuple(ticks, n), numpy.attr("float64"), by_trial ? "F" : "C");
   }
   Forces array;
@@ -119,6 +134,10 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
     throw nb::value_error(
         ("out must be a writable float64 array of shape (" + std::to_string(ticks) + ", " + std::to_string(n) + ")")
             .c_str());
+  const bool same = array.data() == p.data() && array.stride(0) == motion.by_tick && array.stride(1) == motion.by_trial;
+  if (!out.is_none() && !same && nb::cast<bool>(numpy.attr("may_share_memory")(out, given)) &&
+      nb::cast<bool>(numpy.attr("shares_memory")(out, given)))
+    throw nb::value_error("out overlaps p: give p itself, or an array of its own");
   const Grid<double> force{array.data(), array.stride(0), array.stride(1)};
   batch::RunOptions options;
   options.threads = threads_from(threads);

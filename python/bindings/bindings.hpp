@@ -55,8 +55,11 @@ void explain_calls(nb::module_&);
 
 /// A read-only view of an array. No copy is made if the array is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-/// Converts anything that NumPy accepts as an array (a list, another type, a slice). Throws NumPy's exceptions, and
-/// ValueError, which names the argument, for an array with masked elements.
+/// A NumPy array of float64, of any strides, from anything that NumPy accepts as an array (a list, another type, a
+/// slice). Throws TypeError for text, times and complex numbers, and ValueError for rows of different lengths and for
+/// masked elements; both name the argument.
+nb::object real_numbers(const nb::object& array_like, const char* name);
+/// The same, contiguous.
 Input input(const nb::object& array_like, const char* name);
 /// The same for shape (n,), or (n, 3) for points. Throws ValueError that names the argument.
 Input input_1d(const nb::object& array_like, const char* name);

@@ -5,18 +5,36 @@
 
 namespace punctura::bindings {
 
-Input input(const nb::object& array_like, const char* name) {
+nb::object real_numbers(const nb::object& array_like, const char* name) {
   const nb::object numpy = nb::module_::import_("numpy");
   if (nb::hasattr(array_like, "_mask") && nb::cast<bool>(numpy.attr("ma").attr("is_masked")(array_like)))
     throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
+  nb::object given;
+  try {
+    given = numpy.attr("asarray")(array_like);
+  } catch (nb::python_error& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw nb::value_error(
+        (std::string(name) + " must be an array of numbers: its rows have different lengths").c_str());
+  }
   // Otherwise NumPy reads text and times as numbers, and drops the imaginary part of complex ones.
-  const nb::object given = numpy.attr("asarray")(array_like), type = given.attr("dtype");
+  const nb::object type = given.attr("dtype");
   const auto kind = nb::cast<std::string>(type.attr("kind"));
   if (std::string("biufO").find(kind) == std::string::npos) {
     const std::string held = kind == "U" || kind == "S" ? "text" : nb::cast<std::string>(nb::str(type));
     throw nb::type_error((std::string(name) + " must hold real numbers, not " + held).c_str());
   }
-  return nb::cast<Input>(numpy.attr("ascontiguousarray")(given, numpy.attr("float64")));
+  try {
+    return numpy.attr("asarray")(given, numpy.attr("float64"));
+  } catch (nb::python_error& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+    throw nb::type_error((std::string(name) + " must hold real numbers").c_str());
+  }
+}
+
+Input input(const nb::object& array_like, const char* name) {
+  const nb::object numpy = nb::module_::import_("numpy");
+  return nb::cast<Input>(numpy.attr("ascontiguousarray")(real_numbers(array_like, name)));
 }
 
 bool is_numpy_array(nb::handle object) noexcept {

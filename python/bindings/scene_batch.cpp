@@ -139,6 +139,12 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
 
 void bind_scene_batch(nb::module_& m) {
   m.def(
+      "real_numbers",
+      [](const nb::object& given, const std::string& name) { return real_numbers(given, name.c_str()); },
+      nb::arg("given"), nb::arg("name"),
+      nb::sig("def real_numbers(given: typing.Any, name: str) -> numpy.typing.NDArray[numpy.float64]"),
+      "The numbers of an argument as float64. Raises TypeError and ValueError, which name the argument.");
+  m.def(
       "batch_paths", [](const Scene& scene) { return batch::paths({.scene = scene, .motion = Strokes{}}); },
       nb::arg("scene"), "Paths of the numbers that punctura.batch() can vary, with strokes at a simulated device.");
   m.def(

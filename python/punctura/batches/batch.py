@@ -9,8 +9,8 @@ from numbers import Real
 import numpy as np
 import numpy.typing as npt
 
-from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, run_scenes
-from punctura.batches.inputs import enough_memory, real_numbers, whole_seeds
+from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, real_numbers, run_scenes
+from punctura.batches.inputs import enough_memory, whole_seeds
 from punctura.batches.result import BatchResult
 from punctura.progress import Progress
 
@@ -47,11 +47,11 @@ def batch(
     for path, column in (vary or {}).items():
         if path in values:
             raise ValueError(f"vary has {path}, in which the scenes differ, too: give it in one of them")
-        values[path] = np.ascontiguousarray(np.atleast_1d(real_numbers(f"vary: {path}", column)))
+        values[path] = np.ascontiguousarray(np.atleast_1d(real_numbers(column, f"vary: {path}")))
         if values[path].size == 0:
             raise ValueError(f"vary: {path} is empty: give one value for each trial")
     if not isinstance(motion, Strokes | RecordedMotion):
-        motion = real_numbers("motion", motion)
+        motion = real_numbers(motion, "motion")
     n = _trials(values, seeds, trials, None if isinstance(scene, Scene) else len(scene), motion)
     if duration is not None and not (isinstance(duration, Real) and math.isfinite(duration) and duration >= 0):
         raise ValueError(f"duration must be 0 s or more, not {duration!r}")
@@ -64,7 +64,7 @@ def batch(
         values[path] = np.ascontiguousarray(np.broadcast_to(column, (n,)))
     own = whole_seeds(seeds, n)
     plant, hand = plant or Plant(), hand or Hand()
-    direction = base.membranes[0].inward_normal if axis is None else real_numbers("axis", axis)
+    direction = base.membranes[0].inward_normal if axis is None else real_numbers(axis, "axis")
     found = run_scenes(
         base,
         motion,

@@ -10,24 +10,6 @@ from typing import SupportsIndex
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
-
-
-def real_numbers(name: str, given: npt.ArrayLike) -> Array:
-    """The numbers of an argument. Raises TypeError for text, times and complex numbers, ValueError for other shapes."""
-    if np.ma.is_masked(given):
-        raise ValueError(f"{name} has masked elements: fill them in, or leave these trials out")
-    try:
-        array = np.asarray(given)
-    except ValueError:
-        raise ValueError(f"{name} must be an array of numbers: its rows have different lengths") from None
-    if array.dtype.kind not in "biufO":
-        raise TypeError(f"{name} must hold real numbers, not {'text' if array.dtype.kind in 'US' else array.dtype}")
-    try:
-        return np.asarray(array, np.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must hold real numbers") from None
-
 
 def whole_seeds(seeds: SupportsIndex | npt.ArrayLike, trials: int) -> npt.NDArray[np.uint64]:
     """The seed of each trial. Raises TypeError, ValueError for what is no whole number from 0 to 2^64 - 1."""

@@ -91,6 +91,30 @@ def test_wrong_arguments() -> None:
         LineBatch(LAWS[:2], COUPLINGS, PERIOD, trials=2)
 
 
+def test_no_silent_wrong_number() -> None:
+    p = motions()
+    force = LineBatch(LAWS, COUPLINGS, PERIOD).run(p)
+    both = np.zeros((len(p) + 1, 3))
+    both[:-1] = p
+    same = p.copy()
+    assert LineBatch(LAWS, COUPLINGS, PERIOD).run(same, out=same) is same and np.array_equal(same, force)
+    for message, wrong in {
+        "out overlaps p": {"p": both[:-1], "out": both[1:]},
+        "p must hold real numbers, not complex128": {"p": p + 0j},
+        "p has masked elements": {"p": np.ma.array(p, mask=p > 0)},
+        "its rows have different lengths": {"p": [[0, 0, 0], [0]]},
+        "threads must be a whole number from 0 to 4096, not -1": {"p": p, "threads": -1},
+        "block must be a whole number from 1 to 1048576, not 0": {"p": p, "block": 0},
+    }.items():
+        with pytest.raises((ValueError, TypeError), match=message):
+            LineBatch(LAWS, COUPLINGS, PERIOD).run(**wrong)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="trials must be a whole number from 0 to 1000000000, not -1"):
+        LineBatch(LAWS[0], COUPLINGS[0], PERIOD, trials=-1)
+    with pytest.raises(MemoryError, match=r"100000000000 rows of forces need .* Take fewer ticks"):
+        LineBatch(LAWS, COUPLINGS, PERIOD).run(np.lib.stride_tricks.as_strided(np.zeros(1), (10**11,), (0,)))
+    assert LineBatch(LAWS, COUPLINGS, PERIOD).run([]).shape == (0, 3)
+
+
 def test_ctrl_c_and_progress() -> None:
     batch = LineBatch(LAWS[0], COUPLINGS[0], PERIOD, trials=1)
     shares: list[float] = []
