@@ -43,5 +43,9 @@ def test_the_phase_is_told_in_words_and_fits_a_phone(page):
     expect(page.locator(".phases")).to_contain_text("through")
     # A slow push may end at the edge of the band, where the needle still slides.
     expect(page.locator(".phases")).to_contain_text(re.compile("sticking|sliding in"))
+    page.locator(".pop-callout button").click()
+    expect(page.get_by_role("button", name="Back to live")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Back to live")).to_have_count(0)
     page.set_viewport_size({"width": 390, "height": 844})
     assert page.evaluate("document.documentElement.scrollWidth") <= 390, "on a phone, a part is beside the screen"

@@ -5,8 +5,9 @@ import type { Plots } from "./shared.ts";
 export function keyTick(event: KeyboardEvent, plots: Plots, app: App): boolean {
   const { window, source } = plots;
   if (event.key === "Escape") {
+    const pointed = source.pointed.value !== null;
     plots.point(null, "keys");
-    return true;
+    return pointed;
   }
   if (event.key === " ") {
     if (source.paused) app.goLive();

@@ -1,4 +1,5 @@
 import type { Panel } from "../../panel.ts";
+import { leaveExcerpt } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
 import { onePerApp } from "../../state/one_per_app.ts";
 import { Arrangements, PANELS, PLACES } from "./arrangement.ts";
@@ -64,7 +65,7 @@ function inOrder(root: HTMLElement, panels: readonly HTMLElement[]): void {
   if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
 }
 
-/** Alt+P: the layout for a projector. Escape: back to all panels. */
+/** Alt+P: the layout for a projector. Escape: back to all panels, then back from a pop that is shown again. */
 function keys(app: App): void {
   const all = arrangementsOf(app);
   document.addEventListener("keydown", (event) => {
@@ -72,7 +73,8 @@ function keys(app: App): void {
       event.preventDefault();
       all.set({ projector: !all.now.value.projector });
     } else if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) {
-      all.maximised.value = null;
+      if (all.maximised.value !== null) all.maximised.value = null;
+      else leaveExcerpt(app);
     }
   });
 }

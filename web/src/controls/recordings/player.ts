@@ -115,6 +115,7 @@ function fill(host: HTMLElement, app: App, source: Source, rate: number, from: n
       {
         type: "button",
         class: "small primary",
+        title: showing.backTitle,
         onclick: () => showing.back(),
       },
       showing.backWords,

@@ -15,6 +15,7 @@ export interface Showing {
   time(tick: number): string;
   spokenTime(tick: number): string;
   readonly backWords: string;
+  readonly backTitle: string;
   back(): void;
   /** After its end it goes back by itself, unless the user has used the bar. */
   readonly goesBack: boolean;
@@ -38,6 +39,7 @@ function recordingShowing(app: App, { history, paused }: Source): Showing {
     time: (tick) => `${at(tick).padStart(total.length, " ")} / ${total} s`,
     spokenTime: (tick) => `${at(tick)} of ${total} seconds`,
     backWords: "Back to live",
+    backTitle: "",
     back: () => app.goLive(),
     goesBack: false,
   };
@@ -45,6 +47,11 @@ function recordingShowing(app: App, { history, paused }: Source): Showing {
 
 function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Source["excerpt"]>): Showing {
   const pop = history.timeOf(excerpt.event.tick);
+  const backWords = excerpt.of.live
+    ? "Back to live"
+    : excerpt.of.paused
+      ? "Back to the pause"
+      : "Back to the recording";
   const ms = (tick: number): string => {
     const text = ((history.timeOf(tick) - pop) * 1e3).toFixed(1);
     return `${text.startsWith("-") ? "−" : "+"}${text.replace("-", "").padStart(4, "\u2007")}`;
@@ -62,7 +69,8 @@ function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Sour
     },
     time: (tick) => `${ms(tick)} ms`,
     spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the pop`,
-    backWords: excerpt.of.live ? "Back to live" : excerpt.of.paused ? "Back to the pause" : "Back to the recording",
+    backWords,
+    backTitle: `${backWords} (Escape)`,
     back: () => leaveExcerpt(app),
     goesBack: true,
   };
