@@ -72,6 +72,14 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
     expect(page.locator(".running")).to_be_visible()
     expect(view(page)).to_be_focused()  # the keys move the needle without a click
     expect(page.locator(".hold-ring")).to_be_hidden()
+    expect(page.locator(".phases tbody")).to_contain_text("second membrane")
+    for _ in range(20):  # into the first one
+        push(page, "Shift+ArrowDown", 1)
+        if "sticking" in (page.locator(".phases tbody").text_content() or ""):
+            break
+    expect(page.locator(".phases tbody")).to_contain_text("sticking")
+    seen = "[...document.querySelectorAll('.phases > * *')].some((one) => getComputedStyle(one).visibility !== 'hidden')"
+    assert not page.evaluate(seen)
     plot = page.locator(".time-plots")
     expect(plot.locator(".plot-save")).to_be_hidden()
     plot.locator("canvas").last.focus()

@@ -117,7 +117,7 @@ export const phasesPanel: Panel = (host, app) => {
       row.needle.style.left = inside
         ? `${(100 * Math.min(1, Math.max(0, (force - low) / (high - low)))).toFixed(1)}%`
         : "50%";
-      row.needle.style.visibility = inside ? "visible" : "hidden";
+      row.needle.style.visibility = inside ? "inherit" : "hidden";
     });
   };
 

@@ -42,7 +42,7 @@ export function lawDrawing(): LawDrawing {
     mark: (depth, force) => {
       const { pane } = shape;
       const inside = depth !== null && depth >= 0 && depth * 1e3 <= pane.x.max;
-      tip.setAttribute("visibility", inside ? "visible" : "hidden");
+      tip.setAttribute("visibility", inside ? "inherit" : "hidden");
       if (!inside) return;
       if (!tip.isConnected) figure.root.firstElementChild?.append(tip);
       tip.setAttribute("cx", pane.x.px(depth * 1e3).toFixed(1));
