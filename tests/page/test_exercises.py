@@ -78,7 +78,9 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
         if "sticking" in (page.locator(".phases tbody").text_content() or ""):
             break
     expect(page.locator(".phases tbody")).to_contain_text("sticking")
-    seen = "[...document.querySelectorAll('.phases > * *')].some((one) => getComputedStyle(one).visibility !== 'hidden')"
+    seen = (
+        "[...document.querySelectorAll('.phases > * *')].some((one) => getComputedStyle(one).visibility !== 'hidden')"
+    )
     assert not page.evaluate(seen)
     plot = page.locator(".time-plots")
     expect(plot.locator(".plot-save")).to_be_hidden()
