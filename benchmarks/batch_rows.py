@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from program import ProgramError
+from rivals_measured import measure_rivals, rivals_table
 
 
 def measure_batches(program: Path, seconds: float) -> dict[str, Any]:
@@ -16,7 +18,7 @@ def measure_batches(program: Path, seconds: float) -> dict[str, Any]:
     if done.returncode != 0:
         raise ProgramError(f"{program.name} ended with {done.returncode}; see its message above")
     result: dict[str, Any] = json.loads(done.stdout)
-    return result
+    return result | {"rivals": measure_rivals()}
 
 
 def batch_table(result: dict[str, Any]) -> list[str]:
@@ -38,7 +40,51 @@ def batch_table(result: dict[str, Any]) -> list[str]:
             f"    {row['what']:5} {row['solver']:6} {row['one_ns']:7.2f} {row['two_ns']:7.2f} {times:6.2f} {free:6.2f}"
         )
     lines.append(f"  bytes for each trial: {result['bytes_per_trial']}, and its law")
-    return lines
+    return [*lines, *_growth(result["growth"]), *_roofline(result), *rivals_table(result["rivals"])]
+
+
+def _growth(growth: dict[str, Any]) -> Iterator[str]:
+    yield "  growth, fastest rounds. Proxies on a line, paper: trials x ticks, ns per trial and tick"
+    for trials, ticks, ns in growth["line"]:
+        yield f"    {trials:6} x {ticks:6} {ns:7.2f}"
+    yield "  a simulated hand, exact: membranes, ns per trial and tick"
+    for membranes, ns in growth["membranes"]:
+        yield f"    {membranes:6} {ns:16.1f}"
+
+
+class Roof(NamedTuple):
+    """What an instruction set reaches in a row, of what it can reach at most."""
+
+    code: str
+    trials: int
+    operations_per_ns: float
+    most_operations_per_ns: float
+    bytes_per_ns: float
+    most_bytes_per_ns: float
+
+
+def roofs(result: dict[str, Any]) -> list[Roof]:
+    """For the rows of the paper's solver on a line, fastest rounds."""
+    peak = result["peak"]
+    return [
+        Roof(code, row["trials"], peak["paper_operations"] / ns, most, peak["line_bytes"] / ns,
+             peak["copied_bytes_per_ns"])
+        for row in result["rows"] if row["solver"] == "paper"
+        for code, most in peak["operations_per_ns"].items() for ns in [row["contestants"][code]["fastest_ns"]]
+    ]  # fmt: skip
+
+
+def _roofline(result: dict[str, Any]) -> Iterator[str]:
+    peak = result["peak"]
+    yield f"  roofline, paper: {peak['paper_operations']} operations and {peak['line_bytes']} bytes a trial and tick"
+    yield "    each ns: operations, of the measured peak; bytes, of those of a copy in memory"
+    for roof in roofs(result):
+        computed, moved = roof.operations_per_ns, roof.bytes_per_ns
+        yield (
+            f"    {roof.code:7} {roof.trials:6} trials {computed:7.1f} of {roof.most_operations_per_ns:5.1f} "
+            f"({computed / roof.most_operations_per_ns:4.0%}); {moved:5.1f} of {roof.most_bytes_per_ns:5.1f} "
+            f"({moved / roof.most_bytes_per_ns:4.0%})"
+        )
 
 
 def _contestants(contestants: dict[str, Any]) -> list[str]:

@@ -3,7 +3,8 @@
 Measures the model's ns per tick, compared with a hand-written loop and a NumPy loop, and the wake-up latency of the
 servo loop, compared with cyclictest, and many trials at once, in lanes and on two threads.
 
-python benchmarks/run.py [--check] [--json FILE] [--seconds S] [--batch-seconds S] [--wakeup-seconds S]
+python benchmarks/run.py [--check] [--json FILE] [--pictures FOLDER] [--seconds S] [--batch-seconds S]
+    [--wakeup-seconds S]
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from typing import Any
 import numpy as np
 from batch_rows import batch_table, measure_batches
 from numpy_loop import LOOPS, Array
+from pictures import draw
 from program import ROOT, ProgramError, build, call
 from ratios import Ratio, all_ratios, over_cyclictest
 from table import table, verdicts, wakeup_table
@@ -126,6 +128,7 @@ def main(arguments: list[str] | None = None) -> int:
         help=f"seconds for servo loop and cyclictest in each of {len(CONDITIONS)} conditions; 0 skips them "
         "(default %(default)s)",
     )
+    parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw the rows of many trials as SVG files")
     options = parser.parse_args(arguments)
     try:
         program = build(ROOT / "build/bench")
@@ -141,7 +144,10 @@ def main(arguments: list[str] | None = None) -> int:
     except ProgramError as error:
         print(error, file=sys.stderr)
         return 3
-    return report(result, all_ratios(result), options.json, options.check)
+    status = report(result, all_ratios(result), options.json, options.check)
+    if options.pictures and "batch" in result:
+        draw(result["batch"], options.pictures)
+    return status
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import program
 import pytest
 import run
 from numpy_loop import X, bounds, numpy_loop, python_loop
+from pictures import draw
 from program import ProgramError
 from ratios import all_ratios
 from table import SHARES
@@ -129,16 +130,26 @@ def test_a_program_that_finds_its_contestants_unequal_ends_the_measurements(monk
     assert "ended with 3" in capsys.readouterr().err
 
 
-def test_rows_of_many_trials_are_printed_with_their_ratios(capsys):
+def test_rows_of_many_trials_are_printed_and_drawn_with_their_ratios(capsys, tmp_path):
     row = {"scalar": timing(10.0) | {"times_faster": 1}, "avx2": timing(2.0) | {"times_faster": 5}}
     rows = [{"solver": "paper", "trials": 32, "ticks": 400, "contestants": row}]
     hands = [{"solver": "exact", "wall": "tissue", "contestants": row}]
     times = {"two_computed_ns": 100.0}
     threads = [times | {"what": "hand", "solver": "exact", "one_ns": 100.0, "two_ns": 60.0, "one_computed_ns": 95.0}]
+    growth = {"line": [[8, 4000, 6.0], [32, 4000, 0.9]], "membranes": [[1, 150.0], [8, 230.0]]}
+    peak = {"paper_operations": 27, "line_bytes": 16, "copied_bytes_per_ns": 20.0, "operations_per_ns": {"avx2": 30.0}}
+    rivals = {"LineBatch": {"median_ns": 2.0, "fastest_ns": 1.8, "over_batch": 1.0}}
     batch = {"rows": rows, "hands": hands, "threads": threads, "bytes_per_trial": 154}
+    batch |= {"growth": growth, "peak": peak, "rivals": rivals}
     result = measured() | {"batch": batch}
     run.report(result, all_ratios(result), None, check=False)
     printed = capsys.readouterr().out
+    assert "32 trials    16.9 of  30.0 ( 56%);  10.0 of  20.0 ( 50%)" in printed  # 27 operations in 1.6 ns
+    assert "       8 x   4000    6.00" in printed and "Numba and JAX: not installed" in printed
+    draw(batch, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == {
+        f"performance-{name}.svg" for name in ("faster", "roofline", "growth")
+    }
     assert "proxies on a line, paper, 32 trials, 400 ticks" in printed and "a wall of tissue" in printed
     assert "hand  exact   100.00   60.00   1.67   1.90" in printed
 
