@@ -106,18 +106,15 @@ def fit(
     for blur in blurs:
         u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
-    before = _cost(misfit, free, u)
-    for _ in range(ROUNDS if blurs[-1] == 0 else 0):
-        if not message:
-            break
-        u, more, message = _search(misfit, free, u, 0, FURTHER)
-        count += more
-        cost = _cost(misfit, free, u)
-        if before - cost <= LITTLE * before / len(misfit.trace):
-            break
+    rounds = ROUNDS if message and blurs[-1] == 0 else 0
+    cost = _cost(misfit, free, u)
+    for i in range(rounds):
         before = cost
-    else:
-        if message:
+        u, more, message = _search(misfit, free, u, 0, FURTHER)
+        count, cost = count + more, _cost(misfit, free, u)
+        if not message or before - cost <= LITTLE * before / len(misfit.trace):
+            break
+        if i == rounds - 1:
             raise TraceError(f"the fit did not end after {count} evaluations: {message}")
     return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
 
