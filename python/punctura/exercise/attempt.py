@@ -181,13 +181,19 @@ class Attempt:
             return self.exercise.instruction
         if self._too_deep:
             return words.too_deep(self.exercise.file.space)
+        stops = [limit for limit in self._limits if isinstance(limit, StopJudge)]
         for judge in self._achievements:
-            if judge.met is None:
-                return (
-                    f"{judge.text}. Hold still." if isinstance(judge, StayJudge) and judge.staying else f"{judge.text}."
-                )
-        waiting = (words.waiting(limit) for limit in self._limits if isinstance(limit, StopJudge) and limit.waits_for)
-        return next(waiting, self.exercise.instruction)
+            if judge.met is not None:
+                continue
+            if not isinstance(judge, StayJudge):
+                return f"{judge.text}."
+            if judge.staying:
+                return f"{judge.text}. Hold still."
+            # Whoever must still push is not told to stay.
+            if self._measures.arrival is None:
+                return self.exercise.instruction
+            return next((words.waiting(limit) for limit in stops if limit.waits_for == "pop"), f"{judge.text}.")
+        return next((words.waiting(limit) for limit in stops if limit.waits_for), self.exercise.instruction)
 
     def _reasons(self) -> list[str]:
         first = self.scene.membranes[0].name

@@ -76,7 +76,7 @@ def waiting(limit: StopJudge) -> str:
     """The instruction while a limit is still being measured."""
     if limit.waits_for == "rest":
         return "Hold still."
-    return f"Go on until the {limit.membrane} gives way, then stop: this is not measured yet."
+    return f"Go on until the {limit.membrane} gives way, then stop."
 
 
 def too_deep(space: Space) -> str:

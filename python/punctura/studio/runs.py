@@ -153,6 +153,8 @@ class Runs:
         self.arming.begin(self.run.loop)
         self.out.say(no_fault())
         self.activities.tell_idle()
+        if not self.recording:  # a page that was open before this studio may still show another one's recording
+            self.out.say(no_recording())
         self.out.say(scene_message(self.run, self.pump.laws(), new_run=True))
         if remind and not self.arming.armed:
             self.out.say(Notice(text=STILL_OFF))

@@ -209,3 +209,15 @@ def test_the_person_is_told_what_to_do_next():
     assert attempt.over
     deep = judged(exercise, hand_run("venipuncture", (*INTO_THE_VEIN[:2], (3.0, 29.3), (0.5, 29.3))))
     assert deep.status.instruction == "You press against the back vein wall: draw back a little."
+
+
+def test_whoever_must_still_push_is_not_told_to_stay():
+    columns = hand_run("stop-after-pop", ((6.0, 13.0), (4.0, 13.0)))
+    exercise = load_exercise("stop-after-pop")
+    attempt = judged(exercise, {name: column[:0] for name, column in columns.items()})
+    heard = []
+    for k in range(0, len(columns["tick"]), 20):
+        attempt.add({name: column[k : k + 20] for name, column in columns.items()})
+        if attempt.status.instruction not in heard:
+            heard.append(attempt.status.instruction)
+    assert heard[:2] == [exercise.instruction, "Stay behind the membrane for 2 s. Hold still."]

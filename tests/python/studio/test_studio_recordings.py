@@ -41,6 +41,14 @@ def record(page, name=None, edit=True):
     return page.ask(do="stop_recording")
 
 
+def test_a_page_hears_at_once_that_nothing_is_recorded(page):
+    """It may have been open before this studio, and show the recording of another one that has gone."""
+    page.wait(lambda: page.of("recording"))
+    assert page.of("recording")[0]["name"] == ""
+    page.wait(lambda: page.of("exercise"))
+    assert not page.of("exercise")[0]["running"]
+
+
 def test_a_recording_is_made_listed_read_downloaded_and_deleted(served, page):
     stopped = record(page, "Größe 1")
     assert stopped["ok"] and stopped["data"]["recording"] == "Größe 1" and stopped["data"]["lost"] == 0
