@@ -32,15 +32,20 @@ def batch_table(result: dict[str, Any]) -> list[str]:
             f"  a simulated hand, a wall of {row['wall']}, {row['solver']}, one second at 1600 Hz; core is Experiment"
         )
         lines += _contestants(row["contestants"])
-    lines.append("  two threads: wall-clock ns per trial and tick with one, with two (fastest rounds); times faster;")
-    lines.append("  times faster on two free processors, from the processor time of all threads")
-    for row in result["threads"]:
-        times, free = row["one_ns"] / row["two_ns"], 2 * row["one_computed_ns"] / row["two_computed_ns"]
-        lines.append(
-            f"    {row['what']:5} {row['solver']:6} {row['one_ns']:7.2f} {row['two_ns']:7.2f} {times:6.2f} {free:6.2f}"
-        )
+    lines += _threads(result["threads"])
     lines.append(f"  bytes for each trial: {result['bytes_per_trial']}, and its law")
     return [*lines, *_growth(result["growth"]), *_roofline(result), *rivals_table(result["rivals"])]
+
+
+def _threads(rows: list[dict[str, Any]]) -> Iterator[str]:
+    yield "  threads: wall-clock ns per trial and tick (fastest rounds); times faster than one thread;"
+    yield "  times faster if each has a free processor, from the processor time of all threads"
+    for row in rows:
+        one = row["counts"][0]
+        for n in row["counts"]:
+            faster, free = one["wall_ns"] / n["wall_ns"], n["threads"] * one["computed_ns"] / n["computed_ns"]
+            what = f"{row['what']:5} {row['solver']:6} {n['threads']:4}"
+            yield f"    {what} {n['wall_ns']:7.2f} {faster:6.2f} {free:6.2f}"
 
 
 def _growth(growth: dict[str, Any]) -> Iterator[str]:

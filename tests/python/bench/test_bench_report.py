@@ -134,8 +134,10 @@ def test_rows_of_many_trials_are_printed_and_drawn_with_their_ratios(capsys, tmp
     row = {"scalar": timing(10.0) | {"times_faster": 1}, "avx2": timing(2.0) | {"times_faster": 5}}
     rows = [{"solver": "paper", "trials": 32, "ticks": 400, "contestants": row}]
     hands = [{"solver": "exact", "wall": "tissue", "contestants": row}]
-    times = {"two_computed_ns": 100.0}
-    threads = [times | {"what": "hand", "solver": "exact", "one_ns": 100.0, "two_ns": 60.0, "one_computed_ns": 95.0}]
+    counts = [
+        {"threads": n, "wall_ns": wall, "computed_ns": own} for n, wall, own in ((1, 100.0, 95.0), (2, 60.0, 100.0))
+    ]
+    threads = [{"what": "hand", "solver": "exact", "counts": counts}]
     growth = {"line": [[8, 4000, 6.0], [32, 4000, 0.9]], "membranes": [[1, 150.0], [8, 230.0]]}
     peak = {"paper_operations": 27, "line_bytes": 16, "copied_bytes_per_ns": 20.0, "operations_per_ns": {"avx2": 30.0}}
     rivals = {"LineBatch": {"median_ns": 2.0, "fastest_ns": 1.8, "over_batch": 1.0}}
@@ -151,7 +153,7 @@ def test_rows_of_many_trials_are_printed_and_drawn_with_their_ratios(capsys, tmp
         f"performance-{name}.svg" for name in ("faster", "roofline", "growth")
     }
     assert "proxies on a line, paper, 32 trials, 400 ticks" in printed and "a wall of tissue" in printed
-    assert "hand  exact   100.00   60.00   1.67   1.90" in printed
+    assert "hand  exact     2   60.00   1.67   1.90" in printed
 
 
 def test_a_count_of_instructions_that_grew_by_more_than_2_percent_is_marked():
