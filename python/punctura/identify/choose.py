@@ -9,12 +9,13 @@ from itertools import islice
 import numpy as np
 
 from punctura import Needle
+from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, Start, best_fit
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.pops_moved import noise_limit, with_pops_moved
 from punctura.identify.rises import rise_starts
-from punctura.identify.start import other_grips, seen_pops, starts
+from punctura.identify.start import starts
 from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace, TraceError
 
@@ -48,11 +49,8 @@ class _Search:
         misfit = self.tried[0].fit.misfit if self.tried else Misfit(self.trace, from_these[0].parameters)
         enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
         try:
-            best = best_fit(misfit, model.names, from_these, enough)
-            if not self.tried and seen_pops(self.trace, self.segments) < model.membranes:
-                ends = (best.parameters, *best.others, *other_grips(best.parameters))
-                best = best_fit(misfit, model.names, [Start(end) for end in ends])
-            found = candidate(name, model, with_pops_moved(best))
+            best = with_pops_moved(best_fit(misfit, model.names, from_these, enough))
+            found = candidate(name, model, with_contacts_moved(best))
         except TraceError:
             if not self.tried:
                 raise

@@ -97,14 +97,22 @@ def fit(
 ) -> Fit:
     """The parameters `names` that fit best, from `start`. blurs: widths in samples, one search after the other.
 
+    If the pop of a wall enters or leaves the trace on the way, one more search has its other coordinate (see Free).
+
     A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
     Raises TraceError if the last search does not end.
     """
-    free = Free(names, start)
+    deepest = float(misfit.trace.depth.max())
+    free = Free(names, start, deepest)
     u = free.coordinates(start)
     count = 0
     for blur in blurs:
         u, more, message = _search(misfit, free, u, blur, evaluations)
+        count += more
+    other = Free(names, free.parameters(u), deepest)
+    if other.walls != free.walls:
+        u, free = other.coordinates(free.parameters(u)), other
+        u, more, message = _search(misfit, free, u, 0, evaluations)
         count += more
     rounds = ROUNDS if message and blurs[-1] == 0 else 0
     cost = _cost(misfit, free, u)
@@ -136,7 +144,6 @@ def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Start], enou
     """The best of several fits. One with an rms error below `enough`, N, ends the search. Raises TraceError."""
     n = int(misfit.used.sum())
     wide = (max(n // 20, 5), max(n // 80, 3), 0)
-    best: Fit | None = None
     ends: list[Fit] = []
     reason = "there is no start"
     for start in starts:
@@ -146,15 +153,20 @@ def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Start], enou
             except TraceError as error:
                 reason = str(error)
                 continue
+            if found.rmse < enough:
+                return found
             ends.append(found)
-            if best is None or found.sse < best.sse:
-                best = found
-            if best.rmse < enough:
-                return best
-    if best is None:
+    if not ends:
         raise TraceError(reason)
-    limit = best.sse * (1 + NEARLY / n)
-    return replace(best, others=tuple(end.parameters for end in ends if end is not best and end.sse < limit))
+    return best_of(ends)
+
+
+def best_of(ends: Sequence[Fit]) -> Fit:
+    """The fit with the least sum of squares. Its `others` are the ends that are nearly as good, and those of all."""
+    best = min(ends, key=lambda end: end.sse)
+    limit = best.sse * (1 + NEARLY / len(best.residuals))
+    near = tuple(end.parameters for end in ends if end is not best and end.sse < limit)
+    return replace(best, others=(*(other for end in ends for other in end.others), *near))
 
 
 def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from punctura import Needle, Scene
 from punctura.identify.choose import choose, thinned
+from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit
 from punctura.identify.intervals import Estimate, estimates
@@ -111,7 +112,7 @@ def identify(
         tell("all samples")
         # Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
         ends = [Start(parameters) for parameters in (final.parameters, *final.others)]
-        final = with_pops_moved(best_fit(Misfit(trace, final.parameters), final.free.names, ends))
+        final = with_contacts_moved(with_pops_moved(best_fit(Misfit(trace, final.parameters), final.free.names, ends)))
     tell("intervals")
     found = estimates(final, (few_fit.parameters, *few_fit.others))
     effective = effective_samples(final.residuals, len(final.u))

@@ -110,10 +110,12 @@ class Free:
     """The free parameters of a fit, and their coordinates u.
 
     A coordinate is a logarithm where a parameter is positive by nature. The coordinate of a free surface is the depth
-    where its wall pops: the pop is seen sharply, so a search must be able to change all else without moving it.
+    where its wall pops: the pop is seen sharply, so a search must be able to change all else without moving it. A wall
+    that pops deeper than the trace goes has its surface itself as coordinate: there the contact is what is seen.
     """
 
-    def __init__(self, names: Sequence[str], base: Parameters) -> None:
+    def __init__(self, names: Sequence[str], base: Parameters, deepest: float = np.inf) -> None:
+        """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m."""
         self.names = tuple(names)
         self.base = base
         m = len(base.membranes)
@@ -122,8 +124,13 @@ class Free:
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
         self.low, self.high = self._coordinates(low), self._coordinates(high)
         surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
-        # each free surface: its coordinate, and its membrane
-        self.walls = [(k, surfaces.index(at[0])) for k, at in enumerate(self._at) if at[0] in surfaces]
+        pops = self._pops(base.vector())[0] if np.isfinite(deepest) else np.zeros(m)
+        # each free surface whose pop is seen: its coordinate, and its membrane
+        self.walls = [
+            (k, surfaces.index(at[0]))
+            for k, at in enumerate(self._at)
+            if at[0] in surfaces and pops[surfaces.index(at[0])] <= deepest - base.vector()[at[0]]
+        ]
 
     def _range(self, name: str) -> tuple[float, float]:
         kind = kind_of(name)

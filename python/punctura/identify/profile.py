@@ -76,7 +76,8 @@ def _constrained(fit: Fit, guess: Array, j: int, fixed: float) -> tuple[Array, f
     best = float(left @ left)
     for _ in range(3):
         jacobian = fit.misfit.jacobian(fit.free, at)[:, others]
-        scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
+        squares = np.einsum("ij,ij->j", jacobian, jacobian)
+        scale = np.sqrt(np.maximum(squares, max(1e-24 * squares.max(initial=0), 1e-200)))  # some have no effect here
         gram = (jacobian / scale).T @ (jacobian / scale)
         move = np.linalg.solve(gram + 1e-9 * np.eye(len(gram)), -(jacobian / scale).T @ left) / scale
         trial = at.copy()

@@ -79,7 +79,7 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
     insertion = first_insertion(trace, segments)
     insertion = insertion[:: max(1, len(insertion) // 400)]
     contact = float(trace.depth[segments.contact] if segments.contact is not None else insertion.depth[0])
-    for share in PLACES if seen_pops(trace, segments) < membranes else PLACES[:1]:
+    for share in PLACES if _seen_pops(trace, segments) < membranes else PLACES[:1]:
         yield from _around(insertion, contact, *_pops(insertion, trace, segments, contact, membranes, share), needle)
 
 
@@ -97,8 +97,7 @@ def _around(insertion: Trace, contact: float, ends: Array, own: Array, needle: N
                 yield profile_fit(insertion, surfaces, lengths, thickness, stiffness)
 
 
-def seen_pops(trace: Trace, segments: Segments) -> int:
-    """Pops of the first stroke."""
+def _seen_pops(trace: Trace, segments: Segments) -> int:
     return sum(int(trace.strokes[pop.start] == 0) for pop in segments.pops)
 
 

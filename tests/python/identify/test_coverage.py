@@ -35,9 +35,9 @@ def test_intervals_of_95_percent_hold_the_truth(given, level):
 
 @pytest.mark.statistics
 def test_what_no_method_could_tell_is_never_called_identifiable():
-    rows = [row for seed in range(1, 21) for row in tried(seed, Conditions(early=True))]
+    rows = [row for seed in range(1, TRACES + 1) for row in tried(seed, Conditions(early=True))]
     hidden = [row for row in rows if row.hidden]
-    assert len(hidden) > 40
+    assert len(hidden) > 200
     assert not any(row.told for row in hidden)
 
 
@@ -52,5 +52,5 @@ def test_two_explanations_of_a_rise_leave_its_spring_unknown():
     trace, needle, truth = TOOL["random_trace"](9, Conditions(early=True))
     found = identify(TOOL["until_half"](trace, truth, needle), needle, membranes=1)
     known = {estimate.name for estimate in found.estimates if estimate.identifiable}
-    assert known == {"offset"}
-    assert any("membrane[0].surface is not identifiable" in verdict for verdict in found.verdicts)
+    assert known <= {"offset", "membrane[0].surface"}
+    assert any("coupling_stiffness is not identifiable" in verdict for verdict in found.verdicts)

@@ -46,6 +46,13 @@ def test_without_a_withdrawal_the_verdict_asks_for_one():
     assert any("withdrawal" in text for text in found.verdicts)
 
 
+def test_a_trace_that_ends_before_the_pop_gives_the_surface_a_bound_near_the_trace_or_none():
+    made = trace(noise=0.01)
+    cut = made[: int(np.argmax(made.depth > 6e-3))]
+    surface = identify(cut, NEEDLE, membranes=1).estimates[0]
+    assert all(bound is None or abs(bound - 5e-3) < 2e-3 for bound in (surface.low, surface.high))
+
+
 def test_coordinates_lead_back_to_the_parameters_and_keep_the_pop():
     row = default_membrane()
     row[:5] = [5.013e-3, 400, 0.2, 0.3, 0.3e-3]
@@ -59,12 +66,23 @@ def test_coordinates_lead_back_to_the_parameters_and_keep_the_pop():
     assert free.coordinates(changed)[0] == pytest.approx(u[0])
 
 
-def test_derivatives_by_coordinates_are_exact():
+def test_the_coordinate_of_a_wall_that_pops_behind_the_trace_is_its_surface():
+    row = default_membrane()
+    row[:5] = [5.013e-3, 400, 0.2, 0.3, 0.3e-3]
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(900))
+    free = Free(["membrane[0].surface", "tissue.stiffness"], start, deepest=6e-3)
+    assert free.coordinates(start)[0] == pytest.approx(5.013e-3)
+
+
+@pytest.mark.parametrize("deepest", [np.inf, 6e-3])  # the wall pops deeper than 6 mm
+def test_derivatives_by_coordinates_are_exact(deepest):
     made = trace(noise=0.01, surface=5.013e-3)
     row = default_membrane()
     row[:5] = [5.113e-3, 400, 0.2, 0.3, 0.3e-3]
     start = Parameters(NEEDLE, np.array([row]), default_coupling(900))
-    free = Free(["membrane[0].surface", "tissue.stiffness", "tissue.friction", "coupling_stiffness", "drift"], start)
+    names = ["membrane[0].surface", "tissue.stiffness", "tissue.friction", "coupling_stiffness", "drift"]
+    free = Free(names, start, deepest)
+    assert bool(free.walls) == np.isinf(deepest)
     misfit, u = Misfit(made, start), free.coordinates(start)
     jacobian = misfit.jacobian(free, u)
     for i in range(len(u)):
