@@ -4,6 +4,9 @@ from person import ready
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
+# What a browser does whose user forbids pages to keep data.
+NO_STORAGE = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('', 'SecurityError'); }});"
+
 
 def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
     ready(page)
@@ -24,6 +27,7 @@ def test_a_page_whose_token_is_of_another_run_says_so_and_tries_no_more(page, st
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
+    second.add_init_script(NO_STORAGE)
     second.goto(studio.url)
     expect(second.get_by_role("button", name="Take control").first).to_be_visible()
     second.get_by_role("button", name="Take control").first.click()

@@ -1,4 +1,5 @@
 import { element } from "../panel.ts";
+import { storage } from "./exercises/person.ts";
 
 const KEY = "punctura.theme";
 const CHOICES = [
@@ -11,7 +12,7 @@ const CHOICES = [
 export function themeSwitch(): HTMLElement {
   let index = Math.max(
     0,
-    CHOICES.findIndex(([scheme]) => scheme === localStorage.getItem(KEY)),
+    CHOICES.findIndex(([scheme]) => scheme === storage()?.getItem(KEY)),
   );
   const button = element("button", { type: "button", class: "quiet-button" });
   const show = (): void => {
@@ -24,7 +25,7 @@ export function themeSwitch(): HTMLElement {
   };
   button.addEventListener("click", () => {
     index = (index + 1) % CHOICES.length;
-    localStorage.setItem(KEY, CHOICES[index]![0]);
+    storage()?.setItem(KEY, CHOICES[index]![0]);
     show();
   });
   show();
