@@ -61,6 +61,7 @@ class Roof(NamedTuple):
     """What an instruction set reaches in a row, of what it can reach at most."""
 
     code: str
+    solver: str
     trials: int
     operations_per_ns: float
     most_operations_per_ns: float
@@ -69,26 +70,37 @@ class Roof(NamedTuple):
 
 
 def roofs(result: dict[str, Any]) -> list[Roof]:
-    """For the rows of the paper's solver on a line, fastest rounds."""
+    """For the rows of proxies on a line, fastest rounds."""
     peak = result["peak"]
     return [
-        Roof(code, row["trials"], peak["paper_operations"] / ns, most, peak["line_bytes"] / ns,
-             peak["copied_bytes_per_ns"])
-        for row in result["rows"] if row["solver"] == "paper"
-        for code, most in peak["operations_per_ns"].items() for ns in [row["contestants"][code]["fastest_ns"]]
-    ]  # fmt: skip
+        Roof(
+            code,
+            row["solver"],
+            row["trials"],
+            peak["operations"][row["solver"]]["all"] / ns,
+            most,
+            peak["line_bytes"] / ns,
+            peak["copied_bytes_per_ns"],
+        )
+        for row in result["rows"]
+        for code, most in peak["operations_per_ns"].items()
+        for ns in [row["contestants"][code]["fastest_ns"]]
+    ]
 
 
 def _roofline(result: dict[str, Any]) -> Iterator[str]:
     peak = result["peak"]
-    yield f"  roofline, paper: {peak['paper_operations']} operations and {peak['line_bytes']} bytes a trial and tick"
-    yield "    each ns: operations, of the measured peak; bytes, of those of a copy in memory"
+    yield f"  roofline. A trial and tick reads and writes {peak['line_bytes']} bytes. Its vector operations, counted:"
+    for solver, counts in peak["operations"].items():
+        parts = ", ".join(f"{name.replace('_', '/')} {count:.1f}" for name, count in counts.items() if name != "all")
+        yield f"    {solver:6} {counts['all']:5.1f}: {parts}"
+    yield "    each ns: operations, of the measured peak (products and sums); bytes, of those of a copy in memory"
     for roof in roofs(result):
         computed, moved = roof.operations_per_ns, roof.bytes_per_ns
         yield (
-            f"    {roof.code:7} {roof.trials:6} trials {computed:7.1f} of {roof.most_operations_per_ns:5.1f} "
-            f"({computed / roof.most_operations_per_ns:4.0%}); {moved:5.1f} of {roof.most_bytes_per_ns:5.1f} "
-            f"({moved / roof.most_bytes_per_ns:4.0%})"
+            f"    {roof.solver:6} {roof.code:7} {roof.trials:6} trials {computed:6.1f} of "
+            f"{roof.most_operations_per_ns:5.1f} ({computed / roof.most_operations_per_ns:4.0%}); {moved:5.1f} of "
+            f"{roof.most_bytes_per_ns:5.1f} ({moved / roof.most_bytes_per_ns:4.0%})"
         )
 
 

@@ -38,21 +38,27 @@ def faster(axes: Axes, batch: dict[str, Any]) -> None:
 def roofline(axes: Axes, batch: dict[str, Any]) -> None:
     """Reached operations against operations for each byte, under the roofs of memory and arithmetic."""
     peak = batch["peak"]
-    intensity = peak["paper_operations"] / peak["line_bytes"]
-    across = (0.2, 0.5, 1.0, intensity, 5.0, 20.0)
+    intensity = {solver: counts["all"] / peak["line_bytes"] for solver, counts in peak["operations"].items()}
+    across = (0.5, 1.0, *sorted(intensity.values()), 10.0)
     for code, most in peak["operations_per_ns"].items():
         roof = [min(most, peak["copied_bytes_per_ns"] * x) for x in across]
         axes.loglog(across, roof, color=COLOURS[code], lw=1, label=f"{code}, at most")
-    marks = {trials: mark for trials, mark in zip(sorted({r["trials"] for r in batch["rows"]}), "os^", strict=False)}
+    axes.loglog(
+        across, [peak["copied_bytes_per_ns"] * x for x in across], ":", color=FOLLOW, lw=1, label="copy in memory"
+    )
+    marks = dict(zip(sorted({r["trials"] for r in batch["rows"]}), "os^", strict=False))
     for trials, mark in marks.items():
         axes.loglog([], [], mark, color=FOLLOW, label=f"{trials} trials")
     for roof in roofs(batch):
-        axes.loglog(intensity, roof.operations_per_ns, marks[roof.trials], color=COLOURS[roof.code])
+        axes.loglog(intensity[roof.solver], roof.operations_per_ns, marks[roof.trials], color=COLOURS[roof.code])
+    for solver, x in intensity.items():
+        axes.text(x, 1.3 * max(peak["operations_per_ns"].values()), solver, ha="center", fontsize=8)
     axes.set(xlabel="operations for each byte", ylabel="operations each ns")
-    axes.set_xticks(across, [f"{x:.3g}" for x in across])
+    axes.set_ylim(1.5, 2 * max(peak["operations_per_ns"].values()))
+    axes.set_xticks(across, [f"{x:.2g}" for x in across])
     axes.set_yticks([2, 5, 10, 20, 50], ["2", "5", "10", "20", "50"])
     axes.minorticks_off()
-    axes.legend(fontsize=7, frameon=False, loc="lower right")
+    axes.legend(fontsize=7, frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def growth(axes: Axes, batch: dict[str, Any]) -> None:
