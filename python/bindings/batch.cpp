@@ -185,8 +185,8 @@ void bind_batch(nb::module_& m) {
       "Each trial gets the bits that Proxy1d gives, whatever the instruction set, the block and the threads are.");
   def_state(line);
   def_repr(line, "<LineBatch of {0.trials} trials>");
-  line.def("__init__", &make, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
-           nb::arg("trials") = nb::none(),
+  line.def("__init__", &make, nb::arg("law").none(), nb::arg("coupling").none(), nb::arg("period"),
+           nb::arg("solver") = "exact", nb::arg("trials") = nb::none(),
            nb::sig(
                "def __init__(self, law: ThinLaw | ThickLaw | ProfileLaw | Sequence[ThinLaw | ThickLaw | ProfileLaw], "
                "coupling: Coupling | Sequence[Coupling], period: float, solver: typing.Literal['exact', 'paper'] "

@@ -22,10 +22,14 @@ class OneThread {
 
   /// Throws RuntimeError while run() is in progress.
   void must_rest() const {
-    if (running_)
+    if (at_work_elsewhere())
       throw std::runtime_error(
           "run() is at work on this object in another thread: use it in one thread at a time, or "
           "give each thread a copy of its own");
+    if (running_)
+      throw std::runtime_error(
+          "run() of this object is at work, and a progress function or a signal handler that it called used the "
+          "object: run, copy or change it when run() has ended");
   }
   /// Whether run() is in progress in another thread. The thread of run() may read: it is then in `progress`, between
   /// two ticks.

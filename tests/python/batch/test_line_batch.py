@@ -89,6 +89,10 @@ def test_wrong_arguments() -> None:
         batch.run(p, instructions="mmx")
     with pytest.raises(ValueError, match="coupling has 3 elements, and there are 2 trials"):
         LineBatch(LAWS[:2], COUPLINGS, PERIOD, trials=2)
+    with pytest.raises(TypeError, match="law must be a ThinLaw, ThickLaw or ProfileLaw, not NoneType"):
+        LineBatch(None, COUPLINGS, PERIOD)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="coupling must be a Coupling, not NoneType"):
+        LineBatch(LAWS, None, PERIOD)  # type: ignore[arg-type]
 
 
 def test_no_silent_wrong_number() -> None:

@@ -1,4 +1,4 @@
-"""An object whose run() is at work in another thread gives no half-made values."""
+"""An object whose run() is at work gives no half-made values to another thread or to its progress function."""
 
 import copy
 import threading
@@ -6,6 +6,7 @@ import threading
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.live import FedDevice
 
 SCENE = pn.load_scene("k06-fig12")
 NEEDLE, MEMBRANE = SCENE.needle, SCENE.membranes[0].membrane
@@ -72,8 +73,23 @@ def test_another_thread_reads_nothing_while_run_is_at_work(make, names):
     assert all(getattr(made, name) is not None for name in names.split()) and read
 
 
+@pytest.mark.parametrize("make", [case[0] for case in CASES])
+def test_a_progress_function_that_uses_its_own_object_is_told_so(make):
+    made, run = make()
+    told = []
+
+    def progress(share):
+        for use in (copy.copy, lambda _: run(None)):
+            with pytest.raises(RuntimeError, match="a progress function or a signal handler that it called") as error:
+                use(made)
+            told.append("thread" in str(error.value))
+
+    run(progress)
+    assert told and not any(told)
+
+
 def test_a_repr_hides_no_other_error():
-    class Broken(pn.live.FedDevice):
+    class Broken(FedDevice):
         @property
         def info(self):
             raise RuntimeError("the info is broken")
