@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import threading
 import time
@@ -115,7 +116,9 @@ class Writer:
             self.trouble = self.why_unwritten = str(bad)
             return
         reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else str(bad) or type(bad).__name__
-        self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}", reason
+        full = isinstance(bad, OSError) and bad.errno in (errno.ENOSPC, errno.EDQUOT)
+        advice = ". Free some space on this disk: writing then goes on" if full else ""
+        self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}{advice}", reason
 
 
 class _Lost(Exception):

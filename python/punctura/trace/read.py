@@ -96,7 +96,9 @@ def _from_table(
         text = f"{count} of {len(good)} rows hold no number in a column, the first is row {int(np.argmin(good)) + 1}"
         found.append(Finding("rows_without_numbers", f"{text}; they are left out", True))
     if good.sum() < 5:
-        raise TraceError(f"{source}: {int(good.sum())} rows hold numbers in all columns; at least 5 are needed")
+        raise TraceError(
+            f"{source}: a trace needs at least 5 rows with numbers in all columns, and here are {int(good.sum())}"
+        )
     held = {role: column[good] for role, column in held.items()}
     if order == "depth":
         held = {
@@ -104,6 +106,11 @@ def _from_table(
         }
     elif "time" in held:
         held = _with_growing_time(held, found)
+        if (left := len(held["depth"])) < 5:
+            raise TraceError(
+                f"{source}: {found[-1].text}. A trace needs at least 5 samples, and {left} would be left: check which "
+                "column is the time and in which order the rows are, or leave the time out"
+            )
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
 
 

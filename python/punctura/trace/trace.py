@@ -63,7 +63,7 @@ class Trace:
             column.flags.writeable = False
             object.__setattr__(self, name, column)
         if len(self.depth) < 5:
-            raise TraceError(f"{self._where()}the trace has {len(self.depth)} samples; at least 5 are needed")
+            raise TraceError(f"{self._where()}a trace needs at least 5 samples, and this one has {len(self.depth)}")
         if self.time is not None and (np.diff(self.time) <= 0).any():
             row = int(np.argmax(np.diff(self.time) <= 0)) + 1
             raise TraceError(f"{self._where()}time does not grow at sample {row}: leave out or sort these samples")

@@ -167,6 +167,16 @@ def test_time_that_goes_back_is_named(tmp_path):
     assert kinds(read) == {"time_goes_back"} and len(read) == len(made) - 10
 
 
+@pytest.mark.parametrize(("turned", "named"), [(-1, "time goes back"), (0, "have the time of the sample before")])
+def test_a_time_that_leaves_too_few_samples_says_why_and_what_to_do(tmp_path, turned, named):
+    made = trace()
+    file = write_csv(tmp_path / "a.csv", columns_of(made, time_s=turned * made.time))
+    with pytest.raises(
+        TraceError, match=rf"{named}.* needs at least 5 samples, and 1 would be left: check which column"
+    ):
+        read_trace(file)
+
+
 def test_no_withdrawal_and_no_pop_are_named(tmp_path):
     made = trace()
     only_in = made[: int(np.argmax(made.depth))]

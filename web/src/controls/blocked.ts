@@ -21,7 +21,10 @@ export function blockOf(app: App, reach: Reach = "run"): Block | null {
       : "A recording is shown, not the live run.";
     return { reason: what, remedy: "live" };
   }
-  if (!app.control.value.you) return { reason: "Another page has control.", remedy: "control" };
+  if (!app.control.value.you) {
+    const reason = app.control.value.holder === null ? "No page has control." : "Another page has control.";
+    return { reason, remedy: "control" };
+  }
   if (reach === "scene" && app.exercise.value?.running) {
     return { reason: "An exercise is running: scene and recording are locked.", remedy: null };
   }

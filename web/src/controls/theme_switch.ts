@@ -1,5 +1,5 @@
 import { element } from "../panel.ts";
-import { storage } from "./exercises/person.ts";
+import { keep, storage } from "../state/storage.ts";
 
 const KEY = "punctura.theme";
 const CHOICES = [
@@ -25,7 +25,7 @@ export function themeSwitch(): HTMLElement {
   };
   button.addEventListener("click", () => {
     index = (index + 1) % CHOICES.length;
-    storage()?.setItem(KEY, CHOICES[index]![0]);
+    keep(KEY, CHOICES[index]![0]);
     show();
   });
   show();

@@ -1,19 +1,12 @@
+import { keep, storage } from "../state/storage.ts";
+
 const KEY = "punctura.slice";
 
-/** Whether the slice is open, as this browser remembers it. */
+/** Whether the slice is open, as this browser remembers it. If it may not, the slice is closed at first. */
 export function wasOpen(): boolean {
-  return store()?.getItem(KEY) === "open";
+  return storage()?.getItem(KEY) === "open";
 }
 
 export function remember(open: boolean): void {
-  store()?.setItem(KEY, open ? "open" : "closed");
-}
-
-/** A browser may forbid storage; the slice then opens closed. */
-function store(): Storage | null {
-  try {
-    return globalThis.localStorage ?? null;
-  } catch {
-    return null;
-  }
+  keep(KEY, open ? "open" : "closed");
 }

@@ -1,5 +1,6 @@
 import { element } from "../../panel.ts";
 import { Signal } from "../../state/signal.ts";
+import { keep, storage } from "../../state/storage.ts";
 
 const KEY = "punctura.person";
 const GROUP_KEY = "punctura.class";
@@ -17,26 +18,17 @@ export class Person {
   }
 
   set(name: string): void {
-    this.name.value = this.keep(KEY, name);
+    this.name.value = this.tidied(KEY, name);
   }
 
   setGroup(name: string): void {
-    this.group.value = this.keep(GROUP_KEY, name);
+    this.group.value = this.tidied(GROUP_KEY, name);
   }
 
-  private keep(key: string, name: string): string {
+  private tidied(key: string, name: string): string {
     const tidy = name.trim().replace(/\s+/g, " ").slice(0, LONGEST_NAME);
-    this.store?.setItem(key, tidy);
+    keep(key, tidy, this.store);
     return tidy;
-  }
-}
-
-/** The browser's local storage; null if the page may not use it. */
-export function storage(): Storage | null {
-  try {
-    return globalThis.localStorage ?? null;
-  } catch {
-    return null;
   }
 }
 

@@ -1,5 +1,6 @@
 import { element } from "../../panel.ts";
 import { Signal } from "../../state/signal.ts";
+import { keep, storage } from "../../state/storage.ts";
 import { textWidth } from "./labels.ts";
 import type { Pen } from "./pen.ts";
 import type { Theme } from "./theme.ts";
@@ -43,18 +44,13 @@ export class Hidden {
     const ids = new Set(this.ids.value);
     if (!ids.delete(id)) ids.add(id);
     this.ids.value = ids;
-    if (this.name === null) return;
-    try {
-      localStorage.setItem(this.name, JSON.stringify([...ids]));
-    } catch {
-      // Without storage the choice lasts as long as the page.
-    }
+    if (this.name !== null) keep(this.name, JSON.stringify([...ids]));
   }
 
   private stored(): string[] | null {
     if (this.name === null) return null;
     try {
-      const ids: unknown = JSON.parse(localStorage.getItem(this.name) ?? "null");
+      const ids: unknown = JSON.parse(storage()?.getItem(this.name) ?? "null");
       return Array.isArray(ids) ? ids.map(String) : null;
     } catch {
       return null;

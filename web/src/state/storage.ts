@@ -1,0 +1,17 @@
+/** The browser's local storage; null if the page may not use it. */
+export function storage(): Storage | null {
+  try {
+    return globalThis.localStorage ?? null;
+  } catch {
+    return null;
+  }
+}
+
+/** Stores a text. Without storage, or if it is full, the page remembers it only as long as it is open. */
+export function keep(key: string, text: string, store: Pick<Storage, "setItem"> | null = storage()): void {
+  try {
+    store?.setItem(key, text);
+  } catch {
+    // The storage is full.
+  }
+}
