@@ -1,4 +1,4 @@
-"""Checks that the studio's page is smaller than 1 MB gzipped, as a browser loads it."""
+"""Checks that the studio's page is at most 400 kB gzipped: a browser loads all of it for the first paint."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import gzip
 import sys
 from pathlib import Path
 
-MOST = 1_000_000  # bytes
+MOST = 400_000  # bytes
 
 
 def weight(page: Path) -> dict[str, int]:

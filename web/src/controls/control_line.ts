@@ -1,5 +1,6 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
+import { withoutControl } from "../state/control.ts";
 
 /** Tells which page has control, with a button that takes it. */
 export function controlLine(app: App): HTMLElement {
@@ -7,7 +8,7 @@ export function controlLine(app: App): HTMLElement {
   const take = takeControl(app);
   const show = (): void => {
     const { holder, you } = app.control.value;
-    const other = holder === null ? "Nobody has control" : `Page ${holder} has control`;
+    const other = holder === null ? withoutControl(app.control.value) : `Page ${holder} has control`;
     words.textContent = app.connection.value.state === "open" ? (you ? "You have control" : other) : "";
   };
   app.control.watch(show);
