@@ -67,6 +67,7 @@ def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address
     expect(page.locator(".fault")).to_contain_text("The force is off")
     check(page, "a fault")
     page.locator(".fault").get_by_role("button", name="Turn force on").click()
+    expect(page.locator(".fault")).to_be_hidden()  # the tabs move up when it goes
     tab(page, "Scene")
     friction = page.get_by_role("textbox", name="Friction").first
     friction.fill("36")
