@@ -44,11 +44,14 @@ _SCHEMA = Schema(
     },
     {"membrane": MembraneTable},
 )
+_EXERCISE = "this is an exercise, not a scene; punctura run --exercise FILE lists it in the tab Exercises of the page"
 _ENOUGH = 100  # membranes to check: more than the core allows, and few enough to report all their problems
 
 
 def check_tables(data: Tables) -> tuple[SceneFile | None, list[Problem]]:
     """The scene file of these tables if it is valid, and all problems."""
+    if "goal" in data and "membrane" not in data:
+        return None, [Problem("", MISSING, _EXERCISE)]
     tables = data.get("membrane")
     if isinstance(tables, list) and len(tables) > _ENOUGH:
         data = data | {"membrane": tables[:_ENOUGH]}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from punctura import ConfigurationError, load_scene
+from punctura.exercise import load_exercise
 
 
 def lines(path):
@@ -194,6 +195,12 @@ def test_insertion_is_checked_for_a_membrane_that_has_other_problems(write):
 def test_a_value_of_the_wrong_type_causes_no_second_problem(write):
     assert len(lines(write(("tip_angle_rad = 0.28", "tip_angle_rad = []")))) == 1
     assert len(lines(write(("diameter_mm = 1.08", "gauge = 'thick'")))) == 1
+
+
+def test_an_exercise_is_told_to_be_one_and_where_it_opens():
+    assert lines(load_exercise("venipuncture").path) == [
+        "this is an exercise, not a scene; punctura run --exercise FILE lists it in the tab Exercises of the page"
+    ]
 
 
 def test_an_empty_file_lacks_every_table(write):

@@ -4,7 +4,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ServoState
-from punctura.exercise import exercise_names
+from punctura.exercise import exercise_names, load_exercise
 from punctura.live import Limits
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
@@ -175,6 +175,8 @@ def test_a_scene_is_loaded_by_name_and_by_text_as_a_new_run(page):
     assert page.of("scene")[-1]["scene"]["name"] == "Mine"
     bad = page.ask(do="load_text", toml="name = ")
     assert not bad["ok"] and "not TOML" in bad["problems"][0]["reason"]
+    exercise = page.ask(do="load_text", toml=load_exercise("epidural").path.read_text(encoding="utf-8"))
+    assert not exercise["ok"] and "this is an exercise, not a scene" in exercise["problems"][0]["reason"]
     assert not page.ask(do="load", scene="../../etc/passwd")["ok"]
     assert page.of("scene")[-1]["scene"]["name"] == "Mine"
 

@@ -6,7 +6,7 @@ import { IN_CONTROL, type LiveRun, type Punctura, type StudioData, type Tables }
 import { withDefaults } from "./defaults.ts";
 import { statusOf } from "./status.ts";
 import { tomlOf } from "./toml.ts";
-import { NEEDS_STUDIO, NOTES } from "./words.ts";
+import { EXERCISE_FILE, NEEDS_STUDIO, NOTES } from "./words.ts";
 
 const THUMB_MS = 1000; // a page that still pushes the plunger says so more often
 const NO_FAULT = codeOf("fault", "none");
@@ -149,8 +149,7 @@ export class LocalStudio {
       case "load":
         return this.load(request.scene);
       case "load_text":
-        this.begin(request.toml, this.core.tablesOf(request.toml) ?? {});
-        return DONE;
+        return this.loadText(request.toml);
       default:
         throw new NotNow(NEEDS_STUDIO);
     }
@@ -160,6 +159,13 @@ export class LocalStudio {
     const ready = this.data.scenes.find((scene) => scene.name === name);
     if (!ready) throw new NotNow(`there is no ready scene ${name}`);
     this.begin(tomlOf(ready.tables), ready.tables);
+    return DONE;
+  }
+
+  private loadText(toml: string): Partial<Answer> {
+    const tables = this.core.tablesOf(toml) ?? {};
+    if ("goal" in tables && !("membrane" in tables)) throw new NotNow(EXERCISE_FILE);
+    this.begin(toml, tables);
     return DONE;
   }
 

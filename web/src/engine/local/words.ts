@@ -8,6 +8,8 @@ export const NOTES = [
 
 export const NEEDS_STUDIO = `This needs the studio, and this page has none. ${GET_STUDIO}`;
 
+export const EXERCISE_FILE = `This is an exercise, not a scene. ${NEEDS_STUDIO}`;
+
 /** leftOut: ticks. */
 export const leftOutWords = (leftOut: number): string =>
   `${leftOut.toLocaleString("en")} ticks were left out, because the browser gave this page no time`;

@@ -61,7 +61,8 @@ export class FakeCore {
     const about = { device: { model: "fake", simulated: true }, limits: {} };
     return {
       LiveRun: Object.assign(FakeRun as unknown as new () => LiveRun, { about }),
-      tablesOf: (toml: string) => ({ name: /name = "(.*)"/.exec(toml)?.[1] }),
+      tablesOf: (toml: string) =>
+        toml.includes("[[goal]]") ? { goal: [{}] } : { name: /name = "(.*)"/.exec(toml)?.[1] },
     } as unknown as Punctura;
   }
 

@@ -84,6 +84,9 @@ describe("the studio in a page", () => {
       ok: false,
       text: "there is no ready scene none",
     });
+    const exercise = studio.ask({ do: "load_text", toml: "[[goal]]" });
+    expect(exercise.text).toMatch(/^This is an exercise, not a scene\. This needs/);
+    expect(last("scene").run).toBe(2);
   });
 
   it("exchanges the scene within the run, after the ticks of the old one", () => {
