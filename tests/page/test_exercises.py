@@ -70,6 +70,9 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
     tab(page, "Exercises")
     page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible()
+    page.reload()
+    expect(page.locator(".running")).to_be_visible()
+    expect(page.get_by_role("tab", name="Exercises")).to_have_attribute("aria-selected", "true")
     expect(view(page)).to_be_focused()  # the keys move the needle without a click
     expect(page.locator(".hold-ring")).to_be_hidden()
     expect(page.locator(".phases tbody")).to_contain_text("second membrane")

@@ -1,6 +1,6 @@
 import { arrange } from "./controls/arrange/arrange.ts";
 import { editorPanel } from "./controls/editor.ts";
-import { exercisesPanel } from "./controls/exercises.ts";
+import { exercisesPanel, whenOneRuns } from "./controls/exercises.ts";
 import { faultBanner } from "./controls/fault_banner.ts";
 import { faultTrial } from "./controls/fault_trial.ts";
 import { handPanel } from "./controls/hand.ts";
@@ -52,7 +52,7 @@ export function layout(root: HTMLElement, app: App): void {
         ["hand", "Hand", handPanel],
         ["scene", "Scene", editorPanel],
         ["recordings", "Recordings", withStudio("Recordings are files on a disk. They need", recordingsPanel)],
-        ["exercises", "Exercises", withStudio("Exercises and their results need", exercisesPanel)],
+        ["exercises", "Exercises", withStudio("Exercises and their results need", exercisesPanel), whenOneRuns],
         ["lab", "Lab", labPanel],
         ["health", "Health", both(healthPanel, faultTrial)],
       ]),

@@ -12,6 +12,7 @@ import { Person, personFields } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
 import { showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
+import type { Opens } from "./tabs.ts";
 
 const DRAFT = "draft"; // the studio's name of an exercise that is tried before it is saved
 
@@ -112,6 +113,16 @@ export const exercisesPanel: Panel = (host, app) => {
     } catch (error) {
       app.say(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
     }
+  });
+};
+
+/** The tab opens when an exercise begins, and in a page that finds one running, as after a reload. */
+export const whenOneRuns: Opens = (app, open) => {
+  let running = false;
+  app.exercise.watch((status) => {
+    const now = status?.running ?? false;
+    if (now && !running) open();
+    running = now;
   });
 };
 

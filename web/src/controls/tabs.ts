@@ -1,7 +1,11 @@
 import { element, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
+
+/** Calls `open` when a tab shall open by itself. */
+export type Opens = (app: App, open: () => void) => void;
 
 /** Tabs that show one panel at a time, by the tab pattern of WAI-ARIA: arrow keys switch the tab. */
-export function tabs(entries: ReadonlyArray<readonly [id: string, label: string, panel: Panel]>): Panel {
+export function tabs(entries: ReadonlyArray<readonly [id: string, label: string, panel: Panel, opens?: Opens]>): Panel {
   return (host, app) => {
     const list = element("div", { role: "tablist", class: "tabs" });
     const buttons: HTMLButtonElement[] = [];
@@ -14,7 +18,7 @@ export function tabs(entries: ReadonlyArray<readonly [id: string, label: string,
       });
       if (focus) buttons[index]!.focus();
     };
-    entries.forEach(([id, label, panel], index) => {
+    entries.forEach(([id, label, panel, opens], index) => {
       const button = element(
         "button",
         {
@@ -40,6 +44,7 @@ export function tabs(entries: ReadonlyArray<readonly [id: string, label: string,
       bodies.push(body);
       list.append(button);
       panel(body, app);
+      opens?.(app, () => choose(index, false));
     });
     host.append(list, ...bodies);
     choose(0, false);

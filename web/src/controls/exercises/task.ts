@@ -41,7 +41,15 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
     end.disabled = block !== null;
   });
   let shown = "";
-  let began = false;
+  let begun = false;
+  // The button that was pressed is hidden now, or the page has just been loaded. The keys of the view move the needle.
+  const begin = (): void => {
+    const running = app.exercise.value?.running ?? false;
+    if (running && !begun && app.control.value.you)
+      document.querySelector<HTMLElement>(".view-main > canvas")?.focus({ preventScroll: true });
+    begun = running && app.control.value.you;
+  };
+  app.control.watch(begin);
   const showTitle = (): void => {
     const name = app.exercise.value?.exercise;
     title.textContent = name === undefined ? "" : titleOf(name);
@@ -51,15 +59,9 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
     root.hidden = !running;
     document.documentElement.classList.toggle("exercising", running);
     document.documentElement.classList.toggle("blind", app.blind);
-    if (!status || !running) {
-      began = false;
-      return;
-    }
+    begin();
+    if (!status || !running) return;
     showTitle();
-    // The button that was pressed is hidden now. The keys of the view move the needle.
-    if (!began && app.control.value.you)
-      document.querySelector<HTMLElement>(".view-main > canvas")?.focus({ preventScroll: true });
-    began = true;
     if (instruction.textContent !== status.instruction) instruction.textContent = status.instruction;
     clock.textContent = clockText(status);
     ring.show(status);
