@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -112,16 +113,28 @@ def open_recording(path: str | os.PathLike[str]) -> Recording:
 
 
 def read_recording(path: str | os.PathLike[str], act: Callable[[Recording], T]) -> T:
-    """What `act` returns for the recording at `path`, which may be its .part file.
+    """What `act` returns for the recording at `path`. Raises RecordingError and what `act` raises."""
+    return read_found(partial(find_recording, Path(path)), lambda file: act(open_recording(file)))
 
-    If the recording is finished meanwhile, its .part file ends, and `act` is called again for the finished file.
-    Raises RecordingError and what `act` raises.
+
+def read_found(find: Callable[[], Path], act: Callable[[Path], T]) -> T:
+    """What `act` returns for the path from `find`. If `act` fails and `find` now returns another path, `act` gets that.
+
+    So a recording can be read while it is finished, which replaces its .part file. Raises what `find` and `act` raise.
     """
-    file = Path(path)
+    path = find()
     try:
-        return act(open_recording(file))
+        return act(path)
     except (RecordingError, OSError):
-        finished = finished_path(file)
-        if finished == file or file.exists() or not finished.is_file():
+        now = find()
+        if now == path:
             raise
-        return act(open_recording(finished))
+        return act(now)
+
+
+def find_recording(path: Path) -> Path:
+    """The existing file of a recording, given its path or that of its .part file; `path` if there is neither."""
+    finished = finished_path(path)
+    # The finished file is last, and so a second time: the recording may have been finished after the first look.
+    candidates = (path, part_path(finished), finished)
+    return next((file for file in candidates if file.is_file()), path)

@@ -10,12 +10,14 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.lock import in_use
 from punctura.record.new_file import is_abandoned
+from punctura.record.recording import read_found
 from punctura.studio.names import LONGEST, BadName, safe_name
 
 SUFFIX = ".parquet"
@@ -99,7 +101,8 @@ class Shelf:
     def find(self, name: str) -> Path:
         """The file of a recording, finished or not. Raises BadName, Missing."""
         path = self._file(safe_name(name))
-        for candidate in (path, path.with_name(path.name + PART)):
+        # The finished file again: the recording may have been finished after the first look.
+        for candidate in (path, path.with_name(path.name + PART), path):
             if candidate.is_file() and not candidate.is_symlink():
                 return candidate
         raise Missing(f"there is no recording {name}")
@@ -120,14 +123,7 @@ class Shelf:
 
         Raises BadName, Missing, and what `act` raises.
         """
-        path = self.find(name)
-        try:
-            return act(path)
-        except (RecordingError, OSError):
-            finished = self.find(name)
-            if finished == path:
-                raise
-            return act(finished)
+        return read_found(partial(self.find, name), act)
 
     def delete(self, name: str, running: str = "") -> None:
         """Raises BadName, Missing, Busy, OSError. running: the name of the recording that this studio makes now.

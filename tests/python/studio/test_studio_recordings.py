@@ -217,6 +217,25 @@ def test_a_recording_that_is_finished_while_it_is_read_comes_all_the_same(served
     assert len(body) > 1_000
 
 
+@pytest.mark.parametrize("then", ["deleted", "a link"])
+def test_a_recording_that_is_gone_while_it_is_read_is_not_there(served, page, monkeypatch, tmp_path, then):
+    record(page, "one", edit=False)
+    shelf = served.session.shelf
+    find, asked = shelf.find, []
+
+    def just_before(name):
+        path = find(name)
+        asked.append(path)
+        path.rename(tmp_path / "elsewhere.parquet")
+        if then == "a link":
+            path.symlink_to(tmp_path / "elsewhere.parquet")
+        return path.with_name("nothing.parquet")
+
+    monkeypatch.setattr(shelf, "find", just_before)
+    assert page.get("/api/recordings/one")[0] == 404
+    assert len(asked) == 1
+
+
 @pytest.mark.parametrize("form", ["NFC", "NFD"])
 def test_a_name_is_the_same_in_both_spellings_of_its_accents(served, page, form):
     spelt = unicodedata.normalize(form, "Größe é")
