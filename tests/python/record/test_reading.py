@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from punctura import load_scene
 from punctura.record import RecordingError, open_recording, replay_device
-from punctura.record.recording import find_recording, read_found, read_recording
+from punctura.record.recording import read_found, read_recording
 from recorded import assert_same_table
 
 TOOLS = Path(__file__).parents[3] / "tools"
@@ -65,21 +65,6 @@ def test_a_flipped_bit_costs_its_batch_and_is_reported(start, tmp_path, monkeypa
 def test_a_recording_is_read_by_its_path_and_by_that_of_its_part_file(start, tmp_path, there, asked):
     kept = start(300).killed(tmp_path / f"kept.parquet{there}")
     assert read_recording(tmp_path / f"kept.parquet{asked}", lambda one: (one.path, one.rows)) == (kept, 300)
-
-
-def test_a_recording_that_is_finished_between_two_looks_is_found(tmp_path, monkeypatch):
-    part, finished = tmp_path / "one.parquet.part", tmp_path / "one.parquet"
-    part.touch()
-    is_file = Path.is_file
-
-    def finish_after(path):
-        there = is_file(path)
-        if path == finished and part.exists():
-            part.rename(finished)
-        return there
-
-    monkeypatch.setattr(Path, "is_file", finish_after)
-    assert find_recording(finished) == finished and is_file(finished)
 
 
 def test_a_recording_is_read_again_only_at_another_path(tmp_path):

@@ -7,6 +7,7 @@ import socket
 import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 from urllib.parse import quote
 
 import pyarrow.parquet as pq
@@ -165,3 +166,18 @@ def test_what_killed_processes_left_is_removed_when_a_studio_starts(tmp_path):
     Shelf(tmp_path)
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {".export-new", ".young.parquet.0123abcd.part", *names[1:]}
+
+
+def test_a_recording_that_is_finished_between_two_looks_is_found(tmp_path, monkeypatch):
+    part, finished = tmp_path / "one.parquet.part", tmp_path / "one.parquet"
+    part.touch()
+    is_file = Path.is_file
+
+    def finish_after(path):
+        there = is_file(path)
+        if path == finished and part.exists():
+            part.rename(finished)
+        return there
+
+    monkeypatch.setattr(Path, "is_file", finish_after)
+    assert Shelf(tmp_path).find("one") == finished
