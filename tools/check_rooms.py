@@ -35,6 +35,7 @@ ROOMS = (
     "python/punctura/errors.py",
     "python/punctura/call_errors.py",
     "python/punctura/extras.py",
+    "python/punctura/one_thread.py",
     "python/punctura/paths.py",
     "python/punctura/files",
     "python/punctura/ticks",

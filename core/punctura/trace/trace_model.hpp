@@ -162,6 +162,7 @@ void add_membrane(const TraceMotion& motion, const L& law, const std::array<Scal
   using State = LineState<L, typename C::Type>;
   const auto states = std::make_unique<std::array<State, 2>>();  // of a law with memory: 0.1 MB each
   State &state = (*states)[0], &before = (*states)[1];
+  if constexpr (LawWithMemory<L>) before.pieces = params.law.pieces();
   for (std::size_t k = 0; k < n; ++k) {
     const Scalar p = motion.depth[k] - surface;
     if (!state.started && p < 0 && k + 1 < n && motion.depth[k + 1] < surface) continue;  // not touched yet
@@ -173,7 +174,7 @@ void add_membrane(const TraceMotion& motion, const L& law, const std::array<Scal
     if (!may_jump || tick.phase == Phase::sticking) continue;
     const Scalar way = tick.proxy - (before.p + before.e), moved = p - before.p;
     if (way * way < 1.2 * moved * moved) continue;
-    if constexpr (LawWithMemory<L>) before.pieces = params.law.pieces(before.law);
+    if constexpr (LawWithMemory<L>) params.law.refresh(before.pieces, before.law);
     const Jump<Scalar> jump = jump_of(params, before, tick, p);
     if (!jump.found || !(jump.share > 0 && jump.share < 1)) continue;
     if (jump.share < 0.5)

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
-from punctura.identify.slow_noise import misfit_beyond_slow_noise
 from punctura.trace import Segments, Trace, TraceError
 from punctura.trace.blocks import held_out
 from punctura.trace.information import Information, information
@@ -33,11 +31,6 @@ class Candidate:
     def extensions(self) -> tuple[str, ...]:
         """The extensions of K06, with "one tissue" if all walls share stiffness, friction and thickness."""
         return self.model.words
-
-    @cached_property
-    def beyond_slow_noise(self) -> float:
-        """-2 ln L of the fit, where slow noise may explain its residuals."""
-        return misfit_beyond_slow_noise(self.fit.residuals, self.fit.jacobian)
 
     def worth(self, effective: float) -> Information:
         """AIC (the corrected form) and BIC with this number of independent samples."""
@@ -80,7 +73,7 @@ class Rule:
         more = set(new.model.names) - set(old.model.names)
         if not any(name.startswith("relaxation") for name in more):
             return False
-        gain = old.beyond_slow_noise - new.beyond_slow_noise
+        gain = old.fit.noise.misfit_beyond_slow_noise() - new.fit.noise.misfit_beyond_slow_noise()
         return gain - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
 
     def held_out_error(self, one: Candidate) -> float | None:

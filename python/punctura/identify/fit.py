@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import TraceModel
 from punctura.identify.parameters import Free, Parameters
+from punctura.identify.slow_noise import NoiseOfFit
 from punctura.trace import Trace, TraceError
 
 Array = NDArray[np.float64]
@@ -90,6 +92,11 @@ class Fit:
     def rmse(self) -> float:
         """Root mean square of the residuals, N."""
         return float(np.sqrt(self.sse / len(self.residuals)))
+
+    @cached_property
+    def noise(self) -> NoiseOfFit:
+        """The noise that the residuals show. It is computed once: that takes longer than an evaluation of the model."""
+        return NoiseOfFit(self.residuals, self.jacobian)
 
 
 def fit(

@@ -146,7 +146,6 @@ def _follow_parent() -> None:
 
 def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
     """The result of one trace, in a process of its own, and whether the next run shall try it again."""
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
     try:
         trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
         told = identify(trace, task.needle, task.membranes).as_dict()

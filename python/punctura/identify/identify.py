@@ -21,6 +21,7 @@ from punctura.identify.records import IdentificationRecord
 from punctura.identify.scene import scene_of
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
+from punctura.one_thread import one_thread
 from punctura.trace import Segments, Trace, TraceError, segment
 
 MOST_MEMBRANES = 6
@@ -97,11 +98,18 @@ def identify(
     """Identifies membranes of a trace that was made with this needle.
 
     membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. tell: gets a word
-    about each step. Raises TraceError for a trace with a severe finding, and if no fit succeeds.
+    about each step. Raises TraceError for a trace with a severe finding, and if no fit succeeds; ModuleNotFoundError.
     """
     severe = [finding for finding in trace.findings if finding.severe]
     if severe:
         raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
+    with one_thread("punctura.identify"):
+        return _identified(trace, needle, membranes, tell)
+
+
+def _identified(
+    trace: Trace, needle: Needle, membranes: int | Literal["auto"], tell: Callable[[str], None]
+) -> Identification:
     segments = segment(trace)
     few = thinned(trace)
     all_used = len(few) == len(trace)

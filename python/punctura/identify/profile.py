@@ -76,6 +76,8 @@ def _constrained(fit: Fit, guess: Array, j: int, fixed: float) -> tuple[Array, f
     best = float(left @ left)
     for _ in range(3):
         jacobian = fit.misfit.jacobian(fit.free, at)[:, others]
+        if not np.isfinite(jacobian).all():  # far from the fit, a steep grip overflows
+            break
         squares = np.einsum("ij,ij->j", jacobian, jacobian)
         scale = np.sqrt(np.maximum(squares, max(1e-24 * squares.max(initial=0), 1e-200)))  # some have no effect here
         gram = (jacobian / scale).T @ (jacobian / scale)
@@ -87,7 +89,7 @@ def _constrained(fit: Fit, guess: Array, j: int, fixed: float) -> tuple[Array, f
             if moved @ moved < best:
                 break
         gained = best - float(moved @ moved)
-        if gained <= 0:
+        if not gained > 0:
             break
         at, left, best = trial.copy(), moved, float(moved @ moved)
         if gained < 1e-3 * fit.sse / len(left):

@@ -66,58 +66,71 @@ def mixtures(samples: int) -> list[Mixture]:
     return [Mixture(0.0, 1.0), *(Mixture(share, length) for share in SHARES for length in lengths)]
 
 
-def spread(residuals: Array, jacobian: Array, inverse: Array) -> Array:
-    """The covariance (p, p) of a fit by least squares, averaged over all mixtures by their likelihood.
+@dataclass(frozen=True)
+class Explained:
+    """What one mixture makes of a fit. log_det: of V; log_gram: of J^T V^-1 J, scaled; left: of the squares, N^2."""
 
-    inverse: (J^T J)^-1. White noise counts as much as all other mixtures together before the trace is looked at.
-    """
-    p = jacobian.shape[1]
-    total = np.zeros((p, p))
-    likely = _likely(residuals, jacobian)
-    most = max(weight for _, weight, _ in likely)
-    for mixture, weight, variance in likely:
-        if weight > 1e-4 * most:
-            total += weight * variance * (inverse @ (jacobian.T @ mixture.smeared(jacobian)) @ inverse)
-    return total
+    mixture: Mixture
+    log_det: float
+    log_gram: float
+    left: float
 
 
-def slow_and_white(residuals: Array, jacobian: Array) -> tuple[float, float]:
-    """Standard deviations of the slow and of the other noise, N, in the most likely mixture.
+class NoiseOfFit:
+    """The noise that a fit's residuals (n,), N, show, and its Jacobian (n, p), under every mixture."""
 
-    Slow is a correlation length of at least SLOW of the trace.
-    """
-    mixture, _, variance = max(_likely(residuals, jacobian), key=lambda one: one[1])
-    share = mixture.share if mixture.length >= SLOW * len(residuals) else 0.0
-    return float(np.sqrt(share * variance)), float(np.sqrt((1 - share) * variance))
+    def __init__(self, residuals: Array, jacobian: Array) -> None:
+        self._n, self._p = jacobian.shape
+        self._jacobian = jacobian
+        self._explained = tuple(_explained(residuals, jacobian, mixtures(self._n)))
+
+    def spread(self, inverse: Array) -> Array:
+        """The covariance (p, p) of a fit by least squares, averaged over all mixtures by their likelihood.
+
+        inverse: (J^T J)^-1. White noise counts as much as all other mixtures together before the trace is looked at.
+        """
+        total = np.zeros((self._p, self._p))
+        weights = self._weights()
+        for one, weight in zip(self._explained, weights, strict=True):
+            if weight > 1e-4 * weights.max():
+                smeared = one.mixture.smeared(self._jacobian)
+                total += weight * self._variance(one) * (inverse @ (self._jacobian.T @ smeared) @ inverse)
+        return total
+
+    def slow_and_white(self) -> tuple[float, float]:
+        """Standard deviations of the slow and of the other noise, N, in the most likely mixture.
+
+        Slow is a correlation length of at least SLOW of the trace.
+        """
+        best = self._explained[int(np.argmax(self._weights()))]
+        share = best.mixture.share if best.mixture.length >= SLOW * self._n else 0.0
+        variance = self._variance(best)
+        return float(np.sqrt(share * variance)), float(np.sqrt((1 - share) * variance))
+
+    def misfit_beyond_slow_noise(self) -> float:
+        """-2 ln L of a fit, where slow noise of any mixture may explain the residuals, too; smaller is better.
+
+        The mixture is the most likely one, and the parameters follow it by the linear model. Fits of the same samples
+        can be compared, also if their parameters differ.
+        """
+        n = self._n
+        return float(min(one.log_det + n * np.log(one.left / n) for one in self._explained))
+
+    def _variance(self, one: Explained) -> float:
+        """Of a sample, N^2."""
+        return float(one.left / max(self._n - self._p, 1))
+
+    def _weights(self) -> Array:
+        """The likelihood of every mixture, over their sum."""
+        n, p = self._n, self._p
+        worth = np.array([-0.5 * (one.log_det + one.log_gram + (n - p) * np.log(one.left)) for one in self._explained])
+        worth[1:] -= np.log(len(worth) - 1)
+        weights = np.exp(worth - worth.max())
+        return np.asarray(weights / weights.sum())
 
 
-def _likely(residuals: Array, jacobian: Array) -> list[tuple[Mixture, float, float]]:
-    """Every mixture with its share of the likelihood and its variance, N^2."""
-    n, p = jacobian.shape
-    every = mixtures(n)
-    worth, variances = np.empty(len(every)), np.empty(len(every))
-    for i, (log_det, values, left) in enumerate(_explained(residuals, jacobian, every)):
-        variances[i] = left / max(n - p, 1)
-        worth[i] = -0.5 * (log_det + np.log(values).sum() + (n - p) * np.log(left))
-    worth[1:] -= np.log(len(every) - 1)
-    weights = np.exp(worth - worth.max())
-    weights /= weights.sum()
-    return list(zip(every, weights.tolist(), variances.tolist(), strict=True))
-
-
-def misfit_beyond_slow_noise(residuals: Array, jacobian: Array) -> float:
-    """-2 ln L of a fit, where slow noise of any mixture may explain the residuals, too; smaller is better.
-
-    The mixture is the most likely one, and the parameters follow it by the linear model. Fits of the same samples can
-    be compared, also if their parameters differ.
-    """
-    n = len(residuals)
-    explained = _explained(residuals, jacobian, mixtures(n))
-    return float(min(log_det + n * np.log(left / n) for log_det, _, left in explained))
-
-
-def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[tuple[float, Array, float]]:
-    """For each mixture: log det V, the eigenvalues of J^T V^-1 J (scaled), and what V^-1 leaves of the residuals."""
+def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[Explained]:
+    """For each mixture: log det V, that of J^T V^-1 J (scaled), and what V^-1 leaves of the residuals."""
     p = jacobian.shape[1]
     scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
     columns = np.column_stack((jacobian / scale, residuals))
@@ -127,4 +140,5 @@ def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> I
         values, vectors = np.linalg.eigh(gram[:p, :p])
         values = np.maximum(values, 1e-12 * values[-1])
         taken = vectors.T @ gram[:p, p]
-        yield log_det, values, max(float(gram[p, p] - taken @ (taken / values)), 1e-300)
+        left = max(float(gram[p, p] - taken @ (taken / values)), 1e-300)
+        yield Explained(mixture, log_det, float(np.log(values).sum()), left)

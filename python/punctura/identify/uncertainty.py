@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
-from punctura.identify.slow_noise import spread
 
 Array = NDArray[np.float64]
 
@@ -26,7 +25,7 @@ class Uncertainty:
         values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
-        correlated = spread(fit.residuals, fit.jacobian, inverse)
+        correlated = fit.noise.spread(inverse)
         correlated += inverse @ _between_samples(fit) @ inverse
         plain = np.maximum(self.variance * np.diag(inverse), 1e-300)
         self.covariance = correlated + np.diag(np.maximum(plain - np.diag(correlated), 0.0))

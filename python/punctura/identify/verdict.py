@@ -9,7 +9,6 @@ import numpy as np
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
-from punctura.identify.slow_noise import slow_and_white
 from punctura.trace import Segments, Trace
 
 _EXPERIMENTS = {
@@ -47,7 +46,7 @@ def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fi
 
 
 def _drifting(fit: Fit) -> Iterator[str]:
-    slow, other = slow_and_white(fit.residuals, fit.jacobian)
+    slow, other = fit.noise.slow_and_white()
     if slow > DRIFTING * other and slow > SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "

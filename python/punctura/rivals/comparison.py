@@ -12,6 +12,7 @@ from punctura._core import Needle, Scene
 from punctura.errors import ConfigurationError, Problem
 from punctura.identify import Identification
 from punctura.identify.noise import effective_samples
+from punctura.one_thread import one_thread
 from punctura.progress import Tell
 from punctura.rivals.chatter import Chatter, places_of, rival_chatter
 from punctura.rivals.first_stretch import StretchFit, compared, first_stretch, k06_on, rival_on
@@ -90,18 +91,20 @@ def compare_trace(
     first = first_stretch(trace, segments)
     fits: list[AnyFit] = []
     rises: dict[str, StretchFit | None] = {}  # of the first stretch
-    for i, name in enumerate(wanted):
-        if progress is not None:
-            progress(i / len(wanted))
-        if name in known:
-            fits.append(fit_rival(known[name], trace, segments))
-            if first is not None:
-                rises[name] = rival_on(first, known[name])
-        elif needle is not None:
-            fits += fit_k06(trace, needle, identified)
-            if first is not None:
-                contact = float(trace.depth[segments.contact or 0])
-                rises |= {PRINTED: k06_on(first, needle, contact, False), CHOSEN: k06_on(first, needle, contact, True)}
+    with one_thread("punctura.rivals"):
+        for i, name in enumerate(wanted):
+            if progress is not None:
+                progress(i / len(wanted))
+            if name in known:
+                fits.append(fit_rival(known[name], trace, segments))
+                if first is not None:
+                    rises[name] = rival_on(first, known[name])
+            elif needle is not None:
+                fits += fit_k06(trace, needle, identified)
+                if first is not None:
+                    contact = float(trace.depth[segments.contact or 0])
+                    rises[PRINTED] = k06_on(first, needle, contact, False)
+                    rises[CHOSEN] = k06_on(first, needle, contact, True)
     told = {} if first is None else compared({name: one for name, one in rises.items() if one is not None}, first)
     return _comparison(trace, segments, fits, told, with_chatter)
 

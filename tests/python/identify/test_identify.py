@@ -5,6 +5,7 @@ import json
 import numpy as np
 import punctura as pn
 import pytest
+import threadpoolctl
 from punctura.identify import identify
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, fit
@@ -210,3 +211,13 @@ def test_what_no_method_can_tell_is_called_not_identifiable():
     for estimate in identify(early, NEEDLE, membranes=1).estimates:
         if estimate.name.endswith(("stiffness", "precompression", "friction")):
             assert not estimate.identifiable, estimate
+
+
+def test_linear_algebra_uses_one_thread_meanwhile_and_as_many_as_before_afterwards():
+    def threads():
+        return [one["num_threads"] for one in threadpoolctl.threadpool_info() if one["user_api"] == "blas"]
+
+    with threadpoolctl.threadpool_limits(2, "blas"):
+        meanwhile, before = [], threads()
+        identify(trace(noise=0.01), NEEDLE, membranes=1, tell=lambda _: meanwhile.extend(threads()))
+        assert set(before) == {2} and set(meanwhile) == {1} and threads() == before

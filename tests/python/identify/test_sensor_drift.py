@@ -10,7 +10,7 @@ from punctura.identify.criteria import Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import Model, extensions
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
-from punctura.identify.slow_noise import slow_and_white
+from punctura.identify.slow_noise import NoiseOfFit
 from punctura.identify.verdict import verdicts
 from punctura.trace import Trace, segment
 from traces import NEEDLE, force_of, motion
@@ -63,4 +63,4 @@ def test_slow_and_white_noise_are_told_apart(slow, white):
     noise = slow * TOOL["correlated"](rng, n, float(np.exp(-1 / 60))) + white * rng.normal(size=n)
     columns = np.column_stack((np.ones(n), np.sin(np.arange(n) / 30)))
     left = noise - columns @ np.linalg.lstsq(columns, noise, rcond=None)[0]
-    assert slow_and_white(left, columns) == pytest.approx((slow, white), abs=0.35 * max(slow, white))
+    assert NoiseOfFit(left, columns).slow_and_white() == pytest.approx((slow, white), abs=0.35 * max(slow, white))

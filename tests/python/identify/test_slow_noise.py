@@ -3,14 +3,15 @@
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.identify import identify
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import estimates
 from punctura.identify.parameters import MEMBRANE as MEMBRANE_NAMES
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
-from punctura.identify.slow_noise import Mixture, spread
+from punctura.identify.slow_noise import Mixture, NoiseOfFit
 from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import Trace
-from traces import NEEDLE, force_of, motion
+from traces import NEEDLE, force_of, motion, trace
 
 
 def matrix(mixture, n):
@@ -42,7 +43,7 @@ def test_the_told_spread_is_that_of_many_fits(mixture):
     root = np.linalg.cholesky(matrix(mixture, n))
     made = [wave_fit(root @ rng.normal(size=n)) for _ in range(60)]
     true = made[0][2] @ made[0][1].T @ matrix(mixture, n) @ made[0][1] @ made[0][2]
-    told = np.median([np.diag(spread(*one)) for one in made], axis=0)
+    told = np.median([np.diag(NoiseOfFit(left, columns).spread(inverse)) for left, columns, inverse in made], axis=0)
     assert told / np.diag(true) == pytest.approx(np.ones(2), abs=0.3)
 
 
@@ -50,8 +51,9 @@ def test_a_parameter_that_leaves_no_trace_does_not_disturb_the_others():
     noise = np.random.default_rng(3).normal(size=300)
     left, columns, inverse = wave_fit(noise)
     blind = np.column_stack((columns, np.zeros(300)))
-    told = spread(left, blind, np.pad(inverse, ((0, 1), (0, 1))))
-    assert np.isfinite(told).all() and told[:2, :2] == pytest.approx(spread(left, columns, inverse), rel=0.1, abs=1e-5)
+    told = NoiseOfFit(left, blind).spread(np.pad(inverse, ((0, 1), (0, 1))))
+    alone = NoiseOfFit(left, columns).spread(inverse)
+    assert np.isfinite(told).all() and told[:2, :2] == pytest.approx(alone, rel=0.1, abs=1e-5)
 
 
 def test_the_place_of_a_pop_between_two_samples_is_not_known():
@@ -78,3 +80,15 @@ def test_a_parameter_without_any_effect_is_not_identifiable():
     made = Trace(in_only, force, time[: len(in_only)])
     found = {one.name: one.identifiable for one in estimates(fit(Misfit(made, start), names, start))}
     assert found == {name: name != "tissue.set" for name in names}
+
+
+def test_the_noise_of_a_fit_is_computed_once(monkeypatch):
+    plain, seen = NoiseOfFit.__init__, []
+
+    def counted(self, residuals, jacobian):
+        seen.append(residuals)
+        plain(self, residuals, jacobian)
+
+    monkeypatch.setattr(NoiseOfFit, "__init__", counted)
+    identify(trace(noise=0.01)[::4], NEEDLE, membranes=1).as_dict()  # so short that the search uses all samples
+    assert seen and len({id(residuals) for residuals in seen}) == len(seen)

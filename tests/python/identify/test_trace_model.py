@@ -7,7 +7,7 @@ import punctura as pn
 import pytest
 from punctura import ConfigurationError
 from punctura._core import TraceModel
-from traces import MEMBRANE, NEEDLE, force_of, motion
+from traces import MEMBRANE, NEEDLE, RATE, force_of, motion
 
 K06 = [5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness, 0, 0, 0, 1, 0, 0]
 TISSUE = [8e-3, 300, 0.1, 0.3, 1e-3, 2e-3, 400.0, 0.8e-3, 0.6, 0.3, 0.2]
@@ -43,6 +43,21 @@ def test_derivatives_are_exact(membranes):
         error = np.abs(difference - jacobian[:, i]) / np.abs(difference).max()
         # A sample at a corner of the force, such as the pop, has two derivatives.
         assert np.quantile(error, 0.97) < 2e-6, i
+
+
+def test_a_sample_with_a_pop_gets_the_mean_over_its_way_also_in_an_old_hole():
+    wall, coupling, finer = [5e-3, 600, 0.1, 0.3, 1e-4, 2e-3, 400.0, 0.8e-3, 0.6, 0.5, 0.6], [300, 0, 0, 1, 0, 10], 200
+    _, depth = motion(deepest=22e-3, times=2, hold=0.1)
+    time = np.arange((len(depth) - 1) * finer + 1) / finer
+    fine, _ = TraceModel(NEEDLE, np.interp(time, np.arange(len(depth)), depth), time / RATE).forces(
+        [wall], coupling, False
+    )
+    coarse, _ = TraceModel(NEEDLE, depth, np.arange(len(depth)) / RATE).forces([wall], coupling, False)
+    half = finer // 2
+    mean = [fine[max(k - half, 0) : k + half + 1].mean() for k in range(0, len(fine), finer)]
+    pops = np.abs(np.diff(fine[::finer])) > 0.15  # both ways, and again in the hole
+    assert pops.sum() == 4
+    np.testing.assert_allclose(coarse, mean, atol=6e-3)
 
 
 def test_many_threads_may_use_one_model():
