@@ -25,14 +25,15 @@ def expanded_bytes(path: Path, most: int = MOST_BYTES) -> int:
     "MAT-File Level 5 File Format" (The MathWorks): each element is a type, a number of bytes, and the bytes, which can
     be compressed with zlib. Version 4 has no compression.
     """
-    total = 0
+    total, size = 0, path.stat().st_size
     with path.open("rb") as file:
         head = file.read(_HEADER)
         order = {b"IM": "<", b"MI": ">"}.get(head[126:128])
         while order is not None and total <= most and len(tag := file.read(8)) == 8:
             kind, length = struct.unpack(f"{order}II", tag)
             end = file.tell() + length
-            total += _expanded(file, length, most) if kind == _COMPRESSED else length
+            there = min(length, size - file.tell())  # a damaged file may state more
+            total += _expanded(file, there, most) if kind == _COMPRESSED else there
             file.seek(end)
     return total
 

@@ -18,6 +18,7 @@ from punctura.trace.packed import check_mat, check_workbook
 from punctura.trace.size import check_bytes, check_names, check_size
 from punctura.trace.text import read_text
 from punctura.trace.trace import MissingPackage, TraceError
+from punctura.trace.unreadable import unreadable
 
 Array = NDArray[np.float64]
 Table = dict[str, Array]  # by the name of the column; a cell that holds no number is NaN
@@ -46,8 +47,8 @@ def _parquet(path: Path) -> Table:
             if len(set(schema.names)) < len(schema):
                 raise TraceError(f"{path}: two columns have the same name; rename one")
             return {name: file.read([name], use_threads=False)[name].cast(pa.float64()).to_numpy() for name in names}
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
-        raise TraceError(f"{path}: is no Parquet file: {error}") from None
+    except (pa.ArrowException, OSError) as error:
+        raise unreadable(path, "Parquet", error) from None
 
 
 def _is_number(kind: pa.DataType) -> bool:
@@ -74,7 +75,7 @@ def _mat(path: Path) -> Table:
     except NotImplementedError:
         raise TraceError(f"{path}: is a MAT file of version 7.3; save it again with save(..., '-v7')") from None
     except Exception as error:  # scipy raises many types for a damaged file
-        raise TraceError(f"{path}: is no MAT file: {error}") from None
+        raise unreadable(path, "MAT", error) from None
     columns: Table = {}
     matrices: list[Array] = []
 
@@ -112,7 +113,7 @@ def _xlsx(path: Path) -> Table:
     except TraceError:
         raise
     except Exception as error:  # openpyxl raises many types for a damaged file
-        raise TraceError(f"{path}: is no XLSX file: {error}") from None
+        raise unreadable(path, "XLSX", error) from None
     if not rows:
         raise TraceError(f"{path}: the first sheet is empty")
     width = max(len(row) for row in rows)

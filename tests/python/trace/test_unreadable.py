@@ -1,0 +1,70 @@
+"""A file that its reader cannot read: what is wrong, where, and what to do."""
+
+import errno
+import os
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+from openpyxl import Workbook
+from punctura.trace import TraceError, read_trace
+from punctura.trace.unreadable import unreadable
+
+TIME = np.arange(200) * 0.01
+COLUMNS = {"time_s": TIME, "depth_mm": 5 * TIME, "force_N": 0.1 * TIME}
+DAMAGED = (
+    r"is damaged or cut off: it begins as {}, and the rest cannot be read \(.+\)\. Copy it again, or export it again"
+)
+
+
+def xlsx(path):
+    book = Workbook()
+    for row in [list(COLUMNS), *np.column_stack(list(COLUMNS.values())).tolist()]:
+        book.active.append(row)
+    book.save(path)
+
+
+KINDS = {
+    "a.parquet": ("Parquet", lambda path: pq.write_table(pa.table(COLUMNS), path)),
+    "a.mat": ("MAT", lambda path: scipy.io.savemat(path, COLUMNS, do_compression=True)),
+    "a.xlsx": ("XLSX", xlsx),
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_damaged_file_is_named_with_what_to_do(tmp_path, name):
+    kind, write = KINDS[name]
+    path = tmp_path / name
+    write(path)
+    good = path.read_bytes()
+    assert len(read_trace(path)) == 200
+    noise = np.random.default_rng(1).bytes(len(good) // 3)
+    for damaged in (good[: len(good) // 2], good[: len(good) // 3] + noise + good[len(good) // 3 + len(noise) :]):
+        path.write_bytes(damaged)
+        with pytest.raises(TraceError, match=f"{name}: {DAMAGED.format(kind)}"):
+            read_trace(path)
+    path.write_bytes(b"")
+    with pytest.raises(TraceError, match=f"{name}: is empty; export or copy it again"):
+        read_trace(path)
+    path.write_text("time_s,depth_mm,force_N\n0,1,2\n")
+    with pytest.raises(TraceError, match=f"{name}: is no {kind} file, although its name ends in {path.suffix}"):
+        read_trace(path)
+
+
+def test_pages_of_a_parquet_file_that_do_not_expand_are_damage_and_no_error_of_the_disk(tmp_path):
+    path = tmp_path / "a.parquet"
+    pq.write_table(pa.table(COLUMNS), path, compression="snappy", use_dictionary=False)
+    damaged = bytearray(path.read_bytes())
+    damaged[60:900] = np.random.default_rng(2).bytes(840)
+    path.write_bytes(damaged)
+    with pytest.raises(TraceError, match=DAMAGED.format("Parquet")):
+        read_trace(path)
+
+
+def test_an_error_of_the_system_is_told_as_such(tmp_path):
+    path = tmp_path / "a.mat"
+    path.write_bytes(b"MATLAB")
+    with pytest.raises(OSError, match=os.strerror(errno.EIO)):
+        unreadable(path, "MAT", OSError(errno.EIO, os.strerror(errno.EIO), str(path)))
