@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Compiles the lanes for 64-bit ARM, with Neon, and runs the tests of LineBatch on an emulated processor.
+# Compiles the lanes for 64-bit ARM, with Neon, and runs the tests of all batches on an emulated processor.
 #   tools/neon.sh
-# The tests compare each force with that of the scalar core, which is compiled for the same processor. This shows that
+# The tests compare all results with those of the scalar core, which is compiled for the same processor. This shows that
 # the bits are equal. It shows nothing about speed. Needs packages of Debian 12 and prints the missing ones.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -22,9 +22,9 @@ export flags="-std=c++20 -O2 -ffp-contract=off -Wall -Wextra -DPUNCTURA_BATCH_NE
 compile() { aarch64-linux-gnu-g++ $flags -c "$1" -o "$out/$(basename "$1" .cpp).o"; }
 export -f compile
 rm -f "$out"/*.o
-{ printf '%s\n' tests/core/main.cpp tests/runtime/batch/line_batch_test.cpp
-  printf 'runtime/punctura_runtime/batch/%s.cpp\n' \
-    line_neon line_portable line_batch line_block lane_wall blocks run_line; } |
+{ printf '%s\n' tests/core/main.cpp tests/runtime/batch/*_test.cpp
+  printf 'runtime/punctura_runtime/batch/%s.cpp\n' line_neon line_portable line_batch line_block lane_wall blocks \
+    run_line lane_trials scene_trials scene_batch fleet_block fleet; } |
   xargs -P 2 -I{} bash -ec 'compile {}'
 aarch64-linux-gnu-g++ -static "$out"/*.o -pthread -o "$out/tests"
 qemu-aarch64 "$out/tests"

@@ -1,60 +1,36 @@
-// Many experiments that a program steers at once, on threads: the engine of the Gymnasium environments.
-#include <atomic>
+// Many experiments that a program steers at once, in lanes and on threads: the engine of the Gymnasium environments.
 #include <cmath>
-#include <system_error>
-#include <thread>
 
 #include "arguments.hpp"
 #include "bindings.hpp"
-#include "fleet_trial.hpp"
-#include "state.hpp"
+#include "punctura_runtime/batch/fleet.hpp"
+#include "simd_code.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
 
-constexpr std::size_t ticks_without_signals = 100'000;  // of all trials: 0.1 s or less
+using batch::TrialRecord;
 
-/// Calls work(i) for i = 0 ... n-1, on at most `threads` threads with this one.
-template <typename Work>
-void share(std::size_t n, std::size_t threads, const Work& work) {
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n;) work(i);
-  };
-  std::vector<std::thread> others;
-  try {
-    while (others.size() + 1 < std::min(threads, n)) others.emplace_back(take);
-  } catch (const std::system_error&) {  // the system has no more threads: the ones that run do all the work
-  }
-  take();
-  for (std::thread& other : others) other.join();
-}
+constexpr std::size_t ticks_without_signals = 100'000;  // of all trials: 0.1 s or less
 
 class Fleet : public OneThread {
  public:
-  Fleet(const DeviceDynamics& plant, const Hand& hand, std::size_t threads)
-      : plant_(plant),
-        hand_(hand),
-        threads_(threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency())) {}
+  Fleet(const batch::FleetSetup& setup, std::size_t threads) : fleet_(setup, threads) {}
 
-  std::size_t size() const noexcept { return trials_.size(); }
-  std::size_t threads() const noexcept { return threads_; }
+  std::size_t size() const noexcept { return fleet_.size(); }
+  std::size_t threads() const noexcept { return fleet_.threads(); }
 
   /// Makes trial i of a scene that is checked here. i may be size(): then the fleet grows by one.
-  void place(std::size_t i, const Scene& scene, const Triple& start, const Triple& axis, std::uint64_t seed) {
+  void place(std::size_t i, const Scene& scene, const Triple& start, std::uint64_t seed) {
     must_rest();
-    if (i > trials_.size())
+    if (i > size())
       throw nb::index_error(("the fleet has " + std::to_string(size()) + " trials; the next new one is trial " +
                              std::to_string(size()) + ", not " + std::to_string(i))
                                 .c_str());
     raise_if(check(scene));
     if (!is_place(to_vector(start))) throw nb::value_error("start must be a position within 1000 km");
-    Trial trial(scene, to_vector(start), unit(axis, "axis"), plant_, hand_, seed);
-    if (i == trials_.size())
-      trials_.push_back(std::move(trial));
-    else
-      trials_[i] = std::move(trial);
+    fleet_.place(i, scene, to_vector(start), seed);
   }
 
   nb::dict step(const nb::object& speeds, std::size_t ticks) {
@@ -67,62 +43,48 @@ class Fleet : public OneThread {
       if (!std::isfinite(speed.data()[i]))
         throw nb::value_error(("speed[" + std::to_string(i) + "] must be finite. No tick was made").c_str());
     const Running running(*this);
-    for (Trial& trial : trials_) trial.begin();
+    fleet_.begin();
     const std::size_t block = std::max<std::size_t>(1, ticks_without_signals / std::max<std::size_t>(1, n));
     for (std::size_t done = 0; done < ticks; done += block) {
       {
         const WithoutLock released;
-        const std::size_t now = std::min(block, ticks - done);
-        share(n, threads_, [&](std::size_t i) { trials_[i].step(speed.data()[i], now); });
+        fleet_.step(speed.data(), std::min(block, ticks - done));
       }
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
     }
     return result(ticks);
   }
 
-  nb::bytes state(std::size_t i) const {
+  nb::object in_lanes() const {
     must_rest();
-    return as_bytes(save_state(at(i)));
-  }
-  void load(std::size_t i, const nb::bytes& state) {
-    must_rest();
-    at(i);
-    if (!load_state(trials_[i], as_span(state)))
-      throw nb::value_error(("these bytes are no state of trial " + std::to_string(i) +
-                             ": they are damaged, or of another scene, or of another version of punctura")
-                                .c_str());
+    std::vector<std::uint8_t> lanes;
+    for (std::size_t i = 0; i < size(); ++i) lanes.push_back(fleet_.in_lanes(i) ? 1 : 0);
+    return nb::cast(to_numpy(std::move(lanes), {size()})).attr("astype")("bool");
   }
 
  private:
-  const Trial& at(std::size_t i) const {
-    if (i >= trials_.size())
-      throw nb::index_error(
-          ("the fleet has " + std::to_string(size()) + " trials, and no trial " + std::to_string(i)).c_str());
-    return trials_[i];
-  }
-
   nb::dict result(std::size_t ticks) {
     const std::size_t n = size();
-    std::vector<const TrialRecord*> records;
+    std::vector<TrialRecord> records;
     std::size_t m = 0;
-    for (Trial& trial : trials_) {
-      records.push_back(&trial.end(ticks));
-      m = std::max(m, records.back()->depth.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      records.push_back(fleet_.record(i, ticks));
+      m = std::max(m, records.back().depth.size());
     }
     const auto column = [&](double TrialRecord::* member) {
       std::vector<double> values;
-      for (const TrialRecord* record : records) values.push_back(record->*member);
+      for (const TrialRecord& record : records) values.push_back(record.*member);
       return to_numpy(std::move(values), {n});
     };
     const auto table = [&](std::vector<double> TrialRecord::* member) {
       std::vector<double> values(n * m, std::numeric_limits<double>::quiet_NaN());
       for (std::size_t i = 0; i < n; ++i)
-        std::copy((records[i]->*member).begin(), (records[i]->*member).end(),
+        std::copy((records[i].*member).begin(), (records[i].*member).end(),
                   values.begin() + static_cast<std::ptrdiff_t>(i * m));
       return to_numpy(std::move(values), {n, m});
     };
     std::vector<std::uint8_t> faults;
-    for (const TrialRecord* record : records) faults.push_back(static_cast<std::uint8_t>(record->fault));
+    for (const TrialRecord& record : records) faults.push_back(static_cast<std::uint8_t>(record.fault));
     nb::dict columns;
     columns["force"] = column(&TrialRecord::force);
     columns["lowest_force"] = column(&TrialRecord::lowest_force);
@@ -135,10 +97,7 @@ class Fleet : public OneThread {
     return columns;
   }
 
-  DeviceDynamics plant_;
-  Hand hand_;
-  std::size_t threads_;
-  std::vector<Trial> trials_;
+  batch::Fleet fleet_;
 };
 
 }  // namespace
@@ -146,31 +105,35 @@ class Fleet : public OneThread {
 void bind_fleet(nb::module_& m) {
   auto fleet = nb::class_<Fleet>(
       m, "Fleet", nb::is_final(),
-      "Many simulated operators at simulated devices, steered at once along their needles, on threads.\n\n"
-      "The results of a trial do not depend on the other trials or on the number of threads.");
+      "Many simulated operators at simulated devices, steered at once along their needles, in SIMD lanes and on "
+      "threads.\n\n"
+      "The results of a trial do not depend on the other trials, on the number of threads or on the instruction set.");
   def_repr(fleet, "<Fleet of {0.size} trials on {0.threads} threads>");
   fleet
       .def(
           "__init__",
-          [](Fleet* self, const DeviceDynamics& plant, const Hand& hand, const nb::object& threads) {
-            new (self) Fleet(plant, hand, threads_from(threads));
+          [](Fleet* self, const Triple& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& threads,
+             const std::optional<std::string>& instructions) {
+            new (self) Fleet({plant, hand, unit(axis, "axis"), &code_named(instructions)}, threads_from(threads));
           },
-          nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
-          nb::sig("def __init__(self, plant: Plant = ..., hand: Hand = ..., threads: int = 0) -> None"),
-          "A fleet without trials. threads: 0 is one for each processor.")
+          nb::arg("axis"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
+          nb::arg("instructions") = nb::none(),
+          nb::sig("def __init__(self, axis: Sequence[float], plant: Plant = ..., hand: Hand = ..., threads: int = 0, "
+                  "instructions: str | None = None) -> None"),
+          "A fleet without trials. axis: the direction of all needles. threads: 0 is one for each processor.\n"
+          "instructions: one of simd_instructions(); \"portable\" computes each trial alone. Raises ValueError.")
       .def_prop_ro("size", &Fleet::size, "Number of trials")
       .def_prop_ro("threads", &Fleet::threads)
-      .def("place", &Fleet::place, nb::arg("i"), nb::arg("scene"), nb::arg("start"), nb::arg("axis"),
-           nb::arg("seed") = 0,
-           "Starts trial i anew; i = size adds a trial. start: position of the tip, m. axis: the needle's direction.\n"
-           "seed: of tremor and encoders. Raises ConfigurationError, ValueError and IndexError.")
+      .def_prop_ro("in_lanes", &Fleet::in_lanes, nb::sig("def in_lanes(self) -> numpy.typing.NDArray[numpy.bool_]"),
+                   "(n,) Whether lanes compute the trial. One that came near a fault is computed alone, as is one\n"
+                   "whose scene has another number of membranes, or another solver, than the first one.")
+      .def("place", &Fleet::place, nb::arg("i"), nb::arg("scene"), nb::arg("start"), nb::arg("seed") = 0,
+           "Starts trial i anew; i = size adds a trial. start: position of the tip, m. seed: of tremor and encoders.\n"
+           "Raises ConfigurationError, ValueError and IndexError.")
       .def("step", &Fleet::step, nb::arg("speed"), nb::arg("ticks"),
            nb::sig("def step(self, speed: numpy.typing.ArrayLike, ticks: int) -> FleetStep"),
            "Makes `ticks` ticks in each trial. speed (n,): of the hand along the needle, m/s. Raises ValueError.\n\n"
-           "Runs without Python's lock. After Ctrl-C some ticks were made.")
-      .def("state", &Fleet::state, nb::arg("i"), "The complete state of trial i as bytes. Raises IndexError.")
-      .def("load", &Fleet::load, nb::arg("i"), nb::arg("state"),
-           "Trial i continues from bytes of state(), with the same results, bit for bit. Raises ValueError.");
+           "Runs without Python's lock. After Ctrl-C some ticks were made.");
 }
 
 }  // namespace punctura::bindings

@@ -45,6 +45,13 @@ class BasicTremor {
     return y;
   }
   const Filter& filter() const noexcept { return filter_; }
+  /// Starts the tremor of these lanes anew. filter: of all lanes from now on.
+  void restart(const Mask<Scalar>& lanes, const Filter& filter) noexcept {
+    using namespace lane;
+    filter_ = filter;
+    y1_ = select(lanes, Vector(), y1_);
+    y2_ = select(lanes, Vector(), y2_);
+  }
 
   static void archive(auto& self, auto& state) { state.numbers(self.y1_, self.y2_); }
 

@@ -47,7 +47,10 @@ class BasicForceBudget {
 
   /// The amount that was taken from the bucket and has not returned yet, N^2 s.
   Scalar spent() const noexcept { return spent_; }
-  void set_spent(Scalar spent) noexcept { spent_ = spent > 0 ? spent : 0; }
+  void set_spent(Scalar spent) noexcept {
+    using namespace lane;
+    spent_ = select(spent > 0, spent, Scalar(0));
+  }
 
   static void archive(auto& self, auto& state) {
     state.numbers(self.spent_);

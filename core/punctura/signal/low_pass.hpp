@@ -32,6 +32,9 @@ class LowPass {
     y_ = {};
   }
 
+  /// Forgets the samples of these lanes.
+  void restart(const Mask<Scalar>& lanes) noexcept { started_ = started_ && !lanes; }
+
   /// Takes over the state of another filter, but keeps its own cutoff.
   void resume(const LowPass& previous) noexcept {
     y_ = previous.y_;

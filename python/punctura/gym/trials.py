@@ -44,7 +44,9 @@ class Trials:
         count = len(self.population.scene.membranes)
         if max(task.wall, task.next_wall or 0) >= count:
             raise ValueError(f"the scene of the population has {count} membranes, too few for this task")
-        self.fleet = Fleet(plant or Plant(), hand or Hand(), threads)
+        # A vector of lanes costs as much as some 4 trials alone, however few of its lanes are in use.
+        few = "portable" if n < 4 else None
+        self.fleet = Fleet(task.axis, plant or Plant(), hand or Hand(), threads, few)
         self.rate = self.population.scene.servo.rate
         self.ticks = max(1, round(task.decision * self.rate))
         self._begin, self._end = np.zeros(n), np.zeros(n)
@@ -55,7 +57,7 @@ class Trials:
         scene = self.population.draw(random)
         distance = random.uniform(*self.task.distance)
         start = -distance * np.array(self.task.axis)
-        self.fleet.place(i, scene, start, self.task.axis, int(random.integers(2**63)))
+        self.fleet.place(i, scene, start, int(random.integers(2**63)))
         self._begin[i], self._end[i] = self.task.space(scene)
         self._time[i] = self._rest[i] = 0
 

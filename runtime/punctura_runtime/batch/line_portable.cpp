@@ -5,8 +5,9 @@
 namespace punctura::batch {
 
 const LineCode& line_code_portable() noexcept {
-  static constexpr LineCode code{"portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>,
-                                 nullptr,    nullptr};
+  static constexpr LineCode code{
+      "portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>, nullptr, nullptr,
+      nullptr,    nullptr};
   return code;
 }
 

@@ -1,10 +1,12 @@
-// run_line() and run_scene() for each instruction set, and the choice of the best one that this processor has.
+// run_line(), run_scene() and make_fleet() for each instruction set,
+// and the choice of the best one that this processor has.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "punctura/proxy/solver.hpp"
+#include "punctura_runtime/batch/fleet_lanes.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"
 
@@ -15,10 +17,13 @@ struct LineCode {
   const char* name;   ///< "avx512", "avx2", "sse2", "neon" or "portable"
   std::size_t lanes;  ///< doubles in a vector
   RunLine paper, exact;
-  RunScene scene_paper, scene_exact;  ///< null in "portable": one lane at a time is as fast
+  // Null in "portable": one lane at a time is as fast.
+  RunScene scene_paper, scene_exact;
+  MakeFleet fleet_paper, fleet_exact;
 
   RunLine of(Solver solver) const noexcept { return solver == Solver::paper ? paper : exact; }
   RunScene scene_of(Solver solver) const noexcept { return solver == Solver::paper ? scene_paper : scene_exact; }
+  MakeFleet fleet_of(Solver solver) const noexcept { return solver == Solver::paper ? fleet_paper : fleet_exact; }
 };
 
 const LineCode& line_code_portable() noexcept;

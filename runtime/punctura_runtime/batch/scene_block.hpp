@@ -35,10 +35,8 @@ struct CouplingBlock {
 inline constexpr std::size_t scene_ticks = 16;
 
 /// What the lanes of a block need from outside, seldom.
-class SceneOwner {
+class LaneOwner {
  public:
-  /// Computes the inputs of these ticks.
-  virtual void prepare(std::size_t tick, std::size_t ticks) noexcept = 0;
   /// Lane start + i of `lanes` lanes has entered a membrane with n.b = cosine[i], perhaps long ago.
   virtual void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept = 0;
   /// The line fit of a lane, for SceneBlock::fits_lines: its conditioned position, m.
@@ -49,6 +47,16 @@ class SceneOwner {
   virtual void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept = 0;
   /// They have left it in front.
   virtual void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept = 0;
+
+ protected:
+  ~LaneOwner() = default;
+};
+
+/// What whole runs need from outside, and their results.
+class RunOwner {
+ public:
+  /// Computes the inputs of these ticks.
+  virtual void prepare(std::size_t tick, std::size_t ticks) noexcept = 0;
   /// The crossing of a lane that has entered a membrane in the direction b. axis: of the sample.
   virtual Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept = 0;
   /// See BasicRunSummary. axis: of the sample.
@@ -61,7 +69,7 @@ class SceneOwner {
   virtual bool stopped() const noexcept = 0;
 
  protected:
-  ~SceneOwner() = default;
+  ~RunOwner() = default;
 };
 
 /// A block. SI.
@@ -89,10 +97,10 @@ struct SceneBlock {
   std::array<LaneVectors, scene_ticks> force;
   bool has_hand, keeps_force;
   bool fits_lines, from_motion;  ///< Conditioning::line_fit; Direction::motion
-  SceneOwner* owner;
+  LaneOwner* owner;
 };
 
 /// Makes all ticks of a block, unless it is stopped.
-using RunScene = void (*)(SceneBlock& block);
+using RunScene = void (*)(SceneBlock& block, RunOwner& owner);
 
 }  // namespace punctura::batch

@@ -1,20 +1,20 @@
-"""The Fleet: many experiments, stepped on threads, with the results and the state of single ones."""
+"""The Fleet: many experiments, stepped in lanes and on threads."""
 
 from __future__ import annotations
 
 import numpy as np
 import punctura as pn
 import pytest
-from punctura._core import Fleet
+from punctura._core import Fleet, simd_instructions
 
 SCENE = pn.load_scene("k06-fig10")
 START, AXIS = (0, 3e-3, 0), (0, -1, 0)
 
 
-def fleet(n: int, threads: int = 1) -> Fleet:
-    made = Fleet(threads=threads)
+def fleet(n: int, threads: int = 1, instructions: str | None = None) -> Fleet:
+    made = Fleet(AXIS, threads=threads, instructions=instructions)
     for i in range(n):
-        made.place(i, SCENE, START, AXIS, seed=i)
+        made.place(i, SCENE, START, seed=i)
     return made
 
 
@@ -29,8 +29,8 @@ def test_the_results_do_not_depend_on_other_trials_threads_or_the_size_of_a_step
             assert (small[name] == large[name]).all()
         assert (small["highest_force"] <= large["highest_force"]).all()
     assert large["highest_force"].max() > 0.3 and large["depth"].shape == (7, 1)
-    alone = Fleet()
-    alone.place(0, SCENE, START, AXIS, seed=3)
+    alone = Fleet(AXIS)
+    alone.place(0, SCENE, START, seed=3)
     for _ in range(10):
         last = alone.step([speeds[3]], 160)
     assert last["force"][0] == large["force"][3]
@@ -43,26 +43,33 @@ def test_a_trial_is_an_experiment_of_the_package():
     assert made["travel"][0] == pytest.approx(np.dot(ticks.position[-1] - START, AXIS), abs=1e-12)
 
 
-def test_a_saved_trial_continues_with_the_same_bits_and_foreign_bytes_change_nothing():
-    made = fleet(2)
-    made.step([0.02, 0.02], 400)
-    state = made.state(1)
-    first = made.step([0.01, 0.01], 300)
-    made.load(1, state)
-    again = made.step([0.01, 0.01], 300)
-    assert again["force"][1] == first["force"][1] and again["travel"][1] == first["travel"][1]
-    kept = made.state(0)
-    other = Fleet()
-    other.place(0, pn.load_scene("venipuncture"), START, AXIS)
-    for bad in (b"", state[:-1], other.state(0)):
-        with pytest.raises(ValueError, match="no state of trial 0"):
-            made.load(0, bad)
-    assert made.state(0) == kept
+def test_the_results_do_not_depend_on_the_instruction_set():
+    speeds = np.linspace(-0.01, 0.03, 40)
+    fleets = {name: fleet(40, instructions=name) for name in simd_instructions()}
+    for _ in range(8):
+        steps = {name: made.step(speeds, 150) for name, made in fleets.items()}
+        for step in steps.values():
+            for name, column in step.items():
+                np.testing.assert_array_equal(column, steps["portable"][name])
+    assert {name: made.in_lanes.all() for name, made in fleets.items()} == {name: name != "portable" for name in fleets}
+    assert not fleets["portable"].in_lanes.any() and steps["portable"]["highest_force"].max() > 0.3
+
+
+def test_a_trial_that_faults_is_computed_alone_from_then_on():
+    made, alone = fleet(5), fleet(5, instructions="portable")
+    for speed in ([0.01] * 5, [0.01, 0.01, 1e4, 0.01, 0.01], [0.01] * 5):
+        step, expected = made.step(speed, 90), alone.step(speed, 90)
+        for name, column in step.items():
+            np.testing.assert_array_equal(column, expected[name])
+    assert list(step["fault"]) == [0, 0, pn.Fault.position_jump.value, 0, 0]
+    if simd_instructions()[0] != "portable":
+        assert list(made.in_lanes) == [True, True, False, True, True]
+        made.place(2, SCENE, START, seed=2)
+        assert made.in_lanes.all()
 
 
 def test_wrong_calls_are_refused_and_make_no_tick():
-    made = fleet(2)
-    before = made.state(0)
+    made, undisturbed = fleet(2), fleet(2)
     with pytest.raises(ValueError, match="one number for each of the 2"):
         made.step([0.0], 10)
     with pytest.raises(ValueError, match=r"speed\[1\] must be finite"):
@@ -70,9 +77,16 @@ def test_wrong_calls_are_refused_and_make_no_tick():
     with pytest.raises(ValueError, match="ticks must be 1 or more"):
         made.step([0.0, 0.0], 0)
     with pytest.raises(IndexError, match="the next new one is trial 2, not 4"):
-        made.place(4, SCENE, START, AXIS)
-    with pytest.raises(IndexError, match="no trial 2"):
-        made.state(2)
-    assert made.state(0) == before
-    empty = Fleet().step([], 5)
+        made.place(4, SCENE, START)
+    with pytest.raises(pn.ConfigurationError, match="friction"):
+        made.place(0, SCENE.with_values({"membrane[0].friction": -1.0}), START)
+    with pytest.raises(ValueError, match="start must be a position"):
+        made.place(0, SCENE, (np.nan, 0, 0))
+    with pytest.raises(ValueError, match="axis"):
+        Fleet((0, 0, 0))
+    with pytest.raises(ValueError, match='no "sse9"'):
+        Fleet(AXIS, instructions="sse9")
+    first, second = made.step([0.02, 0.02], 300), undisturbed.step([0.02, 0.02], 300)
+    assert (first["travel"] == second["travel"]).all() and (first["travel"] > 0).all()
+    empty = Fleet(AXIS).step([], 5)
     assert empty["force"].shape == (0,)

@@ -34,7 +34,7 @@ DOWN = (0, -1, 0)
         (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
-        (lambda: core.Fleet().step([], -1), "Fleet.step(): an argument has a wrong type or"),
+        (lambda: core.Fleet((0, -1, 0)).step([], -1), "Fleet.step(): an argument has a wrong type or"),
         (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be a bytes, not int."),
         (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
         (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),

@@ -1,16 +1,15 @@
-// One trial of a fleet: an experiment that a program steers along the needle, and what happened in its last step.
+// One trial of a fleet, computed alone: an experiment that a program steers along the needle, and what happened in its
+// last step.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "punctura/plant/experiment.hpp"
 
-namespace punctura::bindings {
+namespace punctura::batch {
 
 /// What happened in a step of a trial.
 struct TrialRecord {
@@ -25,20 +24,28 @@ struct TrialRecord {
 };
 
 /// An experiment whose hand moves along the needle with a speed that a program sets.
-class Trial {
+class FleetTrial {
  public:
-  /// axis: unit direction of the needle. The scene must have passed check().
-  Trial(const Scene& scene, const Vector3d& start, const Vector3d& axis, const DeviceDynamics& plant, const Hand& hand,
-        std::uint64_t seed)
+  /// axis: direction of the needle, of length 1. The scene must have passed check().
+  FleetTrial(const Scene& scene, const Vector3d& start, const Vector3d& axis, const DeviceDynamics& plant,
+             const Hand& hand, std::uint64_t seed)
       : experiment_(scene, Steered(start), axis, plant, hand, seed),
         start_(start),
-        axis_(axis),
+        axis_(axis.stableNormalized()),
         period_(1 / scene.servo.rate) {
     record_.depth.resize(scene.membranes.size());
     record_.deepest.resize(scene.membranes.size());
   }
 
-  /// Makes `ticks` ticks while the hand moves with `speed` (m/s) along the needle. Call begin() first.
+  /// Starts the record of a step.
+  void begin() noexcept {
+    travel_before_ = record_.travel;
+    record_.lowest_force = std::numeric_limits<double>::infinity();
+    record_.highest_force = -std::numeric_limits<double>::infinity();
+    std::fill(record_.deepest.begin(), record_.deepest.end(), -std::numeric_limits<double>::infinity());
+  }
+
+  /// Makes `ticks` ticks, at least one, while the hand moves with `speed` (m/s) along the needle.
   void step(double speed, std::size_t ticks) noexcept {
     experiment_.motion().steer(speed * axis_);
     for (std::size_t k = 0; k < ticks; ++k) {
@@ -50,41 +57,24 @@ class Trial {
       for (std::size_t i = 0; i < record_.deepest.size(); ++i)
         record_.deepest[i] = std::max(record_.deepest[i], tick.membranes[i].depth);
     }
+    const Snapshot& last = experiment_.servo().snapshot();
+    record_.travel = axis_.dot(to_vector(last.sample.position) - start_);
+    record_.fault = last.fault;
+    for (std::size_t i = 0; i < record_.depth.size(); ++i) record_.depth[i] = last.membranes[i].depth;
   }
 
-  /// Starts the record of a step.
-  void begin() noexcept {
-    record_.lowest_force = std::numeric_limits<double>::infinity();
-    record_.highest_force = -std::numeric_limits<double>::infinity();
-    std::fill(record_.deepest.begin(), record_.deepest.end(), -std::numeric_limits<double>::infinity());
-  }
-
-  /// Ends the record of a step of `ticks` ticks.
-  const TrialRecord& end(std::size_t ticks) noexcept {
-    const Snapshot& tick = experiment_.servo().snapshot();
-    const double travel = axis_.dot(to_vector(tick.sample.position) - start_);
-    record_.speed = (travel - record_.travel) / (static_cast<double>(ticks) * period_);
-    record_.travel = travel;
-    record_.fault = tick.fault;
-    for (std::size_t i = 0; i < record_.depth.size(); ++i) record_.depth[i] = tick.membranes[i].depth;
-    return record_;
-  }
-
-  /// For save_state() and load_state(). The record of the last step is not saved, except for what the next needs.
-  static void archive(auto& self, auto& state) {
-    Experiment<Steered>::archive(self.experiment_, state);
-    state.numbers(self.record_.travel);
-  }
-  void describe(auto& parameters) const {
-    experiment_.describe(parameters);
-    parameters.numbers(start_, axis_);
+  /// The record of a step of `ticks` ticks in all.
+  TrialRecord record(std::size_t ticks) const {
+    TrialRecord record = record_;
+    record.speed = (record.travel - travel_before_) / (static_cast<double>(ticks) * period_);
+    return record;
   }
 
  private:
   Experiment<Steered> experiment_;
   Vector3d start_, axis_;
-  double period_;
+  double period_, travel_before_ = 0;
   TrialRecord record_;
 };
 
-}  // namespace punctura::bindings
+}  // namespace punctura::batch

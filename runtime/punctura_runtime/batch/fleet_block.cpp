@@ -1,0 +1,109 @@
+#include "punctura_runtime/batch/fleet_block.hpp"
+
+#include <algorithm>
+
+namespace punctura::batch {
+
+FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true), setup_(setup) {
+  const Vector3d told = setup.axis.stableNormalized();
+  for (SceneBlock::Inputs& inputs : block_->inputs) {
+    inputs.told_axis = told;
+    inputs.axis = told.stableNormalized();  // as the servo step does
+  }
+}
+
+void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed) {
+  Trial made{scene, start, seed};
+  made.lane = i < trials_.size() ? trials_[i].lane : no_lane;
+  if (lanes_.empty()) {
+    solver_ = scene.servo.solver;
+    code_ = setup_.code->fleet_of(solver_);
+  }
+  if (!code_ || scene.servo.solver != solver_ || !fits(scene)) {
+    made.alone = make(made);
+  } else {
+    if (made.lane == no_lane) made.lane = lanes_.size();
+    put(made.lane, scene, seed).motion = Steered(start);
+    put_hand(made.lane, setup_.plant, setup_.hand, start);
+    if (!state_) state_ = code_(*block_);
+    state_->restart(made.lane, next(made.lane));
+  }
+  if (i < trials_.size())
+    trials_[i] = std::move(made);
+  else
+    trials_.push_back(std::move(made));
+}
+
+void FleetBlock::begin() {
+  begins_ = true;
+  if (state_) state_->begin();
+  for (Trial& trial : trials_) {
+    if (trial.alone)
+      trial.alone->begin();
+    else
+      trial.travel = state_->record().travel.of[trial.lane];
+  }
+}
+
+void FleetBlock::step(const double* speed, std::size_t ticks) {
+  bool some = false;
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    Trial& trial = trials_[i];
+    if (trial.alone) {
+      trial.alone->step(speed[i], ticks);
+      continue;
+    }
+    trial.moves.push_back({speed[i], ticks, begins_});
+    std::get<Steered>(lanes_[trial.lane].motion).steer(speed[i] * block_->inputs[0].told_axis);
+    some = true;
+  }
+  begins_ = false;
+  if (!some) return;
+  std::uint64_t strange = 0;
+  for (std::size_t done = 0; done < ticks; done += scene_ticks) {
+    const std::size_t now = std::min(scene_ticks, ticks - done);
+    for (Trial& trial : trials_) {
+      if (trial.alone) continue;
+      fill(trial.lane, trial.tick, now);
+      trial.tick += now;
+    }
+    state_->step(now);
+    strange |= state_->record().strange;
+  }
+  for (Trial& trial : trials_)
+    if (!trial.alone && (strange >> trial.lane & 1u) != 0) leave_lanes(trial);
+}
+
+std::unique_ptr<FleetTrial> FleetBlock::make(const Trial& trial) const {
+  return std::make_unique<FleetTrial>(trial.scene, trial.start, setup_.axis, setup_.plant, setup_.hand, trial.seed);
+}
+
+void FleetBlock::leave_lanes(Trial& trial) const {
+  auto alone = make(trial);
+  for (const Move& move : trial.moves) {
+    if (move.begins) alone->begin();
+    alone->step(move.speed, move.ticks);
+  }
+  trial.alone = std::move(alone);
+  trial.moves = {};
+}
+
+TrialRecord FleetBlock::record(std::size_t i, std::size_t ticks) const {
+  const Trial& trial = trials_[i];
+  if (trial.alone) return trial.alone->record(ticks);
+  const FleetRecord& all = state_->record();
+  const std::size_t lane = trial.lane;
+  TrialRecord record{all.force.of[lane],
+                     all.lowest_force.of[lane],
+                     all.highest_force.of[lane],
+                     all.travel.of[lane],
+                     (all.travel.of[lane] - trial.travel) / (static_cast<double>(ticks) * lanes_[lane].period),
+                     Fault::none,
+                     {},
+                     {}};
+  for (const LaneNumbers& depth : all.depth) record.depth.push_back(depth.of[lane]);
+  for (const LaneNumbers& deepest : all.deepest) record.deepest.push_back(deepest.of[lane]);
+  return record;
+}
+
+}  // namespace punctura::batch

@@ -1,0 +1,71 @@
+// Trials of a fleet that are computed together: in the lanes of a block, or each alone.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "punctura_runtime/batch/fleet_lanes.hpp"
+#include "punctura_runtime/batch/fleet_trial.hpp"
+#include "punctura_runtime/batch/lane_trials.hpp"
+#include "punctura_runtime/batch/run_line.hpp"
+
+namespace punctura::batch {
+
+/// What all trials of a fleet have in common.
+struct FleetSetup {
+  DeviceDynamics plant{};
+  Hand hand{};
+  Vector3d axis{0, -1, 0};         ///< the needle's direction, of length 1
+  const LineCode* code = nullptr;  ///< null: the fastest instruction set; Fleet replaces it
+};
+
+/// At most block_lanes trials.
+///
+/// A trial is computed alone if the instruction set has no code for lanes, if its scene does not fit beside the first
+/// one, or from the step on in which it came near a fault. A lane keeps no states of the past. Therefore such a trial
+/// makes all its ticks again, alone.
+class FleetBlock final : public LaneTrials {
+ public:
+  explicit FleetBlock(const FleetSetup& setup);
+
+  /// Starts a trial anew, or adds one (i = number of trials).
+  void place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed);
+  /// Starts the record of a step.
+  void begin();
+  /// Makes ticks. speed: of the hand along the needle, m/s, one for each trial.
+  void step(const double* speed, std::size_t ticks);
+  /// What happened since begin(). ticks: since then.
+  TrialRecord record(std::size_t i, std::size_t ticks) const;
+  bool in_lanes(std::size_t i) const noexcept { return !trials_[i].alone; }
+
+ private:
+  struct Move {
+    double speed;  ///< m/s
+    std::size_t ticks;
+    bool begins;  ///< a record starts before it
+  };
+  static constexpr std::size_t no_lane = ~std::size_t{0};
+  struct Trial {
+    Scene scene;
+    Vector3d start;
+    std::uint64_t seed;
+    std::size_t lane = no_lane;
+    std::unique_ptr<FleetTrial> alone{};  ///< null while lanes compute it
+    std::vector<Move> moves{};            ///< since its start, while lanes compute it
+    std::size_t tick = 0;                 ///< of the lanes
+    double travel = 0;                    ///< at begin(), m
+  };
+
+  std::unique_ptr<FleetTrial> make(const Trial& trial) const;
+  /// Makes the ticks of a trial again, alone.
+  void leave_lanes(Trial& trial) const;
+
+  const FleetSetup& setup_;
+  std::vector<Trial> trials_;
+  MakeFleet code_ = nullptr;
+  Solver solver_ = Solver::exact;      ///< of all lanes
+  std::unique_ptr<FleetLanes> state_;  ///< null until a trial needs lanes
+  bool begins_ = false;
+};
+
+}  // namespace punctura::batch

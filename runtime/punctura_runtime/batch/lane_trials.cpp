@@ -1,0 +1,183 @@
+#include "punctura_runtime/batch/lane_trials.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace punctura::batch {
+namespace {
+
+/// How much of the model's force the device of a scene gives.
+double scale_of(const Scene& scene) {
+  const double scale = scene.display.automatic ? automatic_force_scale(detail::model_of<double>(scene), ForceLimits{})
+                                               : scene.display.force_scale;
+  return std::max(scale, std::numeric_limits<double>::min());
+}
+
+}  // namespace
+
+LaneTrials::LaneTrials(bool has_hand) : block_(std::make_unique<SceneBlock>()) {
+  block_->trials = 0;
+  block_->keeps_force = false;
+  block_->has_hand = has_hand;
+  block_->owner = this;
+  lanes_.reserve(block_lanes);
+}
+
+bool LaneTrials::fits(const Scene& scene) const {
+  const SceneBlock& b = *block_;
+  return lanes_.empty() || (scene.membranes.size() == b.membranes.size() &&
+                            (scene.servo.conditioning == Conditioning::line_fit) == b.fits_lines &&
+                            (scene.direction == Direction::motion) == b.from_motion &&
+                            static_cast<std::uint32_t>(scene.servo.sub_steps) == b.sub_steps &&
+                            detail::relaxing_coupling_of<double>(scene).constants().count == b.coupling.branches);
+}
+
+LaneTrials::LaneTrial& LaneTrials::put(std::size_t lane, const Scene& scene, std::uint64_t seed) {
+  SceneBlock& b = *block_;
+  const double rate = scene.servo.rate, period = 1 / rate;
+  const auto coupling = detail::relaxing_coupling_of<double>(scene).constants();
+  if (lanes_.empty()) {
+    b.membranes.resize(scene.membranes.size());
+    b.fits_lines = scene.servo.conditioning == Conditioning::line_fit;
+    b.from_motion = scene.direction == Direction::motion;
+    b.sub_steps = static_cast<std::uint32_t>(scene.servo.sub_steps);
+    b.coupling.branches = coupling.count;
+  }
+  LaneTrial made{period,
+                 nullptr,
+                 Noise(seed),
+                 false,
+                 {scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, period},
+                 EntryDirection<double>(period),
+                 {}};
+  made.walls.reserve(scene.membranes.size());
+  for (const PlacedMembrane& placed : scene.membranes) made.walls.emplace_back(scene.needle, placed);
+  if (lane == lanes_.size())
+    lanes_.push_back(std::move(made));
+  else
+    lanes_[lane] = std::move(made);
+  b.trials = lanes_.size();
+
+  set(b.rate, lane, rate);
+  set(b.period, lane, period);
+  const LowPass<double, Vector3d> low_pass(scene.servo.low_pass, period);
+  set(b.low_pass_is_off, lane, scene.servo.low_pass == 0 ? 1 : 0);
+  set(b.low_pass_gain, lane, low_pass.gain());
+  set(b.force_scale, lane, scale_of(scene));
+
+  set(b.coupling.K, lane, coupling.K);
+  set(b.coupling.g, lane, coupling.g);
+  set(b.coupling.inv_g, lane, coupling.inv_g);
+  set(b.coupling.free_share, lane, coupling.free_share);
+  for (std::size_t j = 0; j < coupling.count; ++j) {
+    set(b.coupling.a[j], lane, coupling.branches[j].a);
+    set(b.coupling.k[j], lane, coupling.branches[j].k);
+  }
+  for (std::size_t m = 0; m < scene.membranes.size(); ++m) {
+    const LaneWall& wall = lanes_[lane].walls[m];
+    MembraneBlock& to = b.membranes[m];
+    set(to.point, lane, to_vector(scene.membranes[m].point));
+    set(to.normal, lane, to_vector(scene.membranes[m].inward_normal).stableNormalized());
+    set(to.band.g, lane, coupling.g);
+    to.remembers = to.remembers || wall.remembers();
+    for (std::size_t each = lane; each < next(lane); ++each) {
+      to.band.table[each] = wall.table();
+      changed(m, each);
+    }
+  }
+  return lanes_[lane];
+}
+
+void LaneTrials::put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start) {
+  LaneTrial& own = lanes_[lane];
+  SceneBlock& b = *block_;
+  set(b.device_mass, lane, plant.mass);
+  set(b.friction, lane, plant.friction);
+  set(b.encoder_step, lane, plant.encoder_step);
+  set(b.max_force, lane, plant.max_force);
+  set(b.mass, lane, hand.mass);
+  set(b.damping, lane, hand.damping);
+  set(b.stiffness, lane, hand.stiffness);
+  set(b.h, lane, own.period / Plant::substeps);
+  const Tremor::Filter tremor = Tremor(hand, own.period).filter();
+  set(b.tremor_a1, lane, tremor.a1);
+  set(b.tremor_a2, lane, tremor.a2);
+  set(b.tremor_b, lane, tremor.b);
+  own.trembles = tremor.b != 0;
+  set(b.phase, lane, own.noise.uniform_vector());
+  set(b.place, lane, start);
+}
+
+Desired LaneTrials::at(LaneTrial& own, std::size_t tick) noexcept {
+  if (const auto* given = std::get_if<const double*>(&own.motion)) return {Vector3d(*given + 3 * tick), {}};
+  const double time = static_cast<double>(tick) * own.period;
+  if (auto* strokes = std::get_if<StrokesMotion>(&own.motion)) return strokes->at(time);
+  if (auto* steered = std::get_if<Steered>(&own.motion)) return steered->at(time);
+  return std::get_if<RecordedMotion>(&own.motion)->at(time);
+}
+
+void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noexcept {
+  LaneTrial& own = lanes_[lane];
+  for (std::size_t k = 0; k < ticks; ++k) {
+    SceneBlock::Inputs& to = block_->inputs[k];
+    const Desired desired = at(own, tick + k);
+    set(to.position, lane, desired.position);
+    if (!block_->has_hand) continue;
+    set(to.velocity, lane, desired.velocity);
+    Vector3d u, v;
+    for (std::size_t j = 3; own.trembles && j-- > 0;) {  // in the order of Noise::normal_vector()
+      u[j] = own.noise.uniform();
+      v[j] = own.noise.uniform();
+    }
+    set(to.noise[0], lane, u);
+    set(to.noise[1], lane, v);
+  }
+}
+
+void LaneTrials::set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept {
+  std::fill(numbers.of + lane, numbers.of + next(lane), x);
+}
+void LaneTrials::set(LaneVectors& vectors, std::size_t lane, const Vector3d& v) const noexcept {
+  for (std::size_t j = 0; j < 3; ++j) set(vectors[j], lane, v[j]);
+}
+
+void LaneTrials::changed(std::size_t membrane, std::size_t lane) noexcept {
+  MembraneBlock& to = block_->membranes[membrane];
+  const LaneWall& wall = wall_of(membrane, lane);
+  to.cut.of[lane] = wall.cut();
+  to.made.of[lane] = wall.made();
+  to.band.first.of[lane] = 1;  // no piece is present
+  to.band.last.of[lane] = 0;
+}
+
+void LaneTrials::lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept {
+  for (std::size_t lane = start; lane < start + lanes; ++lane)
+    if (wall_of(membrane, lane).lay_out(cosine[lane - start]) || lane >= lanes_.size()) changed(membrane, lane);
+}
+
+Vector3d LaneTrials::fit(std::size_t lane, const Vector3d& measured) noexcept {
+  return lanes_[lane].conditioner.step(measured);
+}
+
+Vector3d LaneTrials::direction(std::size_t lane, const Vector3d& tip) noexcept {
+  return lanes_[lane].from_motion.step(tip);
+}
+
+void LaneTrials::advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+    wall_of(membrane, start + i).advance(depth[i]);
+    changed(membrane, start + i);
+  }
+}
+
+void LaneTrials::leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const std::size_t lane = start + static_cast<std::size_t>(std::countr_zero(lanes));
+    wall_of(membrane, lane).leave();
+    changed(membrane, lane);
+  }
+}
+
+}  // namespace punctura::batch

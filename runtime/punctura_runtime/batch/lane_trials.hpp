@@ -1,0 +1,73 @@
+// Trials that are computed together in the lanes of a block: their numbers, motions, noise and walls.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "punctura/plant/motion.hpp"
+#include "punctura/plant/plant.hpp"
+#include "punctura/scene/build.hpp"
+#include "punctura_runtime/batch/lane_wall.hpp"
+#include "punctura_runtime/batch/scene_block.hpp"
+
+namespace punctura::batch {
+
+/// At most block_lanes trials, each in its lane.
+class LaneTrials : public LaneOwner {
+ public:
+  LaneTrials(const LaneTrials&) = delete;
+
+  std::size_t size() const noexcept { return block_->trials; }
+
+  void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept override;
+  Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept override;
+  Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept override;
+  void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept override;
+  void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept override;
+
+ protected:
+  /// What a lane has beside its numbers in the block.
+  struct LaneTrial {
+    double period;
+    std::variant<const double*, StrokesMotion, RecordedMotion, Steered> motion;  ///< a pointer: given positions, m
+    Noise noise;
+    bool trembles;
+    PositionConditioner<double> conditioner;
+    EntryDirection<double> from_motion;
+    std::vector<LaneWall> walls;
+  };
+
+  explicit LaneTrials(bool has_hand);
+  ~LaneTrials() = default;
+
+  /// Whether a trial of this scene can be computed beside the first one: it needs as many membranes, branches of the
+  /// coupling and sub-steps, and the same kind of conditioning and direction.
+  bool fits(const Scene& scene) const;
+  /// Puts a trial into a lane, with what does not need a hand. lane: at most size(), for a new one. The lanes without
+  /// a trial follow the last one. seed: of the noise.
+  LaneTrial& put(std::size_t lane, const Scene& scene, std::uint64_t seed);
+  /// Sets hand and device of a lane. start: the place of the tip, m.
+  void put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start);
+  /// Computes the inputs of a lane for `ticks` ticks, of which the first is this tick of the trial.
+  void fill(std::size_t lane, std::size_t tick, std::size_t ticks) noexcept;
+  /// The desired motion of the hand in a tick, or the given position.
+  static Desired at(LaneTrial& own, std::size_t tick) noexcept;
+  LaneWall& wall_of(std::size_t membrane, std::size_t lane) noexcept {
+    return lanes_[std::min(lane, lanes_.size() - 1)].walls[membrane];
+  }
+  /// The lane behind this one that does not follow it.
+  std::size_t next(std::size_t lane) const noexcept { return lane + 1 < lanes_.size() ? lane + 1 : block_lanes; }
+
+  std::unique_ptr<SceneBlock> block_;
+  std::vector<LaneTrial> lanes_;
+
+ private:
+  /// Set a number of a lane, and of those that follow it.
+  void set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept;
+  void set(LaneVectors& vectors, std::size_t lane, const Vector3d& v) const noexcept;
+  /// The pieces or the fronts of a lane's wall have changed.
+  void changed(std::size_t membrane, std::size_t lane) noexcept;
+};
+
+}  // namespace punctura::batch

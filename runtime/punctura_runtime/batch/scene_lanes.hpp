@@ -1,0 +1,285 @@
+// One tick of some trials of a scene, in lanes: conditioning and model, and with a simulated hand also plant and force
+// limits, as Experiment has them.
+//
+// A fault never happens here. A lane that comes near one is marked as strange, and its trial is computed again alone.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "punctura/plant/hand.hpp"
+#include "punctura/plant/tip_motion.hpp"
+#include "punctura/safety/force_limits.hpp"
+#include "punctura/safety/input_gate.hpp"
+#include "punctura/signal/low_pass.hpp"
+#include "punctura_runtime/batch/present_pieces.hpp"
+#include "punctura_runtime/batch/scene_block.hpp"
+#include "punctura_runtime/batch/simd.hpp"
+
+namespace punctura::batch {
+
+template <typename V>
+V at(const LaneNumbers& numbers, std::size_t lane) noexcept {
+  return V::load(numbers.of + lane);
+}
+template <typename V>
+Vector3<V> at(const LaneVectors& vectors, std::size_t lane) noexcept {
+  return {at<V>(vectors[0], lane), at<V>(vectors[1], lane), at<V>(vectors[2], lane)};
+}
+template <typename V>
+Vector3<V> same(const Vector3d& v) noexcept {
+  return {V(v.x()), V(v.y()), V(v.z())};
+}
+template <typename V>
+V size_of(const V& x) noexcept {
+  return max(x, -x);
+}
+template <typename V>
+V largest_of(const Vector3<V>& v) noexcept {
+  return max(max(size_of(v.x()), size_of(v.y())), size_of(v.z()));
+}
+
+/// The law of a membrane for the solvers of core.
+template <typename V>
+class SpaceLaw {
+ public:
+  using Scalar = V;
+  using Pieces = PresentPieces<V, true>;
+  SpaceLaw(SceneBlock& block, std::size_t membrane, std::size_t start) noexcept
+      : block_(&block), membrane_(membrane), start_(start) {}
+
+  Pieces pieces() const noexcept { return {block_->membranes[membrane_].band, start_}; }
+  /// For lanes that enter with n.b = cos_beta. Other lanes have the cos_beta that they had.
+  Pieces pieces(const V& cos_beta) const noexcept {
+    alignas(64) double cosine[V::lanes];
+    cos_beta.store(cosine);
+    block_->owner->lay_out(membrane_, start_, V::lanes, cosine);
+    return pieces();
+  }
+
+  /// For LanesThatRemember.
+  bool remembers() const noexcept { return block_->membranes[membrane_].remembers; }
+  void advance(const V& depth, const typename V::Mask& lanes) const noexcept {
+    const auto deeper = lanes && depth > at<V>(block_->membranes[membrane_].cut, start_);
+    if (!any(deeper)) return;
+    alignas(64) double reached[V::lanes];
+    depth.store(reached);
+    block_->owner->advance(membrane_, start_, deeper.bits(), reached);
+  }
+  void leave(const typename V::Mask& lanes) const noexcept {
+    const MembraneBlock& membrane = block_->membranes[membrane_];
+    const auto left = lanes && at<V>(membrane.made, start_) < at<V>(membrane.cut, start_);
+    if (any(left)) block_->owner->leave(membrane_, start_, left.bits());
+  }
+
+ private:
+  SceneBlock* block_;
+  std::size_t membrane_, start_;
+};
+
+/// Some trials of a block, one in each lane: their state, and the results of the last tick.
+template <typename V, typename Solver>
+class SceneLanes {
+ public:
+  using Vector = Vector3<V>;
+  using Truth = typename V::Mask;
+
+  /// start: the first lane in the block. All lanes are before their first tick.
+  SceneLanes(SceneBlock& block, std::size_t start)
+      : block_(block), start_(start), states_(block.membranes.size()), ticks_(block.membranes.size()) {
+    restart(Truth(true));
+  }
+
+  /// Starts these lanes anew, with the numbers that are in the block now.
+  void restart(const Truth& lanes) noexcept {
+    const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
+    number_ = select(lanes, V(0), number_);
+    tip_.x = select(lanes, at<V>(block_.place, start_), tip_.x);
+    tip_.v = select(lanes, Vector(), tip_.v);
+    tremor_.restart(lanes, {number(block_.tremor_a1), number(block_.tremor_a2), number(block_.tremor_b)});
+    const LowPass<V, Vector> previous = low_pass_;
+    low_pass_ = LowPass<V, Vector>::of_gain(!(number(block_.low_pass_is_off) == 0), number(block_.low_pass_gain));
+    low_pass_.resume(previous);
+    low_pass_.restart(lanes);
+    strange_ = strange_ && !lanes;
+    active_ = active_ && !lanes;
+    gain_ = select(lanes, V(0), gain_);
+    held_square_ = select(lanes, V(0), held_square_);
+    budget_.set_spent(select(lanes, V(0), budget_.spent()));
+    for (State& state : states_) restart(state, lanes);
+  }
+
+  /// One tick. k: of SceneBlock::inputs.
+  void step(std::size_t k) noexcept {
+    const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
+    const SceneBlock::Inputs& inputs = block_.inputs[k];
+    const Truth first = number_ == 0;
+    const V time = block_.has_hand ? number_ * number(block_.period) : number_ / number(block_.rate);
+    measured_now_ = at<V>(inputs.position, start_);
+    if (block_.has_hand) {
+      measured_now_ = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
+      look(measured_now_, first);
+    }
+
+    const Vector before = conditioned_, tip = condition(measured_now_), axis = direction(tip, inputs.axis);
+    conditioned_ = tip;
+    const Coupling coupling = coupling_now();
+    if (block_.sub_steps > 1 && !all(first)) step_between(coupling, select(first, tip, before), axis);
+    advance_proxies(coupling, tip, axis);
+    model_force_ = {};
+    Truth outside(true);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      model_force_ += ticks_[i].force;
+      outside = outside && ticks_[i].phase == Phase::outside;
+    }
+    strange_ = strange_ || !(largest_of(model_force_) <= V(1e100));
+    if (block_.has_hand) {
+      active_ = active_ || outside;
+      force_ = limit(number(block_.force_scale) * model_force_, select(first, V(0), time - time_), limited_);
+      move(inputs, force_);
+    }
+    time_ = time;
+    number_ = number_ + V(1);
+  }
+
+  // The results of the last tick.
+  const V& time() const noexcept { return time_; }                     ///< s
+  const Vector& measured() const noexcept { return measured_now_; }    ///< the position that the device reported, m
+  const Vector& tip() const noexcept { return conditioned_; }          ///< the conditioned position, m
+  const Vector& model_force() const noexcept { return model_force_; }  ///< N
+  const Vector& force() const noexcept { return force_; }              ///< of the device, N; 0 without a hand
+  const Truth& limited() const noexcept { return limited_; }           ///< a limit made the device's force smaller
+  const SpaceTick<V>& tick(std::size_t i) const noexcept { return ticks_[i]; }  ///< at membrane i
+  std::size_t size() const noexcept { return ticks_.size(); }                   ///< the number of membranes
+  /// The lanes that have come near a fault since they started. Their results are void.
+  const Truth& strange() const noexcept { return strange_; }
+
+ private:
+  using Law = SpaceLaw<V>;
+  using Coupling = RelaxingCoupling<V>;
+  using Params = SpaceParams<Law, Coupling>;
+  using State = SpaceState<Law, Coupling>;
+
+  static void restart(State& state, const Truth& lanes) noexcept {
+    const State fresh;
+    state.started = state.started && !lanes;
+    state.phase = select(lanes, fresh.phase, state.phase);
+    state.p = select(lanes, fresh.p, state.p);
+    state.e = select(lanes, fresh.e, state.e);
+    state.f = select(lanes, fresh.f, state.f);
+    state.b = select(lanes, fresh.b, state.b);
+    state.cos_beta = select(lanes, fresh.cos_beta, state.cos_beta);
+    state.coupling = select(lanes, fresh.coupling, state.coupling);
+  }
+
+  /// The sub-steps of a tick without the last one, as ConditionedProxies makes them. before: of the last tick, m; in a
+  /// first tick the tip, where a sub-step changes nothing.
+  void step_between(const Coupling& coupling, const Vector& before, const Vector& axis) noexcept {
+    for (std::uint32_t s = 1; s < block_.sub_steps; ++s) {
+      const V share(static_cast<double>(s) / static_cast<double>(block_.sub_steps));
+      advance_proxies(coupling, before + share * (conditioned_ - before), axis);
+    }
+  }
+
+  Vector condition(const Vector& measured) noexcept {
+    if (!block_.fits_lines) return low_pass_.step(measured);
+    return alone(measured, [&](std::size_t lane, const Vector3d& p) { return block_.owner->fit(lane, p); });
+  }
+  Vector direction(const Vector& tip, const Vector3d& axis) noexcept {
+    if (!block_.from_motion) return same<V>(axis);
+    return alone(tip, [&](std::size_t lane, const Vector3d& p) { return block_.owner->direction(lane, p); });
+  }
+  /// each(lane, x) for one lane after the other. A lane without a trial has the result of the last one.
+  template <typename Each>
+  Vector alone(const Vector& x, Each&& each) noexcept {
+    alignas(64) double numbers[3][V::lanes];
+    for (std::size_t j = 0; j < 3; ++j) x[j].store(numbers[j]);
+    Vector3d result;
+    for (std::size_t i = 0; i < V::lanes; ++i) {
+      if (start_ + i < block_.trials) result = each(start_ + i, {numbers[0][i], numbers[1][i], numbers[2][i]});
+      for (std::size_t j = 0; j < 3; ++j) numbers[j][i] = result[j];
+    }
+    return {V::load(numbers[0]), V::load(numbers[1]), V::load(numbers[2])};
+  }
+
+  Coupling coupling_now() const noexcept {
+    const CouplingBlock& c = block_.coupling;
+    typename Coupling::Constants now{at<V>(c.K, start_), at<V>(c.g, start_), at<V>(c.inv_g, start_),
+                                     at<V>(c.free_share, start_)};
+    now.count = c.branches;
+    for (std::size_t i = 0; i < now.count; ++i) now.branches[i] = {at<V>(c.a[i], start_), at<V>(c.k[i], start_)};
+    return Coupling(now);
+  }
+  /// One step of all proxies, to this position (m).
+  void advance_proxies(const Coupling& coupling, const Vector& position, const Vector& axis) noexcept {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const MembraneBlock& membrane = block_.membranes[i];
+      const Params params{Law(block_, i, start_), at<V>(membrane.point, start_), at<V>(membrane.normal, start_),
+                          coupling};
+      ticks_[i] = Solver::step(params, states_[i], position, axis);
+    }
+  }
+
+  /// Moves the plant for a period. force: of the device, N.
+  void move(const SceneBlock::Inputs& inputs, const Vector& force) noexcept {
+    const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
+    const Vector u = at<V>(inputs.noise[0], start_), v = at<V>(inputs.noise[1], start_);
+    const Vector normal(unit_normal(u.x(), v.x()), unit_normal(u.y(), v.y()), unit_normal(u.z(), v.z()));
+    const BasicDeviceDynamics<V> device{number(block_.device_mass), number(block_.friction),
+                                        number(block_.encoder_step), number(block_.max_force)};
+    const BasicHand<V> hand{number(block_.mass), number(block_.damping), number(block_.stiffness), V(0), V(0)};
+    tip_.step(device, hand, number(block_.h), force, {at<V>(inputs.position, start_), at<V>(inputs.velocity, start_)},
+              tremor_.step(normal));
+  }
+
+  /// Marks a lane of which the input gate could report a fault.
+  void look(const Vector& measured, const Truth& first) noexcept {
+    constexpr double margin = 0.99;  // of the gate's limit: rounding cannot make a lane pass that the gate would stop
+    Truth good = largest_of(measured) <= V(margin * 1e6);
+    good = good && (first ||
+                    (measured - measured_).norm() <= V(margin * GateLimits{}.max_speed) * at<V>(block_.period, start_));
+    strange_ = strange_ || !good;
+    measured_ = measured;
+  }
+
+  /// What BasicForceLimiter does with the default limits, for a device without a temperature.
+  Vector limit(const Vector& wanted, const V& elapsed, Truth& limited) noexcept {
+    budget_.spend(held_square_, elapsed);
+    const V period = at<V>(block_.period, start_), ramp_step = period / V(limits.ramp_time);
+    gain_ = select(active_, min(V(1), gain_ + ramp_step), gain_);
+    const Vector faded = wanted + V(0) * Vector();
+    const V most(limits.max_force), steady = min(most, sqrt(budget_.rate()));
+    const V share = min(V(1), V(2) * budget_.left());
+    const V hold = max(period, V(BasicForceLimiter<double>::longest_hold));
+    const V ceiling = min(steady + share * (most - steady), sqrt(budget_.permitted_square(hold)));
+
+    const V largest = largest_of(faded);
+    const Vector ramped = gain_ * faded;
+    const V largest_ramped = largest_of(ramped);
+    const Truth is_zero = largest_ramped == 0;
+    strange_ = strange_ || (active_ && !is_zero && !(largest_ramped >= V(1e-300)));
+    const V norm = select(is_zero, V(0), largest_ramped * (ramped * (V(1) / largest_ramped)).norm());
+    const Truth over = !(norm <= ceiling);
+    const Vector force = select(active_, select(over, Vector(ramped / norm * ceiling), ramped), Vector());
+    limited = active_ && (over || (gain_ < 1 && largest > 0));
+    held_square_ = force.squaredNorm();
+    return force;
+  }
+
+  static constexpr ForceLimits limits{};
+
+  SceneBlock& block_;
+  std::size_t start_;
+  V number_{0};  // of the next tick
+  BasicTipMotion<V> tip_{};
+  BasicTremor<V> tremor_{typename BasicTremor<V>::Filter{}};
+  LowPass<V, Vector> low_pass_ = LowPass<V, Vector>::of_gain(Truth(true), V(0));
+  Vector measured_{}, measured_now_{}, conditioned_{}, model_force_{}, force_{};
+  Truth strange_{false}, active_{false}, limited_{false};
+  V time_{0}, gain_{0}, held_square_{0};
+  BasicForceBudget<V> budget_{V(limits.continuous_time), V(limits.continuous_force)};
+  std::vector<State> states_;
+  std::vector<SpaceTick<V>> ticks_;
+};
+
+}  // namespace punctura::batch
