@@ -47,6 +47,7 @@ find_missing() {
   has_browser || lack $browser "Chromium (or Google Chrome), in which the studio's page is tested"
   has_header doctest/doctest.h || lack doctest-dev "doctest, the C++ test framework (its header as doctest/doctest.h)"
   has_header toml++/toml.h || lack libtomlplusplus-dev "toml++, a TOML reader for C++ (its header as toml++/toml.h)"
+  command -v valgrind >/dev/null || lack valgrind "valgrind, which counts instructions"
   # An independent solver for the system's Python, compared with the clamp. Only some Debian releases have it. Elsewhere
   # its single test is left out, which ./test reports, and SciPy's solver remains.
   has_siconos || ! known python3-siconos || lack python3-siconos "Siconos for /usr/bin/python3"

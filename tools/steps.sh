@@ -1,7 +1,7 @@
 # The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, then a
 # summary is printed.
 
-all_steps="tree format types web cpp asan tsan consumer examples python docs page"
+all_steps="tree format types web cpp asan tsan consumer examples instructions python docs page"
 fast_steps="tree format types web cpp python"
 named_steps="tidy statistics integrations"  # they run only by name
 
@@ -153,6 +153,9 @@ use_it() {
   cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1" &&
     "build/consumer/$1/consumer"
 }
+
+# The instructions of a tick, counted by valgrind, are not more than the stored ones.
+step_instructions() { python benchmarks/instructions.py --check; }
 
 step_python() {
   local but=()
