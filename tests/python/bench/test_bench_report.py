@@ -141,7 +141,8 @@ def test_rows_of_many_trials_are_printed_and_drawn_with_their_ratios(capsys, tmp
     growth = {"line": [[8, 4000, 6.0], [32, 4000, 0.9]], "membranes": [[1, 150.0], [8, 230.0]]}
     counts = {"paper": {"all": 27.0, "multiply": 9.0, "min_max": 2.0}}
     peak = {"operations": counts, "line_bytes": 16, "copied_bytes_per_ns": 20.0, "operations_per_ns": {"avx2": 30.0}}
-    rivals = {"LineBatch": {"median_ns": 2.0, "fastest_ns": 1.8, "over_batch": 1.0}}
+    ours = {"LineBatch": {"median_ns": 2.0, "fastest_ns": 1.8, "over_batch": 1.0}}
+    rivals = {"paper": ours, "exact": ours}
     batch = {"rows": rows, "hands": hands, "threads": threads, "bytes_per_trial": 154}
     batch |= {"growth": growth, "peak": peak, "rivals": rivals}
     result = measured() | {"batch": batch}
