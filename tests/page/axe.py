@@ -6,16 +6,41 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
+USUAL = (1440, 900)
+LARGE, TABLET, PHONE = (1920, 1080), (1024, 768), (390, 844)
 COLOURS = ["color-contrast", "link-in-text-block"]
-RUN = """async (only) => (await axe.run(document, {resultTypes: ['violations'], ...only})).violations
-  .filter(({impact}) => impact !== 'minor')
-  .map(({id, impact, nodes}) => ({id, impact, nodes: nodes.map(({html, failureSummary}) => [html.slice(0, 200),
-    failureSummary])}))"""
+LAYOUT = ["scrollable-region-focusable", "target-size"]  # what the size of the window changes
+RUN = """async ([rules, parts]) => {
+  const found = await axe.run(parts ? {include: parts} : document, {resultTypes: ['violations'], ...rules});
+  return found.violations.filter(({impact}) => impact !== 'minor').map(({id, impact, nodes}) =>
+    ({id, impact, nodes: nodes.map(({html, failureSummary}) => [html.slice(0, 200), failureSummary])}));
+}"""
+TARGETS = {"rules": {"target-size": {"enabled": True}}}  # WCAG 2.2; axe-core leaves it out by default
 
 
-def check(page: Page, state: str) -> None:
-    """Light with all rules. Dark, which differs only in its colours, with the rules about colours."""
-    for scheme, only in (("light", {}), ("dark", {"runOnly": {"type": "rule", "values": COLOURS}})):
-        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-        found = page.evaluate(RUN, only)
-        assert not found, f"{state}, {scheme}: {json.dumps(found, indent=1)}"
+def check(page: Page, state: str, part: str = "") -> None:
+    """All rules in light colours at the usual size; the rules about colours in dark ones, about layout at other sizes.
+
+    The rules about colours also apply at a phone's size, where parts lie over others.
+    part: a selector of what these others look at; empty: the page. At no size may the page scroll sideways. The page
+    stays in light colours and at the usual size.
+    """
+    _none(page, f"{state}, light", TARGETS)
+    page.emulate_media(color_scheme="dark")
+    _none(page, f"{state}, dark", _only(COLOURS), part)
+    page.emulate_media(color_scheme="light")
+    for width, height in (LARGE, TABLET, PHONE):
+        page.set_viewport_size({"width": width, "height": height})
+        rules = LAYOUT + COLOURS if (width, height) == PHONE else LAYOUT
+        _none(page, f"{state}, {width} px wide", _only(rules), part)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{state} scrolls sideways at {width} px"
+    page.set_viewport_size({"width": USUAL[0], "height": USUAL[1]})
+
+
+def _only(rules: list[str]) -> dict[str, object]:
+    return {"runOnly": {"type": "rule", "values": rules}}
+
+
+def _none(page: Page, state: str, rules: dict[str, object], part: str = "") -> None:
+    found = page.evaluate(RUN, [rules, part.split(", ") if part else None])
+    assert not found, f"{state}: {json.dumps(found, indent=1)}"
