@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from program import ProgramError
@@ -34,7 +34,9 @@ def measure_rivals() -> dict[str, dict[str, Any]]:
     }
 
 
-def _measured(solver: str, runs: dict[str, Run], numba: Callable[[int], Run], jax: Callable[[], Run]) -> dict[str, Any]:
+def _measured(
+    solver: Literal["exact", "paper"], runs: dict[str, Run], numba: Callable[[int], Run], jax: Callable[[], Run]
+) -> dict[str, Any]:
     needle = Needle(diameter=1.08e-3, tip_angle=0.28)
     walls = np.linspace(0.3e-3, 1e-3, TRIALS)
     laws = [ThickLaw(needle, Membrane(stiffness=570, precompression=0.41, friction=0.2, thickness=h)) for h in walls]
