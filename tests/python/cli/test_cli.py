@@ -20,10 +20,23 @@ from waiting import wait_until
 HEADER = "time_s,x_m,y_m,z_m\n"
 
 
-def punctura(*arguments, cwd=None, preexec_fn=None):
-    environment = {**os.environ, "NO_COLOR": "1", "COLUMNS": "100"}
+def in_a_process(*arguments, **more):
+    """Like the fixture `punctura`, but slow: a process starts."""
     command = [sys.executable, "-m", "punctura.cli", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment, preexec_fn=preexec_fn)
+    return subprocess.run(command, capture_output=True, text=True, **more)
+
+
+@pytest.fixture(autouse=True)
+def plain(monkeypatch):
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", "100")
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """tmp_path is the current folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
 
 
 @pytest.fixture
@@ -34,21 +47,21 @@ def motion(tmp_path):
 
 
 def test_the_version_is_that_of_the_package():
-    done = punctura("--version")
+    done = in_a_process("--version")
     assert (done.returncode, done.stdout) == (0, f"punctura {version('punctura')}\n")
 
 
-def test_without_a_verb_it_lists_the_verbs():
+def test_without_a_verb_it_lists_the_verbs(punctura):
     done = punctura()
     for verb in ("scenes", "schema", "simulate"):
         assert re.search(rf"^\s+{verb} +\w", done.stdout + done.stderr, re.M)
 
 
-def test_each_verb_is_a_file_and_tells_how_it_is_used():
+def test_each_verb_is_a_file_and_tells_how_it_is_used(punctura):
     for verb in ("scenes", "schema", "simulate"):
         for asks in ("--help", "-h"):
             done = punctura(verb, asks)
-            assert done.returncode == 0 and f"Usage: punctura {verb}" in done.stdout
+            assert done.status == 0 and f"Usage: punctura {verb}" in done.stdout
 
 
 @pytest.mark.parametrize(
@@ -66,9 +79,9 @@ def test_each_verb_is_a_file_and_tells_how_it_is_used():
     ],
     ids=lambda x: " ".join(x) if isinstance(x, list) else "",
 )
-def test_every_verb_ends_with_a_status_of_the_table(arguments, status, tmp_path):
-    done = punctura(*arguments, cwd=tmp_path)
-    assert done.returncode == status and "Traceback" not in done.stderr
+def test_every_verb_ends_with_a_status_of_the_table(punctura, arguments, status, here):
+    done = punctura(*arguments)
+    assert done.status == status and "Traceback" not in done.stderr
     assert status == DONE or done.stderr.strip()
 
 
@@ -88,18 +101,18 @@ def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
     assert (done.returncode, done.stderr) == (1, said)
 
 
-def test_an_unknown_verb_is_a_usage_error():
+def test_an_unknown_verb_is_a_usage_error(punctura):
     done = punctura("fly")
-    assert done.returncode == 2 and "No such command 'fly'" in done.stderr and not done.stdout
+    assert done.status == 2 and "No such command 'fly'" in done.stderr and not done.stdout
 
 
-def test_scenes_lists_names_and_membranes():
+def test_scenes_lists_names_and_membranes(punctura):
     lines = punctura("scenes").stdout.splitlines()
     assert [line.split()[0] for line in lines] == scene_names()
     assert "k06-fig12     K06 Fig. 12: first membrane, second membrane" in lines
 
 
-def test_scenes_as_json_name_their_files():
+def test_scenes_as_json_name_their_files(punctura):
     entries = json.loads(punctura("scenes", "--json").stdout)
     assert [entry["name"] for entry in entries] == scene_names()
     assert entries[1] == {
@@ -111,22 +124,22 @@ def test_scenes_as_json_name_their_files():
     assert all(os.path.isfile(entry["file"]) for entry in entries)
 
 
-def test_schema_prints_json_schema():
+def test_schema_prints_json_schema(punctura):
     schema = json.loads(punctura("schema").stdout)
     assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
     assert {"needle", "coupling", "membrane", "name"} == set(schema["required"])
 
 
-def test_simulate_says_in_words_what_it_did(motion, tmp_path):
+def test_simulate_says_in_words_what_it_did(punctura, motion, tmp_path):
     done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.status, done.stderr) == (0, "")
     first, second = done.stdout.splitlines()
     assert first.startswith(f"{tmp_path / 'out.csv'}: 1000 ticks at 1600 Hz, 0 s to 0.624375 s, strongest force 0.7")
     assert second.startswith("  thin membrane: ")
     assert len((tmp_path / "out.csv").read_text().splitlines()) == 1001
 
 
-def test_simulate_as_json_is_only_json_on_stdout(motion, tmp_path):
+def test_simulate_as_json_is_only_json_on_stdout(punctura, motion, tmp_path):
     done = punctura("simulate", "k06-fig12", "--motion", motion, "--out", tmp_path / "out.parquet", "--json")
     summary = json.loads(done.stdout)
     assert (summary["rows_in"], summary["rows_out"], summary["resampled"]) == (1000, 1000, False)
@@ -134,7 +147,7 @@ def test_simulate_as_json_is_only_json_on_stdout(motion, tmp_path):
     assert done.stderr == ""
 
 
-def test_a_note_goes_to_stderr_and_into_the_json(motion, tmp_path):
+def test_a_note_goes_to_stderr_and_into_the_json(punctura, motion, tmp_path):
     motion.write_text(HEADER + "".join(f"{i / 500!r},0,0,0\n" for i in range(50)))
     done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv", "--json")
     note = "the motion is sampled at 500 Hz, the servo runs at 1600 Hz: the motion was resampled linearly"
@@ -142,19 +155,19 @@ def test_a_note_goes_to_stderr_and_into_the_json(motion, tmp_path):
     assert done.stderr == f"punctura: note: {note}\n"
 
 
-def test_a_bad_motion_fails_with_status_1_and_one_sentence(motion, tmp_path):
+def test_a_bad_motion_fails_with_status_1_and_one_sentence(punctura, motion, tmp_path):
     motion.write_text(HEADER + "0,0,0,0\n0.000625,0,nan,0\n")
     done = punctura("simulate", "k06-fig10", "--motion", motion, "--out", tmp_path / "out.csv")
-    assert (done.returncode, done.stdout) == (1, "")
+    assert (done.status, done.stdout) == (1, "")
     what = "y_m is nan; fill the sample in, or cut the motion there"
     assert done.stderr == f"punctura: {motion}, line 3: {what}\n"
     assert [p.name for p in tmp_path.iterdir()] == ["motion.csv"]
 
 
-def test_a_bad_scene_is_called_wrongly_with_all_its_problems(motion, tmp_path):
-    (tmp_path / "bad.toml").write_text("name = 3\n")
-    done = punctura("simulate", "bad.toml", "--motion", motion, "--out", "out.csv", cwd=tmp_path)
-    assert (done.returncode, done.stdout) == (2, "")
+def test_a_bad_scene_is_called_wrongly_with_all_its_problems(punctura, motion, here):
+    (here / "bad.toml").write_text("name = 3\n")
+    done = punctura("simulate", "bad.toml", "--motion", motion, "--out", "out.csv")
+    assert (done.status, done.stdout) == (2, "")
     assert done.stderr == (
         "punctura: bad.toml: 4 problems\n"
         "  name = 3: must be text, in quotes\n"
@@ -164,23 +177,23 @@ def test_a_bad_scene_is_called_wrongly_with_all_its_problems(motion, tmp_path):
     )
 
 
-def test_missing_files_and_a_wrong_ending_are_called_wrongly(tmp_path):
-    done = punctura("simulate", "k06-fig10", "--motion", "none.csv", "--out", "out.xlsx", cwd=tmp_path)
-    assert done.returncode == 2
+def test_missing_files_and_a_wrong_ending_are_called_wrongly(punctura, here):
+    done = punctura("simulate", "k06-fig10", "--motion", "none.csv", "--out", "out.xlsx")
+    assert done.status == 2
     assert done.stderr == (
         "punctura: 2 problems\n  motion none.csv: there is no such file\n  out out.xlsx: must end in .csv or .parquet\n"
     )
 
 
 @pytest.mark.parametrize("verb", [["identify", "--needle", "diameter_mm=1,tip_angle_deg=20"], ["compare"]])
-def test_a_missing_trace_is_named_and_is_a_usage_error(verb, tmp_path):
-    done = punctura(*verb, "none.csv", cwd=tmp_path)
-    assert done.returncode == 2 and "none.csv" in done.stderr and "Errno" not in done.stderr
+def test_a_missing_trace_is_named_and_is_a_usage_error(punctura, verb, here):
+    done = punctura(*verb, "none.csv")
+    assert done.status == 2 and "none.csv" in done.stderr and "Errno" not in done.stderr
 
 
-def test_missing_options_are_a_usage_error():
+def test_missing_options_are_a_usage_error(punctura):
     done = punctura("simulate", "k06-fig10")
-    assert done.returncode == 2 and "Missing option '--motion'" in done.stderr
+    assert done.status == 2 and "Missing option '--motion'" in done.stderr
 
 
 def writes_in(folder, pid):
@@ -227,7 +240,7 @@ def test_a_deleted_working_folder_is_named_as_the_reason(motion, tmp_path):
     def in_a_deleted_folder(*arguments):
         folder = tmp_path / "gone"
         folder.mkdir()
-        return punctura(*arguments, cwd=folder, preexec_fn=folder.rmdir)
+        return in_a_process(*arguments, cwd=folder, preexec_fn=folder.rmdir)
 
     done = in_a_deleted_folder("simulate", "k06-fig10", "--motion", motion, "--out", "out.csv")
     assert done.returncode == 1 and "started in has been deleted: change to another" in done.stderr
