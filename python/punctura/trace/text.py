@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -25,6 +24,10 @@ _DELIMITERS = (";", "\t", ",")  # a comma may be the decimal point of the others
 _LOOKED_AT = (
     200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
 )
+_COMMENT = re.compile(r"^[#%].*\n", re.MULTILINE)
+_EMPTY = re.compile(r"^[^\S\n]*\n", re.MULTILINE)
+_SPACES = re.compile(r"[^\S\n]+")
+_AT_ENDS = re.compile(r"^ | $", re.MULTILINE)
 
 
 def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
@@ -36,36 +39,75 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     Lines above the table are left out, but for the names of the columns and their units. Rows with another number of
     cells are NaN.
     """
-    lines = [line for line in _decoded(path).splitlines() if line.strip()]
-    rows = [line for line in lines if not line.startswith(("#", "%"))]
+    text = _text_of(path)
+    rows = _COMMENT.sub("", text) if _COMMENT.search(text) else text
     if not rows:
         raise TraceError(f"{path}: is empty")
-    delimiter = _delimiter(rows[-_LOOKED_AT:])
+    delimiter = _delimiter(_last_lines(rows))
     if delimiter == " ":
-        lines = [re.sub(r"\s+", " ", line.strip()) for line in lines]
-    looked_at = rows[:_LOOKED_AT] + rows[-_LOOKED_AT:]
+        text, rows = _single_spaced(text), _single_spaced(rows)
+    looked_at = _first_lines(rows) + _last_lines(rows)
     check_size(path, 0, max(1 + line.count(delimiter) for line in looked_at))
     if max(map(len, looked_at)) > LONGEST_NAME * MOST_COLUMNS:
         raise TraceError(f"{path}: a line has more than {LONGEST_NAME * MOST_COLUMNS:,} characters; export it again")
-    last = [_cells(line, delimiter) for line in lines[-_LOOKED_AT:] if not line.startswith(("#", "%"))]
+    last = [_cells(line, delimiter) for line in _last_lines(rows)]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
-    check_size(path, len(lines), width)
+    check_size(path, rows.count("\n"), width)
     mark = decimal or decimal_in(cell for row in last for cell in row)
-    head = [[] if line.startswith(("#", "%")) else _cells(line, delimiter) for line in lines[:_LOOKED_AT]]
+    lines = _first_lines(text)
+    head = [[] if _is_comment(line) else _cells(line, delimiter) for line in lines]
     first = first_row(head, width, mark)
     if first == len(head):
         raise TraceError(f"{path}: holds no rows of numbers; {width} cells in a row are expected, as at its end")
     names = column_names([_cells(line.lstrip("#% "), delimiter) for line in lines[:first]], width)
-    table = [line for line in lines[first:] if not line.startswith(("#", "%"))]
-    columns, left_out = _parsed(path, table, names, delimiter)
+    above = sum(len(line) + 1 for line in lines[:first] if not _is_comment(line))
+    table, left_out = _parsed(path, rows[above:], names, delimiter)
+    del text, rows
     try:
-        read = {name: numbers(cells, mark, decimal is not None) for name, cells in columns.items()}
+        read = {name: _numbers(table[name], mark, decimal is not None) for name in names}
     except DoubtfulNumber as doubt:
         raise TraceError(
             f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate "
             'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
         ) from None
     return {name: np.insert(cells, left_out, np.nan) for name, cells in read.items()}
+
+
+def _text_of(path: Path) -> str:
+    """The text without empty lines. Each line ends in a newline. The lines are no list: that takes many times as much
+    memory. Raises TraceError."""
+    text = _decoded(path)
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if not text.endswith("\n"):
+        text += "\n"
+    return _EMPTY.sub("", text) if _EMPTY.search(text) else text
+
+
+def _is_comment(line: str) -> bool:
+    return line.startswith(("#", "%"))
+
+
+def _single_spaced(text: str) -> str:
+    return _AT_ENDS.sub("", _SPACES.sub(" ", text))
+
+
+def _first_lines(text: str) -> list[str]:
+    return text.split("\n", _LOOKED_AT)[:-1][:_LOOKED_AT]
+
+
+def _last_lines(text: str) -> list[str]:
+    return text[:-1].rsplit("\n", _LOOKED_AT)[-_LOOKED_AT:]
+
+
+def _numbers(cells: pa.ChunkedArray, mark: Decimal, asked: bool) -> Array:
+    """A column of text as numbers. Arrow reads plain numbers, in a fraction of the memory; the rest goes one by one."""
+    if mark == ".":
+        try:
+            return np.asarray(cells.cast(pa.float64()).to_numpy())
+        except pa.ArrowInvalid:
+            pass
+    return numbers(cells.to_pylist(), mark, asked)
 
 
 def _decoded(path: Path) -> str:
@@ -98,9 +140,7 @@ def _cells(line: str, delimiter: str) -> list[str]:
         return [line]
 
 
-def _parsed(
-    path: Path, lines: list[str], names: list[str], delimiter: str
-) -> tuple[dict[str, list[str | None]], list[int]]:
+def _parsed(path: Path, rows: str, names: list[str], delimiter: str) -> tuple[pa.Table, list[int]]:
     """The cells of the columns as text, and in front of which a row of another width was left out."""
     broken: list[int] = []
 
@@ -110,11 +150,11 @@ def _parsed(
 
     try:
         table = pyarrow.csv.read_csv(
-            io.BytesIO("\n".join(lines).encode()),
+            pa.BufferReader(rows.encode()),
             pyarrow.csv.ReadOptions(column_names=names, use_threads=False),  # so the number of a row is known
             pyarrow.csv.ParseOptions(delimiter=delimiter, invalid_row_handler=left_out),
             pyarrow.csv.ConvertOptions(column_types=dict.fromkeys(names, pa.string())),
         )
     except pa.ArrowInvalid as error:
         raise TraceError(f"{path}: is no table of numbers: {error}") from None
-    return {name: table.column(name).to_pylist() for name in names}, [row - i for i, row in enumerate(broken)]
+    return table, [row - i for i, row in enumerate(broken)]

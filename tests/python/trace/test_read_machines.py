@@ -83,6 +83,11 @@ def test_two_tables_side_by_side_are_asked_for(tmp_path):
         read_trace(tmp_path / "a.csv")
 
 
+def test_many_lines_of_remarks_may_stand_below_the_table(tmp_path):
+    (tmp_path / "a.csv").write_text(text_of(["time_s,depth_mm,force_N"], "{},{},{}") + "\n" + 300 * "# end of test\n")
+    assert read_trace(tmp_path / "a.csv").force == pytest.approx(MADE.force)
+
+
 def test_a_file_that_is_no_text_is_named(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
     with pytest.raises(TraceError, match="is no text, Parquet, MAT or XLSX file; export the table as CSV"):

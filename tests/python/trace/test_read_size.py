@@ -87,6 +87,14 @@ def test_small_files_with_too_many_numbers_are_refused_before_these_are_read(tmp
     assert "structures of more than 100 MB; that is the limit. Save depth" in said[2]
 
 
+def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
+    rows = "".join(f"{0.001 * i:.4f},{1e-5 * i:.6f},{0.1 * (i % 100):.5f}\n" for i in range(40_000))
+    (tmp_path / "a.csv").write_text("time_s,depth_mm,force_N\n" + 40 * rows)
+    assert (tmp_path / "a.csv").stat().st_size > 35_000_000
+    said = in_little_memory(tmp_path / "a.csv")  # 1.6 million rows; as a list of lines and cells they take 600 MB
+    assert said == []
+
+
 @pytest.mark.parametrize("part, size", [("xl/styles.xml", 9_000_000), ("xl/sharedStrings.xml", 65_000_000)])
 def test_a_part_of_a_workbook_that_expands_is_refused(tmp_path, part, size):
     xlsx(tmp_path / "a.xlsx", columns())
