@@ -24,6 +24,7 @@ _DELIMITERS = (";", "\t", ",")  # a comma may be the decimal point of the others
 _LOOKED_AT = (
     200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
 )
+_LARGE, _PIECE = 100_000_000, 1 << 24  # bytes
 _COMMENT = re.compile(r"^[#%].*\n", re.MULTILINE)
 _EMPTY = re.compile(r"^[^\S\n]*\n", re.MULTILINE)
 _SPACES = re.compile(r"[^\S\n]+")
@@ -39,7 +40,8 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     Lines above the table are left out, but for the names of the columns and their units. Rows with another number of
     cells are NaN.
     """
-    text = _text_of(path)
+    _check_large(path)
+    text = _text_of(path, path.read_bytes())
     rows = _COMMENT.sub("", text) if _COMMENT.search(text) else text
     if not rows:
         raise TraceError(f"{path}: is empty")
@@ -73,10 +75,12 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     return {name: np.insert(cells, left_out, np.nan) for name, cells in read.items()}
 
 
-def _text_of(path: Path) -> str:
-    """The text without empty lines. Each line ends in a newline. The lines are no list: that takes many times as much
-    memory. Raises TraceError."""
-    text = _decoded(path)
+def _text_of(path: Path, data: bytes) -> str:
+    """The text of a file that holds `data`, without empty lines; each line ends in a newline. Raises TraceError.
+
+    It is no list of lines: that takes many times as much memory.
+    """
+    text = _decoded(path, data)
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
     if not text.endswith("\n"):
@@ -110,8 +114,20 @@ def _numbers(cells: pa.ChunkedArray, mark: Decimal, asked: bool) -> Array:
     return numbers(cells.to_pylist(), mark, asked)
 
 
-def _decoded(path: Path) -> str:
-    data = path.read_bytes()
+def _check_large(path: Path) -> None:
+    """Raises TraceError for a large file with too many numbers, before memory is taken for all of them."""
+    if path.stat().st_size < _LARGE:
+        return
+    with path.open("rb") as file:
+        first = file.read(_PIECE)
+        count = first.count(b"\n") + sum(piece.count(b"\n") for piece in iter(lambda: file.read(_PIECE), b""))
+    lines = _last_lines(_text_of(path, first))[:-1]  # the last one is cut
+    delimiter = _delimiter(lines)
+    widths = Counter(len(_cells(line, delimiter)) for line in lines)
+    check_size(path, count, widths.most_common(1)[0][0] if widths else 1)
+
+
+def _decoded(path: Path, data: bytes) -> str:
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", errors="replace")
     if b"\0" in data[:4096]:

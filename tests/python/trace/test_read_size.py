@@ -95,6 +95,16 @@ def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
     assert said == []
 
 
+def test_a_large_text_file_with_too_many_numbers_is_refused_before_it_is_read(tmp_path, monkeypatch):
+    monkeypatch.setattr("punctura.trace.text._LARGE", 10_000)
+    monkeypatch.setattr("punctura.trace.text._PIECE", 1_000)
+    monkeypatch.setattr("punctura.trace.size.MOST_NUMBERS", 5_000)
+    monkeypatch.setattr("pathlib.Path.read_bytes", lambda path: pytest.fail("read"))
+    (tmp_path / "a.csv").write_text("time_s;depth_mm;force_N\n" + 2_000 * "0;1;2\n")
+    with pytest.raises(TraceError, match=r"a.csv: holds 6,003 numbers or more; the limit is 5,000. Export only depth"):
+        read_trace(tmp_path / "a.csv")
+
+
 @pytest.mark.parametrize("part, size", [("xl/styles.xml", 9_000_000), ("xl/sharedStrings.xml", 65_000_000)])
 def test_a_part_of_a_workbook_that_expands_is_refused(tmp_path, part, size):
     xlsx(tmp_path / "a.xlsx", columns())
