@@ -1,10 +1,7 @@
 """Limits files, and their use by the command line."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -107,17 +104,7 @@ def test_a_dead_man_button_that_the_device_does_not_have_is_refused(tmp_path):
             limits.gate_on(device)
 
 
-def punctura(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "punctura.cli", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        env=os.environ | {"COLUMNS": "200"},
-    )
-
-
-def test_the_command_line_bounds_the_force(tmp_path):
+def test_the_command_line_bounds_the_force(punctura, tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("max_force_N = 0.6\nramp_time_s = 0.01\n")
     run = (
@@ -135,7 +122,7 @@ def test_the_command_line_bounds_the_force(tmp_path):
     said_strongest = {}
     for name, more in {"file": (), "option": ("--max-force-N", "0.4")}.items():
         done = punctura(*run, *more)
-        assert done.returncode == 0, done.stderr
+        assert done.status == 0, done.stderr
         said = json.loads(done.stdout)
         said_strongest[name] = said["strongest_N"]
         assert said["limited_ticks"] > 0
@@ -173,24 +160,24 @@ def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path
     assert shorter.notes(ServoLoop(weak, SCENE, shorter.gate_on(weak), shorter.force)) == []
 
 
-def test_a_run_without_any_force_says_why(tmp_path):
+def test_a_run_without_any_force_says_why(punctura, tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("dead_man_buttons = [1]\n")
     done = punctura("run", "--headless", "--device", "simulated", "--duration", "1.5", "--limits", str(path))
-    assert done.returncode == 0
+    assert done.status == 0
     assert "note: the simulated hand presses no button: with dead_man_buttons it is given no force" in done.stderr
     assert "note: there was no force at any time: the dead-man button was never held, or the tip" in done.stderr
     done = punctura("run", "--headless", "--device", "simulated", "--duration", "1.5", "--json")
     assert json.loads(done.stdout)["force_was_on"] and "no force at any time" not in done.stderr
 
 
-def test_the_command_line_tells_a_force_above_the_devices_rating(tmp_path):
+def test_the_command_line_tells_a_force_above_the_devices_rating(punctura, tmp_path):
     path = tmp_path / "limits.toml"
     path.write_text("max_force_N = 9\n")
     run = ("run", "--headless", "--device", "simulated", "--duration", "0.1")
     for more, asked in ((("--limits", str(path)), "9"), (("--max-force-N", "5"), "5")):
         done = punctura(*run, *more)
-        assert done.returncode == 0
+        assert done.status == 0
         assert f"note: max_force_N = {asked} is above the rating of PHANTOM Omni, simulated: 3.3 N" in done.stderr
 
 
@@ -205,11 +192,11 @@ def test_the_command_line_tells_a_force_above_the_devices_rating(tmp_path):
         (("--device", "replay:x.parquet", "--placement", "{buttons}"), "already in the scene's frame"),
     ],
 )
-def test_limits_that_cannot_be_end_the_command_in_words(tmp_path, arguments, words):
+def test_limits_that_cannot_be_end_the_command_in_words(punctura, tmp_path, arguments, words):
     path = tmp_path / "limits.toml"
     path.write_text("dead_man_buttons = [2]\n")
     done = punctura("run", "--headless", "--device", "simulated", *(a.format(buttons=path) for a in arguments))
-    assert done.returncode == 2
+    assert done.status == 2
     assert words in done.stderr and "Traceback" not in done.stderr
 
 

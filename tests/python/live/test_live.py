@@ -24,12 +24,6 @@ def simulated(ticks=4000, **kw):
     return SimulatedDevice(STROKES, real_time=False, ticks=ticks, **kw)
 
 
-def punctura(*arguments, **kw):
-    return subprocess.run(
-        [sys.executable, "-m", "punctura.cli", *arguments], capture_output=True, text=True, timeout=60, **kw
-    )
-
-
 def test_a_run_ends_with_the_device_and_its_summary_counts_every_tick():
     summary = run_live(simulated(), SCENE)
     assert (summary.ticks, summary.gaps, summary.fault) == (4000, 0, "")
@@ -153,47 +147,47 @@ def test_safety_limits_that_would_switch_safety_off_are_refused_with_all_reasons
         GateLimits(deadline=float("nan"))
 
 
-def test_headless_prints_a_summary_a_program_can_read():
+def test_headless_prints_a_summary_a_program_can_read(punctura):
     done = punctura("run", "k06-fig12", "--headless", "--duration", "1.5", "--json")
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done.stderr
     summary = json.loads(done.stdout)
     assert summary["gaps"] == 0
     assert 0 < summary["ticks"] <= 2500
     assert summary["device"].startswith("simulated")
 
 
-def test_a_recorded_run_holds_every_tick_and_runs_again_to_the_last_bit(tmp_path):
+def test_a_recorded_run_holds_every_tick_and_runs_again_to_the_last_bit(punctura, tmp_path):
     file = tmp_path / "run.parquet"
     done = punctura("run", "k06-fig12", "--headless", "--duration", "2", "--record", str(file), "--json")
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done.stderr
     ticks = json.loads(done.stdout)["ticks"]
     assert f"run.parquet: {ticks} ticks recorded, 0 lost" in done.stderr
     again = punctura("replay", str(file))
-    assert again.returncode == 0, again.stderr
+    assert again.status == 0, again.stderr
     assert "identical" in again.stdout
 
 
-def test_a_recording_that_cannot_be_written_is_told_before_anything_moves(tmp_path):
+def test_a_recording_that_cannot_be_written_is_told_before_anything_moves(punctura, tmp_path):
     done = punctura("run", "--headless", "--duration", "1", "--record", str(tmp_path / "run.csv"))
-    assert done.returncode == 2
+    assert done.status == 2
     assert "must end in .parquet" in done.stderr
 
 
-def test_without_a_page_the_studio_says_how_to_build_it(tmp_path):
+def test_without_a_page_the_studio_says_how_to_build_it(punctura, tmp_path):
     done = punctura("run", "--page", str(tmp_path))
-    assert done.returncode == 1
+    assert done.status == 1
     assert "npm run build" in done.stderr
 
 
-def test_what_needs_headless_says_so(tmp_path):
+def test_what_needs_headless_says_so(punctura):
     done = punctura("run", "--json")
-    assert done.returncode == 2
+    assert done.status == 2
     assert "needs --headless" in done.stderr
 
 
-def test_an_unknown_device_is_a_usage_error():
+def test_an_unknown_device_is_a_usage_error(punctura):
     done = punctura("run", "--headless", "--device", "omega")
-    assert done.returncode == 2
+    assert done.status == 2
     assert "omega" in done.stderr
 
 
@@ -213,9 +207,9 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     assert process.returncode == 128 + getattr(signal, name)
 
 
-def test_devices_tells_every_back_end_and_its_state():
+def test_devices_tells_every_back_end_and_its_state(punctura):
     done = punctura("devices", "--json")
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done.stderr
     entries = {entry["backend"]: entry for entry in json.loads(done.stdout)}
     assert entries["simulated"]["state"] == "available"
     assert all(entry["state"] == "available" or entry["detail"] for entry in entries.values())

@@ -1,6 +1,6 @@
 """Where a device stands in the scene: files, poses, and the guided command."""
 
-import subprocess
+import io
 import sys
 
 import numpy as np
@@ -122,11 +122,16 @@ def test_a_device_that_points_nowhere_is_reported():
         present_pose(loop, sleep=loop.sleep)
 
 
-def test_place_writes_what_run_takes(tmp_path):
+@pytest.fixture
+def enter(monkeypatch):
+    """Standard input holds one line: the Enter key."""
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n"))
+
+
+def test_place_writes_what_run_takes(punctura, enter, tmp_path):
     out = tmp_path / "here.toml"
-    command = [sys.executable, "-m", "punctura.cli", "place", "--out", str(out), "--device", "simulated"]
-    done = subprocess.run(command, input="\n", capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0, done.stderr
+    done = punctura("place", "--out", out, "--device", "simulated")
+    assert done.status == 0, done.stderr
     assert "20 mm in front of 'thin membrane'" in done.stdout
     placement = load_placement(out)
     # The simulated hand rests 5 mm above the surface, pointing in: it is taken 15 mm higher, and not turned.
@@ -142,8 +147,7 @@ def test_place_writes_what_run_takes(tmp_path):
         (("--tip-offset-mm", "nan"), "finite"),
     ],
 )
-def test_place_says_what_cannot_be_before_anybody_holds_anything(arguments, words):
-    command = [sys.executable, "-m", "punctura.cli", "place", "--device", "simulated", *arguments]
-    done = subprocess.run(command, input="\n", capture_output=True, text=True, timeout=60)
-    assert done.returncode == 2 and words in " ".join(done.stderr.split())
+def test_place_says_what_cannot_be_before_anybody_holds_anything(punctura, enter, arguments, words):
+    done = punctura("place", "--device", "simulated", *arguments)
+    assert done.status == 2 and words in " ".join(done.stderr.split())
     assert "Hold the stylus" not in done.stdout

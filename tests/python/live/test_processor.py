@@ -1,8 +1,6 @@
 """The loop's thread runs on the requested CPU."""
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import punctura as pn
@@ -48,17 +46,15 @@ def test_one_that_does_not_exist_does_no_harm_and_is_said():
     assert any(text.startswith("processor 4095: not granted") for text in device.statements())
 
 
-def test_the_command_line_refuses_one_that_is_not_there():
-    command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--processor", "4095"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
-    assert done.returncode == 2
+def test_the_command_line_refuses_one_that_is_not_there(punctura):
+    done = punctura("run", "--headless", "--processor", "4095")
+    assert done.status == 2
     assert f"processor 4095 cannot be used here; there are {', '.join(map(str, sorted(os.sched_getaffinity(0))))}" in (
         " ".join(done.stderr.replace("│", " ").split())
     )
 
 
-def test_the_command_line_passes_it_on():
-    command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated", "--duration", "0.2"]
-    done = subprocess.run([*command, "--processor", str(LAST)], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0, done.stderr
+def test_the_command_line_passes_it_on(punctura):
+    done = punctura("run", "--headless", "--device", "simulated", "--duration", "0.2", "--processor", LAST)
+    assert done.status == 0, done.stderr
     assert f"processor {LAST}: granted" in done.stdout

@@ -1,8 +1,6 @@
 """Too many ticks for the buffer: memory stays bounded, and each loss is counted and reported."""
 
 import json
-import subprocess
-import sys
 
 import pytest
 from punctura import Scene, load_scene
@@ -66,12 +64,10 @@ def test_a_scene_that_a_computer_may_not_keep_up_with_is_reported(tmp_path):
 
 
 @pytest.mark.parametrize("as_json", [False, True])
-def test_the_command_line_says_it_before_the_run_and_in_the_summary(tmp_path, as_json):
+def test_the_command_line_says_it_before_the_run_and_in_the_summary(punctura, tmp_path, as_json):
     save_scene(many(), tmp_path / "many.toml")
-    command = [sys.executable, "-m", "punctura.cli", "run", "many.toml", "--headless", "--device", "simulated"]
-    done = subprocess.run(
-        [*command, "--duration", "0.1", *(["--json"] if as_json else [])], capture_output=True, text=True, cwd=tmp_path
-    )
+    run = ["run", tmp_path / "many.toml", "--headless", "--device", "simulated", "--duration", "0.1"]
+    done = punctura(*run, *(["--json"] if as_json else []))
     assert "punctura: note: 64 membranes at 100000 Hz" in done.stderr
     said = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
     assert "64 membranes at 100000 Hz produce a lot of data" in said

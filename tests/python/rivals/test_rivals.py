@@ -2,8 +2,6 @@
 
 import json
 import pickle
-import subprocess
-import sys
 
 import numpy as np
 import punctura as pn
@@ -141,15 +139,14 @@ def test_the_sign_of_the_velocity_shakes_more_than_a_bristle():
     assert shake("dahl").rest < 0.02
 
 
-def test_the_command_line_compares_and_feels(tmp_path):
+def test_the_command_line_compares_and_feels(punctura, tmp_path):
     trace = trace_of("exponential", TRUE["exponential"])
     csv = tmp_path / "trace.csv"
     rows = np.column_stack([trace.time, trace.depth * 1e3, trace.force])
     np.savetxt(csv, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="")
     out = tmp_path / "fits"
-    call = [sys.executable, "-m", "punctura.cli", "compare", csv, "--models", "exponential,dahl", "--json"]
-    call += ["--plot", tmp_path / "plot.svg", "--out", out]
-    told = json.loads(subprocess.run(call, capture_output=True, text=True, check=True).stdout)
+    models = ["--models", "exponential,dahl", "--json", "--plot", tmp_path / "plot.svg"]
+    told = json.loads(punctura("compare", csv, *models, "--out", out).stdout)
     assert [model["name"] for model in told["models"]] == ["exponential", "dahl"]
     assert told["models"][0]["rmse_N"] == pytest.approx(NOISE, rel=0.15)
     drawing = (tmp_path / "plot.svg").read_text()
