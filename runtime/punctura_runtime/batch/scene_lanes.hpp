@@ -115,13 +115,14 @@ class SceneLanes {
     const SceneBlock::Inputs& inputs = block_.inputs[k];
     const Truth first = number_ == 0;
     const V time = block_.has_hand ? number_ * number(block_.period) : number_ / number(block_.rate);
-    measured_now_ = at<V>(inputs.position, start_);
+    Vector measured = at<V>(inputs.position, start_);
     if (block_.has_hand) {
-      measured_now_ = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
-      look(measured_now_, first);
+      measured = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
+      look(measured, first);
     }
+    measured_ = measured;
 
-    const Vector before = conditioned_, tip = condition(measured_now_), axis = direction(tip, inputs.axis);
+    const Vector before = conditioned_, tip = condition(measured), axis = direction(tip, inputs.axis);
     conditioned_ = tip;
     const Coupling coupling = coupling_now();
     if (block_.sub_steps > 1 && !all(first)) step_between(coupling, select(first, tip, before), axis);
@@ -144,7 +145,7 @@ class SceneLanes {
 
   // The results of the last tick.
   const V& time() const noexcept { return time_; }                     ///< s
-  const Vector& measured() const noexcept { return measured_now_; }    ///< the position that the device reported, m
+  const Vector& measured() const noexcept { return measured_; }        ///< the position that the device reported, m
   const Vector& tip() const noexcept { return conditioned_; }          ///< the conditioned position, m
   const Vector& model_force() const noexcept { return model_force_; }  ///< N
   const Vector& force() const noexcept { return force_; }              ///< of the device, N; 0 without a hand
@@ -239,7 +240,6 @@ class SceneLanes {
     good = good && (first ||
                     (measured - measured_).norm() <= V(margin * GateLimits{}.max_speed) * at<V>(block_.period, start_));
     strange_ = strange_ || !good;
-    measured_ = measured;
   }
 
   /// What BasicForceLimiter does with the default limits, for a device without a temperature.
@@ -274,7 +274,7 @@ class SceneLanes {
   BasicTipMotion<V> tip_{};
   BasicTremor<V> tremor_{typename BasicTremor<V>::Filter{}};
   LowPass<V, Vector> low_pass_ = LowPass<V, Vector>::of_gain(Truth(true), V(0));
-  Vector measured_{}, measured_now_{}, conditioned_{}, model_force_{}, force_{};
+  Vector measured_{}, conditioned_{}, model_force_{}, force_{};
   Truth strange_{false}, active_{false}, limited_{false};
   V time_{0}, gain_{0}, held_square_{0};
   BasicForceBudget<V> budget_{V(limits.continuous_time), V(limits.continuous_force)};
