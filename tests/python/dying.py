@@ -2,6 +2,7 @@
 
 import os
 import signal
+import threading
 from pathlib import Path
 
 from punctura.identify.folder import _failed
@@ -11,4 +12,11 @@ def dies(path, task):
     """One trace ends its process, as a lack of memory does."""
     if path.endswith("dies.csv"):
         os.kill(os.getpid(), signal.SIGKILL)
+    return _failed(Path(path), task, "was reached"), False
+
+
+def goes_on(path, task):
+    """One trace is there at once; the others take for ever."""
+    if not path.endswith("a.csv"):
+        threading.Event().wait()
     return _failed(Path(path), task, "was reached"), False

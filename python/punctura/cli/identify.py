@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -78,17 +79,21 @@ def command(
             raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out DIR")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out DIR for the results", param_hint="--out")
+        if out.exists() and not out.is_dir():
+            raise typer.BadParameter(f"{out} is a file; the results need a folder", param_hint="--out")
         _folder(trace, out, task, processes, as_json)
         return
+    for option, path in (("--scene", scene), ("--report", report), ("--plan", plan)):
+        check_place(path, option)
     read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
     found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
+    typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
     if report is not None:
         write_whole(report, report_html(found))
     if plan is not None:
         _plan(plan, found)
-    typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))
 
 
 def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json: bool) -> None:
@@ -115,6 +120,18 @@ def _plan(path: Path, found: Identification) -> None:
     best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
     write_whole(path, best.csv())
     typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
+
+
+def check_place(path: Path | None, option: str) -> None:
+    """Says before a long computation that a file cannot be written there. Raises BadParameter."""
+    if path is None:
+        return
+    if path.is_dir():
+        raise typer.BadParameter(f"{path} is a folder; name a file", param_hint=option)
+    if not path.parent.is_dir():
+        raise typer.BadParameter(f"{path}: there is no folder {path.parent}; make it first", param_hint=option)
+    if not os.access(path.parent, os.W_OK):
+        raise typer.BadParameter(f"{path}: the folder may not be written; choose another", param_hint=option)
 
 
 def pairs(given: list[str] | None, option: str) -> dict[str, str]:

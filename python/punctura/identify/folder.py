@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Literal
 
@@ -120,25 +121,27 @@ def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Itera
 
 @contextmanager
 def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
-    """Processes that leave Ctrl-C to this one. After an error, no other trace begins."""
+    """Processes that leave Ctrl-C to this one. After an error they end at once."""
     # "spawn": a forked copy of a program with threads may hang.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, context, _follow_parent) as pool:
+    closed, stop = context.Pipe(duplex=False)
+    with closed, stop, ProcessPoolExecutor(processes, context, _follow_parent, (closed,)) as pool:
         try:
             yield pool
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
+            stop.close()  # a trace may take minutes
             raise
 
 
-def _follow_parent() -> None:
-    """In a process of the pool: Ctrl-C is the parent's, and if the parent was killed, this process ends, too."""
+def _follow_parent(stopped: Connection) -> None:
+    """In a process of the pool: Ctrl-C is the parent's. If the parent stops or was killed, this process ends, too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 
     def watch() -> None:
         if parent is not None:
-            parent.join()
+            wait([parent.sentinel, stopped])
             os._exit(1)
 
     threading.Thread(target=watch, name="punctura-parent", daemon=True).start()

@@ -9,7 +9,7 @@ import numpy as np
 import punctura
 import pyarrow.parquet as pq
 import pytest
-from dying import dies
+from dying import dies, goes_on
 from punctura.identify import folder as folder_module
 from punctura.identify import identify
 from punctura.identify.folder import Task, identify_folder
@@ -63,6 +63,21 @@ def test_a_process_that_dies_takes_no_other_trace_with_it_and_is_not_kept(tmp_pa
     told = identify_folder(folder, out, Task(NEEDLE), 1)
     assert "memory" in told["failed"]["dies.csv"] and told["failed"]["z.csv"] == "was reached"
     assert {path.name for path in out.glob("*.json")} == {"z.csv.json"}
+
+
+def test_an_interrupt_does_not_wait_for_the_traces_that_are_computed(tmp_path, monkeypatch):
+    folder, out = tmp_path / "traces", tmp_path / "out"
+    folder.mkdir()
+    for name in ("a.csv", "b.csv", "c.csv"):
+        (folder / name).write_text("1,2")
+
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(folder_module, "_one", goes_on)
+    with pytest.raises(KeyboardInterrupt):  # without the end of its processes, this waits for ever
+        identify_folder(folder, out, Task(NEEDLE), 2, interrupted)
+    assert {path.name for path in out.iterdir()} == {"a.csv.json"}
 
 
 def test_a_file_that_lacks_a_package_is_tried_again_and_another_version_computes_all_again(tmp_path, monkeypatch):

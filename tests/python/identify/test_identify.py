@@ -1,6 +1,8 @@
 """Identification of synthetic traces: the truth lies inside the intervals, and what is not told is named."""
 
+import errno
 import json
+import os
 
 import numpy as np
 import punctura as pn
@@ -133,6 +135,36 @@ def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
     assert no_needle.exit_code == 2 and "--needle" in no_needle.output
     no_file = CliRunner().invoke(build_app(), ["identify", str(tmp_path / "b.csv")])
     assert no_file.exit_code == 2 and "b.csv" in no_file.output and "--needle" not in no_file.output
+
+
+def test_a_place_that_cannot_be_written_is_named_before_the_computation_and_the_result_is_told_before_it(
+    tmp_path, monkeypatch
+):
+    from punctura.cli import identify as command
+    from punctura.cli._app import build_app
+
+    made = trace(noise=0.01, hold=0.2, speed=10e-3)
+    table = np.column_stack((made.time, made.depth * 1e3, made.force))
+    np.savetxt(tmp_path / "a.csv", table, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    given = ["identify", str(tmp_path / "a.csv"), "--needle", "diameter_mm=1.2,tip_angle_rad=0.4", "--membranes", "1"]
+    wrong = {
+        str(tmp_path): "is a folder; name a file",
+        str(tmp_path / "none" / "a"): f"there is no folder {tmp_path / 'none'}; make it first",
+    }
+    for option in ("--scene", "--report", "--plan"):
+        for place, reason in wrong.items():
+            ran = CliRunner().invoke(build_app(), [*given, option, place], env={"COLUMNS": "400"})
+            assert ran.exit_code == 2 and option in ran.output and reason in ran.output
+            assert "punctura: K06" not in ran.output
+    ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path), *given[2:], "--out", str(tmp_path / "a.csv")])
+    assert ran.exit_code == 2 and "is a file; the results need a folder" in ran.output
+
+    def full(path, data):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    monkeypatch.setattr(command, "write_whole", full)
+    ran = CliRunner().invoke(build_app(), [*given, "--scene", str(tmp_path / "scene.toml"), "--json"])
+    assert ran.exit_code != 0 and json.loads(ran.stdout)["membranes"] == 1
 
 
 def two_walls(noise=0.005, second=MEMBRANE):
