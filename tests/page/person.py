@@ -16,15 +16,20 @@ PATIENCE = 120_000
 
 
 @contextmanager
-def opened(browser: Browser, url: str, sound_answered: bool = True) -> Iterator[Page]:
-    """The page at the address, in a context of its own. Every error of its script fails the test."""
+def opened(browser: Browser, url: str, sound: str = "off", script: str = "") -> Iterator[Page]:
+    """The page at the address, in a context of its own. Every error of its script fails the test.
+
+    sound: an earlier answer, "on" or "off"; empty: the page asks. script: runs before the page's own.
+    """
     errors: list[str] = []
     # Half the resolution: the processor draws a quarter of the pixels, and nobody looks.
     size = {"width": 1440, "height": 900}
     context = browser.new_context(viewport=size, device_scale_factor=0.5, reduced_motion="reduce")
     context.set_default_timeout(PATIENCE)
-    if sound_answered:
-        context.add_cookies([{"name": "punctura_sound", "value": "off", "url": url}])
+    if sound:
+        context.add_cookies([{"name": "punctura_sound", "value": sound, "url": url}])
+    if script:
+        context.add_init_script(script)
     page = context.new_page()
     page.on("pageerror", lambda error: errors.append(str(error)))
     try:
@@ -68,9 +73,13 @@ def events(page: Page, what: str = "") -> Locator:
 
 
 def ticks_come(page: Page, seconds: float = 0.001) -> None:
-    """Waits until the page shows a tick that is later than the present one by so much time of the servo loop."""
+    """Waits until the page shows a tick that is later than the present one by so much time of the servo loop.
+
+    It also ends when a new run begins, whose time begins at 0.
+    """
     shown = "parseFloat(document.querySelector('.phases-when').textContent)"
-    page.wait_for_function(f"end => {shown} >= end", arg=page.evaluate(shown) + seconds)
+    passed = f"([start, seconds]) => {shown} >= start + seconds || {shown} < start"
+    page.wait_for_function(passed, arg=[page.evaluate(shown), seconds])
 
 
 def drag_in(page: Page, pops: int, step: int = 6) -> None:
@@ -88,6 +97,18 @@ def drag_in(page: Page, pops: int, step: int = 6) -> None:
             break
     page.mouse.up()
     expect(events(page, "pop").nth(pops - 1)).to_be_attached()  # the hand may have followed through one more
+
+
+def drag_aside(page: Page, way: int) -> None:
+    """Drags across the view by so many pixels, and waits until the hand has followed."""
+    box = view(page).bounding_box()
+    assert box
+    x, y = box["x"] + box["width"] / 2, box["y"] + 0.4 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + way, y, steps=4)
+    page.mouse.up()
+    ticks_come(page, 0.5)
 
 
 def push(page: Page, key: str, times: int) -> None:

@@ -1,7 +1,9 @@
 """An exercise from the user, passed and failed: the venipuncture, at any speed of the computer."""
 
+import json
+
 import pytest
-from person import own_exercise, push, ready, tab, view
+from person import own_exercise, push, ready, saved, tab, view
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -47,7 +49,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
 
 
 @pytest.mark.parametrize("studio", [3], indirect=True)
-def test_staying_in_the_vein_passes(page):
+def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page, tmp_path):
     begin(page)
     running = page.locator(".running")
     expect(page.locator(".view-label.goal")).to_have_text("Goal: the vein")
@@ -62,6 +64,31 @@ def test_staying_in_the_vein_passes(page):
             push(page, "Shift+ArrowDown" if words.startswith("Reach") else "ArrowDown", 1)
     expect(page.get_by_role("dialog")).to_contain_text("passed")
     expect(page.get_by_role("dialog")).not_to_contain_text("not passed")
+
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_role("button", name="Use as expert").click()
+    expect(dialog.get_by_role("button", name="This is now the expert")).to_be_visible()
+    dialog.get_by_role("button", name="Try again").click()
+    expect(page.locator(".running")).to_be_visible()
+    expect(page.locator(".header")).to_contain_text("Force on")
+    for _ in range(60):
+        push(page, "Shift+ArrowDown", 10)
+        if dialog.count():
+            break
+    expect(dialog.locator(".trace-place")).to_contain_text("Dashed: the expert")
+    passed = 2 - dialog.get_by_text("not passed").count()  # a slow computer may pass it on the way
+    dialog.get_by_role("button", name="Replay").click()
+    expect(page.get_by_role("group", name="Replay")).to_be_visible()
+    expect(page.locator(".force-depth .plot-legend")).to_contain_text("expert")
+    page.get_by_role("button", name="Back to live").first.click()
+
+    past = page.locator(".past-results")
+    expect(past.locator(".progress").get_by_role("row", name="Ann")).to_contain_text(f"2{passed}")
+    rows = saved(page, past.get_by_role("button", name="csv"), tmp_path).read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 3 and all("Ann" in row for row in rows[1:])
+    lines = saved(page, past.get_by_role("button", name="xapi"), tmp_path).read_text(encoding="utf-8").splitlines()
+    verbs = [json.loads(line)["verb"]["id"].rsplit("/")[-1] for line in lines]
+    assert len(verbs) == 2 and verbs.count("passed") == passed
 
 
 @pytest.mark.parametrize("studio", [3], indirect=True)

@@ -72,7 +72,7 @@ def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slow
 
 
 def test_the_question_about_sound_comes_once_after_the_first_pop_and_its_answer_stays(browser, studio):
-    with opened(browser, studio.url, sound_answered=False) as page:
+    with opened(browser, studio.url, sound="") as page:
         question = page.get_by_role("region", name="Sound", exact=True)
         expect(page.locator(".header")).to_contain_text("Force on")
         expect(question).to_be_hidden()

@@ -1,10 +1,14 @@
 """The laboratory, the legends, and one moment in view, plots and tables."""
 
-from person import ready, tab
+import zipfile
+
+import pytest
+import tomllib
+from person import ready, saved, tab
 from playwright.sync_api import expect
 
 
-def test_a_parameter_is_varied_and_the_moment_and_the_curves_are_chosen(page):
+def test_a_parameter_is_varied_and_saved_and_the_moment_and_the_curves_are_chosen(page, tmp_path):
     ready(page)
     permitted = page.locator(".time-plots").get_by_role("button", name="permitted force")
     expect(permitted).to_have_attribute("aria-pressed", "false")
@@ -15,6 +19,11 @@ def test_a_parameter_is_varied_and_the_moment_and_the_curves_are_chosen(page):
     tab(page, "Lab").get_by_role("button", name="Simulate").click()
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_role("row", name="mean")).to_contain_text("±")
+    bundle = zipfile.ZipFile(saved(page, dialog.get_by_role("button", name="Save everything"), tmp_path))
+    assert {"figure.svg", "figure.pdf", "curves.parquet", "CITATION.cff", "scenes/05.toml"} <= set(bundle.namelist())
+    stiffness = [tomllib.loads(bundle.read(f"scenes/0{run}.toml").decode())["membrane"][0] for run in (1, 5)]
+    assert 3 * stiffness[0]["stiffness_N_per_mm"] == pytest.approx(stiffness[1]["stiffness_N_per_mm"])
+    assert bundle.read("statistics.csv").count(b"\n") == 6
     dialog.get_by_role("button", name="Show in the plots").click()
     dialog.get_by_role("button", name="Close", exact=True).click()
     expect(page.locator(".time-plots .plot-legend")).to_contain_text("n = 5")

@@ -1,5 +1,8 @@
 """An exercise that is made in the page: saved, listed, tried."""
 
+from pathlib import Path
+
+import tomllib
 from person import ready, tab
 from playwright.sync_api import expect
 
@@ -9,8 +12,21 @@ def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
     side = tab(page, "Exercises")
     side.get_by_text("Make an exercise", exact=True).click()
     side.get_by_label("Title").fill("My own goal")
+    edge = side.get_by_role("slider", name="Lower edge of the goal")
+    before = float(edge.get_attribute("aria-valuenow"))
+    edge.hover()
+    page.mouse.down()
+    box = edge.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2 - 30, steps=3)
+    page.mouse.up()
+    after = float(edge.get_attribute("aria-valuenow"))
+    assert after < before - 1
+    expect(side.get_by_label("Lower edge, mm")).to_have_value(f"{after:g}")
     side.get_by_role("button", name="Save on this computer").click()
-    expect(side).to_contain_text("saved in ")
+    note = side.locator(".maker-note")
+    expect(note).to_contain_text("saved in ")
+    file = Path(note.inner_text().split("saved in ")[1])
+    assert tomllib.loads(file.read_text(encoding="utf-8"))["space"]["deepest_mm"] == after
     expect(page.locator("article.exercise", has_text="My own goal")).to_be_visible()
     side.get_by_role("button", name="Try", exact=True).click()
     running = page.locator(".running")

@@ -1,14 +1,22 @@
-"""A person drags the needle through a membrane and sees the pop."""
+"""A person drags the needle through a membrane, and sees, hears and feels the pop."""
 
 import re
 
 import numpy as np
 import punctura as pn
 import pytest
-from person import columns, drag_in, events, newton, ready, saved
+from person import columns, drag_aside, drag_in, events, newton, opened, ready, saved
 from playwright.sync_api import expect
+from senses import COUNT_RINGS, STUBS
 
 THROUGH = 3.9e-3  # m: K06 Fig. 10's tip is 3.76 mm long, its membrane 0.1 mm thick
+
+
+@pytest.fixture
+def page(browser, studio):
+    """The studio's page with sound on and a gamepad."""
+    with opened(browser, studio.url, sound="on", script=STUBS) as page:
+        yield page
 
 
 def laws_drop(scene):
@@ -20,10 +28,17 @@ def laws_drop(scene):
 
 def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law(page, tmp_path):
     ready(page)
+    page.evaluate(COUNT_RINGS)
     drag_in(page, pops=1)
     told = newton(events(page, "pop").first.inner_text())
     expected = laws_drop(pn.load_scene("k06-fig10"))
     assert told == pytest.approx(expected, rel=0.02)
+
+    page.wait_for_function("rings === 1")
+    assert newton(page.locator(".pop-callout").inner_text()) == told
+    assert page.evaluate("heard") == ["friction", "click", "thump"]
+    ((kind, effect),) = page.evaluate("rumbled")
+    assert kind == "dual-rumble" and effect["strongMagnitude"] == pytest.approx(min(1, 0.3 + 2 * told), abs=0.02)
 
     panel = page.locator(".force-depth")
     panel.get_by_text("Save").click()
@@ -33,6 +48,26 @@ def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law
     assert through.any() and (~through).any()
     assert np.nanmax(force[~through]) - np.nanmax(force[through]) == pytest.approx(expected, rel=0.02)
     assert (np.diff(plotted["tick"]) == 1).all(), "every tick is in the plot"
+
+
+def test_a_drag_moves_the_needle_to_the_side_only_with_its_key_or_button(page, tmp_path):
+    def aside() -> float:  # m
+        plot = page.locator(".time-plots")
+        plot.get_by_text("Save").click()
+        return columns(saved(page, plot.get_by_role("button", name="CSV"), tmp_path))["tip_x_m"][-1]
+
+    ready(page)
+    start = aside()
+    drag_aside(page, 80)
+    assert aside() == pytest.approx(start, abs=1e-4)
+    page.keyboard.down("Shift")
+    drag_aside(page, 80)
+    page.keyboard.up("Shift")
+    with_key = aside()
+    assert with_key > start + 1e-3
+    page.get_by_role("button", name="Sideways").click()
+    drag_aside(page, -80)
+    assert aside() < with_key - 1e-3
 
 
 def test_the_phase_is_told_in_words_and_fits_a_phone(page):

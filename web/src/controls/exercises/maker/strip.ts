@@ -85,9 +85,12 @@ export class DepthStrip {
       svg("circle", { cx: LEFT + BAND / 2, cy: y, r: 7 }),
     );
     made.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      const field = document.activeElement;
+      if (field instanceof HTMLElement) field.blur(); // what is being typed there counts
+      this.root.querySelector<SVGElement>(`[data-edge="${edge}"]`)?.focus();
       this.held = edge;
       this.root.setPointerCapture(event.pointerId);
-      event.preventDefault();
     });
     made.addEventListener("keydown", (event) => {
       const way = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];

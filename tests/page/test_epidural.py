@@ -1,11 +1,13 @@
-"""The slice beside the 3-D view, and the labels of the view."""
+"""The epidural: the slice beside the 3-D view, the labels of the view, and the syringe."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from person import drag_in, opened, ready
+from person import columns, drag_in, opened, ready, saved, tab, view
 from playwright.sync_api import Browser, Page, expect
+from senses import STUBS
 from studio_process import StudioProcess
 
 
@@ -18,7 +20,7 @@ def epidural(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess
 
 @pytest.fixture(scope="module")
 def shown(browser: Browser, epidural: StudioProcess) -> Iterator[Page]:
-    with opened(browser, epidural.url) as page:
+    with opened(browser, epidural.url, script=STUBS) as page:
         ready(page)
         yield page
 
@@ -64,6 +66,26 @@ def test_the_slice_says_where_the_needle_is(shown: Page) -> None:
     shown.get_by_role("button", name="Along needle").click()
     expect(shown.locator(".slice-words")).to_contain_text("The needle lies in the slice: the tip is")
     shown.get_by_role("button", name="Close the slice").click()
+
+
+def test_a_key_and_a_trigger_push_the_plunger_and_its_force_is_in_plot_and_file(shown: Page, tmp_path: Path) -> None:
+    syringe = tab(shown, "Hand").locator("section", has=shown.get_by_role("heading", name="Syringe"))
+    force = syringe.locator("output").first
+    for press, release in (
+        (lambda: shown.keyboard.down(" "), lambda: shown.keyboard.up(" ")),
+        (lambda: shown.evaluate("pad.buttons[7].value = 0.5"), lambda: shown.evaluate("pad.buttons[7].value = 0")),
+    ):
+        view(shown).focus()
+        press()
+        expect(force).to_have_text(re.compile(r"^[1-9]"))
+        release()
+        expect(force).to_have_text(re.compile(r"^0[.][0-4]"))
+    plot = shown.locator(".time-plots")
+    expect(plot.get_by_role("button", name="thumb, model force")).to_have_attribute("aria-pressed", "true")
+    plot.get_by_text("Save").click()
+    kept = columns(saved(shown, plot.get_by_role("button", name="CSV"), tmp_path))
+    assert max(abs(newton) for newton in kept["thumb_force_N"]) > 1
+    assert max(kept["injected_m3"]) > 0 and max(kept["plunger_m"]) > 0
 
 
 OVERLAPS = """() => {
