@@ -69,6 +69,11 @@ def score(
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:
         typer.echo(f"  {one.distance * 1e3:.1f} mm past the {one.name} within {one.seconds:g} s of its pop")
+    for gave in m.yields:
+        typer.echo(
+            f"  plunger gave way under {gave.push:.2f} N; "
+            f"{gave.injected * 1e6:.1f} mL injected within {gave.seconds:g} s"
+        )
     if m.straightness is not None and m.lateral_deviation is not None:
         aside = m.lateral_deviation * 1e3
         typer.echo(f"  path {m.straightness:.2f} times the straight one, at most {aside:.1f} mm to the side")

@@ -1,11 +1,11 @@
-"""Goals to achieve: reach the space, stay in the space."""
+"""Goals to achieve: reach the space, stay in the space, feel the plunger give way."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from punctura.exercise.limit import Moment, by, first_of
-from punctura.exercise.schema import AnyGoal, Reach, Stay
+from punctura.exercise.schema import AnyGoal, FeelPlunger, Reach, Stay
 from punctura.exercise.space import TargetSpace, depth_of
 from punctura.exercise.ticks import Flags, Ticks
 
@@ -63,6 +63,23 @@ class StayJudge(Achievement):
         self._follow(ticks, here & (ticks.stay[:, int(self.whole_tip)] >= self.seconds), here, busy)
 
 
+class FeelJudge(Achievement):
+    """Met when the plunger gives way under a thumb that pushed hard enough when the needle came into the space."""
+
+    def __init__(self, goal: FeelPlunger, behind: str) -> None:
+        text = f"Feel the plunger give way: push it with at least {goal.at_least_N:g} N through the {behind}"
+        super().__init__(goal.text or text)
+        self.at_least, self.behind = goal.at_least_N, behind
+        self.load: float | None = None  # N, of the last time that the point came out behind the membrane
+
+    def add(self, ticks: Ticks, busy: Flags) -> None:
+        known = ticks.load[np.isfinite(ticks.load)]
+        if len(known):
+            self.load = float(known[-1])
+        good = ticks.gave_way & (ticks.load >= self.at_least)
+        self._follow(ticks, good, np.ones(len(ticks), np.bool_), busy)
+
+
 def _reach_text(goal: Reach, space: TargetSpace, behind: str) -> str:
     if goal.depth_mm is not None:
         return f"Bring the {'whole tip' if goal.whole_tip else 'point'} {goal.depth_mm:g} mm past the {behind}"
@@ -73,5 +90,7 @@ def achievement_of(goal: AnyGoal, space: TargetSpace, behind: str) -> Achievemen
     """behind: name of the membrane in front of the space."""
     if isinstance(goal, Stay):
         return StayJudge(goal, space)
+    if isinstance(goal, FeelPlunger):
+        return FeelJudge(goal, behind)
     assert isinstance(goal, Reach)
     return ReachJudge(goal, space, behind)

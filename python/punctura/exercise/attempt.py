@@ -12,19 +12,21 @@ from punctura import Scene, __version__, ticks
 from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
-from punctura.exercise.achievements import Achievement, StayJudge, achievement_of
+from punctura.exercise.achievements import Achievement, FeelJudge, StayJudge, achievement_of
 from punctura.exercise.coach import Coach
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.limit import Limit, Moment, first_of, moment
 from punctura.exercise.limits import TimeJudge, limit_of
 from punctura.exercise.losses import felt_membranes
 from punctura.exercise.measures import Measures
+from punctura.exercise.plunger import PlungerJudge, need_syringe
 from punctura.exercise.remark import Coaching
 from punctura.exercise.result import GoalState, Result, Status, unfelt
 from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import Flags, Geometry, Ticks
+from punctura.exercise.yields import Yields, asked_push
 
 
 class Attempt:
@@ -39,6 +41,7 @@ class Attempt:
         """scene: the running scene, at the device's rate. Raises ConfigurationError if the exercise does not fit it."""
         self.exercise, self.scene = exercise, scene
         need_membranes(exercise.file, scene)
+        need_syringe(exercise.file, scene)
         self._space = space_of(exercise.file, scene)
         self._judges: list[Limit | Achievement] = [
             limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind)
@@ -48,8 +51,11 @@ class Attempt:
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
+        self._yields = Yields(self._space, asked_push(exercise.file))
         must = felt_membranes(exercise.file, scene)
-        self._measures = Measures(scene, self._geometry, self._space, _windows(self._limits), must)
+        self._measures = Measures(
+            scene, self._geometry, self._space, _windows(self._limits), must, _after_yield(self._limits)
+        )
         self._coach = Coach(exercise.file, scene, self._space)
         self._finder = EventFinder(scene, scene.servo.rate)
         self._events: list[Event] = []
@@ -90,7 +96,9 @@ class Attempt:
                 return
             self._begun = True
             ticks = ticks.part(slice(int(ready.argmax()), None))
-        self._judge(self._stays.mark(ticks), [event for event in events if event.tick >= ticks.tick[0]])
+        self._judge(
+            self._yields.mark(self._stays.mark(ticks)), [event for event in events if event.tick >= ticks.tick[0]]
+        )
 
     def _judge(self, ticks: Ticks, events: list[Event]) -> None:
         for limit in self._limits:
@@ -185,6 +193,8 @@ class Attempt:
         for judge in self._achievements:
             if judge.met is not None:
                 continue
+            if isinstance(judge, FeelJudge) and self._measures.arrival is not None:
+                return words.push_again(judge)
             if not isinstance(judge, StayJudge):
                 return f"{judge.text}."
             if judge.staying:
@@ -248,3 +258,8 @@ def _windows(limits: list[Limit]) -> dict[int, float]:
         if isinstance(limit, StopJudge):
             windows[limit.index] = max(limit.seconds, windows.get(limit.index, 0.0))
     return windows
+
+
+def _after_yield(limits: list[Limit]) -> float:
+    """The time after the plunger gives way in which the injected volume is measured, s."""
+    return max((limit.seconds for limit in limits if isinstance(limit, PlungerJudge)), default=1.0)

@@ -20,7 +20,7 @@ from punctura.exercise.depths import Table, unreachable
 from punctura.exercise.exercise import start_axis
 from punctura.exercise.limits import across
 from punctura.exercise.problems import GOALS, located, problem
-from punctura.exercise.schema import ExerciseFile, Space, Start
+from punctura.exercise.schema import ExerciseFile, FeelPlunger, Space, Start, StopPlunger
 from punctura.files.tables import Location
 from punctura.files.toml import Tables
 
@@ -47,6 +47,7 @@ def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | No
     problems += _start(sound.start, scene)
     problems += _names(sound, scene)
     problems += _lines(sound, scene)
+    problems += _plunger(sound, scene)
     problems += unreachable(sound.space, sound.goals, scene)
     return (None if problems else file), problems
 
@@ -130,6 +131,13 @@ def _lines(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
             yield Problem(f"goal[{i}].along", along, reason)
         elif scene is not None and np.isnan(across(scene, along)).any():
             yield Problem(f"goal[{i}].along", along, "must not be parallel to the first membrane's normal")
+
+
+def _plunger(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
+    """A goal that judges the plunger needs a syringe."""
+    for i, goal in sound.goals.items():
+        if scene is not None and scene.syringe is None and GOALS[goal["kind"]] in (FeelPlunger, StopPlunger):
+            yield Problem(f"goal[{i}].kind", goal["kind"], "needs a scene with a syringe: its file has no [syringe]")
 
 
 def _names(sound: Sound, scene: Scene | None) -> Iterator[Problem]:

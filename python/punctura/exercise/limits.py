@@ -8,15 +8,18 @@ from numpy.typing import NDArray
 from punctura import Scene
 from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
+from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.schema import (
     AnyGoal,
     Entries,
+    FeelPlunger,
     NeverPass,
     OnLine,
     PeakForce,
     Reach,
     Stay,
     StopAfterPop,
+    StopPlunger,
     TimeLimit,
 )
 from punctura.exercise.space import place_of
@@ -115,8 +118,8 @@ class EntriesJudge(Limit):
 
 
 def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
-    """The judge of a limit; None for a reach or stay goal. The scene must have the goal's membrane."""
-    if isinstance(goal, Reach | Stay):
+    """The judge of a limit; None for a goal to achieve. The scene must have the goal's membrane."""
+    if isinstance(goal, Reach | Stay | FeelPlunger):
         return None
     if isinstance(goal, NeverPass):
         return NeverPassJudge(goal, scene)
@@ -128,4 +131,6 @@ def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
         return TimeJudge(goal)
     if isinstance(goal, PeakForce):
         return ForceJudge(goal)
+    if isinstance(goal, StopPlunger):
+        return PlungerJudge(goal)
     return EntriesJudge(goal, scene)

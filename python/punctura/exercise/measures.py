@@ -13,9 +13,10 @@ from punctura._core import Limit as ForceLimit
 from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.path import Path, PathSoFar
-from punctura.exercise.result import Loss, Metrics, Overshoot
+from punctura.exercise.result import Loss, Metrics, Overshoot, Yield
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
+from punctura.exercise.yield_measures import YieldMeasures
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # window after a pop, unless a goal sets it: a hand reacts later than this
@@ -31,10 +32,12 @@ class Measures:
         space: TargetSpace,
         windows: Mapping[int, float] | None = None,
         must: Collection[int] = (),
+        after_yield: float = 1.0,
     ) -> None:
         """windows: by membrane, the time after a pop in which the overshoot is measured, s; default OVERSHOOT_S.
 
         must: the membranes whose loss of resistance must be felt.
+        after_yield: the time after the plunger gives way in which the injected volume is measured, s.
         """
         self._windows = dict(windows or {})
         self._normal = geometry.normals[0]
@@ -45,6 +48,7 @@ class Measures:
         self.peak_felt_force = 0.0
         self._force_scale = 1.0
         self._losses = Losses(scene, must)
+        self._yields = YieldMeasures(after_yield)
         self.first_touch: float | None = None
         self.arrival: float | None = None
         self.longest_stay = 0.0
@@ -73,6 +77,7 @@ class Measures:
         self.peak_felt_force = float(np.fmax(self.peak_felt_force, np.fmax.reduce(ticks.felt_size)))
         self._force_scale = float(ticks.force_scale[-1])
         self._losses.add(ticks, events)
+        self._yields.begin(ticks)
         self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
         self.settle(ticks)
         arrived = self._space.arrived(ticks)
@@ -82,7 +87,8 @@ class Measures:
         self.dwell = float(ticks.dwell[-1, kind])
 
     def settle(self, ticks: Ticks) -> None:
-        """Measures overshoots to the end of their windows, also after the decision."""
+        """Measures overshoots and injected volumes to the end of their windows, also after the decision."""
+        self._yields.settle(ticks)
         for k, one in enumerate(self._overshoots):
             rows = (ticks.time >= one.time) & (ticks.time <= one.time + one.seconds)
             if rows.any():
@@ -93,8 +99,10 @@ class Measures:
 
     @property
     def settled(self) -> bool:
-        """Whether all windows of overshoots have ended."""
-        return all(self._seen_to > one.time + one.seconds for one in self._overshoots)
+        """Whether all windows have ended."""
+        ends = [one.time + one.seconds for one in self._overshoots]
+        ends += [one.time + one.seconds for one in self._yields.found]
+        return all(self._seen_to > end for end in ends)
 
     def _count(self, ticks: Ticks) -> None:
         first, last = int(ticks.tick[0]), int(ticks.tick[-1])
@@ -139,6 +147,11 @@ class Measures:
         return self._last_time - self.first_touch if self.first_touch is not None else 0.0
 
     @property
+    def yields(self) -> list[Yield]:
+        """Each time that the plunger gave way so far."""
+        return self._yields.found
+
+    @property
     def losses(self) -> list[Loss]:
         """The losses of resistance so far."""
         return self._losses.found
@@ -152,6 +165,7 @@ class Measures:
             peak_felt_force=self.peak_felt_force,
             force_scale=self._force_scale,
             losses=self.losses,
+            yields=self._yields.found,
             overshoot=self._overshoots,
             dwell=self.dwell,
             longest_stay=self.longest_stay,

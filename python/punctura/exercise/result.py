@@ -85,6 +85,16 @@ def unfelt(losses: Sequence[Loss]) -> list[Loss]:
     return [loss for loss in last.values() if not loss.felt]
 
 
+class Yield(_Part):
+    """The plunger of the syringe gave way under the thumb. Forces are the model's on the thumb, N."""
+
+    time: Finite  # s
+    push: Finite  # of the thumb in the last tick before the point came out behind the membrane
+    push_after: Finite | None = None  # the largest one later than a hand's reaction; None: not measured
+    injected: Finite  # m^3, in the seconds after it
+    seconds: Finite  # length of the measurement, from the stop_plunger goal
+
+
 class Metrics(_Part):
     """Measures up to the decision (overshoots: to the end of their seconds), SI. None: not available."""
 
@@ -93,6 +103,7 @@ class Metrics(_Part):
     peak_felt_force: Finite | None = None  # N, largest force on the hand, after force scale and limits
     force_scale: Finite = 1.0  # how much of the model's force the device gives, before the limits
     losses: list[Loss] = []  # of resistance, at each pop
+    yields: list[Yield] = []  # of the syringe's plunger
     overshoot: list[Overshoot]
     dwell: Finite  # s, total time in the space: of the whole tip if a stay goal asks for it, else of the point
     longest_stay: Finite  # s, longest time in the space without a break

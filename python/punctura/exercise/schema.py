@@ -7,7 +7,19 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
-from punctura.exercise.bounds import DEEPEST_MM, LEAST_MM, LEAST_N, LEAST_S, MOST_ENTRIES, MOST_N, MOST_S
+from punctura.exercise.bounds import (
+    DEEPEST_MM,
+    LEAST_ML,
+    LEAST_MM,
+    LEAST_N,
+    LEAST_PUSH_N,
+    LEAST_S,
+    MOST_ENTRIES,
+    MOST_ML,
+    MOST_N,
+    MOST_PUSH_N,
+    MOST_S,
+)
 from punctura.files.tables import Table
 
 Text = Annotated[str, Field(min_length=1, max_length=2000)]
@@ -17,6 +29,8 @@ Depth = Annotated[float, Field(allow_inf_nan=False, ge=0, le=DEEPEST_MM)]
 Distance = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM, le=DEEPEST_MM)]
 Seconds = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_S, le=MOST_S)]
 Newtons = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_N, le=MOST_N)]
+Push = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_PUSH_N, le=MOST_PUSH_N)]
+Volume = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_ML, le=MOST_ML)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
@@ -114,8 +128,24 @@ class Entries(_Goal):
     at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
 
 
+class FeelPlunger(_Goal):
+    """The syringe's plunger gives way under a thumb that pushes while the point comes out behind `behind`."""
+
+    kind: Literal["feel_plunger"]
+    at_least_N: Push = 1.0  # force of the thumb in the last tick before
+
+
+class StopPlunger(_Goal):
+    """After the syringe's plunger gives way, no more than this volume leaves the syringe."""
+
+    kind: Literal["stop_plunger"]
+    within_mL: Volume
+    seconds: Seconds = 1.0  # after the plunger gives way
+
+
 AnyGoal = Annotated[
-    Reach | Stay | NeverPass | StopAfterPop | OnLine | TimeLimit | PeakForce | Entries, Field(discriminator="kind")
+    Reach | Stay | NeverPass | StopAfterPop | OnLine | TimeLimit | PeakForce | Entries | FeelPlunger | StopPlunger,
+    Field(discriminator="kind"),
 ]
 
 

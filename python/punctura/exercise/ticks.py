@@ -32,6 +32,8 @@ class Ticks:
     felt_size: Numbers  # N, the norm of the felt force
     ceiling: Numbers  # N, what all limits permit
     force_scale: Numbers  # how much of the model's force the device gives, before the limits
+    push: Numbers  # N, the thumb on the syringe's plunger; NaN if unknown
+    injected: Numbers  # m^3 that have left the syringe; NaN if unknown
     fault: NDArray[np.int64]
     limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
     new_scene: Flags
@@ -46,6 +48,9 @@ class Ticks:
     in_space: Flags
     stay: Numbers  # s since it entered the space; 0 outside
     dwell: Numbers  # s in the space so far, in total
+    # Yields fills them in.
+    load: Numbers  # N, of the thumb when the point came out behind the membrane before the space; NaN in front of it
+    gave_way: Flags  # the plunger gives way in this tick
 
     def __len__(self) -> int:
         return len(self.tick)
@@ -101,6 +106,8 @@ class Geometry:
             felt_size=np.linalg.norm(felt, axis=1),
             ceiling=np.asarray(columns["ceiling"], np.float64) if "ceiling" in columns else np.full(n, np.inf),
             force_scale=np.asarray(columns["force_scale"], np.float64) if "force_scale" in columns else np.ones(n),
+            push=-np.asarray(columns["thumb_force"], np.float64) if "thumb_force" in columns else np.full(n, np.nan),
+            injected=np.asarray(columns["injected"], np.float64) if "injected" in columns else np.full(n, np.nan),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & COMMAND_SCENE) != 0,
@@ -114,6 +121,8 @@ class Geometry:
             in_space=np.zeros((n, 2), dtype=np.bool_),
             stay=np.zeros((n, 2)),
             dwell=np.zeros((n, 2)),
+            load=np.full(n, np.nan),
+            gave_way=np.zeros(n, dtype=np.bool_),
         )
 
     def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from decimal import ROUND_HALF_UP, Decimal
 
 from punctura._core import Fault, describe
-from punctura.exercise.achievements import Achievement, StayJudge
+from punctura.exercise.achievements import Achievement, FeelJudge, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.loss import remedy
 from punctura.exercise.measures import Measures
+from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.result import GoalState, Loss
 from punctura.exercise.schema import Space
 from punctura.exercise.space import TargetSpace
@@ -38,6 +39,11 @@ def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -
             f"You ran more than {limit.within * 1e3:g} mm past the {limit.membrane} when it gave way: "
             "hold against the loss of resistance."
         )
+    if isinstance(limit, PlungerJudge):
+        return (
+            f"You injected more than {limit.within * 1e6:g} mL in the {limit.seconds:g} s after the plunger gave way: "
+            "let the plunger go when it gives way."
+        )
     if isinstance(limit, LineJudge):
         return f"The point came into {space.name} {tenths((limit.farthest or 0.0) * 1e3)} mm beside the middle line."
     if isinstance(limit, TimeJudge):
@@ -59,6 +65,9 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
         else:
             when = f"the {limit.membrane} never gave way"
         return f"Not measured: how far you moved past the {limit.membrane}, because {when}."
+    if isinstance(limit, PlungerJudge):
+        ended = f"the attempt ended within {limit.seconds:g} s after it"
+        return f"Not measured: “{limit.text}”, because {ended if limit.gave_way else 'the plunger never gave way'}."
     if isinstance(limit, LineJudge):
         return f"Not measured: “{limit.text}”, because the point was never in the space."
     return f"Not measured: “{limit.text}”, because there was no contact with the {first}."
@@ -77,6 +86,11 @@ def waiting(limit: StopJudge) -> str:
     if limit.waits_for == "rest":
         return "Hold still."
     return f"Go on until the {limit.membrane} gives way, then stop."
+
+
+def push_again(goal: FeelJudge) -> str:
+    """The instruction while the needle is in the space, but the plunger has not given way under the thumb."""
+    return f"Draw back into the {goal.behind}, push the plunger with at least {goal.at_least:g} N, and go on."
 
 
 def too_deep(space: Space) -> str:
@@ -99,6 +113,12 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
         return f"You did not touch the {first}."
     if measures.arrival is None:
         return f"You did not reach {space.name}."
+    if isinstance(achievement, FeelJudge):
+        pushed = f"with {tenths(max(0.0, achievement.load))} N" if achievement.load is not None else "not at all"
+        return (
+            f"The plunger did not give way under your thumb: you pushed it {pushed} when the point came out behind the "
+            f"{achievement.behind}; at least {achievement.at_least:g} N are asked."
+        )
     if isinstance(achievement, StayJudge) and not achievement.left:
         if achievement.whole_tip and measures.longest_stay == 0:
             return f"The whole tip was never in {space.name}."
@@ -124,4 +144,10 @@ def passed(achievements: Sequence[Achievement], measures: Measures, space: Targe
         said.append(f"You reached {space.name} {seconds} s after touching the {first}, {entries}.")
     if any(isinstance(one, StayJudge) for one in achievements):
         said.append(f"You stayed in it for {tenths(measures.longest_stay)} s.")
+    if measures.yields:
+        last = measures.yields[-1]
+        said.append(
+            f"The plunger gave way under {tenths(last.push)} N; you injected {tenths(last.injected * 1e6)} mL in the "
+            f"next {last.seconds:g} s."
+        )
     return said

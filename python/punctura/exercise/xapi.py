@@ -140,6 +140,8 @@ def _outcome(result: Result, verb: str, home: str) -> Outcome:
         "entries": m.entries,
         "peak_force_N": m.peak_force,
         "largest_overshoot_m": max((one.distance for one in m.overshoot), default=None),
+        "plunger_push_N": m.yields[-1].push if m.yields else None,
+        "injected_m3": max((one.injected for one in m.yields), default=None),
         "longest_stay_s": m.longest_stay,
         "straightness": m.straightness,
         "lateral_deviation_m": m.lateral_deviation,

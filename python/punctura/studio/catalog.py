@@ -32,6 +32,7 @@ class SceneOutline(Part):
     name: str
     title: str
     tip_length: float  # m
+    syringe: bool
     membranes: list[MembraneView]
 
 
@@ -41,8 +42,9 @@ def scene_outlines() -> tuple[SceneOutline, ...]:
     made = []
     for name in scene_names():
         scene = load_scene(name)
-        length = tip_length(scene.needle)
-        made.append(SceneOutline(name=name, title=scene.name, tip_length=length, membranes=membrane_views(scene)))
+        length, syringe = tip_length(scene.needle), scene.syringe is not None
+        views = membrane_views(scene)
+        made.append(SceneOutline(name=name, title=scene.name, tip_length=length, syringe=syringe, membranes=views))
     return tuple(made)
 
 

@@ -22,7 +22,7 @@ def recording(tmp_path_factory):
 
 
 def test_the_ready_exercises_are_listed(punctura):
-    assert "venipuncture    Venipuncture: " in punctura("exercise", "list").stdout
+    assert "venipuncture      Venipuncture: " in punctura("exercise", "list").stdout
     entries = json.loads(punctura("exercise", "list", "--json").stdout)
     assert [(e["name"], e["scene"]) for e in entries if e["name"] == e["scene"]] == [
         ("venipuncture", "venipuncture"), ("epidural", "epidural"),

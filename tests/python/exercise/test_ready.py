@@ -23,9 +23,10 @@ def said(result):
 
 def test_they_can_be_read_and_the_easiest_comes_first():
     assert exercise_names() == [
-        "steady-push", "stop-after-pop", "vein-15", "venipuncture", "vein-45", "rolling-vein", "epidural", "blind",
+        "steady-push", "stop-after-pop", "vein-15", "venipuncture", "vein-45", "rolling-vein", "epidural",
+        "epidural-plunger", "blind",
     ]  # fmt: skip
-    assert [exercise.title for exercise in exercises()][-2:] == ["Epidural", "Blind"]
+    assert [exercise.title for exercise in exercises()][-2:] == ["Epidural with the plunger", "Blind"]
     assert not any(exercise.warnings for exercise in exercises())
     assert [exercise.name for exercise in exercises() if exercise.file.blind] == ["blind"]
 

@@ -134,6 +134,14 @@ export interface ExerciseMetrics {
     /** Length of the measurement after the pop, s. */
     readonly seconds: number;
   }[];
+  /** Each time that the plunger of the syringe gave way under the thumb; missing in results of earlier versions. */
+  readonly yields?: readonly {
+    /** N, of the thumb, model force. */
+    readonly push: number;
+    /** m³ in `seconds` after it. */
+    readonly injected: number;
+    readonly seconds: number;
+  }[];
   readonly dwell: number;
   readonly longest_stay: number;
   readonly path_length: number | null;

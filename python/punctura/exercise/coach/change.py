@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from punctura.exercise.achievements import FeelJudge
 from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen, degrees, mm, speed, times
+from punctura.exercise.coach.seen import Seen, degrees, millilitres, mm, speed, times
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
+from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.words import tenths
+from punctura.exercise.yield_measures import REACTION_S
 
 
 def went_through(seen: Seen) -> Iterator[Remark]:
@@ -46,6 +49,45 @@ def went_too_far(seen: Seen) -> Iterator[Remark]:
                 "speed_m_s": push.speed, "force_N": push.force, "distance_m": one.distance, "allowed_m": limit.within,
             }  # fmt: skip
             yield Remark(about="stop", text=text, numbers=numbers)
+
+
+def pushed_on(seen: Seen) -> Iterator[Remark]:
+    """The thumb went on when the plunger gave way."""
+    for limit in seen.missed(PlungerJudge):
+        one = max(seen.metrics.yields, key=lambda one: one.injected, default=None)
+        if one is None:
+            continue
+        still = one.push_after is not None and one.push_after > t.RESTING_N
+        after = (
+            f"You still pushed the plunger with {one.push_after:.2f} N {REACTION_S:g} s after it gave way"
+            if still
+            else ("You pushed the plunger on when it gave way")
+        )
+        text = (
+            f"{after}, and injected {millilitres(one.injected)}; {millilitres(limit.within)} are allowed: push more "
+            "gently, and let go at once."
+        )
+        numbers = {"push_N": one.push, "injected_m3": one.injected, "allowed_m3": limit.within}
+        yield Remark(
+            about="plunger",
+            text=text,
+            numbers=numbers | ({} if one.push_after is None else {"push_after_N": one.push_after}),
+        )
+
+
+def pushed_too_little(seen: Seen) -> Iterator[Remark]:
+    """The thumb did not push when the needle came into the space, so it felt no loss of resistance."""
+    for goal in seen.achievements:
+        if not isinstance(goal, FeelJudge) or goal.met is not None or goal.load is None:
+            continue
+        load = max(0.0, goal.load)
+        if load >= goal.at_least:
+            continue
+        text = (
+            f"You pushed the plunger with {load:.2f} N when the point came out behind the {goal.behind}; at least "
+            f"{goal.at_least:g} N are asked: keep your thumb on the plunger until it gives way."
+        )
+        yield Remark(about="plunger", text=text, numbers={"push_N": load, "asked_N": goal.at_least})
 
 
 def pushed_too_hard(seen: Seen) -> Iterator[Remark]:
@@ -187,6 +229,6 @@ def nearly_too_far(seen: Seen) -> Iterator[Remark]:
 
 
 ORDER = (
-    went_through, beside_the_line, went_too_far, pushed_too_hard, wrong_angle, too_short, pressed, left_the_space,
-    entered_again, nearly_too_far, trembled, paused, went_aside,
+    went_through, beside_the_line, went_too_far, pushed_on, pushed_too_little, pushed_too_hard, wrong_angle, too_short,
+    pressed, left_the_space, entered_again, nearly_too_far, trembled, paused, went_aside,
 )  # fmt: skip

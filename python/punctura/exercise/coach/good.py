@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 
 from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen, degrees, mm
+from punctura.exercise.coach.seen import Seen, degrees, millilitres, mm
 from punctura.exercise.limits import ForceJudge, LineJudge
+from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.words import tenths
@@ -23,6 +24,17 @@ def stopped(seen: Seen) -> Iterator[Remark]:
                 f"{mm(limit.within)} are allowed."
             )
             yield Remark(about="stop", text=text, numbers={"distance_m": farthest, "allowed_m": limit.within})
+
+
+def let_go(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.kept(PlungerJudge):
+        most = max((one.injected for one in seen.metrics.yields), default=math.inf)
+        if most <= t.FIRM_STOP * limit.within:
+            text = (
+                f"You let the plunger go well: only {millilitres(most)} after it gave way; {millilitres(limit.within)} "
+                "are allowed."
+            )
+            yield Remark(about="plunger", text=text, numbers={"injected_m3": most, "allowed_m3": limit.within})
 
 
 def held_still(seen: Seen) -> Iterator[Remark]:
@@ -73,4 +85,4 @@ def right_angle(seen: Seen) -> Iterator[Remark]:
         yield Remark(about="angle", text=text, numbers={"angle_rad": angle, "asked_rad": seen.angle})
 
 
-ORDER = (stopped, hit_the_line, held_still, pushed_gently, pushed_steadily, kept_the_line, right_angle)
+ORDER = (stopped, let_go, hit_the_line, held_still, pushed_gently, pushed_steadily, kept_the_line, right_angle)

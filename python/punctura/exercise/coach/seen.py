@@ -92,6 +92,10 @@ def mm(metres: float) -> str:
     return f"{tenths(metres * 1e3)} mm"
 
 
+def millilitres(cubic_metres: float) -> str:
+    return f"{tenths(cubic_metres * 1e6)} mL"
+
+
 def speed(metres_per_second: float) -> str:
     fast = metres_per_second >= 9.95e-3
     return f"{metres_per_second * 1e3:.0f} mm/s" if fast else f"{tenths(metres_per_second * 1e3)} mm/s"

@@ -21,4 +21,5 @@ HOLD_SETTLE_S = 0.3  # the beginning of a stay, in which the needle still arrive
 SMOOTH_S = 0.25  # what is slower is drift, what is faster is tremor (8 to 12 Hz in a healthy hand)
 TREMOR_GOOD_M, TREMOR_OFF_M = 0.08e-3, 0.15e-3  # rms, of all directions
 DRIFT_GOOD_M, DRIFT_OFF_M = 0.5e-3, 1.5e-3
+RESTING_N = 0.5  # a thumb with less rests on the plunger
 PRESSED_S = 0.5  # time behind the end of the space

@@ -46,6 +46,18 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       value: millimetres(distance),
       help: `Distance that the tip moved on in the ${window} s after this pop.`,
     })),
+    ...(metrics.yields ?? []).flatMap(({ push, injected, seconds: window }) => [
+      {
+        label: "Thumb when the plunger gave way",
+        value: `${push.toFixed(2)} N`,
+        help: "Model force of the thumb on the plunger, just before the point came into the space.",
+      },
+      {
+        label: "Injected after it",
+        value: `${(injected * 1e6).toFixed(1)} mL`,
+        help: `Volume that left the syringe in the ${window} s after the plunger gave way.`,
+      },
+    ]),
     {
       label: "Time in the space",
       value: seconds(metrics.dwell),

@@ -37,6 +37,14 @@ test("the felt force stands beside the model force, with the scale, and each los
   expect(metricRows(metrics).some(({ label }) => label.includes("felt"))).toBe(false);
 });
 
+test("the thumb is told each time that the plunger gave way", () => {
+  const yields = [{ push: 3.996, injected: 0.94e-6, seconds: 1 }];
+  const rows = new Map(metricRows({ ...metrics, yields }).map(({ label, value }) => [label, value]));
+  expect(rows.get("Thumb when the plunger gave way")).toBe("4.00 N");
+  expect(rows.get("Injected after it")).toBe("0.9 mL");
+  expect(metricRows(metrics).some(({ label }) => label.includes("plunger"))).toBe(false);
+});
+
 test("measures are told in units for people; what there was not is a dash", () => {
   const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
   expect(Object.fromEntries(rows)).toMatchObject({

@@ -7,6 +7,8 @@ export interface SceneOutline {
   readonly title: string;
   readonly tip_length: number;
   readonly membranes: readonly MembraneView[];
+  /** The needle has a syringe with a plunger. */
+  readonly syringe: boolean;
 }
 
 /** What the form holds. Lengths in mm; null: not wanted. */
@@ -22,6 +24,10 @@ export interface Draft {
   readonly wholeTip: boolean;
   readonly stay: number | null;
   readonly stopWithin: number | null;
+  /** N, with which the thumb pushes the plunger until it gives way. */
+  readonly push: number | null;
+  /** mL, in the second after the plunger gives way. */
+  readonly inject: number | null;
   readonly neverPass: string;
   readonly peakForce: number | null;
   readonly entries: number | null;
@@ -50,6 +56,8 @@ export function draftOf(scene: SceneOutline): Draft {
     wholeTip: false,
     stay: 2,
     stopWithin: null,
+    push: null,
+    inject: null,
     neverPass: "",
     peakForce: null,
     entries: 3,
@@ -68,6 +76,8 @@ export function tablesOf(draft: Draft, scene: SceneOutline): Record<string, unkn
   else goals.push({ kind: "stay", seconds: draft.stay, ...whole });
   if (draft.stopWithin !== null)
     goals.push({ kind: "stop_after_pop", membrane: draft.behind, within_mm: draft.stopWithin });
+  if (draft.push !== null) goals.push({ kind: "feel_plunger", at_least_N: draft.push });
+  if (draft.inject !== null) goals.push({ kind: "stop_plunger", within_mL: draft.inject });
   if (draft.neverPass) goals.push({ kind: "never_pass", membrane: draft.neverPass });
   if (draft.peakForce !== null) goals.push({ kind: "peak_force", at_most_N: draft.peakForce });
   if (draft.entries !== null) goals.push({ kind: "entries", at_most: draft.entries });
@@ -126,6 +136,8 @@ const GOALS: Readonly<Record<string, keyof Draft>> = {
   reach: "wholeTip",
   stay: "stay",
   stop_after_pop: "stopWithin",
+  feel_plunger: "push",
+  stop_plunger: "inject",
   never_pass: "neverPass",
   peak_force: "peakForce",
   entries: "entries",

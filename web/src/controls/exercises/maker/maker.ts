@@ -148,6 +148,12 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
       tick("wholeTip", "Whole tip in the goal, not only the point"),
       number("stay", "Stay in the goal, s", true),
       number("stopWithin", "After the pop, move on at most, mm", true),
+      ...(scene().syringe
+        ? [
+            number("push", "Push the plunger until it gives way, N at least", true),
+            number("inject", "In the 1 s after it, inject at most, mL", true),
+          ]
+        : []),
       choice("neverPass", "Never pass the membrane", [["", "not asked"], ...membranes]),
       number("peakForce", "Force at most, N", true),
       number("entries", "Entries into the tissue, at most", true),
@@ -185,4 +191,4 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   return root;
 }
 
-type Optional = "stay" | "stopWithin" | "peakForce" | "entries" | "seconds";
+type Optional = "stay" | "stopWithin" | "push" | "inject" | "peakForce" | "entries" | "seconds";

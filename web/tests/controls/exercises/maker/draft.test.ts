@@ -19,6 +19,7 @@ const SCENE = {
   name: "venipuncture",
   title: "Venipuncture",
   tip_length: 4.1e-3,
+  syringe: false,
   membranes: [membrane("skin", 0, 1.2e-3), membrane("front", 4.81e-3, 0.4e-3), membrane("back", 8.22e-3, 0.4e-3)],
 } as unknown as SceneOutline;
 
@@ -38,6 +39,17 @@ test("the tables have only the goals that are asked for", () => {
       { kind: "never_pass", membrane: "back" },
     ],
   });
+});
+
+test("the plunger's goals have their own fields", () => {
+  const tables = tablesOf({ ...draftOf(SCENE), stay: null, entries: null, seconds: null, push: 2, inject: 1.5 }, SCENE);
+  expect(tables.goal).toEqual([
+    { kind: "reach" },
+    { kind: "feel_plunger", at_least_N: 2 },
+    { kind: "stop_plunger", within_mL: 1.5 },
+  ]);
+  expect(fieldOf("goal[1].at_least_N", tables)).toBe("push");
+  expect(fieldOf("goal[2].within_mL", tables)).toBe("inject");
 });
 
 test("a slanted needle starts where it points at the middle of the goal", () => {

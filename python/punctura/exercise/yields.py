@@ -1,0 +1,57 @@
+"""Finds when the plunger of a syringe gives way under the thumb: the loss of resistance that the second hand feels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from punctura.exercise.schema import ExerciseFile, FeelPlunger
+from punctura.exercise.space import TargetSpace
+from punctura.exercise.ticks import Ticks
+
+# Both are illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
+FLOW = 0.1e-6  # m^3/s, from which the plunger gives way
+LEAST_PUSH_N = 0.5  # a thumb that only rests on the plunger feels no loss; a feel_plunger goal sets its own
+
+
+def asked_push(file: ExerciseFile) -> float:
+    """The force with which the thumb must push when the point comes out behind the membrane, N."""
+    asked = [goal.at_least_N for goal in file.goal if isinstance(goal, FeelPlunger)]
+    return min(asked, default=LEAST_PUSH_N)
+
+
+class Yields:
+    """Takes all ticks of an attempt, in batches of any size.
+
+    The plunger gives way at the first tick with a flow of at least FLOW while the point is behind the membrane in front
+    of the space. It counts only if the thumb pushed in the last tick before the point came there: a thumb that begins
+    to push in the space feels no loss of resistance. Each time the point comes out behind the membrane counts anew.
+    """
+
+    def __init__(self, space: TargetSpace, push: float) -> None:
+        """push: N, from which the thumb pushes."""
+        self._behind, self._least = space.behind, push
+        self._open = self._gave = False  # at the last tick; since the point came out behind the membrane
+        self._load = self._push = self._injected = self._time = np.nan
+
+    def mark(self, ticks: Ticks) -> Ticks:
+        """Returns the ticks with `load` and `gave_way` filled in."""
+        rows = np.arange(len(ticks))
+        behind = ticks.inside[:, self._behind] & ticks.point_behind[:, self._behind]
+        entering = behind & ~np.concatenate([[self._open], behind[:-1]])
+        entry = np.maximum.accumulate(np.where(entering, rows, -1))
+        pushes = np.concatenate([[self._push], ticks.push[:-1]])
+        load = np.where(behind, np.where(entry >= 0, pushes[entry], self._load), np.nan)
+
+        volume = np.diff(ticks.injected, prepend=self._injected)
+        seconds = np.diff(ticks.time, prepend=self._time)
+        flows = behind & (load >= self._least) & (volume >= FLOW * seconds)
+        last = np.maximum.accumulate(np.where(flows, rows, -2))
+        before = np.concatenate([[-2], last[:-1]])  # the last flow before this tick
+        gave = np.where(entry >= 0, before >= entry, self._gave | (before >= 0))
+
+        self._open, self._gave = bool(behind[-1]), bool(gave[-1] | flows[-1])
+        self._load, self._push = float(load[-1]), float(ticks.push[-1])
+        self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
+        return replace(ticks, load=load, gave_way=flows & ~gave)

@@ -1,0 +1,193 @@
+"""The thumb on the plunger: when it gives way, the two goals that judge it, and what the coach says about it."""
+
+import numpy as np
+import punctura as pn
+import pytest
+from attempts import goal, hand_run, judged
+from punctura import ConfigurationError, Plunger, outlet_at
+from punctura._core import tip_length
+from punctura.exercise import load_exercise
+from punctura.exercise.results import to_csv
+
+NAME = "epidural-plunger"
+SCENE = pn.load_scene("epidural")
+# The skin at 6 mm, the flavum at 47.6 to 51, the dura at 56.
+LEGS = ((1.0, 0.0), (6.0, 47.0), (4.5, 58.3), (6.0, 58.3))
+AT_ONCE, SLOWLY, NEVER = 0.15, 0.3, 99.0  # s until the thumb lets go
+HEAD = """
+title = "Test"
+description = "A test."
+instruction = "Do it."
+scene = "epidural"
+[start]
+position_mm = [0, 6, 0]
+[space]
+name = "the epidural space"
+behind = "ligamentum flavum"
+in_front_of = "dura"
+press_mm = 1.5
+"""
+FEEL, STOP, STAY = goal("feel_plunger", at_least_N=2), goal("stop_plunger", within_mL=2), goal("stay", seconds=3)
+
+
+def with_thumb(columns, begins_mm, newtons, lets_go):
+    """The columns of a run with a thumb that pushes with this force from a depth below the skin on.
+
+    lets_go: s after the plunger gave way, until the thumb's force is 0.
+    """
+    settings, period = SCENE.syringe, 1 / SCENE.servo.rate
+    plunger, opening = Plunger(settings.syringe, settings.thumb, period), tip_length(SCENE.needle)
+    paths = [placed.membrane.thickness for placed in SCENE.membranes]
+    outlets = [(placed.outflow, placed.outflow_behind) for placed in SCENE.membranes]
+    n = len(columns["tick"])
+    force, injected, thumb, until, was = np.zeros(n), np.zeros(n), 0.0, np.inf, 0.0
+    inside = columns["phase"] > 0
+    for k in range(n):
+        depths = np.where(inside[k], columns["depth"][k], 0.0)
+        layers = [(d, u, *out) for d, u, out in zip(depths, paths, outlets, strict=True)]
+        wanted = newtons if columns["depth"][k, 0] * 1e3 > begins_mm and k * period < until else 0.0
+        thumb += 10e-3 * max(0.0, wanted + plunger.force) * period
+        plunger.step(thumb, outlet_at(layers, opening))
+        force[k], injected[k] = plunger.force, plunger.left
+        if injected[k] - was > 0.1e-6 * period and columns["depth"][k, 4] > 3.38e-3 and until == np.inf:
+            until = k * period + lets_go
+        was = injected[k]
+    return columns | {"thumb_force": force, "injected": injected}
+
+
+def attempted(begins_mm=30.0, newtons=4.0, lets_go=AT_ONCE, exercise=NAME, cuts=27):
+    columns = with_thumb(hand_run("epidural", LEGS), begins_mm, newtons, lets_go)
+    return judged(load_exercise(exercise), columns, cuts)
+
+
+def states(result):
+    return {each.text.split(":")[0].split(" in the ")[0]: each.state for each in result.goals}
+
+
+def about(remarks):
+    return {remark.about: remark for remark in remarks}
+
+
+def test_a_thumb_that_pushes_and_lets_go_passes():
+    result = attempted().finish()
+    assert result.passed, result.reasons
+    assert set(states(result).values()) == {"met"}
+    (gave,) = result.metrics.yields
+    assert 3 < gave.push < 4 and 0 < gave.injected < 1e-6 and gave.seconds == 1
+    assert any(text.startswith("The plunger gave way under 4.0 N") for text in result.reasons)
+    assert about(result.coaching.good)["plunger"].text.startswith(
+        "You let the plunger go well: only 0.9 mL after it gave way; 2.0 mL are"
+    )
+
+
+def test_the_plunger_gives_way_when_the_point_comes_into_the_space():
+    columns = hand_run("epidural", LEGS)
+    (gave,) = attempted().finish().metrics.yields
+    past = columns["depth"][:, 4] - SCENE.membranes[4].membrane.thickness
+    first = columns["time"][np.flatnonzero((past > 0) & (columns["phase"][:, 4] > 0))[0]]
+    assert 0 <= gave.time - first < 5e-3
+
+
+def test_the_batches_do_not_matter():
+    columns = with_thumb(hand_run("epidural", LEGS), 30.0, 4.0, SLOWLY)
+    ends = [judged(load_exercise(NAME), columns, cuts).finish() for cuts in (7, 27, 100_000)]
+    assert ends[0].metrics.yields == ends[1].metrics.yields == ends[2].metrics.yields != []
+    assert ends[0].goals == ends[1].goals == ends[2].goals
+
+
+def test_a_thumb_that_pushes_on_fails_and_is_told_its_force_and_the_volume():
+    result = attempted(lets_go=NEVER).finish()
+    assert not result.passed and states(result)["Inject no more than 2 mL"] == "missed"
+    assert result.reasons[0].startswith("You injected more than 2 mL in the 1 s after the plunger gave way")
+    remark = about(result.coaching.change)["plunger"]
+    assert remark.text.startswith("You still pushed the plunger with ") and "0.3 s after it gave way" in remark.text
+    assert remark.numbers["injected_m3"] > remark.numbers["allowed_m3"] == 2e-6
+
+
+def test_a_thumb_that_rests_does_not_pass_and_is_told_to_go_back_and_push():
+    attempt = attempted(newtons=0.0)
+    assert not attempt.over
+    told = "Draw back into the ligamentum flavum, push the plunger with at least 2 N, and go on."
+    assert attempt.status.instruction == told
+    result = attempt.finish()
+    assert "you pushed it with 0.0 N when the point came out behind the ligamentum flavum" in " ".join(result.reasons)
+    assert result.metrics.yields == []
+    assert "at least 2 N are asked" in about(result.coaching.change)["plunger"].text
+
+
+def test_a_thumb_that_begins_in_the_space_has_felt_no_loss():
+    result = attempted(begins_mm=50.0).finish()
+    assert not result.passed and result.metrics.yields == []
+
+
+def test_a_thumb_that_pushes_too_little_is_told_both_forces():
+    result = attempted(newtons=1.4).finish()
+    assert not result.passed
+    remark = about(result.coaching.change)["plunger"]
+    assert 1.0 < remark.numbers["push_N"] < 1.4 and remark.numbers["asked_N"] == 2
+
+
+def test_drawing_back_into_the_flavum_gives_a_second_try():
+    legs = (*LEGS[:3], (1.0, 58.3), (3.0, 46.0), (3.0, 58.3), (6.0, 58.3))
+    columns = hand_run("epidural", legs)
+    half = int(np.searchsorted(columns["time"], 15.5))  # the thumb rests until the needle was drawn back
+    first = {k: v[:half] for k, v in columns.items()}
+    rest = {k: v[half:] for k, v in columns.items()}
+    again = with_thumb(rest, 30.0, 4.0, AT_ONCE)
+    joined = {k: np.concatenate([first.get(k, np.zeros(half)), again[k]]) for k in again}
+    result = judged(load_exercise(NAME), joined).finish()
+    assert result.passed, result.reasons
+    assert len(result.metrics.yields) == 1 and result.metrics.yields[0].time > 15.5
+
+
+def test_a_recording_without_a_thumb_is_not_judged_as_passed():
+    result = judged(load_exercise(NAME), hand_run("epidural", LEGS)).finish()
+    assert not result.passed and result.metrics.yields == []
+    assert "not at all" in " ".join(result.reasons)
+
+
+def test_the_limit_alone_is_not_measured_if_the_plunger_never_gives_way(tmp_path):
+    file = tmp_path / "one.toml"
+    file.write_text(HEAD + STOP + STAY)
+    result = attempted(newtons=0.0, exercise=file).finish()
+    assert result.passed and result.verdict == "passed, but not everything was measured"
+    assert "because the plunger never gave way" in " ".join(result.reasons)
+
+
+@pytest.mark.parametrize("kind", [FEEL, STOP])
+def test_a_scene_without_a_syringe_is_refused(tmp_path, kind):
+    file = tmp_path / "dry.toml"
+    head = HEAD.replace('scene = "epidural"', 'scene = "venipuncture"').replace("ligamentum flavum", "front vein wall")
+    file.write_text(head.replace('"dura"', '"back vein wall"').replace("press_mm = 1.5", "") + kind + STAY)
+    with pytest.raises(ConfigurationError, match="needs a scene with a syringe"):
+        load_exercise(file)
+
+
+def test_a_running_scene_without_a_syringe_is_refused():
+    with pytest.raises(ConfigurationError, match="has no syringe"):
+        judged(load_exercise(NAME), {}, scene=SCENE.replace(syringe=None))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "path", "reason"),
+    [
+        (goal("stop_plunger", within_mL=1e-9), "within_mL", "must be at least 0.01 mL"),
+        (goal("stop_plunger", within_mL=101), "within_mL", "must be at most 100 mL"),
+        (goal("stop_plunger", within_ml=1), "within_ml", "unknown key; did you mean within_mL?"),
+        (goal("feel_plunger", at_least_N=0.01), "at_least_N", "must be at least 0.1 N"),
+        (goal("feel_plunger", at_least_N=15.1), "at_least_N", "must be at most 15 N"),
+    ],
+)
+def test_an_unreasonable_number_or_unit_is_refused(tmp_path, wrong, path, reason):
+    file = tmp_path / "wrong.toml"
+    file.write_text(HEAD + wrong + STAY)
+    with pytest.raises(ConfigurationError) as error:
+        load_exercise(file)
+    assert reason in {p.reason for p in error.value.problems if p.path == f"goal[0].{path}"}
+
+
+def test_the_table_of_results_has_the_plunger():
+    table = to_csv([attempted().finish()]).splitlines()
+    assert table[0].endswith("plunger_push_N,injected_mL")
+    push, injected = table[1].rsplit(",", 2)[1:]
+    assert 3 < float(push) < 4 and 0 < float(injected) < 1
