@@ -121,7 +121,7 @@ def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Itera
 
 @contextmanager
 def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
-    """Processes that leave Ctrl-C to this one. After an error they end at once."""
+    """Processes that leave Ctrl-C to this one. After an error they end at once: a trace may take minutes."""
     # "spawn": a forked copy of a program with threads may hang.
     context = multiprocessing.get_context("spawn")
     closed, stop = context.Pipe(duplex=False)
@@ -130,12 +130,11 @@ def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
             yield pool
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
-            stop.close()  # a trace may take minutes
             raise
 
 
 def _follow_parent(stopped: Connection) -> None:
-    """In a process of the pool: Ctrl-C is the parent's. If the parent stops or was killed, this process ends, too."""
+    """In a process of the pool: Ctrl-C is the parent's. If that closes its end of `stopped` or dies, this one ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 

@@ -1,6 +1,7 @@
 """A folder of traces: broken files, resuming, the population; the report and the plan of the next experiment."""
 
 import json
+import multiprocessing
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -75,8 +76,11 @@ def test_an_interrupt_does_not_wait_for_the_traces_that_are_computed(tmp_path, m
         raise KeyboardInterrupt
 
     monkeypatch.setattr(folder_module, "_one", goes_on)
-    with pytest.raises(KeyboardInterrupt):  # without the end of its processes, this waits for ever
+    with pytest.raises(KeyboardInterrupt):
         identify_folder(folder, out, Task(NEEDLE), 2, interrupted)
+    for process in multiprocessing.active_children():
+        process.join(30)
+        assert process.exitcode is not None  # else the program would wait for it at its end
     assert {path.name for path in out.iterdir()} == {"a.csv.json"}
 
 
