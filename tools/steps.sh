@@ -115,6 +115,8 @@ step_asan() {
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan
 }
+# Without AVX: the threads of a batch run the same code with each instruction set, and -O2 with a sanitizer compiles
+# slowly. cpp and asan test all of them.
 step_tsan() {
   compile tsan runtime_tests || return
   tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests")
