@@ -11,6 +11,7 @@ const TURN = Math.PI / 90;
 export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["↓ ↑", "in, out along the needle, 0.25 mm; with Shift 1 mm"],
   ["← →", "to the side, 0.25 mm; with Shift 1 mm"],
+  ["PageDown PageUp", "towards you, away from you, 0.25 mm; with Shift 1 mm"],
   ["Q E", "tilt by 2°"],
   ["Home", "in front of the first membrane, aimed at its centre"],
   ["+ −", "zoom in, out"],
@@ -31,6 +32,8 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
       ArrowUp: () => hand.push(-step),
       ArrowLeft: () => hand.moveBy(scaled(hand.side(), -step)),
       ArrowRight: () => hand.moveBy(scaled(hand.side(), step)),
+      PageDown: () => hand.moveBy([0, 0, step]),
+      PageUp: () => hand.moveBy([0, 0, -step]),
       q: () => hand.setTilt(hand.tilt() - TURN),
       e: () => hand.setTilt(hand.tilt() + TURN),
       Home: () => hand.home(),

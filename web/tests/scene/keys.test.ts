@@ -24,6 +24,16 @@ it("a key that was held when a new run began moves nothing until it is pressed a
   expect(pushed).toHaveLength(4);
 });
 
+it("PageDown and PageUp move towards the user and back, with Shift four times as far", () => {
+  const canvas = new EventTarget();
+  const moves: (readonly number[])[] = [];
+  const hand = { run: 0, moveBy: (way: readonly number[]) => moves.push(way) };
+  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {}, {} as Thumb);
+  for (const [key, shiftKey] of [["PageDown", false], ["PageUp", true]] as const) // biome-ignore format: short
+    canvas.dispatchEvent(Object.assign(new Event("keydown", { cancelable: true }), { key, shiftKey }));
+  expect(moves).toEqual([[0, 0, 0.25e-3], [0, 0, -1e-3]]); // biome-ignore format: short
+});
+
 it("Space pushes the plunger while it is held, and losing the focus lets go", () => {
   const canvas = new EventTarget();
   const pushes: number[] = [];
