@@ -24,6 +24,8 @@ from punctura.live import (
     Ended,
     Limits,
     RunSummary,
+    SecondDevice,
+    ThumbLoop,
     felt_force,
     fit_conditioning,
     fit_direction,
@@ -48,6 +50,7 @@ class Wishes(NamedTuple):
     scene_filter: bool
     processor: int = ANY_PROCESSOR
     limits: Limits = Limits()
+    second: SecondDevice | None = None
 
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
@@ -55,8 +58,11 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     tape = Tape(record, StatusLine(never_wait_for_stderr()))
     loaded = load_scene(wishes.scene or USUAL_SCENE)
     opened = open_for(loaded, wishes.device, wishes.processor)
+    thumb: ThumbLoop | None = None
+    if wishes.second:
+        thumb = wishes.second.loop(wishes.second.open(loaded, opened, wishes.processor), wishes.limits)
     fitted, note = fit_direction(loaded, opened)
-    notes = [note]
+    notes, tape.thumb = [note], thumb
     if not wishes.scene_filter:
         fitted, note = fit_conditioning(fitted, opened)
         notes.append(note)
@@ -66,7 +72,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     limits = wishes.limits
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
-        say(begun(loaded.name, loop, opened))
+        say(begun(loaded.name, loop, opened, thumb))
         for note in [*limits.notes(loop), *filter(None, [room_note(loop)])]:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
@@ -81,8 +87,9 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     try:
         summary = run_live(
-            opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin
-        )
+            opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin,
+            thumb,
+        )  # fmt: skip
     except Ended as end:
         if end.summary is not None and end.summary.ticks > 0:
             tell(end.summary, tell_if_read)
@@ -100,11 +107,12 @@ class Tape:
         self._path, self._line = path, line
         self._fault = ""  # that was told
         self._recorder: Recorder | None = None
+        self.thumb: ThumbLoop | None = None  # the second device's loop
 
     def begin(self, loop: ServoLoop) -> Callable[[], None]:
         """Raises RecordingError. Returns a function that finishes the file and prints its path."""
         if self._path:
-            self._recorder = Recorder(loop, self._path)
+            self._recorder = Recorder(loop, self._path, thumb=self.thumb)
         return self._finish
 
     def watch(self, summary: RunSummary) -> None:
@@ -164,12 +172,15 @@ def tell_result(text: str) -> None:
         give_up_stdout()
 
 
-def begun(scene: str, loop: ServoLoop, device: Device) -> str:
-    """The scene, the device and the limits of the force."""
+def begun(scene: str, loop: ServoLoop, device: Device, thumb: ThumbLoop | None = None) -> str:
+    """The scene, the devices and the limits of the force."""
     most = loop.limits
     strong = f"at most {most.max_force:.3g} N, {most.continuous_force:.3g} N rms in any {most.continuous_time:.3g} s"
     scale = "" if loop.force_scale == 1 else f", {felt_force(loop.force_scale)}"
-    return f"punctura: {scene} on {device.info.model}, {strong}{scale}; Ctrl-C ends it"
+    second = ""
+    if thumb is not None:
+        second = f"; thumb on {thumb.device.info.model}, at most {thumb.limits.max_force:.3g} N"
+    return f"punctura: {scene} on {device.info.model}, {strong}{scale}{second}; Ctrl-C ends it"
 
 
 def in_words(summary: RunSummary) -> str:
@@ -182,6 +193,11 @@ def in_words(summary: RunSummary) -> str:
         f"strongest {MODEL_FORCE} {summary.strongest_model_N:.3g} N, "
         + (f"cut by {summary.limits_in_words}" if summary.limited_ticks else "never cut by a limit"),
     ]
+    if summary.second_device:
+        lines.append(
+            f"  thumb on {summary.second_device}: strongest felt force {summary.strongest_thumb_N:.3g} N, "
+            f"{summary.injected_m3 * 1e6:.3g} mL injected at most"
+        )
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
         lines.append(f"  {name}: {depth * 1e3:.3g} mm deep" if depth > 0 else f"  {name}: not reached")
     return "\n".join(lines + [f"  {text}" for text in summary.statements])

@@ -44,7 +44,8 @@ def status_text(summary: RunSummary) -> str:
         f"{name} {depth * 1e3:.1f} mm {phase.replace('_', ' ')}"
         for name, depth, phase in zip(summary.membranes, summary.depth_m, summary.phases, strict=False)
     )
+    thumb = f"  thumb {summary.thumb_N:+.2f} N" if summary.second_device else ""
     return (
         f"{summary.time_s:6.1f} s  {summary.rate_Hz:g} Hz  {summary.state}  "
-        f"{felt_force(summary.force_scale)} {x:+.2f} {y:+.2f} {z:+.2f} N{cut}  {membranes}  lost {summary.gaps}"
+        f"{felt_force(summary.force_scale)} {x:+.2f} {y:+.2f} {z:+.2f} N{cut}{thumb}  {membranes}  lost {summary.gaps}"
     )

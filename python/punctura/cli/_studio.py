@@ -35,8 +35,9 @@ def run_page(
     for sentence in loaded.unusual:
         say(f"punctura: warning: {sentence}")
     settings = Settings(
-        wishes.device, wishes.placement or Placement(), wishes.scene_filter, wishes.limits, wishes.processor
-    )
+        wishes.device, wishes.placement or Placement(), wishes.scene_filter, wishes.limits, wishes.processor,
+        wishes.second,
+    )  # fmt: skip
     token = serve.token_from_environment()
 
     def make() -> serve.StudioServer:
@@ -44,7 +45,7 @@ def run_page(
         for note in server.session.run.notes:
             say(f"punctura: note: {note}")
         session = server.session
-        say(begun(loaded.scene.name, session.run.loop, session.bench.device))
+        say(begun(loaded.scene.name, session.run.loop, session.bench.device, session.run.thumb))
         return server
 
     out = DroppingStream(sys.stdout)

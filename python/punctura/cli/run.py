@@ -15,7 +15,16 @@ from punctura.cli._leave import leave
 from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError
-from punctura.live import ANY_PROCESSOR, Ended, Limits, load_limits, load_placement
+from punctura.live import (
+    ANY_PROCESSOR,
+    Ended,
+    Limits,
+    SecondDevice,
+    SecondDeviceError,
+    direction_of,
+    load_limits,
+    load_placement,
+)
 from punctura.live.signals import ends_on_signals
 
 
@@ -44,6 +53,21 @@ def command(
             "else the simulated one.",
         ),
     ] = "",
+    second_device: Annotated[
+        str,
+        typer.Option(
+            "--second-device",
+            help="Device under the thumb, on the plunger of the scene's syringe (docs/syringe.md); a name as above.",
+        ),
+    ] = "",
+    second_direction: Annotated[
+        str,
+        typer.Option(
+            "--second-direction",
+            help="Direction in which the thumb pushes, in the second device's axes.",
+            metavar="X,Y,Z",
+        ),
+    ] = "0,-1,0",
     duration: Annotated[
         float | None, typer.Option("--duration", help="Seconds to run. Default: until Ctrl-C.", min=0.0)
     ] = None,
@@ -121,7 +145,8 @@ def command(
             allowed = allowed.at_most(max_force)
         except ConfigurationError as error:
             raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
-    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed)
+    second = SecondDevice(second_device, _direction(second_direction)) if second_device else None
+    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second)
     with ends_on_signals() as signals:
         try:
             with signals.raised():
@@ -130,9 +155,18 @@ def command(
                 else:
                     run_page(wishes, port, not no_browser, recordings, page, exercise or ())
         except DeviceError as error:
-            raise typer.BadParameter(str(error), param_hint="--device") from None
+            hint = "--second-device" if isinstance(error, SecondDeviceError) else "--device"
+            raise typer.BadParameter(str(error), param_hint=hint) from None
         except Ended as end:
             leave(end, "; the force is off")
+
+
+def _direction(text: str) -> tuple[float, float, float]:
+    """Raises typer.BadParameter."""
+    try:
+        return direction_of(text)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--second-direction") from None
 
 
 def _existing(processor: int | None) -> int:

@@ -12,6 +12,7 @@ from punctura._core import (
     ReplayDevice,
     ServoLoop,
     SimulatedDevice,
+    ThumbLoop,
     make_realtime,
     open_device,
 )
@@ -23,6 +24,7 @@ from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.plug_ins import enumerate_devices
 from punctura.live.pose import present_pose
+from punctura.live.second import SecondDevice, SecondDeviceError, direction_of
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
 from punctura.live.silence import SilenceWatch
@@ -49,9 +51,13 @@ __all__ = [
     "Quantiles",
     "ReplayDevice",
     "RunSummary",
+    "SecondDevice",
+    "SecondDeviceError",
     "ServoLoop",
     "SilenceWatch",
     "SimulatedDevice",
+    "ThumbLoop",
+    "direction_of",
     "enumerate_devices",
     "felt_force",
     "fit_conditioning",

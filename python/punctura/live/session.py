@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from punctura import Scene
-from punctura._core import Device, ForceLimits, GateLimits, Placement, ServoLoop
+from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, ServoLoop, ThumbLoop
 from punctura.live.choose import gate_for
 from punctura.live.signals import Ended, ends_on_signals
 from punctura.live.silence import SilenceWatch
@@ -22,6 +22,7 @@ def run_live(
     placement: Placement | None = None,
     watch: Callable[[RunSummary], None] | None = None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
+    thumb: ThumbLoop | None = None,
 ) -> RunSummary:
     """Runs until `duration` (s) is over, a fault is latched, ticks cease, the device ends, or a signal comes.
 
@@ -30,12 +31,15 @@ def run_live(
     that of the run.
 
     watch: called about 20 times a second with the summary. prepare: called with the loop before it starts, to add
-    listeners; it returns a function that is called after the stop.
+    listeners; it returns a function that is called after the stop. thumb: a second device, on the plunger of the
+    scene's syringe; a fault of either device ends the run.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
+    if thumb is not None:
+        summary.second_device = f"{thumb.device.info.backend}: {thumb.device.info.model}"
     try:
-        _run(device, scene, summary, duration, gate, limits, placement, watch, prepare)
+        _run(device, scene, summary, duration, gate, limits, placement, watch, prepare, thumb)
     except Ended as end:
         end.summary = summary
         raise
@@ -52,11 +56,13 @@ def _run(
     placement: Placement | None,
     watch: Callable[[RunSummary], None] | None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None,
+    thumb: ThumbLoop | None,
 ) -> None:
     with ends_on_signals() as signals:
-        loop = ServoLoop(device, scene, gate or gate_for(device), limits or ForceLimits(), placement or Placement())
+        force, stands = limits or ForceLimits(), placement or Placement()
+        loop = ServoLoop(device, scene, gate or gate_for(device), force, stands, thumb)
         listener = loop.listen()
-        watched = Watched(loop)
+        watched = Watched(loop, thumb)
         supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop, duration)
         finish: Callable[[], None] | None = None
         try:
@@ -68,7 +74,7 @@ def _run(
                 summary.add(listener.read())  # a signal in this line must not lose the ticks that were read
                 summary.fault = summary.fault or watched.silence
                 if summary.fault and ended:  # not before the stop: the driver may take time to answer
-                    summary.blame(device)
+                    summary.blame(device, thumb)
                 if watch:
                     with signals.raised():
                         watch(summary)
@@ -78,7 +84,7 @@ def _run(
             finally:
                 loop.stop()
                 summary.add(listener.read())
-                summary.finish(loop)
+                summary.finish(loop, thumb)
                 if finish:
                     finish()
 
@@ -86,10 +92,10 @@ def _run(
 class Watched:
     """A loop as its supervisor sees it."""
 
-    def __init__(self, loop: ServoLoop) -> None:
+    def __init__(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         self.silence = ""  # why the ticks ceased, in words
-        self._loop = loop
-        self._watch = SilenceWatch(loop)
+        self._loop, self._thumb = loop, thumb
+        self._watch = SilenceWatch(loop, thumb)
 
     def begin(self) -> None:
         """Raises DeviceError."""
@@ -99,4 +105,6 @@ class Watched:
     def over(self) -> bool:
         self.silence = self._watch.ceased()
         ended = getattr(self._loop.device, "finished", False) or self._loop.latest()["fault"][0]
+        # A scene without a syringe does not read the thumb.
+        ended = ended or (self._thumb is not None and self._thumb.fault != Fault.none)
         return bool(self.silence or ended)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Phase, Scene
-from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, describe
+from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, ThumbLoop, describe
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 from punctura.record.room import room_note
 from punctura.ticks import ABSENT, Ticks
@@ -40,6 +40,9 @@ class RunSummary:
     deepest_m: list[float] = field(default_factory=list)
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
     limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names in CUTS
+    second_device: str = ""  # empty without one
+    strongest_thumb_N: float = 0.0  # felt force of the thumb on the second device
+    injected_m3: float = 0.0  # the most that had left the scene's syringe
     fault: str = ""
     late: int = 0
     compute_p99_9_s: float = 0.0
@@ -47,6 +50,7 @@ class RunSummary:
     statements: list[str] = field(default_factory=list)
     # The last tick, for a status line.
     force_N: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    thumb_N: float = 0.0  # felt force of the thumb
     model_force_N: float = 0.0  # before force scale and limits, norm
     limit: str = ""  # which limit cuts the force, in words
     depth_m: list[float] = field(default_factory=list)
@@ -73,6 +77,9 @@ class RunSummary:
         self.strongest_model_N = max(self.strongest_model_N, float(np.linalg.norm(ticks.model_force, axis=1).max()))
         deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
+        self.strongest_thumb_N = max(self.strongest_thumb_N, float(np.abs(ticks.thumb_felt).max()))
+        self.thumb_N = float(ticks.thumb_felt[-1])
+        self.injected_m3 = max(self.injected_m3, float(np.fmax.reduce(ticks.injected, initial=0.0)))
         self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in CUTS}
         self.limited_ticks = sum(self.limited_by.values())
         x, y, z = ticks.force[-1]
@@ -88,19 +95,28 @@ class RunSummary:
         if fault := int(ticks.fault[-1]):
             self.fault = describe(Fault(fault))
 
-    def finish(self, loop: ServoLoop) -> None:
+    def finish(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         """Takes the loop's report, after it has stopped."""
         report = loop.report()
         self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # including ticks after the last read
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
-        self.statements = [*loop.device.statements(), *filter(None, [room_note(loop)])]
-        self.blame(loop.device)
+        second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
+        self.statements = [*loop.device.statements(), *second, *filter(None, [room_note(loop)])]
+        self.blame(loop.device, thumb)
 
-    def blame(self, device: Device) -> None:
-        """Adds the device's explanation of a fault, or of trouble outside ticks."""
-        trouble = device.trouble()
+    def blame(self, device: Device, thumb: ThumbLoop | None = None) -> None:
+        """Adds the devices' explanations of a fault, or of trouble outside ticks."""
+        self._add(device.trouble())
+        if thumb is None:
+            return
+        if thumb.fault != Fault.none:
+            self._add(f"second device: {describe(thumb.fault)}")
+        if trouble := thumb.device.trouble():
+            self._add(f"second device: {trouble}")
+
+    def _add(self, trouble: str) -> None:
         if trouble.rstrip(". ") not in self.fault:
             self.fault = f"{self.fault}: {trouble}" if self.fault else trouble
 

@@ -61,6 +61,13 @@ class DeviceAfter(_Part):
     trouble: str = ""
 
 
+class SecondDevice(_Part):
+    """The device under the thumb."""
+
+    device: DeviceBefore = DeviceBefore()
+    limits: dict[str, Value] = {}
+
+
 class FaultAt(_Part):
     """A fault and its tick: `fault.tick` or `fault["tick"]`."""
 
@@ -103,6 +110,7 @@ class Description(_Part):
     summary: Summary = Summary()
     lost: dict[str, Count] = {}
     device_after: DeviceAfter = DeviceAfter()
+    second_device: SecondDevice | None = None
     replayed_from: str = ""
     replayed_by: str = ""
 

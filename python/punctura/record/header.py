@@ -14,7 +14,7 @@ from typing import TypeAlias, TypedDict, TypeVar
 import numpy as np
 import pyarrow as pa
 
-from punctura._core import Device, ForceLimits, GateLimits, Scene, ServoLoop
+from punctura._core import Device, Fault, ForceLimits, GateLimits, Scene, ServoLoop, ThumbLoop, describe
 from punctura.record.build_id import build_id, machine
 from punctura.record.description import FORMATS, Description, Value, read_description
 from punctura.record.errors import RecordingError
@@ -45,10 +45,18 @@ class _Run(TypedDict):
     libraries: dict[str, str]
 
 
+class SecondRecord(TypedDict):
+    """The device under the thumb. Description has the same, as read."""
+
+    device: dict[str, Plain]  # DeviceInfo
+    limits: dict[str, Plain]  # ForceLimits
+
+
 class RunRecord(_Run, total=False):
     """The description as written when a recording begins. Description is the same, as read."""
 
     about: JsonObject
+    second_device: SecondRecord
 
 
 class DeviceReport(TypedDict):
@@ -58,7 +66,7 @@ class DeviceReport(TypedDict):
     trouble: str
 
 
-def describe_run(loop: ServoLoop, about: JsonObject | None = None) -> RunRecord:
+def describe_run(loop: ServoLoop, about: JsonObject | None = None, thumb: ThumbLoop | None = None) -> RunRecord:
     """The description as known when a recording begins."""
     rate = loop.scene.servo.rate
     now_ns = time.time_ns()
@@ -79,12 +87,23 @@ def describe_run(loop: ServoLoop, about: JsonObject | None = None) -> RunRecord:
     }
     if about:
         described["about"] = about
+    if thumb is not None:
+        described["second_device"] = {"device": _fields(thumb.device.info), "limits": _fields(thumb.limits)}
     return described
 
 
-def describe_device(device: Device) -> DeviceReport:
-    """The device's report after a run."""
-    return {"statements": list(device.statements()), "trouble": device.trouble()}
+def describe_device(device: Device, thumb: ThumbLoop | None = None) -> DeviceReport:
+    """The report of the device after a run, and of the second device."""
+    second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
+    troubles = [device.trouble()]
+    if thumb is not None:
+        troubles += [f"second device: {text}" for text in (words_of(thumb), thumb.device.trouble()) if text]
+    return {"statements": [*device.statements(), *second], "trouble": "; ".join(filter(None, troubles))}
+
+
+def words_of(thumb: ThumbLoop) -> str:
+    """The latched fault of the second device; empty without one."""
+    return "" if thumb.fault == Fault.none else describe(thumb.fault)
 
 
 def _fields(struct: object) -> dict[str, Plain]:

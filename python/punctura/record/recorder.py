@@ -11,7 +11,7 @@ from types import TracebackType
 import numpy as np
 import pyarrow as pa
 
-from punctura._core import Scene, ServoLoop
+from punctura._core import Scene, ServoLoop, ThumbLoop
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog, Piece
 from punctura.record.errors import RecordingError
@@ -48,10 +48,16 @@ class Recorder:
     """
 
     def __init__(
-        self, loop: ServoLoop, path: str | Path, capacity: int | None = None, about: JsonObject | None = None
+        self,
+        loop: ServoLoop,
+        path: str | Path,
+        capacity: int | None = None,
+        about: JsonObject | None = None,
+        thumb: ThumbLoop | None = None,
     ) -> None:
         """Call before loop.start(). capacity: number of snapshots in the ring; 32 MB at most, and a note in the file
-        says if it was reduced. about: further JSON data for the file's description.
+        says if it was reduced. about: further JSON data for the file's description. thumb: the loop of a second device,
+        which is described, too.
 
         Raises RecordingError if the file cannot be written.
         """
@@ -59,8 +65,8 @@ class Recorder:
         self._part = part_path(self.path)
         if loop.running:
             raise RecordingError("the loop is already running: create the Recorder before loop.start()")
-        self._loop = loop
-        self._header = describe_run(loop, about)
+        self._loop, self._thumb = loop, thumb
+        self._header = describe_run(loop, about, thumb)
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
         self._listener = loop.listen(capacity)
@@ -138,7 +144,8 @@ class Recorder:
             if self._defect:
                 self._writer.note(self._defect)
             status = replace(self.status(), trouble=self._writer.trouble)
-            self._final = finish_recording(self.path, self._file, made, status, describe_device(self._loop.device))
+            after = describe_device(self._loop.device, self._thumb)
+            self._final = finish_recording(self.path, self._file, made, status, after)
         return self._final
 
     def __enter__(self) -> Recorder:

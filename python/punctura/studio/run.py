@@ -7,13 +7,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from punctura import Scene, Target
-from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice
-from punctura.live import ANY_PROCESSOR, Limits, fit_conditioning, fit_direction, open_for, room_note
+from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice, ThumbLoop
+from punctura.live import ANY_PROCESSOR, Limits, SecondDevice, fit_conditioning, fit_direction, open_for, room_note
 from punctura.record import Recorder
 from punctura.results import JsonObject
 from punctura.studio.hand import Pose, resting_pose
 from punctura.studio.loaded import Loaded
 from punctura.ticks import Ticks
+
+NO_SYRINGE = "this scene has no syringe: the second device gives no force"
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,7 @@ class Settings:
     scene_filter: bool = False  # filter positions as the scene says, not as the device needs
     limits: Limits = field(default_factory=Limits)
     processor: int = ANY_PROCESSOR  # to tick on
+    second: SecondDevice | None = None  # under the thumb
 
 
 class Bench:
@@ -34,6 +37,8 @@ class Bench:
         """Raises DeviceError."""
         self.settings = settings
         self._device = open_for(scene, settings.device, settings.processor)
+        second = settings.second
+        self._second = second.open(scene, self._device, settings.processor) if second else None
 
     @property
     def simulated(self) -> bool:
@@ -56,6 +61,14 @@ class Bench:
             self._device = SimulatedDevice(Target(pose[0]), rate=scene.servo.rate, axis=pose[1], processor=where)
             self._device.go_on_from(before)  # its motors do not cool because a new run begins
         return self._device
+
+    def fresh_thumb(self) -> ThumbLoop | None:
+        """The loop of the second device for a new run; None without one. Raises ConfigurationError."""
+        second = self.settings.second
+        if second is None or self._second is None:
+            return None
+        self._second = second.again(self._second)
+        return second.loop(self._second, self.settings.limits)
 
     def fit(self, scene: Scene) -> tuple[Scene, list[str]]:
         """The scene as the device can run it, and notes on what was changed."""
@@ -88,10 +101,14 @@ class Run:
         device = bench.fresh(loaded.scene, self.pose)
         scene, self.notes = bench.fit(loaded.scene)
         limits = bench.settings.limits
-        self.loop = ServoLoop(device, scene, limits.gate_on(device), limits.force, bench.settings.placement)
+        self.thumb = bench.fresh_thumb()
+        gate, placement = limits.gate_on(device), bench.settings.placement
+        self.loop = ServoLoop(device, scene, gate, limits.force, placement, self.thumb)
         self._listener = self.loop.listen()
         self.notes += [*limits.notes(self.loop), *filter(None, [room_note(self.loop)])]
-        self.recorder = Recorder(self.loop, recording, about=about) if recording else None
+        if self.thumb is not None and scene.syringe is None:
+            self.notes.append(NO_SYRINGE)
+        self.recorder = Recorder(self.loop, recording, about=about, thumb=self.thumb) if recording else None
 
     def start(self) -> None:
         """Starts the ticks. An armed loop gives force once the tip is outside tissue."""

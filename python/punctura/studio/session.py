@@ -105,14 +105,15 @@ class Session(Runs):
     # Everything below belongs to the worker's thread.
 
     def watch(self) -> None:
-        self._watchdog.watch(self.run.loop)
+        self._watchdog.watch(self.run.loop, self.run.thumb)
 
     def _ticks_ceased(self, loop: ServoLoop, words: str) -> None:
         """The watchdog stops this loop."""
         if loop is self.run.loop:
             self.out.say(no_ticks(words))
             self.defects.guard(self.end_run)
-            if trouble := loop.device.trouble():  # after the stop: the driver may take time to answer
+            thumb = self.run.thumb.device.trouble() if self.run.thumb else ""
+            if trouble := loop.device.trouble() or thumb:  # after the stop: the driver may take time to answer
                 self.out.say(no_ticks(f"{words}. {trouble}"))
 
     def _take_target(self) -> None:

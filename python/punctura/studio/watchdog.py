@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from punctura._core import ServoLoop
+from punctura._core import ServoLoop, ThumbLoop
 from punctura.live import SilenceWatch
 
 POLL_S = 0.05
@@ -28,9 +28,9 @@ class Watchdog:
         """Does not wait for the thread: it may be inside the driver's stop, which may never return."""
         self._over.set()
 
-    def watch(self, loop: ServoLoop) -> None:
+    def watch(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         """From any thread: watches this started loop instead of the one before."""
-        self._watched = (loop, SilenceWatch(loop))
+        self._watched = (loop, SilenceWatch(loop, thumb))
 
     def _work(self) -> None:
         stopped = None

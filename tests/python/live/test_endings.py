@@ -168,7 +168,7 @@ def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
         def __init__(self, signals, begin, over, end, duration):
             super().__init__(signals, begin, over, lambda: told.wait(60) and end(), duration)
 
-    def blame(summary, device):
+    def blame(summary, device, thumb=None):
         blamed.append(told.is_set())
         summary.fault += ": the cable is out"
 

@@ -1,0 +1,196 @@
+"""`punctura run --second-device`: two devices, two loops, one recording, and one safety state."""
+
+import json
+import math
+import subprocess
+import sys
+import threading
+import time
+import types
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura._core import DeviceError, Fault, ForceLimits, GateLimits
+from punctura.live import (
+    DeviceInfo,
+    FedDevice,
+    Limits,
+    SecondDevice,
+    SecondDeviceError,
+    SilenceWatch,
+    SimulatedDevice,
+    ThumbLoop,
+    direction_of,
+    run_live,
+)
+from punctura.record import open_recording, replay
+from punctura.studio.loaded import from_name
+from punctura.studio.run import NO_SYRINGE, Bench, Run, Settings
+from waiting import wait_until
+
+SCENE = pn.load_scene("epidural")
+PATIENT = GateLimits(stale=30.0, deadline=30.0)  # a busy computer is no fault here
+ABOVE, DEEP = (0.0, 6e-3, 0.0), (0.0, -30e-3, 0.0)
+
+
+class Library:
+    """A maker's library that calls the device's tick 500 times a second, until it dies or ends."""
+
+    def __init__(self, model, position):
+        self.device = FedDevice(500, info=DeviceInfo(model=model, max_force=3.0))
+        self.position, self.force = position, (math.nan,) * 3
+        self.ended = False
+        self._thread = threading.Thread(target=self._feed, daemon=True)
+        self._thread.start()
+
+    def _feed(self):
+        while not self.ended:
+            self.force = self.device.feed(self.position)
+            time.sleep(2e-3)
+
+    def die(self):
+        self.ended = True
+        self._thread.join()
+
+
+@pytest.fixture
+def pair():
+    both = Library("the needle's", ABOVE), Library("the thumb's", (0.0, 0.0, 0.0))
+    yield both
+    for one in both:
+        one.die()
+
+
+def live(pair, act, **more):
+    """Runs until it ends by itself. act: called once with the summary, when force is on."""
+    needle, thumb = pair
+    acted = []
+
+    def watch(summary):
+        if summary.state == "active" and not acted:
+            acted.append(summary)
+            act()
+
+    loop = ThumbLoop(thumb.device, gate=PATIENT)
+    summary = run_live(needle.device, SCENE, 60, PATIENT, watch=watch, thumb=loop, **more)
+    assert acted, summary
+    return summary, loop
+
+
+def test_a_fault_of_the_second_device_ends_the_run_and_is_told(pair):
+    needle, thumb = pair
+
+    def act():
+        thumb.position = (math.nan, 0.0, 0.0)
+
+    summary, loop = live(pair, act)
+    assert summary.fault.startswith("the device under the thumb has a fault of its own or sends nothing")
+    assert "second device: the device reported a position or direction that is not a number" in summary.fault
+    assert loop.fault == Fault.non_finite_input
+    wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
+
+
+def test_a_fault_of_the_needles_device_ends_the_force_of_the_thumb(pair):
+    needle, thumb = pair
+
+    def act():
+        needle.position = (math.nan, 0.0, 0.0)
+
+    summary, loop = live(pair, act)
+    assert "is not a number" in summary.fault and "thumb" not in summary.fault
+    assert loop.fault == Fault.none and loop.force == 0
+    wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("which", ["the device's", "the second device's"])
+def test_a_library_that_dies_ends_the_run_of_both(pair, monkeypatch, which):
+    needle, thumb = pair
+    dead = needle if which == "the device's" else thumb
+    loop = ThumbLoop(thumb.device, gate=PATIENT)
+    acted = []
+
+    def watch(summary):
+        if summary.state == "active" and not acted:
+            acted.append(dead.die())
+
+    # Silence is ten seconds of the watch, whose clock goes ten times as fast: a busy computer is not silent so long.
+    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: 10 * time.monotonic()))
+    monkeypatch.setattr("punctura.live.silence.gate_for", lambda device: PATIENT.replace(deadline=2.0))
+    gate = PATIENT.replace(deadline=2.0)
+    summary = run_live(needle.device, SCENE, 60, gate, watch=watch, thumb=loop)
+    assert acted and summary.fault.startswith(f"{which} ticks have ceased"), summary.fault
+    alive = thumb if dead is needle else needle
+    wait_until(lambda: alive.force == (0.0, 0.0, 0.0))
+    assert loop.force == 0
+
+
+def test_a_silent_second_device_is_watched_though_the_needle_ticks(pair, monkeypatch):
+    monkeypatch.setattr("punctura.live.silence.gate_for", lambda device: GateLimits(deadline=0.4))
+    needle, thumb = pair
+    loop = ThumbLoop(thumb.device, gate=PATIENT)
+    servo = pn._core.ServoLoop(needle.device, SCENE, PATIENT, ForceLimits(), thumb=loop)
+    watch = SilenceWatch(servo, loop)
+    with servo:
+        servo.start()
+        wait_until(lambda: loop.ticks > 0)
+        thumb.die()
+        wait_until(lambda: watch.ceased() != "")
+        assert watch.ceased().startswith("the second device's ticks have ceased")
+
+
+def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bits(tmp_path):
+    path = tmp_path / "both.parquet"
+    command = [sys.executable, "-m", "punctura.cli", "run", "epidural", "--headless", "--device", "simulated"]
+    more = ["--second-device", "simulated", "--duration", "3", "--json", "--record", str(path)]
+    done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["strongest_thumb_N"] > 0
+    recording = open_recording(path)
+    assert recording.info.said.second_device.device.backend == "simulated"
+    assert recording.info.said.second_device.limits["max_force"] == 3.3
+    ticks = recording.ticks()
+    assert np.ptp(ticks.thumb) > 1e-3 and ticks.thumb_felt.min() < 0
+    assert replay(path).identical
+
+
+@pytest.mark.parametrize(
+    ("scene", "second", "reason"),
+    [
+        ("k06-fig10", "simulated", "the scene K06 Fig. 10 has no [syringe]"),
+        ("epidural", "nothing", "no device is called 'nothing'"),
+        ("epidural", "replay:a.parquet", "a replay can only be the needle's device"),
+    ],
+)
+def test_a_second_device_that_cannot_be_used_is_refused(scene, second, reason):
+    needle = SimulatedDevice(pn.Target(ABOVE))
+    with pytest.raises(SecondDeviceError) as error:
+        SecondDevice(second).open(pn.load_scene(scene), needle)
+    assert reason in str(error.value) and isinstance(error.value, DeviceError)
+
+
+@pytest.mark.parametrize("text", ["0,0,0", "1,2", "a,b,c", "nan,0,0", "inf,0,0", "", "1e200,1e200,1e200,0"])
+def test_a_direction_that_is_none_is_refused(text):
+    with pytest.raises(ValueError, match=r"."):
+        direction_of(text)
+    assert direction_of(" 0, 0,2 ") == (0, 0, 2)
+
+
+def test_the_limits_of_the_needle_hold_for_the_thumb_but_its_dead_man_button_does_not():
+    limits = Limits(ForceLimits(max_force=0.4), {"dead_man": 1})
+    device = FedDevice(500, info=DeviceInfo(model="a thumb", max_force=3.0))  # it has no button
+    assert SecondDevice("mine").loop(device, limits).limits.max_force == 0.4
+
+
+def test_the_studio_opens_the_second_device_for_each_run():
+    loaded = from_name("epidural")
+    bench = Bench(Settings("simulated", second=SecondDevice("simulated")), loaded.scene)
+    for number in range(2):
+        run = Run(number, bench, loaded)
+        run.start()
+        wait_until(lambda run=run: run.thumb.ticks > 10 and len(run.loop.latest()) > 0)
+        run.stop()
+        assert run.thumb.fault == Fault.none and run.thumb.force == 0
+    dry = Run(2, bench, from_name("k06-fig10"))
+    assert NO_SYRINGE in dry.notes
