@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 
 import punctura
@@ -29,7 +30,8 @@ Build: {build}
 figure.svg, figure.pdf    the model force of each run, and the mean of {n} runs with one standard deviation (n - 1)
 curves.csv, .parquet      the drawn curves: {axis};
                           model, felt and permitted force in N; for each: one column for each run, the mean, the
-                          deviation, and the number n of runs at each place
+                          deviation, and the number n of runs at each place; with a syringe also the thumb's
+                          model force in N, the pressure in Pa and the depth of the plunger in m
 statistics.csv            the numbers of each run, SI; drop and overshoot are the largest of the run's pops
 runs/NN.csv, .parquet     every tick of a run: time (s), depth of the tip below the first surface (m), forces (N)
 scenes/NN.toml            the scene of a run; `punctura run FILE` runs it
@@ -48,7 +50,11 @@ AGAINST = {
     "time": "Time begins at the first contact of each run.",
 }
 AXIS = {"depth": "against the depth of the tip, m", "time": "against the time since the first contact, s"}
-_UNITS = {"duration": "s", "depth": "m", "overshoot": "m", "work": "J", "felt_work": "J"}
+_UNITS = {
+    "duration": "s", "depth": "m", "overshoot": "m", "work": "J", "felt_work": "J", "pressure_peak": "Pa",
+    "plunger_travel": "m",
+}  # fmt: skip
+_CURVES = {"depth": "m", "pressure": "Pa", "plunger": "m"}  # their columns; the others are forces
 
 
 MOST_TICKS_IN_ALL = 5_000_000  # of all runs together: with three membranes up to 1.4 GB as CSV before it is packed
@@ -126,6 +132,8 @@ def ticks_table(run: Run) -> pa.Table:
     """Every tick of a run as a table, SI."""
     columns = {"time_s": run.time, "depth_m": run.depth}
     columns |= {"model_force_N": run.model, "felt_force_N": run.felt, "permitted_force_N": run.permitted}
+    if np.isfinite(run.thumb).any():
+        columns |= {"thumb_force_N": run.thumb, "pressure_Pa": run.pressure, "plunger_m": run.plunger}
     for i in range(run.depths.shape[1]):
         columns |= {f"depth_{i}_m": run.depths[:, i], f"force_{i}_N": run.forces[:, i]}
     return pa.table(columns)
@@ -137,7 +145,7 @@ def curves_table(comparison: Comparison) -> pa.Table:
     table: dict[str, object] = {}
     for name, band in comparison.bands.items():
         table.setdefault(f"{comparison.on}_{unit}", band.x)
-        of = f"{name}_m" if name == "depth" else f"{name}_force_N"
+        of = f"{name}_{_CURVES.get(name, 'force_N')}"
         table |= {f"{of}_{i:02d}": row for i, row in enumerate(band.runs, 1)}
         table |= {f"{of}_mean": band.mean, f"{of}_deviation": band.deviation, f"{name}_n": band.count}
     return pa.table(table)

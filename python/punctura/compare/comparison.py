@@ -12,7 +12,11 @@ from punctura.compare.run import Array, Run
 from punctura.compare.statistics import Statistics, statistics
 
 POINTS = 400  # of a curve
-NUMBERS = ("duration", "depth", "peak", "felt_peak", "drop", "overshoot", "work", "felt_work")  # of Statistics
+NUMBERS = (
+    "duration", "depth", "peak", "felt_peak", "drop", "overshoot", "work", "felt_work",
+    "thumb_peak", "pressure_peak", "plunger_travel",
+)  # of Statistics  # fmt: skip
+OF_PLUNGER = ("thumb", "pressure", "plunger")  # bands that only runs with a syringe have
 On = Literal["depth", "time"]
 
 
@@ -55,6 +59,7 @@ class Band:
 @dataclass
 class Comparison:
     """Several runs. `bands` holds a Band for each of "model", "felt", "permitted" and, against time, "depth".
+    If a run has a syringe, also "thumb", N, "pressure", Pa, and "plunger", m.
 
     `membranes` holds one Band for each membrane of the first run: the model's resistance along the needle against the
     membrane's own depth, or against time. It is empty if the runs do not have the same membranes.
@@ -115,6 +120,7 @@ class Collector:
         named = [name for name in self._curves[0] if not name.isdigit()]
         each = [str(i) for i in range(len(first))] if same else []
         bands = {name: _band([own[name] for own in self._curves], self._points) for name in [*named, *each]}
+        named = [name for name in named if name not in OF_PLUNGER or np.isfinite(bands[name].runs).any()]
         return Comparison(
             self._on, self._numbers, {name: bands[name] for name in named}, [bands[i] for i in each], list(first)
         )
@@ -136,6 +142,7 @@ def _curves(run: Run, on: On, membranes: int) -> dict[str, tuple[Array, Array]]:
     """x and y of each quantity, x without gaps and increasing, thinned to what POINTS can show."""
     rows = slice(run.touch, None)
     totals = {"model": run.model[rows], "felt": run.felt[rows], "permitted": run.permitted[rows]}
+    totals |= {name: getattr(run, name)[rows] for name in OF_PLUNGER}
     each = range(min(membranes, run.forces.shape[1]))
     if on == "time":
         x = run.time[rows] - run.time[run.touch]

@@ -36,6 +36,10 @@ class Run:
     permitted: Array = field(repr=False)  # (n,), the most that the limits allow, N; NaN without a device
     depths: Array = field(repr=False)  # (n, m), of the tip in each membrane, m
     forces: Array = field(repr=False)  # (n, m), the model's resistance of each membrane along the needle, N
+    # Of the syringe's plunger, (n,); NaN without a syringe.
+    thumb: Array = field(repr=False)  # the model's force of the thumb, N; positive if it pushes
+    pressure: Array = field(repr=False)  # Pa
+    plunger: Array = field(repr=False)  # m, from where it starts
 
     @property
     def touch(self) -> int:
@@ -102,6 +106,9 @@ def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]])
                 none if permitted is None else np.asarray(permitted, np.float64),
                 np.asarray(ticks.depth, np.float64).reshape(len(ticks), -1)[:, :members],
                 -np.asarray(ticks.axial_force, np.float64).reshape(len(ticks), -1)[:, :members],
+                -np.asarray(ticks.get("thumb_force", none), np.float64),
+                np.asarray(ticks.get("pressure", none), np.float64),
+                np.asarray(ticks.get("plunger", none), np.float64),
             ]
         )
     if not rows:

@@ -41,6 +41,9 @@ class Statistics(BaseModel):
     work: Finite  # J, of the hand against the model's force along the needle, from the first contact to the deepest
     # place of the insertion
     felt_work: Finite | None  # J, the same against the felt force
+    thumb_peak: Finite | None  # N, largest model force of the thumb on the plunger; None without a syringe, as the next
+    pressure_peak: Finite | None  # Pa, largest pressure in the syringe
+    plunger_travel: Finite | None  # m, deepest place of the plunger
     pops: list[Pop]
 
     @property
@@ -70,8 +73,15 @@ def statistics(run: Run) -> Statistics:
         felt_peak=float(np.nanmax(run.felt)) if felt else None,
         work=float(np.nansum(run.model_along[inward] * run.travel[inward])),
         felt_work=float(np.nansum(run.felt_along[inward] * run.travel[inward])) if felt else None,
+        thumb_peak=_largest(run.thumb),
+        pressure_peak=_largest(run.pressure),
+        plunger_travel=_largest(run.plunger),
         pops=_pops(run, float(run.time[touch])),
     )
+
+
+def _largest(values: Array) -> float | None:
+    return float(np.nanmax(values)) if np.isfinite(values).any() else None
 
 
 def _pops(run: Run, start: float) -> list[Pop]:

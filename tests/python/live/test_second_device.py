@@ -12,6 +12,8 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import DeviceError, Fault, ForceLimits, GateLimits
+from punctura.compare import compare, recorded_run
+from punctura.compare.bundle import curves_table, ticks_table
 from punctura.live import (
     DeviceInfo,
     FedDevice,
@@ -153,6 +155,15 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     ticks = recording.ticks()
     assert np.ptp(ticks.thumb) > 1e-3 and ticks.thumb_felt.min() < 0
     assert replay(path).identical
+    run = recorded_run(path)
+    found = compare([run, run])
+    assert found.statistics[0].thumb_peak == -ticks.thumb_force.min() and found.summary()["thumb_peak"].deviation == 0
+    assert found.statistics[0].pressure_peak == ticks.pressure.max()
+    assert found.statistics[0].plunger_travel == ticks.plunger.max()
+    assert {"thumb", "pressure", "plunger"} <= set(found.bands)
+    columns = set(curves_table(found).column_names)
+    assert {"thumb_force_N_mean", "pressure_Pa_01", "plunger_m_02"} <= columns
+    assert {"pressure_Pa", "plunger_m"} <= set(ticks_table(run).column_names)
 
 
 @pytest.mark.parametrize(

@@ -178,12 +178,25 @@ export interface LabBand {
 }
 
 export interface LabCurves {
-  readonly bands: Readonly<Partial<Record<"model" | "felt" | "permitted" | "depth", LabBand>>>;
+  readonly bands: Readonly<
+    Partial<Record<"model" | "felt" | "permitted" | "depth" | "thumb" | "pressure" | "plunger", LabBand>>
+  >;
   /** The model's resistance of each membrane; empty if the runs have different membranes. */
   readonly membranes: readonly (LabBand & { readonly name: string })[];
 }
 
-export type LabNumber = "duration" | "depth" | "peak" | "felt_peak" | "drop" | "overshoot" | "work" | "felt_work";
+export type LabNumber =
+  | "duration"
+  | "depth"
+  | "peak"
+  | "felt_peak"
+  | "drop"
+  | "overshoot"
+  | "work"
+  | "felt_work"
+  | "thumb_peak"
+  | "pressure_peak"
+  | "plunger_travel";
 
 /** The result of `GET /api/lab/compare`; python/punctura/compare makes it. */
 export interface LabComparison {

@@ -8,7 +8,7 @@ import type { LabBand, LabComparison } from "../../wire/files.ts";
 import { shortNames } from "./fields.ts";
 
 export type On = "depth" | "time";
-export type Quantity = "model" | "felt" | "permitted";
+export type Quantity = "model" | "felt" | "permitted" | "thumb" | "pressure" | "plunger";
 const MM = 1e3;
 const PALE = 8; // more runs than this are drawn paler, behind their mean
 
@@ -16,7 +16,19 @@ export const QUANTITIES: Readonly<Record<Quantity, string>> = {
   model: "model force",
   felt: "felt force",
   permitted: "permitted force",
+  thumb: "thumb, model force",
+  pressure: "pressure in the syringe",
+  plunger: "plunger",
 };
+/** The unit of a quantity, and the factor to it from SI; newtons for the others. */
+const UNITS: Readonly<Partial<Record<Quantity, readonly [string, number]>>> = {
+  pressure: ["kPa", 1e-3],
+  plunger: ["mm", MM],
+};
+
+/** The quantities that a run of the comparison has: those of the plunger only with a syringe. */
+export const quantitiesOf = ({ depth }: Pick<LabComparison, "depth">): [Quantity, string][] =>
+  (Object.entries(QUANTITIES) as [Quantity, string][]).filter(([name]) => depth.bands[name]);
 
 export function labCurves(comparison: LabComparison, theme: Theme): Curve[] {
   const names = shortNames(comparison.statistics.map(({ name }) => name));
@@ -48,7 +60,8 @@ export function drawLab(
   const above = new Pane();
   above.place(MARGIN.left, MARGIN.top, across, depth ? 0.6 * room : room);
   const x = { x: on === "time" ? "time since the first contact (s)" : "depth of the tip (mm)" };
-  drawPane(pen, above, theme, force, on, 1, hidden, { y: `${QUANTITIES[quantity]} (N)`, ...(depth ? {} : x) });
+  const [unit, gain] = UNITS[quantity] ?? ["N", 1];
+  drawPane(pen, above, theme, force, on, gain, hidden, { y: `${QUANTITIES[quantity]} (${unit})`, ...(depth ? {} : x) });
   if (!depth) return;
   const below = new Pane();
   below.place(MARGIN.left, above.bottom + MARGIN.top, across, room - above.height);

@@ -6,7 +6,7 @@ import { choice } from "../../plots/toolbar.ts";
 import type { App } from "../../state/app.ts";
 import type { LabComparison } from "../../wire/files.ts";
 import { saveAddress } from "../download.ts";
-import { drawLab, labCurves, type On, QUANTITIES, type Quantity } from "./drawing.ts";
+import { drawLab, labCurves, type On, QUANTITIES, type Quantity, quantitiesOf } from "./drawing.ts";
 import { bundlePath, type Job } from "./job.ts";
 import { labTable } from "./table.ts";
 
@@ -36,7 +36,7 @@ export function openComparison(app: App, job: Job, title: string, comparison: La
       figure.redraw();
     },
   );
-  const force = choice("Force", Object.entries(QUANTITIES), quantity, (value) => {
+  const force = choice("Quantity", quantitiesOf(comparison), quantity, (value) => {
     quantity = value as Quantity;
     figure.redraw();
   });

@@ -3,14 +3,21 @@ import type { LabComparison, LabNumber } from "../../wire/files.ts";
 import { shortNames } from "./fields.ts";
 
 /** The columns: the number, its heading, and the factor from SI to the heading's unit. */
-const COLUMNS: readonly (readonly [name: LabNumber, head: string, gain: number, places: number])[] = [
+type Column = readonly [name: LabNumber, head: string, gain: number, places: number];
+const COLUMNS: readonly Column[] = [
   ["peak", "peak, N", 1, 3],
   ["felt_peak", "felt peak, N", 1, 3],
   ["drop", "largest drop, N", 1, 3],
   ["overshoot", "overshoot, mm", 1e3, 2],
   ["work", "work, mJ", 1e3, 2],
   ["duration", "duration, s", 1, 2],
+  ["thumb_peak", "thumb, N", 1, 2],
+  ["pressure_peak", "pressure, kPa", 1e-3, 1],
+  ["plunger_travel", "plunger, mm", 1e3, 1],
 ];
+
+/** Only runs with a syringe have these. */
+const OF_PLUNGER: readonly LabNumber[] = ["thumb_peak", "pressure_peak", "plunger_travel"];
 
 const minus = (text: string): string => text.replace("-", "−");
 const numberText = (value: number | null, gain: number, places: number): string =>
@@ -21,12 +28,13 @@ const signed = (value: number, gain: number, places: number): string =>
 /** The numbers of each run with their difference to the first, and their mean and standard deviation. */
 export function labTable({ statistics, differences, summary }: LabComparison): HTMLElement {
   const names = shortNames(statistics.map(({ name }) => name));
+  const columns = COLUMNS.filter(([name]) => !OF_PLUNGER.includes(name) || summary[name].n > 0);
   const rows = statistics.map((run, row) =>
     element(
       "tr",
       {},
       element("th", { scope: "row" }, names[row]!),
-      ...COLUMNS.map(([name, , gain, places]) => {
+      ...columns.map(([name, , gain, places]) => {
         const more = differences[row]?.[name] ?? null;
         const words =
           row && more !== null ? [" ", element("span", { class: "quiet" }, signed(more, gain, places))] : [];
@@ -34,7 +42,7 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
       }),
     ),
   );
-  const whole = COLUMNS.map(([name, , gain, places]) => {
+  const whole = columns.map(([name, , gain, places]) => {
     const { n, mean, deviation } = summary[name];
     const count = n === statistics.length ? "" : ` (n = ${n})`;
     const text = `${numberText(mean, gain, places)} ± ${numberText(deviation, gain, places)}${count}`;
@@ -53,7 +61,7 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
           "tr",
           {},
           element("th", { scope: "col" }, "run"),
-          ...COLUMNS.map(([, head]) => element("th", { scope: "col" }, head)),
+          ...columns.map(([, head]) => element("th", { scope: "col" }, head)),
         ),
       ),
       element(

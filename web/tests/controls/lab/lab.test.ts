@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { drawLab, labCurves } from "../../../src/controls/lab/drawing.ts";
+import { drawLab, labCurves, quantitiesOf } from "../../../src/controls/lab/drawing.ts";
 import { fieldWords, shortNames } from "../../../src/controls/lab/fields.ts";
 import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
 import { choose } from "../../../src/controls/lab/pick.ts";
@@ -16,8 +16,12 @@ const band = (...runs: number[][]): LabBand => ({
   deviation: [0, 0.5, null],
   count: [2, 2, 1],
 });
-const numbers = { duration: 1, depth: 1, peak: 1, felt_peak: 1, drop: 1, overshoot: null, work: 1, felt_work: 1 };
+const numbers = {
+  duration: 1, depth: 1, peak: 1, felt_peak: 1, drop: 1, overshoot: null, work: 1, felt_work: 1,
+  thumb_peak: null, pressure_peak: null, plunger_travel: null,
+}; // biome-ignore format: a table
 const some = { n: 2, mean: 1, deviation: 0 };
+const none = { n: 0, mean: null, deviation: null };
 const curves = { bands: { model: band([0, 1, 2], [0, 2, 4]), depth: band([0, 1, 2], [0, 2, 4]) }, membranes: [] };
 const comparison: LabComparison = {
   statistics: ["Ann", "Ben"].map((name) => ({ name, pops: [], ...numbers })),
@@ -25,6 +29,7 @@ const comparison: LabComparison = {
   summary: {
     duration: some, depth: some, peak: some, felt_peak: some,
     drop: some, overshoot: some, work: some, felt_work: some,
+    thumb_peak: none, pressure_peak: none, plunger_travel: none,
   }, // biome-ignore format: a table
   depth: curves,
   time: curves,
@@ -49,6 +54,16 @@ describe("a comparison", () => {
     expect(queryOf({ ...job, motion: 0.005 })).toBe("path=membrane%5B0%5D.stiffness&from=1&to=2&count=3&speed=0.005");
     expect(queryOf({ ...job, motion: "Ann" })).toContain("motion=Ann");
     expect(bundlePath({ ...job, motion: 0.005, id: "x1" }, "time")).toContain("&id=x1&on=time");
+  });
+
+  it("offers the plunger only if a run has a syringe, with its units", () => {
+    expect(quantitiesOf(comparison).map(([name]) => name)).toEqual(["model"]);
+    const pressed = { ...curves, bands: { ...curves.bands, pressure: band([0, 1e4, 2e4], [0, 1e4, 3e4]) } };
+    const syringe = { ...comparison, depth: pressed, time: pressed };
+    expect(quantitiesOf(syringe).map(([name]) => name)).toEqual(["model", "pressure"]);
+    const pen = new SvgPen();
+    drawLab(pen, 600, 380, CSS_THEME, syringe, "depth", "pressure", new Hidden(null));
+    expect(pen.file(600, 380, "white", "", "")).toContain("pressure in the syringe (kPa)");
   });
 
   it("names a field by its membrane, and a varied run by its value alone", () => {
