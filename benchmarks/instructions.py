@@ -2,9 +2,9 @@
 
 python benchmarks/instructions.py [--check] [--write]
 
-A time depends on the machine and on what else it does; a count depends on the compiler only. The counts are stored
-for each version of a compiler and each processor architecture in instructions.json. `./test instructions` fails if a
-count has grown; with a compiler that has no stored counts, it says so and compares nothing.
+A time depends on the machine and on what else it does; a count depends on the compiler and its libraries. The counts
+are stored for each version of a compiler and each processor architecture in instructions.json. `./test instructions`
+fails if a count has grown; with a compiler that has no stored counts, it says so and compares nothing.
 """
 
 from __future__ import annotations

@@ -110,6 +110,20 @@ void make(LawBatch* self, const nb::object& law, const nb::object& coupling, dou
 using Depths = nb::ndarray<const double, nb::device::cpu>;
 using Forces = nb::ndarray<double, nb::ndim<2>, nb::device::cpu>;
 
+/// Whether two elements of an array are at the same place. Also true of some layouts that interleave rows and do not
+/// overlap, which nobody needs.
+bool overlaps_itself(const Forces& array) {
+  std::size_t inner = array.shape(0), outer = array.shape(1);
+  if (inner == 0 || outer == 0) return false;
+  auto close = std::abs(array.stride(0)), far = std::abs(array.stride(1));
+  if (close > far || (close == far && inner == 1)) {
+    std::swap(inner, outer);
+    std::swap(close, far);
+  }
+  if (inner > 1 && close == 0) return true;
+  return outer > 1 && far <= static_cast<std::int64_t>(inner - 1) * close;
+}
+
 nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, const nb::object& threads,
                const nb::object& block, const std::optional<std::string>& instructions, const nb::object& progress) {
   const nb::object numpy = nb::module_::import_("numpy");
@@ -134,6 +148,8 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
     throw nb::value_error(
         ("out must be a writable float64 array of shape (" + std::to_string(ticks) + ", " + std::to_string(n) + ")")
             .c_str());
+  if (!out.is_none() && overlaps_itself(array))
+    throw nb::value_error("out overlaps itself: some of its elements are at the same place. Give an array of its own");
   const bool same = array.data() == p.data() && array.stride(0) == motion.by_tick && array.stride(1) == motion.by_trial;
   if (!out.is_none() && !same && nb::cast<bool>(numpy.attr("may_share_memory")(out, given)) &&
       nb::cast<bool>(numpy.attr("shares_memory")(out, given)))

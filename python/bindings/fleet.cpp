@@ -126,7 +126,8 @@ void bind_fleet(nb::module_& m) {
       .def_prop_ro("threads", &Fleet::threads)
       .def_prop_ro("in_lanes", &Fleet::in_lanes, nb::sig("def in_lanes(self) -> numpy.typing.NDArray[numpy.bool_]"),
                    "(n,) Whether lanes compute the trial. One that came near a fault is computed alone, as is one\n"
-                   "whose scene has another number of membranes, or another solver, than the first one.")
+                   "whose scene is of another kind than the others in its vector (solver, number of membranes, "
+                   "...).")
       .def("place", &Fleet::place, nb::arg("i"), nb::arg("scene"), nb::arg("start"), nb::arg("seed") = 0,
            "Starts trial i anew; i = size adds a trial. start: position of the tip, m. seed: of tremor and encoders.\n"
            "Raises ConfigurationError, ValueError and IndexError.")

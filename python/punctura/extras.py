@@ -5,9 +5,15 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
+from punctura._core import PuncturaError
+
+
+class MissingPackageError(PuncturaError, ModuleNotFoundError):
+    """A package that a part of Punctura needs is not installed; the text says how to install it."""
+
 
 def optional(package: str, extra: str, user: str) -> Any:
-    """The imported `package`. Raises ModuleNotFoundError that says how to install it.
+    """The imported `package`. Raises MissingPackageError.
 
     extra: the name in pip install 'punctura[extra]'. user: the part of Punctura that needs the package.
     """
@@ -16,6 +22,6 @@ def optional(package: str, extra: str, user: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name != package:
             raise
-        raise ModuleNotFoundError(
+        raise MissingPackageError(
             f"{user} needs the package {package}. Install it: pip install 'punctura[{extra}]'", name=package
         ) from None

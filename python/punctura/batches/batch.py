@@ -45,6 +45,8 @@ def batch(
     """
     base, values = _numbers(scene)
     for path, column in (vary or {}).items():
+        if not isinstance(path, str):
+            raise TypeError(f"vary: a path is a text such as 'membrane[0].friction', not {path!r}")
         if path in values:
             raise ValueError(f"vary has {path}, in which the scenes differ, too: give it in one of them")
         values[path] = np.ascontiguousarray(np.atleast_1d(real_numbers(column, f"vary: {path}")))
@@ -52,6 +54,9 @@ def batch(
             raise ValueError(f"vary: {path} is empty: give one value for each trial")
     if not isinstance(motion, Strokes | RecordedMotion):
         motion = real_numbers(motion, "motion")
+        for name, given in {"duration": duration, "plant": plant, "hand": hand}.items():
+            if given is not None:
+                raise ValueError(f"{name} is for a simulated hand; motion is positions, which need none")
     n = _trials(values, seeds, trials, None if isinstance(scene, Scene) else len(scene), motion)
     if duration is not None and not (isinstance(duration, Real) and math.isfinite(duration) and duration >= 0):
         raise ValueError(f"duration must be 0 s or more, not {duration!r}")
@@ -65,6 +70,8 @@ def batch(
     own = whole_seeds(seeds, n)
     plant, hand = plant or Plant(), hand or Hand()
     direction = base.membranes[0].inward_normal if axis is None else real_numbers(axis, "axis")
+    if isinstance(motion, Strokes | RecordedMotion) and np.shape(direction) != (3,):
+        raise ValueError(f"axis has the shape {np.shape(direction)}; with a simulated hand it needs (3,)")
     found = run_scenes(
         base,
         motion,
@@ -89,7 +96,9 @@ def _numbers(scene: Scene | Sequence[Scene]) -> tuple[Scene, dict[str, npt.NDArr
     """The first scene, and the numbers in which the others differ from it."""
     if isinstance(scene, Scene):
         return scene, {}
-    scenes = list(scene)
+    scenes = list(scene) if isinstance(scene, Sequence) else [scene]
+    if isinstance(scene, str) or not all(isinstance(each, Scene) for each in scenes):
+        raise TypeError(f"scene must be a Scene or a list of Scenes, not {scene!r}; load_scene() makes one")
     if not scenes:
         raise ValueError("scene: give at least one")
     base = scenes[0]

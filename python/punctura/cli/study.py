@@ -48,7 +48,11 @@ def command(
     if replay is not None:
         scene, recording = replay_row(loaded, replay, folder)
         told = {"scene": str(scene), "recording": str(recording)}
-        typer.echo(json.dumps(told, indent=2) if as_json else f"{scene}\n{recording}: punctura replay opens it")
+        typer.echo(
+            json.dumps(told, indent=2)
+            if as_json
+            else f"{scene}\n{recording}: punctura run --recordings {folder} lists it in the studio"
+        )
         return
     try:
         with progress_bar("study") as tell:

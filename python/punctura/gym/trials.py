@@ -44,7 +44,7 @@ class Trials:
         count = len(self.population.scene.membranes)
         if max(task.wall, task.next_wall or 0) >= count:
             raise ValueError(f"the scene of the population has {count} membranes, too few for this task")
-        # A vector of lanes costs as much as some 4 trials alone, however few of its lanes are in use.
+        # A vector of lanes costs as much as 2 to 4 trials alone, however few of its lanes are in use.
         few = "portable" if n < 4 else None
         self.fleet = Fleet(task.axis, plant or Plant(), hand or Hand(), threads, few)
         self.rate = self.population.scene.servo.rate

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pyarrow as pa
 
 from punctura import BatchResult, batch
-from punctura.errors import ConfigurationError
+from punctura.errors import ConfigurationError, Problem
 from punctura.study.design import Design
 from punctura.study.folder import StudyError
 from punctura.study.plan import Plan
@@ -28,9 +30,19 @@ def run_trials(
             threads=threads,
         )
     except ConfigurationError as bad:
-        raise ConfigurationError(bad.problems, f"{plan.path}: trials from row {begin} on") from None
+        raise ConfigurationError([_in_row(problem, begin) for problem in bad.problems], str(plan.path)) from None
     except MemoryError as bad:
         raise StudyError(f"{plan.path}: {bad} Give a smaller chunk.") from None
+
+
+def _in_row(problem: Problem, begin: int) -> Problem:
+    """The problem of a trial, "trial 2: ...", as that of its row."""
+    trial = re.match(r"trial (\d+): ", problem.path)
+    return (
+        problem
+        if trial is None
+        else problem._replace(path=f"row {begin + int(trial[1])}: {problem.path[trial.end() :]}")
+    )
 
 
 def chunk_table(plan: Plan, trials: Design, begin: int, threads: int | None = None) -> pa.Table:

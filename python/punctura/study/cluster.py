@@ -29,6 +29,11 @@ class Part(NamedTuple):
     trials: Design
 
 
+def needed_package() -> Any:
+    """The package distributed. Raises MissingPackageError."""
+    return optional("distributed", "dask", "punctura study --scheduler")
+
+
 def on_cluster(address: str, plan: Plan, parts: Sequence[Part]) -> Iterator[tuple[int, pa.Table]]:
     """Computes the chunks on the workers of a scheduler, and yields each with its number as soon as it is there.
 
@@ -36,7 +41,7 @@ def on_cluster(address: str, plan: Plan, parts: Sequence[Part]) -> Iterator[tupl
     arrives once. Raises StudyError if no scheduler answers, if it has no workers, if a worker has another version of
     Punctura or none, or if workers die again and again.
     """
-    distributed = optional("distributed", "dask", "punctura study --scheduler")
+    distributed = needed_package()
     try:
         client = distributed.Client(address, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as bad:

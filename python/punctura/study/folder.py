@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -66,24 +67,25 @@ class Folder:
                 known = json.loads(mark.read_bytes()).get("digest")
             except (ValueError, AttributeError):
                 known = None
-            if known != digest:
+            if known == digest:
+                return
+            if self.table.exists() or any(self.path.glob("chunk-*.parquet")):
                 raise StudyError(
                     f"{self.path} holds the trials of another plan, scene or version of Punctura: give another --out, "
                     "or delete this folder"
                 )
-            return
         write_whole(mark, json.dumps({"digest": digest}).encode())
 
     def chunk(self, number: int) -> Path:
         return self.path / f"chunk-{number:06}.parquet"
 
-    def has(self, number: int, rows: int) -> bool:
-        """Whether a chunk is there, complete and not damaged."""
-        return self._rows(self.chunk(number)) == rows
+    def has(self, number: int, first: int, rows: int) -> bool:
+        """Whether a chunk is there with these rows, not damaged."""
+        return _holds(self.chunk(number), range(first, first + rows))
 
     def is_complete(self, rows: int) -> bool:
-        """Whether the table of all trials is there and not damaged."""
-        return self._rows(self.table) == rows
+        """Whether the table of all trials is there, not damaged."""
+        return _holds(self.table, range(rows))
 
     def save(self, number: int, table: pa.Table) -> None:
         """Writes a chunk."""
@@ -105,11 +107,18 @@ class Folder:
         for path in self.path.glob("chunk-*.parquet"):
             path.unlink()
 
-    @staticmethod
-    def _rows(path: Path) -> int | None:
-        """The rows of a file of which every page has the right checksum; None if it is damaged or not there."""
-        try:
-            with pq.ParquetFile(path, page_checksum_verification=True) as file:
-                return sum(int(file.read_row_group(i).num_rows) for i in range(file.num_row_groups))
-        except (OSError, pa.ArrowException):
-            return None
+
+def _holds(path: Path, rows: range) -> bool:
+    """Whether a file has exactly these rows, and every page the right checksum."""
+    try:
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            begin = rows.start
+            for i in range(file.num_row_groups):
+                group = file.read_row_group(i)
+                count = len(group)
+                if not np.array_equal(group["row"].to_numpy(), np.arange(begin, begin + count)):
+                    return False
+                begin += count
+            return begin == rows.stop
+    except (OSError, pa.ArrowException, KeyError):
+        return False

@@ -152,15 +152,26 @@ def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
             yield Problem(at, path, "is given twice; give each path once")
         seen.add(path)
     for path in file.values:
+        if path in seen:
+            yield Problem(f"values.{path}", path, "is also the path of a variable; give it in one of them")
         if path not in known or path.startswith("strokes."):
             near = _nearest(path, [one for one in known if not one.startswith("strokes.")])
             yield Problem(
                 f"values.{path}", path, f"is not a number of the scene, the hand or the plant{near} (docs/study.md)"
             )
     names = result_names(len(scene.membranes))
+    if file.results is not None and not file.results:
+        yield Problem("results", MISSING, "is an empty list; name some, or leave it out for all")
     for i, name in enumerate(file.results or ()):
         if name not in names:
-            yield Problem(f"results[{i}]", name, f"is no result; known here: {', '.join(names)}")
+            yield Problem(f"results[{i}]", name, _unknown_result(name, names))
+
+
+def _unknown_result(name: str, names: Sequence[str]) -> str:
+    of_membranes = [one for one in names if one.startswith(f"{name}[")]
+    if of_membranes:
+        return f"is a result of each membrane: give {' or '.join(of_membranes)}"
+    return f"is no result; known here: {', '.join(names)}"
 
 
 def _built(path: Path, file: PlanFile, scene: Scene) -> Plan:

@@ -18,8 +18,8 @@ from punctura.study.plan import Plan
 def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path, Path]:
     """Runs the trial of a row again and writes row-N.toml and the recording row-N.parquet to the folder `out`.
 
-    The recording holds each tick of the trial; punctura replay opens it in the studio. Returns the two paths. Raises
-    StudyError for an unknown row or a lost tick, RecordingError, OSError.
+    The recording holds each tick of the trial; punctura run --recordings FOLDER lists it in the studio. Returns the
+    two paths. Raises StudyError for an unknown row or a lost tick, RecordingError, OSError.
     """
     trials = design(plan)
     if not 0 <= row < len(trials.seeds):

@@ -15,7 +15,7 @@ from punctura import __version__
 from punctura.progress import Progress, reporting
 from punctura.scene.write import scene_text
 from punctura.study.chunk import chunk_table, run_trials
-from punctura.study.cluster import Part, on_cluster
+from punctura.study.cluster import Part, needed_package, on_cluster
 from punctura.study.design import Design, design
 from punctura.study.folder import Folder, StudyError
 from punctura.study.forecast import Forecast, forecast
@@ -59,6 +59,8 @@ def run_study(
     kept = 0
     with folder.locked(), reporting(progress, "study") as tell:
         folder.claim(_digest(plan, all_of_them))
+        if scheduler is not None:
+            needed_package()
         if folder.is_complete(n):
             kept = n
             folder.drop_chunks()
@@ -67,7 +69,7 @@ def run_study(
             for number, begin in enumerate(starts):  # all trials are checked before the first one runs
                 part = Part(number, begin, all_of_them.part(begin, min(begin + size, n)))
                 run_trials(plan, part.trials, begin, threads, duration=0.0)
-                if folder.has(number, len(part.trials.seeds)):
+                if folder.has(number, begin, len(part.trials.seeds)):
                     kept += len(part.trials.seeds)
                 else:
                     parts.append(part)

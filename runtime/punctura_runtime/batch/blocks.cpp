@@ -25,7 +25,7 @@ std::size_t usable_threads(std::size_t wanted) noexcept {
 
 void for_each_block(std::size_t count, std::size_t threads, Work& work, const std::function<void(std::size_t)>& block,
                     const std::function<bool()>& watch) {
-  if (threads <= 1 && !watch) {
+  if ((threads <= 1 || count <= 1) && !watch) {
     for (std::size_t i = 0; i < count && !work.stop; ++i) block(i);
     return;
   }
@@ -33,7 +33,9 @@ void for_each_block(std::size_t count, std::size_t threads, Work& work, const st
   std::mutex lock;
   std::condition_variable ended;
   std::exception_ptr error;
-  std::size_t running = std::min(std::max<std::size_t>(threads, 1), count);
+  const std::size_t helps = watch ? 0 : 1;  // the calling thread works, too
+  const std::size_t wanted = std::min(std::max<std::size_t>(threads, 1), count);
+  std::size_t running = wanted;
 
   const auto fail = [&](std::exception_ptr what) {
     const std::lock_guard guard(lock);
@@ -52,12 +54,13 @@ void for_each_block(std::size_t count, std::size_t threads, Work& work, const st
   };
   std::vector<std::thread> workers;
   try {
-    for (std::size_t i = running; i > 0; --i) workers.emplace_back(loop);
+    for (std::size_t i = wanted - helps; i > 0; --i) workers.emplace_back(loop);
   } catch (...) {  // no more threads to be had
     const std::lock_guard guard(lock);
-    running -= std::min(running, std::min(std::max<std::size_t>(threads, 1), count) - workers.size());
-    if (workers.empty()) error = std::current_exception();
+    running -= std::min(running, wanted - helps - workers.size());
+    if (workers.size() + helps == 0) error = std::current_exception();
   }
+  if (helps > 0) loop();
   for (std::unique_lock guard(lock); running > 0;) {
     if (ended.wait_for(guard, std::chrono::milliseconds(50), [&] { return running == 0; })) break;
     guard.unlock();

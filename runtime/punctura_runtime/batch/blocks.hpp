@@ -15,8 +15,8 @@ struct Work {
 
 /// Calls block(i) once for each i < count, on `threads` threads, while `watch` is called 20 times a second on the
 /// calling thread. The blocks must not depend on each other. If watch() returns false, it sets work.stop, and no
-/// further block starts. watch may be empty; then one thread is the calling thread. Rethrows the first exception of a
-/// block or of watch(), after all threads have ended.
+/// further block starts. watch may be empty; then the calling thread is one of the threads. Rethrows the first
+/// exception of a block or of watch(), after all threads have ended.
 void for_each_block(std::size_t count, std::size_t threads, Work& work, const std::function<void(std::size_t)>& block,
                     const std::function<bool()>& watch);
 

@@ -9,8 +9,9 @@ Fleet::Fleet(const FleetSetup& setup, std::size_t threads) : setup_(setup), thre
 }
 
 void Fleet::place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed) {
-  if (i == blocks_.size() * block_lanes) blocks_.push_back(std::make_unique<FleetBlock>(setup_));
-  blocks_[i / block_lanes]->place(i % block_lanes, scene, start, seed);
+  const std::size_t width = FleetBlock::width(*setup_.code);
+  if (i == blocks_.size() * width) blocks_.push_back(std::make_unique<FleetBlock>(setup_));
+  blocks_[i / width]->place(i % width, scene, start, seed);
   size_ = std::max(size_, i + 1);
 }
 
@@ -20,14 +21,19 @@ void Fleet::begin() {
 
 void Fleet::step(const double* speed, std::size_t ticks) {
   Work work;
-  for_each_block(blocks_.size(), threads_, work,
-                 [&](std::size_t i) { blocks_[i]->step(speed + i * block_lanes, ticks); }, {});
+  const std::size_t width = FleetBlock::width(*setup_.code);
+  for_each_block(blocks_.size(), threads_, work, [&](std::size_t i) { blocks_[i]->step(speed + i * width, ticks); },
+                 {});
 }
 
 TrialRecord Fleet::record(std::size_t i, std::size_t ticks) const {
-  return blocks_[i / block_lanes]->record(i % block_lanes, ticks);
+  const std::size_t width = FleetBlock::width(*setup_.code);
+  return blocks_[i / width]->record(i % width, ticks);
 }
 
-bool Fleet::in_lanes(std::size_t i) const noexcept { return blocks_[i / block_lanes]->in_lanes(i % block_lanes); }
+bool Fleet::in_lanes(std::size_t i) const noexcept {
+  const std::size_t width = FleetBlock::width(*setup_.code);
+  return blocks_[i / width]->in_lanes(i % width);
+}
 
 }  // namespace punctura::batch

@@ -25,7 +25,8 @@ class Fleet {
   void place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed);
   /// Starts the record of a step. Call it before step().
   void begin();
-  /// Makes `ticks` ticks, at least one. speed: of the hand along the needle, m/s, one for each trial, finite.
+  /// Makes `ticks` ticks, at least one. speed: of the hand along the needle, m/s, one for each trial, finite. If memory
+  /// runs out, it throws std::bad_alloc, and some trials have made the ticks. place() all trials again then.
   void step(const double* speed, std::size_t ticks);
   /// What happened to trial i since begin(). ticks: since then.
   TrialRecord record(std::size_t i, std::size_t ticks) const;

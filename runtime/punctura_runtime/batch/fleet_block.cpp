@@ -4,7 +4,7 @@
 
 namespace punctura::batch {
 
-FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true), setup_(setup) {
+FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true, width(*setup.code)), setup_(setup) {
   const Vector3d told = setup.axis.stableNormalized();
   for (SceneBlock::Inputs& inputs : block_->inputs) {
     inputs.told_axis = told;
@@ -13,6 +13,14 @@ FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true), setup_(setup
 }
 
 void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed) {
+  const auto uses_lanes = [&](const Trial& trial) {
+    return !trial.alone && static_cast<std::size_t>(&trial - trials_.data()) != i;
+  };
+  if (std::none_of(trials_.begin(), trials_.end(), uses_lanes)) {
+    clear();
+    state_.reset();
+    for (Trial& trial : trials_) trial.lane = no_lane;
+  }
   Trial made{scene, start, seed};
   made.lane = i < trials_.size() ? trials_[i].lane : no_lane;
   if (lanes_.empty()) {
@@ -26,7 +34,7 @@ void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start,
     put(made.lane, scene, seed).motion = Steered(start);
     put_hand(made.lane, setup_.plant, setup_.hand, start);
     if (!state_) state_ = code_(*block_);
-    state_->restart(made.lane, next(made.lane));
+    state_->restart(made.lane, end_of(made.lane));
   }
   if (i < trials_.size())
     trials_[i] = std::move(made);
@@ -78,7 +86,7 @@ std::unique_ptr<FleetTrial> FleetBlock::make(const Trial& trial) const {
   return std::make_unique<FleetTrial>(trial.scene, trial.start, setup_.axis, setup_.plant, setup_.hand, trial.seed);
 }
 
-void FleetBlock::leave_lanes(Trial& trial) const {
+void FleetBlock::leave_lanes(Trial& trial) {
   auto alone = make(trial);
   for (const Move& move : trial.moves) {
     if (move.begins) alone->begin();

@@ -19,16 +19,20 @@ struct FleetSetup {
   const LineCode* code = nullptr;  ///< null: the fastest instruction set; Fleet replaces it
 };
 
-/// At most block_lanes trials.
+/// At most width() trials.
 ///
-/// A trial is computed alone if the instruction set has no code for lanes, if its scene does not fit beside the first
-/// one, or from the step on in which it came near a fault. A lane keeps no states of the past. Therefore such a trial
-/// makes all its ticks again, alone.
+/// A trial is computed alone if the instruction set has no code for lanes, if its scene does not fit beside the others,
+/// or from the step on in which it came near a fault. A lane keeps no states of the past. Therefore such a trial makes
+/// all its ticks again, alone: it keeps 24 bytes for each step since its start.
 class FleetBlock final : public LaneTrials {
  public:
+  /// The trials of a block: one vector, so that many threads find work.
+  static std::size_t width(const LineCode& code) noexcept { return 2 * code.lanes; }
+
   explicit FleetBlock(const FleetSetup& setup);
 
-  /// Starts a trial anew, or adds one (i = number of trials).
+  /// Starts a trial anew, or adds one (i = number of trials). If no other trial is in the lanes, they take the kind of
+  /// this scene.
   void place(std::size_t i, const Scene& scene, const Vector3d& start, std::uint64_t seed);
   /// Starts the record of a step.
   void begin();
@@ -58,9 +62,9 @@ class FleetBlock final : public LaneTrials {
 
   std::unique_ptr<FleetTrial> make(const Trial& trial) const;
   /// Makes the ticks of a trial again, alone.
-  void leave_lanes(Trial& trial) const;
+  void leave_lanes(Trial& trial);
 
-  const FleetSetup& setup_;
+  FleetSetup setup_;
   std::vector<Trial> trials_;
   MakeFleet code_ = nullptr;
   Solver solver_ = Solver::exact;      ///< of all lanes

@@ -12,14 +12,15 @@
 
 namespace punctura::batch {
 
-/// The lanes of a whole block, with the record of each.
+/// The lanes of a block, with the record of each.
 template <typename V, typename Solver>
 class FleetVectors final : public FleetLanes {
  public:
   explicit FleetVectors(SceneBlock& block) : block_(block) {
-    for (std::size_t start = 0; start < block_lanes; start += V::lanes) vectors_.emplace_back(block, start);
+    for (std::size_t start = 0; start < block.width; start += V::lanes) vectors_.emplace_back(block, start);
     record_.depth.resize(block.membranes.size());
     record_.deepest.resize(block.membranes.size());
+    begin();
   }
 
   void restart(std::size_t from, std::size_t to) noexcept override {
@@ -39,13 +40,13 @@ class FleetVectors final : public FleetLanes {
 
   void step(std::size_t ticks) noexcept override {
     record_.strange = 0;
-    for (std::size_t i = 0; i * V::lanes < block_.trials; ++i) step(vectors_[i], i * V::lanes, ticks);
+    for (std::size_t i = 0; i * V::lanes < block_.trials; ++i) advance(vectors_[i], i * V::lanes, ticks);
   }
 
  private:
   using Lanes = SceneLanes<V, Solver>;
 
-  void step(Lanes& lanes, std::size_t start, std::size_t ticks) noexcept {
+  void advance(Lanes& lanes, std::size_t start, std::size_t ticks) noexcept {
     V force, lowest = at<V>(record_.lowest_force, start), highest = at<V>(record_.highest_force, start);
     for (std::size_t k = 0; k < ticks; ++k) {
       lanes.step(k);

@@ -35,6 +35,7 @@ class FleetTrial {
         period_(1 / scene.servo.rate) {
     record_.depth.resize(scene.membranes.size());
     record_.deepest.resize(scene.membranes.size());
+    begin();
   }
 
   /// Starts the record of a step.

@@ -16,8 +16,9 @@ double scale_of(const Scene& scene) {
 
 }  // namespace
 
-LaneTrials::LaneTrials(bool has_hand) : block_(std::make_unique<SceneBlock>()) {
+LaneTrials::LaneTrials(bool has_hand, std::size_t width) : block_(std::make_unique<SceneBlock>()) {
   block_->trials = 0;
+  block_->width = width;
   block_->keeps_force = false;
   block_->has_hand = has_hand;
   block_->owner = this;
@@ -33,12 +34,17 @@ bool LaneTrials::fits(const Scene& scene) const {
                             detail::relaxing_coupling_of<double>(scene).constants().count == b.coupling.branches);
 }
 
+void LaneTrials::clear() noexcept {
+  lanes_.clear();
+  block_->trials = 0;
+}
+
 LaneTrials::LaneTrial& LaneTrials::put(std::size_t lane, const Scene& scene, std::uint64_t seed) {
   SceneBlock& b = *block_;
   const double rate = scene.servo.rate, period = 1 / rate;
   const auto coupling = detail::relaxing_coupling_of<double>(scene).constants();
   if (lanes_.empty()) {
-    b.membranes.resize(scene.membranes.size());
+    b.membranes.assign(scene.membranes.size(), {});
     b.fits_lines = scene.servo.conditioning == Conditioning::line_fit;
     b.from_motion = scene.direction == Direction::motion;
     b.sub_steps = static_cast<std::uint32_t>(scene.servo.sub_steps);
@@ -81,7 +87,7 @@ LaneTrials::LaneTrial& LaneTrials::put(std::size_t lane, const Scene& scene, std
     set(to.normal, lane, to_vector(scene.membranes[m].inward_normal).stableNormalized());
     set(to.band.g, lane, coupling.g);
     to.remembers = to.remembers || wall.remembers();
-    for (std::size_t each = lane; each < next(lane); ++each) {
+    for (std::size_t each = lane; each < end_of(lane); ++each) {
       to.band.table[each] = wall.table();
       changed(m, each);
     }
@@ -136,7 +142,7 @@ void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noe
 }
 
 void LaneTrials::set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept {
-  std::fill(numbers.of + lane, numbers.of + next(lane), x);
+  std::fill(numbers.of + lane, numbers.of + end_of(lane), x);
 }
 void LaneTrials::set(LaneVectors& vectors, std::size_t lane, const Vector3d& v) const noexcept {
   for (std::size_t j = 0; j < 3; ++j) set(vectors[j], lane, v[j]);

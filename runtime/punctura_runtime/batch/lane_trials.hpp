@@ -38,14 +38,15 @@ class LaneTrials : public LaneOwner {
     std::vector<LaneWall> walls;
   };
 
-  explicit LaneTrials(bool has_hand);
+  /// width: the most trials, a multiple of the lanes of a vector.
+  explicit LaneTrials(bool has_hand, std::size_t width = block_lanes);
   ~LaneTrials() = default;
 
   /// Whether a trial of this scene can be computed beside the first one: it needs as many membranes, branches of the
   /// coupling and sub-steps, and the same kind of conditioning and direction.
   bool fits(const Scene& scene) const;
   /// Puts a trial into a lane, with what does not need a hand. lane: at most size(), for a new one. The lanes without
-  /// a trial follow the last one. seed: of the noise.
+  /// a trial repeat the last one. seed: of the noise.
   LaneTrial& put(std::size_t lane, const Scene& scene, std::uint64_t seed);
   /// Sets hand and device of a lane. start: the place of the tip, m.
   void put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start);
@@ -56,14 +57,16 @@ class LaneTrials : public LaneOwner {
   LaneWall& wall_of(std::size_t membrane, std::size_t lane) noexcept {
     return lanes_[std::min(lane, lanes_.size() - 1)].walls[membrane];
   }
-  /// The lane behind this one that does not follow it.
-  std::size_t next(std::size_t lane) const noexcept { return lane + 1 < lanes_.size() ? lane + 1 : block_lanes; }
+  /// The end of this lane and of those that repeat it.
+  std::size_t end_of(std::size_t lane) const noexcept { return lane + 1 < lanes_.size() ? lane + 1 : block_->width; }
+  /// Removes all trials.
+  void clear() noexcept;
 
   std::unique_ptr<SceneBlock> block_;
   std::vector<LaneTrial> lanes_;
 
  private:
-  /// Set a number of a lane, and of those that follow it.
+  /// Set a number of a lane, and of those that repeat it.
   void set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept;
   void set(LaneVectors& vectors, std::size_t lane, const Vector3d& v) const noexcept;
   /// The pieces or the fronts of a lane's wall have changed.

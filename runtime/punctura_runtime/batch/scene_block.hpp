@@ -85,7 +85,8 @@ struct SceneBlock {
   CouplingBlock coupling;
   std::vector<MembraneBlock> membranes;
   std::array<std::size_t, block_lanes> ticks;  ///< of each lane
-  std::size_t trials;                          ///< lanes in use; the others repeat the last one
+  std::size_t trials;                          ///< lanes in use; those behind repeat the last one
+  std::size_t width;                           ///< lanes that are computed, at most block_lanes
 
   // The inputs of scene_ticks ticks, and their forces.
   struct Inputs {

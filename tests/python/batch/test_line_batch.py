@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 import pytest
+from numpy.lib.stride_tricks import as_strided
 from numpy.typing import NDArray
 from punctura import Coupling, LineBatch, Membrane, Needle, ProfileLaw, Proxy1d, ThickLaw, ThinLaw
 from punctura._core import simd_instructions
@@ -104,6 +105,8 @@ def test_no_silent_wrong_number() -> None:
     assert LineBatch(LAWS, COUPLINGS, PERIOD).run(same, out=same) is same and np.array_equal(same, force)
     for message, wrong in {
         "out overlaps p": {"p": both[:-1], "out": both[1:]},
+        "out overlaps itself": {"p": p, "out": as_strided(np.zeros(len(p) * 3), p.shape, (0, 8))},
+        "out overlaps itself: some": {"p": p, "out": as_strided(np.zeros(len(p) * 3), p.shape, (8, 8))},
         "p must hold real numbers, not complex128": {"p": p + 0j},
         "p has masked elements": {"p": np.ma.array(p, mask=p > 0)},
         "its rows have different lengths": {"p": [[0, 0, 0], [0]]},
@@ -115,7 +118,7 @@ def test_no_silent_wrong_number() -> None:
     with pytest.raises(ValueError, match="trials must be a whole number from 0 to 1000000000, not -1"):
         LineBatch(LAWS[0], COUPLINGS[0], PERIOD, trials=-1)
     with pytest.raises(MemoryError, match=r"100000000000 rows of forces need .* Take fewer ticks"):
-        LineBatch(LAWS, COUPLINGS, PERIOD).run(np.lib.stride_tricks.as_strided(np.zeros(1), (10**11,), (0,)))
+        LineBatch(LAWS, COUPLINGS, PERIOD).run(as_strided(np.zeros(1), (10**11,), (0,)))
     assert LineBatch(LAWS, COUPLINGS, PERIOD).run([]).shape == (0, 3)
 
 
@@ -124,8 +127,8 @@ def test_ctrl_c_and_progress() -> None:
     shares: list[float] = []
     batch.run(motions()[:, 0], progress=shares.append)
     assert shares[-1] == 1
-    long = np.broadcast_to(0.0, (400_000_000,))  # minutes of work, and no memory
-    out = np.lib.stride_tricks.as_strided(np.empty(1), (len(long), 1), (0, 0))
+    long = np.broadcast_to(0.0, (400_000_000,))  # many seconds of work, and no memory
+    out = np.empty((len(long), 1))  # the system gives the memory when it is written
     timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):

@@ -115,6 +115,12 @@ def test_wrong_arguments() -> None:
         r"its rows have different lengths": {"motion": [[0, 0, 0], [0, 0]]},
         r"no number hand\.stifness; did you mean hand\.stiffness\?": {"vary": {"hand.stifness": [1, 2]}},
         r"vary: hand\.mass is empty": {"vary": {"hand.mass": []}},
+        r"vary: a path is a text such as .*, not 3": {"vary": {3: [1, 2]}},
+        r"axis has the shape \(2,\); with a simulated hand it needs \(3,\)": {"axis": [0, 1]},
+        r"duration is for a simulated hand; motion is positions": {"motion": positions(), "duration": 9.0},
+        r"hand is for a simulated hand": {"motion": positions(), "hand": Hand()},
+        r"scene must be a Scene or a list of Scenes, not 'k06-fig12'": {"scene": "k06-fig12"},
+        r"scene must be a Scene or a list of Scenes, not None": {"scene": None},
         r"threads must be a whole number from 0 to 4096, not -1": {"threads": -1},
         r"threads must be a whole number .*, not 1\.5": {"threads": 1.5},
         r"duration must be 0 s or more, not '1'": {"duration": "1"},
@@ -124,6 +130,14 @@ def test_wrong_arguments() -> None:
     }.items():
         with pytest.raises((ValueError, TypeError, MemoryError), match=message):
             batch(**({"scene": SCENE, "motion": STROKES} | wrong))  # type: ignore[arg-type]
+    for message, values in {
+        r"grid: a has masked elements": {"a": np.ma.array([1.0, 2.0], mask=[0, 1])},
+        r"grid: a has the shape \(2, 2\); give a list": {"a": np.ones((2, 2))},
+        r"grid: a must hold real numbers, not text": {"a": ["x"]},
+        r"1000000000000000 combinations need": {path: np.ones(10**5) for path in "abc"},
+    }.items():
+        with pytest.raises((ValueError, TypeError, MemoryError), match=message):
+            grid(values)
     bad = positions()
     bad[3, 1] = np.nan
     with pytest.raises(ValueError, match=r"motion\[3\]"):

@@ -82,6 +82,13 @@ def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
         load_plan(written(tmp_path, GRID.replace("duration_s = 0.3", "duration_s = nan")))
     with pytest.raises(ConfigurationError, match="unknown key"):
         load_plan(written(tmp_path, "trials = 3\n" + GRID))
+    for message, old, new in [
+        ("is also the path of a variable", '"plant.friction" = 0.1', '"hand.stiffness" = 500'),
+        ("is an empty list", '["peak", "drop[0]"]', "[]"),
+        (r"a result of each membrane: give drop\[0\] or drop\[1\]", '"drop[0]"', '"drop"'),
+    ]:
+        with pytest.raises(ConfigurationError, match=message):
+            load_plan(written(tmp_path, GRID.replace(old, new)))
 
 
 def test_rows_do_not_depend_on_threads_or_interruptions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -189,6 +196,31 @@ def test_a_folder_holds_one_study_and_serves_one_run(tmp_path: Path) -> None:
     other = load_plan(written(tmp_path, GRID.replace("seed = 5", "seed = 6")))
     with pytest.raises(StudyError, match="another plan"):
         run_study(other, tmp_path / "out")
+
+
+def test_a_refused_plan_leaves_its_folder_to_the_mended_one(tmp_path: Path) -> None:
+    bad = GRID.replace("0.2, 0.3]", "-0.2, 0.3]", 1)
+    with pytest.raises(ConfigurationError, match=r"row 2: membrane\[0\]\.friction = -0\.2"):
+        run_study(load_plan(written(tmp_path, bad)), tmp_path / "out")
+    assert run_study(load_plan(written(tmp_path, GRID)), tmp_path / "out").trials == 6
+
+
+def test_a_chunk_with_rows_of_another_one_is_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan, out = load_plan(written(tmp_path, GRID)), tmp_path / "out"
+    with monkeypatch.context() as stopped:
+        stopped.setattr(Folder, "join", lambda *_: None)
+        stopped.setattr("punctura.study.run.write_report", lambda *_: ("", 0))
+        run_study(plan, out)
+    (out / "chunk-000001.parquet").write_bytes((out / "chunk-000000.parquet").read_bytes())
+    assert run_study(plan, out).kept == 4
+    assert pq.read_table(out / "trials.parquet")["row"].to_pylist() == list(range(6))
+
+
+def test_a_missing_package_is_told_without_a_traceback(tmp_path: Path, punctura, monkeypatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    done = punctura("study", written(tmp_path, GRID), "--scheduler", "tcp://127.0.0.1:1")
+    assert done.status == 1 and "Traceback" not in done.stderr
+    assert "needs the package distributed. Install it: pip install 'punctura[dask]'" in done.stderr
 
 
 def test_a_link_named_lock_creates_no_file_elsewhere(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ using namespace punctura;
 
 namespace {
 
-constexpr std::size_t fleet_trials = 37;  // a whole block and a part of one
+constexpr std::size_t fleet_trials = 37;  // whole blocks and a part of one
 
 /// The scene of a trial: two walls, of which the second remembers its hole in every third trial.
 Scene fleet_scene(Solver solver, std::size_t i) {
@@ -86,10 +86,14 @@ struct SetOfFleets {
     }
     return differ;
   }
-  std::size_t in_lanes(std::size_t fleet) const {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < fleet_trials; ++i) count += fleets[fleet]->in_lanes(i);
-    return count;
+  /// Whether each fleet with lanes has this number of trials in them, and one without lanes none.
+  bool in_lanes(std::size_t expected) const {
+    for (const auto& fleet : fleets) {
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < fleet_trials; ++i) count += fleet->in_lanes(i);
+      if (count != (fleet->code().fleet_of(Solver::exact) ? expected : 0)) return false;
+    }
+    return true;
   }
 
   static inline const Vector3d axis = Vector3d(0.05, -1, 0.02).stableNormalized();
@@ -117,8 +121,7 @@ TEST_CASE("trials of a fleet have the bits of trials alone, also if some start a
       }
     }
     CHECK(pierced > 50);
-    for (std::size_t code = 0; code + 1 < all.fleets.size(); ++code) CHECK(all.in_lanes(code) == fleet_trials);
-    CHECK(all.in_lanes(all.fleets.size() - 1) == 0);  // portable
+    CHECK(all.in_lanes(fleet_trials));
   }
 }
 
@@ -129,35 +132,54 @@ TEST_CASE("a trial that faults leaves the lanes with its whole record, and comes
   const auto jump = [](std::size_t i) { return i == 5 || i == 33 ? 1e3 : fleet_speed(i, 1); };
   for (int k = 0; k < 3; ++k) CHECK(all.step(jump, 35) == 0);
   CHECK(all.alone[5].record(35).fault == Fault::position_jump);
-  CHECK(all.in_lanes(0) == fleet_trials - 2);
+  CHECK(all.in_lanes(fleet_trials - 2));
   CHECK(all.step(slow, 35) == 0);
   all.place_again(5, 6);
-  CHECK(all.in_lanes(0) == fleet_trials - 1);
+  CHECK(all.in_lanes(fleet_trials - 1));
   CHECK(all.step(slow, 35) == 0);
 }
 
-TEST_CASE("scenes that do not fit into the lanes of the first one are computed alone, with the same bits") {
+TEST_CASE("scenes of another kind than the others in their vector are computed alone, with the same bits") {
   const auto scene_of = [](std::size_t i) {
-    Scene scene = fleet_scene(i == 7 ? Solver::paper : Solver::exact, i);
-    if (i == 3) scene.membranes.pop_back();
-    if (i == 4) scene.servo.sub_steps = 3;
-    if (i == 5) scene.servo.conditioning = Conditioning::line_fit;
-    if (i == 6) scene.relaxation = {{100, 0.1}};
-    if (i == 8) scene.direction = Direction::motion;
-    if (i >= 32) scene.servo.sub_steps = 2;  // the second block
-    if (i >= 32) scene.servo.conditioning = Conditioning::line_fit;
-    if (i >= 32) scene.direction = Direction::motion;
-    if (i >= 32) scene.relaxation = {{100, 0.1}};
+    Scene scene = fleet_scene(i % 16 == 7 ? Solver::paper : Solver::exact, i);
+    if (i % 16 == 3) scene.membranes.pop_back();
+    if (i % 16 == 4) scene.servo.sub_steps = 3;
+    if (i % 16 == 9) scene.servo.conditioning = Conditioning::line_fit;
+    if (i % 16 == 10) scene.relaxation = {{100, 0.1}};
+    if (i % 16 == 13) scene.direction = Direction::motion;
     return scene;
   };
   SetOfFleets all({}, scene_of);
   for (std::size_t step = 0; step < 12; ++step)
     CHECK(all.step([&](std::size_t i) { return fleet_speed(i, step / 6); }, 70) == 0);
-  CHECK(all.in_lanes(0) == fleet_trials - 6);
-  all.place_again(3, 9);
-  all.place_again(9, 4);
+  all.place_again(3, 8);
+  all.place_again(8, 4);
   all.place_again(34, 35);
   for (std::size_t step = 0; step < 6; ++step)
     CHECK(all.step([&](std::size_t i) { return fleet_speed(i, 0); }, 70) == 0);
-  CHECK(all.in_lanes(0) == fleet_trials - 6);
+}
+
+TEST_CASE("a fleet in lanes takes every kind of scene, and another kind from the second time on that all start anew") {
+  for (const bool wide : {false, true}) {
+    const auto scene_of = [&](std::size_t i) {
+      Scene scene = fleet_scene(Solver::paper, i);
+      if (wide != (i >= 100)) {
+        scene.servo.sub_steps = 2;
+        scene.servo.conditioning = Conditioning::line_fit;
+        scene.direction = Direction::motion;
+        scene.relaxation = {{100, 0.1}};
+      }
+      return scene;
+    };
+    SetOfFleets all({}, scene_of);
+    for (std::size_t step = 0; step < 12; ++step)
+      CHECK(all.step([&](std::size_t i) { return fleet_speed(i, step / 6); }, 70) == 0);
+    CHECK(all.in_lanes(fleet_trials));
+    for (int again = 0; again < 2; ++again) {
+      for (std::size_t i = 0; i < fleet_trials; ++i) all.place_again(i, 100 + i);
+      for (std::size_t step = 0; step < 4; ++step)
+        CHECK(all.step([&](std::size_t i) { return fleet_speed(i, 0); }, 70) == 0);
+    }
+    CHECK(all.in_lanes(fleet_trials));
+  }
 }
