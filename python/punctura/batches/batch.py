@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from numbers import Real
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy.typing as npt
 from punctura._core import Hand, Plant, RecordedMotion, Scene, Strokes, real_numbers, run_scenes
 from punctura.batches.inputs import enough_memory, whole_seeds
 from punctura.batches.result import BatchResult
+from punctura.errors import ConfigurationError
 from punctura.progress import Progress
 
 
@@ -62,6 +64,7 @@ def batch(
         raise ValueError(f"duration must be 0 s or more, not {duration!r}")
     if keep_force and isinstance(motion, Strokes | RecordedMotion) and (duration is None or "servo.rate" in values):
         raise ValueError("keep_force needs a duration and one servo.rate, so that all trials have as many ticks")
+    _warn_of_units(base, values)
     _room(base, motion, n, len(values), duration, keep_force)
     for path, column in values.items():
         if column.shape not in ((n,), (1,)):
@@ -90,6 +93,16 @@ def batch(
     found["in_lanes"] = found["in_lanes"].view(np.bool_)
     kept = tuple(float(x) for x in np.ravel(direction)[:3])
     return BatchResult(**found, vary=values, seeds=own, base=base, motion=motion, plant=plant, hand=hand, axis=kept)
+
+
+def _warn_of_units(scene: Scene, values: Mapping[str, npt.NDArray[np.float64]]) -> None:
+    """Lets a scene with the extremes of each column warn of values of an unusual size, such as millimetres."""
+    of_scene = {one.path for one in scene.fields()}
+    for path, column in values.items():
+        if path in of_scene and np.isfinite(column).all():
+            for extreme in {float(column.min()), float(column.max())}:
+                with suppress(ConfigurationError):  # the check of the trials names it
+                    scene.with_values({path: extreme})
 
 
 def _numbers(scene: Scene | Sequence[Scene]) -> tuple[Scene, dict[str, npt.NDArray[np.float64]]]:

@@ -34,21 +34,29 @@ class Folder:
     @contextmanager
     def locked(self) -> Iterator[None]:
         """Only one run at a time may use the folder. Raises StudyError."""
-        self.path.mkdir(parents=True, exist_ok=True)
-        descriptor = self._lock_file()
+        descriptor = None
         try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            descriptor = self._lock_file()
             if lock(descriptor) is False:
                 raise StudyError(f"{self.path}: another run of this study is going on; wait for it")
             yield
         except OSError as error:
-            if error.errno not in (errno.ENOSPC, errno.EDQUOT):
-                raise
-            raise StudyError(
-                f"{error.filename or self.path}: the disk is full. Finished chunks are kept: free some space and give "
-                "the same command again"
-            ) from None
+            raise self._told(error) from None
         finally:
-            os.close(descriptor)
+            if descriptor is not None:
+                os.close(descriptor)
+
+    def _told(self, error: OSError) -> Exception:
+        """The error with what to do, if it is of this folder."""
+        place = Path(os.fsdecode(error.filename)) if isinstance(error.filename, str | bytes) else self.path
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            advice = "the disk is full. Finished chunks are kept: free some space and give the same command again"
+        elif self.path in (place, *place.parents) or place in self.path.parents:
+            advice = f"cannot be written ({error.strerror}): give another folder with --out"
+        else:
+            return error
+        return StudyError(f"{place}: {advice}")
 
     def _lock_file(self) -> int:
         path = self.path / "lock"

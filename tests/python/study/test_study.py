@@ -223,6 +223,25 @@ def test_a_missing_package_is_told_without_a_traceback(tmp_path: Path, punctura,
     assert "needs the package distributed. Install it: pip install 'punctura[dask]'" in done.stderr
 
 
+@pytest.mark.parametrize("blocked", ["out", "out/lock", "out/study.json", "out/pictures"])
+def test_a_folder_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path, blocked: str) -> None:
+    place = tmp_path / blocked
+    place.parent.mkdir(exist_ok=True)
+    if blocked in ("out", "out/pictures"):
+        place.write_text("a file, not a folder")
+    else:
+        place.mkdir()
+    with pytest.raises(StudyError, match=rf"{place.name}.*cannot be written \(.*\): give another folder with --out"):
+        run_study(load_plan(written(tmp_path, GRID)), tmp_path / "out")
+
+
+def test_values_of_an_unusual_size_are_warned_of(tmp_path: Path) -> None:
+    thick = GRID.replace("membrane[0].friction", "membrane[0].thickness").replace("[0.1, 0.2, 0.3]", "[1, 0.001]")
+    plan = load_plan(written(tmp_path, thick))
+    with pytest.warns(UserWarning, match="If you meant"):
+        run_study(plan, tmp_path / "out")
+
+
 def test_a_link_named_lock_creates_no_file_elsewhere(tmp_path: Path) -> None:
     folder, elsewhere = tmp_path / "study", tmp_path / "elsewhere"
     folder.mkdir()
