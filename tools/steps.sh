@@ -1,9 +1,8 @@
-# The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, in two rows
-# side by side, then a summary is printed.
+# The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, then a
+# summary is printed.
 
 all_steps="tree format types web cpp asan tsan consumer examples instructions python docs page"
 fast_steps="tree format types web cpp python"
-row_of_cpp="cpp asan tsan consumer examples instructions tidy integrations"  # these share build/dev
 named_steps="tidy statistics integrations"  # they run only by name
 
 choose_steps() {
@@ -26,53 +25,27 @@ choose_steps() {
   esac
 }
 
-# The steps of C++ run beside all others. One step alone often leaves a processor idle: a linker or a type checker uses
-# one, and a test of the servo loop waits for the clock.
 run_steps() {
-  local name cpp="" others="" row began=$SECONDS passed failed
+  local name passed=0 failed="" count=0 start began=$SECONDS log code
   cd "$root"
-  : >build/log/results
   for name in $steps; do
-    case " $row_of_cpp " in *" $name "*) cpp="$cpp $name" ;; *) others="$others $name" ;; esac
-  done
-  rows=""
-  set -m  # each row has a process group of its own, which Ctrl-C ends as a whole
-  for row in "$others" "$cpp"; do
-    [ -z "$row" ] || { run_row $row </dev/null & rows="$rows $!"; }
-  done
-  set +m
-  trap 'end_rows' INT TERM HUP
-  for row in $rows; do wait "$row" || true; done
-  passed=$(grep -c "^passed" build/log/results || true)
-  failed=$(for name in $steps; do grep -qx "passed $name" build/log/results || printf ' %s' "$name"; done)
-  [ -z "$failed" ] || printf '\nFailed:%s. To repeat only these: ./test%s\n' "$failed" "$failed"
-  printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) "$passed" "$(wc -w <<<"$failed")"
-  [ -z "$failed" ]
-}
-end_rows() {
-  trap '' INT TERM HUP
-  local row
-  for row in $rows; do kill -TERM -- "-$row" 2>/dev/null || true; done
-  wait
-  printf '\nStopped.\n' >&8
-  exit 130
-}
-
-# run_row NAME...: runs the steps one after the other. Prints the result of each in one piece, for the rows' sake.
-run_row() {
-  local name start log code notes
-  for name in "$@"; do
-    log=build/log/test-$name.log start=$SECONDS code=0
-    ("step_$name") >"$log" 2>&1 || code=$?
+    log=build/log/test-$name.log start=$SECONDS
+    printf '  %-12s ' "$name"
+    code=0
+    ("step_$name") >"$log" 2>&1 </dev/null || code=$?
     if [ $code -eq 0 ]; then
-      echo "passed $name" >>build/log/results
-      notes=$(sed -n 's/^note: /               /p' "$log")
-      printf '  %-12s passed %4d s   %s\n' "$name" $((SECONDS - start)) "$(closing_line "$log")${notes:+$'\n'$notes}"
+      passed=$((passed + 1))
+      printf 'passed %4d s   %s\n' $((SECONDS - start)) "$(closing_line "$log")"
+      sed -n 's/^note: /               /p' "$log"
     else
-      printf '  %-12s FAILED %4d s   the end of %s:\n%s\n' "$name" $((SECONDS - start)) "$log" \
-        "$(tail -n "${PUNCTURA_LOG_LINES:-60}" "$log" | sed 's/^/    /')"
+      failed="$failed $name" count=$((count + 1))
+      printf 'FAILED %4d s   the end of %s:\n' $((SECONDS - start)) "$log"
+      tail -n "${PUNCTURA_LOG_LINES:-60}" "$log" | sed 's/^/    /'
     fi
   done
+  [ -z "$failed" ] || printf '\nFailed:%s. To repeat only these: ./test%s\n' "$failed" "$failed"
+  printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) $passed $count
+  [ -z "$failed" ]
 }
 
 # The last line of the step's test runner with the number of passed tests.
@@ -112,14 +85,14 @@ compile() {
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
-  local said_a=build/log/beside-${1##*/}.log said_b=build/log/beside-${2##*/}.log a_failed=0 b_failed=0 a b
-  "$1" >"$said_a" 2>&1 & a=$!
-  "$2" >"$said_b" 2>&1 & b=$!
+  local said=build/log/side-by-side a_failed=0 b_failed=0 a b
+  "$1" >"$said-a.log" 2>&1 & a=$!
+  "$2" >"$said-b.log" 2>&1 & b=$!
   trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # background jobs of a script do not get Ctrl-C
   wait $a || a_failed=1
   wait $b || b_failed=1
   trap - INT TERM HUP
-  if [ $a_failed -eq 1 ]; then cat "$said_b" "$said_a"; else cat "$said_a" "$said_b"; fi
+  if [ $a_failed -eq 1 ]; then cat "$said-b.log" "$said-a.log"; else cat "$said-a.log" "$said-b.log"; fi
   return $((a_failed || b_failed))
 }
 both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }

@@ -43,6 +43,7 @@ def test_the_scale_stands_where_a_force_is_and_a_loss_that_cannot_be_felt_is_tol
         expect(page.locator(".phases thead")).to_contain_text(f"{felt}, N")
         for plot in (".force-depth", ".time-plots"):
             expect(page.locator(f"{plot} .force-scale")).to_have_text(felt)
-        card = tab(page, "Exercises").locator("article", has_text="Epidural")
+        name = page.get_by_text("Epidural", exact=True)
+        card = tab(page, "Exercises").locator("article").filter(has=name)
         expect(card).to_contain_text("This device cannot show the loss of resistance of the ligamentum flavum")
         expect(card).to_contain_text("N; 0.1 N needed), so an attempt cannot be passed here.")
