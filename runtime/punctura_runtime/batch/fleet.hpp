@@ -35,7 +35,7 @@ class Fleet {
 
  private:
   FleetSetup setup_;
-  std::size_t threads_, size_ = 0;
+  std::size_t threads_, width_, size_ = 0;  ///< width_: trials of a block
   std::vector<std::unique_ptr<FleetBlock>> blocks_;
 };
 

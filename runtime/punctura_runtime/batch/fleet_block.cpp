@@ -27,14 +27,15 @@ void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start,
     solver_ = scene.servo.solver;
     code_ = setup_.code->fleet_of(solver_);
   }
-  if (!code_ || scene.servo.solver != solver_ || !fits(scene)) {
-    made.alone = make(made);
-  } else {
-    if (made.lane == no_lane) made.lane = lanes_.size();
-    put(made.lane, scene, seed).motion = Steered(start);
-    put_hand(made.lane, setup_.plant, setup_.hand, start);
+  const std::size_t lane = made.lane == no_lane ? lanes_.size() : made.lane;
+  if (LaneTrial* own = code_ && scene.servo.solver == solver_ ? put(lane, scene, seed) : nullptr) {
+    made.lane = lane;
+    own->motion = Steered(start);
+    put_hand(lane, setup_.plant, setup_.hand, start);
     if (!state_) state_ = code_(*block_);
-    state_->restart(made.lane, end_of(made.lane));
+    state_->restart(lane, end_of(lane));
+  } else {
+    made.alone = make(made);
   }
   if (i < trials_.size())
     trials_[i] = std::move(made);

@@ -25,30 +25,27 @@ LaneTrials::LaneTrials(bool has_hand, std::size_t width) : block_(std::make_uniq
   lanes_.reserve(block_lanes);
 }
 
-bool LaneTrials::fits(const Scene& scene) const {
-  const SceneBlock& b = *block_;
-  return lanes_.empty() || (scene.membranes.size() == b.membranes.size() &&
-                            (scene.servo.conditioning == Conditioning::line_fit) == b.fits_lines &&
-                            (scene.direction == Direction::motion) == b.from_motion &&
-                            static_cast<std::uint32_t>(scene.servo.sub_steps) == b.sub_steps &&
-                            detail::relaxing_coupling_of<double>(scene).constants().count == b.coupling.branches);
-}
-
 void LaneTrials::clear() noexcept {
   lanes_.clear();
   block_->trials = 0;
 }
 
-LaneTrials::LaneTrial& LaneTrials::put(std::size_t lane, const Scene& scene, std::uint64_t seed) {
+LaneTrials::LaneTrial* LaneTrials::put(std::size_t lane, const Scene& scene, std::uint64_t seed) {
   SceneBlock& b = *block_;
   const double rate = scene.servo.rate, period = 1 / rate;
   const auto coupling = detail::relaxing_coupling_of<double>(scene).constants();
+  const bool fits_lines = scene.servo.conditioning == Conditioning::line_fit;
+  const bool from_motion = scene.direction == Direction::motion;
+  const auto sub_steps = static_cast<std::uint32_t>(scene.servo.sub_steps);
   if (lanes_.empty()) {
     b.membranes.assign(scene.membranes.size(), {});
-    b.fits_lines = scene.servo.conditioning == Conditioning::line_fit;
-    b.from_motion = scene.direction == Direction::motion;
-    b.sub_steps = static_cast<std::uint32_t>(scene.servo.sub_steps);
+    b.fits_lines = fits_lines;
+    b.from_motion = from_motion;
+    b.sub_steps = sub_steps;
     b.coupling.branches = coupling.count;
+  } else if (scene.membranes.size() != b.membranes.size() || fits_lines != b.fits_lines ||
+             from_motion != b.from_motion || sub_steps != b.sub_steps || coupling.count != b.coupling.branches) {
+    return nullptr;
   }
   LaneTrial made{period,
                  nullptr,
@@ -92,7 +89,7 @@ LaneTrials::LaneTrial& LaneTrials::put(std::size_t lane, const Scene& scene, std
       changed(m, each);
     }
   }
-  return lanes_[lane];
+  return &lanes_[lane];
 }
 
 void LaneTrials::put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start) {

@@ -42,12 +42,11 @@ class LaneTrials : public LaneOwner {
   explicit LaneTrials(bool has_hand, std::size_t width = block_lanes);
   ~LaneTrials() = default;
 
-  /// Whether a trial of this scene can be computed beside the first one: it needs as many membranes, branches of the
-  /// coupling and sub-steps, and the same kind of conditioning and direction.
-  bool fits(const Scene& scene) const;
   /// Puts a trial into a lane, with what does not need a hand. lane: at most size(), for a new one. The lanes without
-  /// a trial repeat the last one. seed: of the noise.
-  LaneTrial& put(std::size_t lane, const Scene& scene, std::uint64_t seed);
+  /// a trial repeat the last one. seed: of the noise. Returns null, and puts nothing, if the trial cannot be computed
+  /// beside the first one: it needs as many membranes, branches of the coupling and sub-steps, and the same kind of
+  /// conditioning and direction.
+  LaneTrial* put(std::size_t lane, const Scene& scene, std::uint64_t seed);
   /// Sets hand and device of a lane. start: the place of the tip, m.
   void put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start);
   /// Computes the inputs of a lane for `ticks` ticks, of which the first is this tick of the trial.

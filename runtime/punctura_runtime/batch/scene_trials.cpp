@@ -12,9 +12,10 @@ SceneTrials::SceneTrials(const SceneBatch& all, SceneResults& results, const std
 
 bool SceneTrials::add(std::size_t i, const TrialNumbers& numbers) {
   const auto& [scene, plant, hand, strokes] = numbers;
-  if (!fits(scene)) return false;
   const std::size_t lane = lanes_.size();
-  LaneTrial& own = put(lane, scene, block_->has_hand ? all_.seeds[i] : 0);
+  LaneTrial* const put_there = put(lane, scene, block_->has_hand ? all_.seeds[i] : 0);
+  if (!put_there) return false;
+  LaneTrial& own = *put_there;
   index_.push_back(i);
   std::size_t ticks = 0;
   if (const auto* given = std::get_if<Positions>(&all_.motion)) {
