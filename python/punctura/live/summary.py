@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, ThumbLoop, describe
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.record.header import statements_of, words_of
 from punctura.record.room import room_note
 from punctura.ticks import ABSENT, Ticks
 
@@ -102,8 +103,7 @@ class RunSummary:
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
-        second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
-        self.statements = [*loop.device.statements(), *second, *filter(None, [room_note(loop)])]
+        self.statements = [*statements_of(loop.device, thumb), *filter(None, [room_note(loop)])]
         self.blame(loop.device, thumb)
 
     def blame(self, device: Device, thumb: ThumbLoop | None = None) -> None:
@@ -111,9 +111,7 @@ class RunSummary:
         self._add(device.trouble())
         if thumb is None:
             return
-        if thumb.fault != Fault.none:
-            self._add(f"second device: {describe(thumb.fault)}")
-        if trouble := thumb.device.trouble():
+        for trouble in filter(None, (words_of(thumb), thumb.device.trouble())):
             self._add(f"second device: {trouble}")
 
     def _add(self, trouble: str) -> None:

@@ -94,11 +94,16 @@ def describe_run(loop: ServoLoop, about: JsonObject | None = None, thumb: ThumbL
 
 def describe_device(device: Device, thumb: ThumbLoop | None = None) -> DeviceReport:
     """The report of the device after a run, and of the second device."""
-    second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
     troubles = [device.trouble()]
     if thumb is not None:
         troubles += [f"second device: {text}" for text in (words_of(thumb), thumb.device.trouble()) if text]
-    return {"statements": [*device.statements(), *second], "trouble": "; ".join(filter(None, troubles))}
+    return {"statements": statements_of(device, thumb), "trouble": "; ".join(filter(None, troubles))}
+
+
+def statements_of(device: Device, thumb: ThumbLoop | None) -> list[str]:
+    """What the devices say after a run."""
+    second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
+    return [*device.statements(), *second]
 
 
 def words_of(thumb: ThumbLoop) -> str:
