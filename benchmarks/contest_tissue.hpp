@@ -20,6 +20,17 @@ inline punctura::Tissue measured_tissue() {
   return tissue;
 }
 
+/// One slow way in, from 0.5 mm in front of the wall to behind it: the tip cuts in nearly every tick.
+inline Motion first_way() {
+  Motion motion{"first way", {}, {}, {}};
+  for (std::size_t k = 0; k < ticks; ++k) {
+    const double depth = -0.5e-3 + 7e-3 * static_cast<double>(k) / static_cast<double>(ticks);
+    motion.tip.push_back({0, -depth, 0});
+    motion.axis.push_back({0, -1, 0});
+  }
+  return motion;
+}
+
 /// K06 and then the tissue, one membrane, along the normal.
 inline std::vector<Contestant> tissue_1d(const punctura::Scene& scene, const Motion& motion, punctura::Solver solver) {
   std::vector<double> depth;

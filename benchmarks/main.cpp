@@ -62,15 +62,17 @@ void measure(const Row& row) {
 }
 
 /// Measures a membrane of tissue against one of K06 with the same solver.
-void measure_tissue(const std::string& form, const std::string& solver, const std::vector<Contestant>& contestants) {
+void measure_tissue(const std::string& form, const std::string& motion, const std::string& solver,
+                    const std::vector<Contestant>& contestants) {
   static bool first = true;
   const Times times = time_against_each_other(contestants, ticks, seconds);
   const Spread over = ratio(times.rounds[1], times.rounds[0]);
   std::printf(
-      "%s\n    {\"form\": \"%s\", \"solver\": \"%s\", \"k06_ns\": %.4g, \"tissue_ns\": %.4g, \"over_k06\": "
+      "%s\n    {\"form\": \"%s\", \"motion\": \"%s\", \"solver\": \"%s\", \"k06_ns\": %.4g, \"tissue_ns\": %.4g, "
+      "\"over_k06\": "
       "{\"median\": %.4g, \"lower_quartile\": %.4g, \"upper_quartile\": %.4g}}",
-      first ? "" : ",", form.c_str(), solver.c_str(), times.spreads[0].median, times.spreads[1].median, over.median,
-      over.lower_quartile, over.upper_quartile);
+      first ? "" : ",", form.c_str(), motion.c_str(), solver.c_str(), times.spreads[0].median, times.spreads[1].median,
+      over.median, over.lower_quartile, over.upper_quartile);
   first = false;
   std::fprintf(stderr, ".");
 }
@@ -129,11 +131,13 @@ int main(int argc, char** argv) {
     measure({"servo step", "double", motion.name, n, contestants_servo(scene, motion)});
   }
   std::printf("\n  ], \"tissue\": [");
-  const auto& [scene, motion] = works[0];
-  for (const auto solver : {punctura::Solver::paper, punctura::Solver::exact}) {
-    const std::string name = solver == punctura::Solver::paper ? "paper" : "exact";
-    measure_tissue("1-D", name, tissue_1d(scene, motion, solver));
-    measure_tissue("3-D", name, tissue_3d(scene, motion, solver));
+  const auto& scene = works[0].first;
+  for (const auto& motion : {works[0].second, first_way()}) {
+    for (const auto solver : {punctura::Solver::paper, punctura::Solver::exact}) {
+      const std::string name = solver == punctura::Solver::paper ? "paper" : "exact";
+      measure_tissue("1-D", motion.name, name, tissue_1d(scene, motion, solver));
+      measure_tissue("3-D", motion.name, name, tissue_3d(scene, motion, solver));
+    }
   }
   std::printf("\n  ]\n}\n");
   std::fprintf(stderr, "\n");

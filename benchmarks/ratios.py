@@ -66,7 +66,7 @@ def over_k06(rows: list[dict[str, Any]]) -> list[Ratio]:
     ratios = []
     for row in rows:
         value, low, high = (row["over_k06"][key] for key in ("median", "lower_quartile", "upper_quartile"))
-        what = f"8 knots / K06, {row['solver']}, {row['form']}"
+        what = f"8 knots / K06, {row['solver']}, {row['form']}, {row['motion']}"
         ratios.append(Ratio(what, value, low, high, f"at most {MOST_OVER_K06:g}", value <= MOST_OVER_K06))
     return ratios
 

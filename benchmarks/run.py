@@ -112,7 +112,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("--check", action="store_true", help="exit with 1 if a target is missed")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all results and the machine's data")
-    parser.add_argument("--seconds", type=float, default=0.5, help="seconds for each of 29 rows (default %(default)s)")
+    parser.add_argument("--seconds", type=float, default=0.5, help="seconds for each of 33 rows (default %(default)s)")
     parser.add_argument(
         "--batch-seconds",
         type=float,

@@ -50,7 +50,7 @@ def table(result: dict[str, Any]) -> Iterator[str]:
         )
     for row in result["tissue"]:
         yield (
-            f"  {row['form']:11} {'double':7} {1:9} {'encoder':8}  {row['solver']}: K06 {row['k06_ns']:.1f}, "
+            f"  {row['form']:11} {'double':7} {1:9} {row['motion']:9} {row['solver']}: K06 {row['k06_ns']:.1f}, "
             f"tissue with 8 knots, cutting and a set {row['tissue_ns']:.1f}"
         )
     for name, timing in result["loops"].items():  # with the work of the first row

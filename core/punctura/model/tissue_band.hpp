@@ -20,6 +20,8 @@ namespace punctura {
 /// The base class is the band of the untouched wall. Its lower edge contains the cutting. The pieces that a solver
 /// visits are those of the base class, divided at the two fronts. At a front, where the edges jump, the band contains
 /// both sides: the proxy can rest there at any force between.
+///
+/// A front that has gone through the wall is folded into the pieces of the base class: it costs no time any more.
 template <typename Scalar_, std::size_t N>
 struct TissueBand : ManyPieces<Scalar_, N> {
   using First = ManyPieces<Scalar_, N>;
@@ -27,7 +29,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   using Piece = BandPiece<Scalar>;
 
   struct Front {
-    Scalar at{-infinity};   ///< m; -infinity in an untouched wall, infinity in a finished hole
+    Scalar at{-infinity};   ///< m; -infinity in an untouched wall
     std::size_t piece = 0;  ///< the piece of First that contains it
   };
   struct Cutting {
@@ -38,12 +40,30 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   Scalar kept{1};
   Front made{}, cut{};
 
-  Scalar whole{};  ///< the depth at which a hole is finished, m
+  Scalar whole{};          ///< the depth at which a hole is finished, m
+  bool cut_whole = false;  ///< the pieces of First have no cutting any more
+  bool finished = false;   ///< the hole is finished and left: the pieces of First are its pieces
 
-  /// Moves the fronts to these depths (m).
+  /// Moves the fronts to these depths (m), 0 <= made_to <= cut_to. They only move on: a healed wall has new pieces.
   void set_fronts(const Scalar& made_to, const Scalar& cut_to) noexcept {
-    move(made, made_to);
-    move(cut, cut_to);
+    if (finished) return;
+    if (cut_to < whole) {
+      move(made, made_to);
+      move(cut, cut_to);
+      return;
+    }
+    if (!cut_whole) {
+      for (std::size_t k = 0; k < First::count; ++k) drop_cutting(k, First::pieces[k]), cutting[k] = {};
+      cut_whole = true;
+    }
+    if (made_to < whole) {
+      move(made, made_to);
+      cut = made;
+    } else {
+      for (std::size_t k = 0; k < First::count; ++k) keep(First::pieces[k]);
+      made = cut = {};
+      finished = true;
+    }
   }
 
   /// Index of the piece that contains depth q (m), for band(q, i), piece(i) and end(i).
@@ -52,21 +72,17 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   }
   Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
   Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
+    if (q >= cut.at + rounding) return First::pieces[i - 2].band(q);  // behind both fronts, in the shortest way
     if (near(q, cut) || near(q, made)) return at_front(q);
-    return i > cut.piece + 1 ? First::pieces[i - 2].band(q)
-                             : piece(i).band(q);  // the untouched wall in the shortest way
+    return piece(i).band(q);
   }
 
   Piece piece(std::size_t i) const noexcept {
     const std::size_t k = in_first(i);
     Piece piece = First::pieces[k];
     if (i > cut.piece + 1) return piece;
-    piece.lower.c0 += cutting[k].c0;
-    piece.lower.c1 += cutting[k].c1;
-    if (i > made.piece) return piece;
-    const auto keep = [&](Quadratic<Scalar>& edge) { edge = {kept * edge.c0, kept * edge.c1, kept * edge.c2}; };
-    keep(piece.lower);
-    keep(piece.upper);
+    drop_cutting(k, piece);
+    if (i <= made.piece) keep(piece);
     return piece;
   }
   /// Where piece i ends, m.
@@ -110,17 +126,21 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   /// m: a proxy that rests on a front is within this distance of it, after rounding.
   static constexpr One rounding = std::max(One(1e-10), std::numeric_limits<One>::epsilon());
 
-  void move(Front& front, const Scalar& to) noexcept {
-    if (!(to > 0)) {
-      front = {};
-    } else if (!(to < whole)) {
-      front = {Scalar(infinity), First::count - 1};
-    } else {
-      std::size_t piece = front.at < to ? front.piece : 0;  // a front goes on from its last place
-      if (piece == 0) piece = First::index(to);
-      while (piece + 1 < First::count && to > First::breaks[piece]) ++piece;
-      front = {to, piece};
-    }
+  /// Takes the cutting out of piece k of First.
+  void drop_cutting(std::size_t k, Piece& piece) const noexcept {
+    piece.lower.c0 += cutting[k].c0;
+    piece.lower.c1 += cutting[k].c1;
+  }
+  void keep(Piece& piece) const noexcept {
+    for (Quadratic<Scalar>* edge : {&piece.lower, &piece.upper})
+      *edge = {kept * edge->c0, kept * edge->c1, kept * edge->c2};
+  }
+  void move(Front& front, const Scalar& to) const noexcept {
+    if (!(to > 0)) return;
+    std::size_t piece = front.piece;  // a front goes on from its last place
+    if (piece == 0) piece = First::index(to);
+    while (piece + 1 < First::count && to > First::breaks[piece]) ++piece;
+    front = {to, piece};
   }
   /// The band between both sides of the fronts at depth q.
   Band<Scalar> at_front(const Scalar& q) const noexcept {

@@ -159,7 +159,8 @@ TEST_CASE("an untouched wall, a way and a hole have the stated bands") {
       if (H == 0) return q > 0 && q < X ? C / cos_beta : 0;
       return C / H * std::max(0.0, std::min(q, X) - std::max(q - U, 0.0));
     };
-    const double cut = between(noise, 0.1, 1.1) * (X + U), made = noise.uniform() < 0.3 ? 0 : cut * noise.uniform();
+    const double cut = between(noise, 0.1, 1.3) * (X + U), share = noise.uniform();  // of the way that is a hole
+    const double made = share < 0.3 ? 0 : share > 0.7 ? cut : cut * share;
     const auto pieces = law.pieces(cos_beta, {cut, made});
     const double most = (law.pieces().count > 1 ? 10 : 1) / cos_beta;
     for (int j = 0; j < 40; ++j) {
@@ -173,6 +174,34 @@ TEST_CASE("an untouched wall, a way and a hole have the stated bands") {
       REQUIRE(law.band(q).lower == doctest::Approx(base.lower - cutting(q)).epsilon(1e-9).scale(most));
     }
   }
+}
+
+TEST_CASE("pieces that follow a hole as it grows have the bits of pieces that are computed for it at once") {
+  Noise noise(134);
+  int finished = 0, whole = 0;
+  for (int i = 0; i < cases(150); ++i) {
+    TissueCase c = random_tissue(noise);
+    if (i % 6 == 0) c.membrane.thickness = 0;
+    const TissueLaw law = c.law();
+    const double reach = c.tissue.tip_length + c.path_length(), cos_beta = std::cos(c.obliquity);
+    auto grown = law.pieces(cos_beta);
+    TissueLaw::Memory hole{};
+    for (int step = 0; step < 20; ++step) {
+      hole.cut += between(noise, 0.01, 0.15) * reach;
+      if (noise.uniform() < 0.3) hole.made = hole.cut;
+      law.refresh(grown, hole);
+      const auto at_once = law.pieces(cos_beta, hole);
+      finished += at_once.finished, whole += at_once.cut_whole && !at_once.finished;
+      for (int j = 0; j < 20; ++j) {
+        const double q = j == 0 ? hole.cut : j == 1 ? hole.made : between(noise, -0.1, 1.3) * reach;
+        grown.look_at(q);
+        const auto a = grown.band(q), b = at_once.band(q);
+        REQUIRE(grown.index(q) == at_once.index(q));
+        REQUIRE((a.lower == b.lower && a.upper == b.upper));
+      }
+    }
+  }
+  CHECK((finished > 0 && whole > 0));
 }
 
 TEST_CASE("a table of the grip that cannot be is told") {

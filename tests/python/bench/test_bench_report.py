@@ -42,7 +42,7 @@ def measured(paper=1.4, exact=2.4, numpy=10_000.0, tissue=1.9):
             row | {"form": "servo step", "scalar": "double", "contestants": servo},
         ],
         "tissue": [
-            {"form": "1-D", "solver": "exact", "k06_ns": 10.0, "tissue_ns": 10 * tissue}
+            {"form": "1-D", "motion": "encoder", "solver": "exact", "k06_ns": 10.0, "tissue_ns": 10 * tissue}
             | {"over_k06": {"median": tissue, "lower_quartile": 0.9 * tissue, "upper_quartile": 1.2 * tissue}}
         ],
         "loops": {"numpy": timing(numpy), "python": timing(2000.0)},
