@@ -25,6 +25,14 @@ def task_of(task: str | Task) -> Task:
     return TASKS[task]
 
 
+def no_render_mode(mode: object) -> None:
+    """Raises ValueError if a render mode is asked for."""
+    if mode is not None:
+        raise ValueError(
+            f"render_mode is {mode!r}: the environments draw no pictures. Leave it out; `punctura run` opens the studio"
+        )
+
+
 class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
     """A simulated hand pushes a simulated device, and the learner sets the speed of the hand.
 
@@ -38,11 +46,12 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
         hand: Hand | None = None, render_mode: None = None,
     ) -> None:  # fmt: skip
         """population: default is that of the task. plant, hand: default are those of punctura.Experiment."""
+        no_render_mode(render_mode)
         self.task = task_of(task)
         self.trials = Trials(self.task, 1, population, plant, hand, threads=1)
         self.observation_space = observation_space()
         self.action_space = action_space()
-        self.render_mode = render_mode
+        self.render_mode: None = None
         self._done = True
 
     def __repr__(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -28,7 +29,12 @@ class Population:
     """Scenes around one scene. The same seed gives the same scene."""
 
     def __init__(self, scene: Scene, vary: Sequence[Vary] = ()) -> None:
-        """Raises ValueError for an unknown path, range or word, ConfigurationError if an end of a range is no scene."""
+        """Raises TypeError for an argument of another type, ValueError for an unknown path, range or word, and
+        ConfigurationError if an end of a range is no scene."""
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene is {scene!r}, not a punctura.Scene, such as load_scene(...) returns")
+        if not isinstance(vary, Sequence) or not all(isinstance(each, Vary) for each in vary):
+            raise TypeError(f"vary must be a list of punctura.gym.Vary, not {vary!r}")
         self.scene = scene
         self.vary = tuple(vary)
         self._values = {field.path: field.value for field in scene.fields()}
@@ -59,9 +65,17 @@ class Population:
         return self.scene.with_values(changed)
 
     def _check(self, each: Vary) -> None:
-        unknown = [path for path in each.paths if path not in self._values]
         if isinstance(each.paths, str):
             raise ValueError(f"paths must be a list of paths: [{each.paths!r}]")
+        if not isinstance(each.paths, Sequence | Mapping):
+            raise TypeError(f"paths must be a list of paths or a mapping of paths to weights, not {each.paths!r}")
+        numbers = {"low": each.low, "high": each.high}
+        if isinstance(each.paths, Mapping):
+            numbers |= {f"the weight of {path!r}": weight for path, weight in each.paths.items()}
+        for name, number in numbers.items():
+            if isinstance(number, bool) or not isinstance(number, Real):
+                raise TypeError(f"{list(each.paths)}: {name} must be a number, not {number!r}")
+        unknown = [path for path in each.paths if path not in self._values]
         if unknown:
             raise ValueError(f"{unknown[0]!r} is not a number of scene {self.scene.name!r} (scene.fields() lists them)")
         if not (np.isfinite([each.low, each.high]).all() and each.low <= each.high):

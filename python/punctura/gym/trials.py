@@ -35,6 +35,8 @@ class Trials:
     def __init__(
         self, task: Task, n: int, population: Population | None, plant: Plant | None, hand: Hand | None, threads: int
     ) -> None:
+        if isinstance(n, bool) or not isinstance(n, int | np.integer):
+            raise TypeError(f"num_envs is {n!r}: it must be a whole number")
         if n < 1:
             raise ValueError(f"num_envs is {n}: there must be at least 1 environment")
         if not isinstance(population, Population | None):
@@ -65,14 +67,24 @@ class Trials:
         """(n, 5) The observation before the first step: nothing is felt, nothing has moved."""
         return np.zeros((self.n, len(OBSERVATION)), np.float32)
 
-    def step(self, action: npt.ArrayLike) -> Outcome:
-        """action (n,) or (n, 1): share of the fastest speed; clipped to -1 ... 1. Raises ValueError for another number
-        of actions, or if one is not finite."""
+    def step(self, action: npt.ArrayLike, begins: Flags | None = None) -> Outcome:
+        """action (n,) or (n, 1): share of the fastest speed; clipped to -1 ... 1. begins (n,): trials whose action is
+        ignored. Raises TypeError if an action is no number, ValueError for another number of actions, or if one is not
+        finite."""
         task = self.task
-        given = np.asarray(action, dtype=float)
+        given = np.asarray(action)
+        if given.dtype.kind not in "fiu":
+            raise TypeError(f"the actions must be numbers, not {action!r}")
+        given = given.astype(float)
         if given.size != self.n or given.shape[:1] not in ((), (self.n,)):
             raise ValueError(f"the actions have the shape {given.shape}; they need {(self.n, 1)}")
-        share = np.clip(given.reshape(self.n), -1, 1)
+        given = given.reshape(self.n)
+        if begins is not None:
+            given[begins] = 0
+        if not np.isfinite(given).all():
+            i = int(np.flatnonzero(~np.isfinite(given))[0])
+            raise ValueError(f"action {i} is {given[i]}: an action must be a finite number. No trial made a tick")
+        share = np.clip(given, -1, 1)
         step = self.fleet.step(share * task.fastest, self.ticks)
         period = self.ticks / self.rate
         self._time += period

@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from punctura import Hand, Plant
-from punctura.gym.env import infos, task_of
+from punctura.gym.env import infos, no_render_mode, task_of
 from punctura.gym.observation import Observations, action_space, observation_space
 from punctura.gym.population import Population
 from punctura.gym.task import Task
@@ -32,6 +32,7 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
         hand: Hand | None = None, threads: int = 0, render_mode: None = None,
     ) -> None:  # fmt: skip
         """threads: 0 is one for each processor."""
+        no_render_mode(render_mode)
         self.task = task_of(task)
         self.num_envs = num_envs
         self.trials = Trials(self.task, num_envs, population, plant, hand, threads)
@@ -39,7 +40,7 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
         self.single_action_space = action_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self.render_mode = render_mode
+        self.render_mode: None = None
         self._random: list[np.random.Generator] = []
         self._ended: Flags = np.zeros(num_envs, bool)
 
@@ -70,10 +71,7 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
         if not self._random:
             raise RuntimeError("the trials have not begun: call reset()")
         begins = self._ended
-        moved = np.array(actions, float)
-        if moved.shape[:1] == (self.num_envs,):
-            moved[begins] = 0
-        out = self.trials.step(moved)
+        out = self.trials.step(actions, begins)
         for i in np.flatnonzero(begins):
             self.trials.start(int(i), self._random[i])
             out.observation[i] = 0

@@ -63,6 +63,7 @@ def load_plan(path: str | os.PathLike[str]) -> Plan:
         problems += _numbers(file)
         problems += [p for i, one in enumerate(file.variable) for p in _variable(i, one, file.method)]
         problems += _names(file, scene)
+        problems += _ticks(file, scene)
     if problems or file is None or scene is None:
         raise ConfigurationError(problems, str(path))
     return _built(path, file, scene)
@@ -98,6 +99,15 @@ def _numbers(file: PlanFile) -> Iterator[Problem]:
         yield Problem("duration_s", float(file.duration_s), "must be more than 0 and at most 3600 s")
     if not file.variable:
         yield Problem("variable", MISSING, "give at least one; begin each with [[variable]]")
+
+
+def _ticks(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
+    """A problem if the trials are shorter than a tick."""
+    if scene is None or file.duration_s is None or not 0 < float(file.duration_s) <= 3600:
+        return
+    if round(float(file.duration_s) * scene.servo.rate) < 1:
+        least = f"{1 / scene.servo.rate:.3g} s at the scene's {scene.servo.rate:g} Hz"
+        yield Problem("duration_s", float(file.duration_s), f"is shorter than a tick: it must be at least {least}")
 
 
 def _variable(i: int, one: VariableTable, method: str) -> Iterator[Problem]:

@@ -174,8 +174,35 @@ def test_wrong_use_is_refused_with_a_sentence():
     with pytest.raises(TypeError, match=r"3, not a punctura\.gym\.Population"):
         pg.NeedleEnv("StopAfterPop", population=3)
     env.reset(seed=np.int64(5))
-    with pytest.raises(ValueError, match=r"speed\[1\] must be finite"):
+    with pytest.raises(ValueError, match="action 1 is nan: an action must be a finite number"):
         env.step(np.array([[0], [np.nan]], np.float32))
+    for wrong in ("x", ["a", "b"], None, {}):
+        with pytest.raises(TypeError, match="the actions must be numbers"):
+            env.step(wrong)
+    for wrong in (2.5, "3", True):
+        with pytest.raises(TypeError, match="it must be a whole number"):
+            pg.NeedleVectorEnv("StopAfterPop", wrong)
+    for environment in (pg.NeedleEnv, pg.NeedleVectorEnv):
+        with pytest.raises(ValueError, match="render_mode is 'human': the environments draw no pictures"):
+            environment("StopAfterPop", render_mode="human")
+
+
+@pytest.mark.parametrize(
+    ("vary", "told"),
+    [
+        (3, "vary must be a list"),
+        ([("a", 0, 1)], "vary must be a list of punctura.gym.Vary"),
+        ([pg.Vary(3, 0, 1)], "paths must be a list of paths or a mapping"),
+        ([pg.Vary(["coupling.damping"], "0", 1)], "low must be a number, not '0'"),
+        ([pg.Vary(["coupling.damping"], 0, None)], "high must be a number, not None"),
+        ([pg.Vary({"coupling.damping": "1"}, 0, 1, "shift")], "the weight of 'coupling.damping' must be a number"),
+    ],
+)
+def test_a_population_names_an_argument_of_another_type(vary, told):
+    with pytest.raises(TypeError, match=told):
+        pg.Population(pn.load_scene("k06-fig12"), vary)
+    with pytest.raises(TypeError, match=r"scene is 3, not a punctura\.Scene"):
+        pg.Population(3)
 
 
 def test_the_message_without_gymnasium_says_what_to_install(monkeypatch):

@@ -80,6 +80,10 @@ def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
         load_plan(written(tmp_path, SOBOL.replace("low = 0.1", "low = nan")))
     with pytest.raises(ConfigurationError, match="duration_s"):
         load_plan(written(tmp_path, GRID.replace("duration_s = 0.3", "duration_s = nan")))
+    with pytest.raises(
+        ConfigurationError, match=r"duration_s = 0\.0003: is shorter than a tick: .* at least 0\.000625 s"
+    ):
+        load_plan(written(tmp_path, GRID.replace("duration_s = 0.3", "duration_s = 0.0003")))
     with pytest.raises(ConfigurationError, match="unknown key"):
         load_plan(written(tmp_path, "trials = 3\n" + GRID))
     for message, old, new in [
