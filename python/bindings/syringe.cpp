@@ -19,6 +19,7 @@ Syringe make_syringe(double bore, double liquid, double air, double friction, do
   std::vector<Problem> problems;
   check(made, "syringe", problems);
   raise_if(problems);
+  for (const auto& field : syringe_fields) warn_unusual("syringe." + std::string(field.name), made.*field.member);
   return made;
 }
 

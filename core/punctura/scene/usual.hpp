@@ -30,6 +30,13 @@ inline constexpr Usual usual_ranges[] = {
     {"membrane.stiffness", 1, 1e5, {{"N/m", 1}, {"N/mm", 1e3}, {"N/um", 1e6}}},
     {"membrane.thickness", 1e-6, 0.1, {{"m", 1}, {"mm", 1e-3}, {"um", 1e-6}}},
     {"membrane.precompression", 1e-4, 100, {{"N", 1}, {"mN", 1e-3}, {"kN", 1e3}}},
+    {"syringe.bore", 1e-3, 0.1, {{"m", 1}, {"mm", 1e-3}, {"um", 1e-6}}},
+    {"syringe.liquid", 1e-8, 3e-4, {{"m^3", 1}, {"mL", 1e-6}, {"L", 1e-3}}},
+    {"syringe.air", 1e-9, 3e-4, {{"m^3", 1}, {"mL", 1e-6}, {"L", 1e-3}}},
+    {"syringe.friction", 1e-3, 100, {{"N", 1}, {"mN", 1e-3}, {"kN", 1e3}}},
+    {"syringe.compliance", 1e-15, 2e-10, {{"m^3/Pa", 1}, {"mL/kPa", 1e-9}, {"mL/Pa", 1e-6}}},
+    {"syringe.resistance", 1e7, 1e13, {{"Pa s/m^3", 1}, {"kPa s/mL", 1e9}, {"Pa s/mL", 1e6}}},
+    {"syringe.thumb_stiffness", 5, 1e5, {{"N/m", 1}, {"N/mm", 1e3}, {"N/um", 1e6}}},
 };
 
 /// The row of a path such as "membrane[0].stiffness"; null if there is none.

@@ -24,6 +24,11 @@ TEST_CASE("what to write is in the unit of the number") {
   CHECK(unusual("needle.diameter", 1080, 1e-3) == "If you meant 1080 um, write 1.08");
   CHECK(unusual("coupling.stiffness", 4e6) == "If you meant a number 1000 times smaller, write 4000");
   CHECK(unusual("needle.diameter", 1.08, 1e-3).empty());
+  CHECK(unusual("syringe.bore", 0.015, 1e-3) == "If you meant 0.015 m, write 15");
+  CHECK(unusual("syringe.liquid", 3) == "If you meant 3 mL, write 3e-06");
+  CHECK(unusual("syringe.compliance", 1, 1e-9) == "If you meant a number 1000 times smaller, write 0.001");
+  CHECK(unusual("syringe.resistance", 2.5) == "If you meant 2.5 kPa s/mL, write 2.5e+09");
+  CHECK(unusual("syringe.air", 0).empty());
 }
 
 TEST_CASE("a number that no factor of 1,000 makes usual is left alone") {

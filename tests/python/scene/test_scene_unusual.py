@@ -3,7 +3,9 @@
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
+import punctura
 import pytest
 from punctura import load_scene, scene_names
 from punctura.scene.unusual import UnusualWarning
@@ -35,6 +37,30 @@ def test_the_warning_names_the_line_and_what_to_write(tmp_path, sound_text, soun
     path.write_text(sound_text.replace(sound, given, 1))
     [said] = told(path)
     assert said.startswith(f"{path}, {line} ") and said.endswith(f"{given} is unusual. {advice}")
+
+
+@pytest.mark.parametrize(
+    "sound, given, advice",
+    [
+        ("bore_mm = 15", "bore_mm = 0.015", "If you meant 0.015 m, write 15"),
+        ("bore_mm = 15", "bore_mm = 15000", "If you meant 15000 um, write 15"),
+        ("liquid_mL = 3", "liquid_mL = 3000", "If you meant a number 1000 times smaller, write 3"),
+        ("friction_N = 0.3", "friction_N = 300", "If you meant 300 mN, write 0.3"),
+        (
+            "resistance_kPa_s_per_mL = 2.5",
+            "resistance_kPa_s_per_mL = 2500000000.0",
+            "If you meant 2.5e+09 Pa s/m^3, write 2.5",
+        ),
+        ("thumb_stiffness_N_per_mm = 1.0", "thumb_stiffness_N_per_mm = 1000", "If you meant 1000 N/m, write 1"),
+    ],
+)
+def test_the_numbers_of_a_syringe_are_told_as_well(tmp_path, sound, given, advice):
+    path = tmp_path / "epidural.toml"
+    text = (Path(punctura.__file__).parent / "scenes" / "epidural.toml").read_text()
+    assert sound in text
+    path.write_text(text.replace(sound, given, 1))
+    [said] = told(path)
+    assert f": [syringe] {given.split()[0]}" in said and said.endswith(f"is unusual. {advice}")
 
 
 def test_sound_scenes_give_no_warning(tmp_path, sound_text):
