@@ -74,6 +74,9 @@ def score(
             f"  plunger gave way under {gave.push:.2f} N; "
             f"{gave.injected * 1e6:.1f} mL injected within {gave.seconds:g} s"
         )
+        if gave.loss is not None:
+            needed = "" if gave.loss.needed is None else f" ({gave.loss.needed:.2g} N needed)"
+            typer.echo(f"  {gave.loss.drop:.2f} N loss of resistance felt at the plunger{needed}")
     if m.straightness is not None and m.lateral_deviation is not None:
         aside = m.lateral_deviation * 1e3
         typer.echo(f"  path {m.straightness:.2f} times the straight one, at most {aside:.1f} mm to the side")

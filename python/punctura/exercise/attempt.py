@@ -19,7 +19,7 @@ from punctura.exercise.limit import Limit, Moment, first_of, moment
 from punctura.exercise.limits import TimeJudge, limit_of
 from punctura.exercise.losses import felt_membranes
 from punctura.exercise.measures import Measures
-from punctura.exercise.plunger import PlungerJudge, need_syringe
+from punctura.exercise.plunger import PlungerJudge, judges_plunger, need_syringe
 from punctura.exercise.remark import Coaching
 from punctura.exercise.result import GoalState, Result, Status, unfelt
 from punctura.exercise.space import need_membranes, space_of
@@ -54,7 +54,13 @@ class Attempt:
         self._yields = Yields(self._space, asked_push(exercise.file))
         must = felt_membranes(exercise.file, scene)
         self._measures = Measures(
-            scene, self._geometry, self._space, _windows(self._limits), must, _after_yield(self._limits)
+            scene,
+            self._geometry,
+            self._space,
+            _windows(self._limits),
+            must,
+            _after_yield(self._limits),
+            judges_plunger(exercise.file),
         )
         self._coach = Coach(exercise.file, scene, self._space)
         self._finder = EventFinder(scene, scene.servo.rate)
@@ -152,7 +158,7 @@ class Attempt:
     def passed(self) -> bool:
         """Whether everything was achieved, no limit was missed or still being measured, and each loss of resistance
         that the exercise needs could be felt."""
-        return self._passed and not unfelt(self._measures.losses)
+        return self._passed and not unfelt(self._measures.losses, self._measures.yields)
 
     def _goals(self, ended: bool) -> list[GoalState]:
         complete = self._passed or (ended and not self.over and self._achieved)
@@ -213,7 +219,7 @@ class Attempt:
             now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
             return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
-            lost = unfelt(self._measures.losses)
+            lost = unfelt(self._measures.losses, self._measures.yields)
             blind = [one for one in self._limits if one.state(self._decision, True) == "not measured"]
             said = words.passed(self._achievements, self._measures, self._space, first)
             said += [words.not_measured(one, self._decision, first) for one in blind]

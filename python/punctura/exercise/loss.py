@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from punctura.exercise.result import Loss
+from punctura.exercise.result import FeltLoss
 
 # A person notices a change of about 7 % (X. D. Pang, H. Z. Tan, N. I. Durlach, Perception & Psychophysics, 1991,
 # forces of 2.5 to 10 N) to 10 % (index finger, 2 to 5 N) of a force. Below 1 N the needed drop stays that of 1 N, which
@@ -16,7 +16,7 @@ def needed_drop(before: float) -> float:
     return max(LEAST_NEEDED_N, NEEDED_SHARE * before)
 
 
-def remedy(loss: Loss) -> str:
+def remedy(loss: FeltLoss) -> str:
     """What makes the loss larger, as a sentence."""
     if loss.before == 0:
         return "The force was off: turn it on."

@@ -33,11 +33,13 @@ class Measures:
         windows: Mapping[int, float] | None = None,
         must: Collection[int] = (),
         after_yield: float = 1.0,
+        thumb_must: bool = False,
     ) -> None:
         """windows: by membrane, the time after a pop in which the overshoot is measured, s; default OVERSHOOT_S.
 
         must: the membranes whose loss of resistance must be felt.
         after_yield: the time after the plunger gives way in which the injected volume is measured, s.
+        thumb_must: whether a second device must show the plunger's loss of resistance.
         """
         self._windows = dict(windows or {})
         self._normal = geometry.normals[0]
@@ -48,7 +50,7 @@ class Measures:
         self.peak_felt_force = 0.0
         self._force_scale = 1.0
         self._losses = Losses(scene, must)
-        self._yields = YieldMeasures(after_yield)
+        self._yields = YieldMeasures(after_yield, thumb_must)
         self.first_touch: float | None = None
         self.arrival: float | None = None
         self.longest_stay = 0.0

@@ -14,9 +14,14 @@ from punctura.exercise.schema import ExerciseFile, FeelPlunger, StopPlunger
 from punctura.exercise.ticks import Ticks
 
 
+def judges_plunger(file: ExerciseFile) -> bool:
+    """Whether a goal judges the plunger."""
+    return any(isinstance(goal, FeelPlunger | StopPlunger) for goal in file.goal)
+
+
 def need_syringe(file: ExerciseFile, scene: Scene) -> None:
     """Raises ConfigurationError if a goal judges the plunger and the running scene has none."""
-    if scene.syringe is None and any(isinstance(goal, FeelPlunger | StopPlunger) for goal in file.goal):
+    if scene.syringe is None and judges_plunger(file):
         raise ConfigurationError(
             [Problem("scene", scene.name, "has no syringe, [syringe], whose plunger the exercise judges")]
         )

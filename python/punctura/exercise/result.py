@@ -50,18 +50,15 @@ class Overshoot(_Part):
     seconds: Finite = 0.3  # length of the measurement, from the membrane's stop_after_pop goal
 
 
-class Loss(_Part):
-    """The loss of resistance at a pop, as the hand got it. Forces are along the needle, N."""
+class FeltLoss(_Part):
+    """A loss of resistance, as a hand got it. Forces in N."""
 
-    membrane: int
-    name: str
-    time: Finite  # time of the pop, s
-    before: Finite  # felt force at the membrane's largest resistance, as far as the limits permitted it until the pop
-    after: Finite  # felt force at the pop
+    before: Finite  # felt force
+    after: Finite
     model_before: Finite  # model force at the same ticks
     model_after: Finite
     force_scale: Finite
-    needed: Finite | None  # smallest drop that counts as felt; None if the exercise does not need this pop to be felt
+    needed: Finite | None  # smallest drop that counts as felt; None if the exercise does not need it to be felt
 
     @property
     def drop(self) -> float:
@@ -79,10 +76,25 @@ class Loss(_Part):
         return f"{self.drop:.2f} N; {self.needed or 0:.2g} N needed"
 
 
-def unfelt(losses: Sequence[Loss]) -> list[Loss]:
-    """Of the losses that must be felt, those that cannot be felt: for each membrane its last pop counts."""
-    last = {loss.membrane: loss for loss in losses if loss.needed is not None}
-    return [loss for loss in last.values() if not loss.felt]
+class Loss(FeltLoss):
+    """The loss of resistance at a pop. Forces are along the needle.
+
+    before: at the membrane's largest resistance, as far as the limits permitted it until the pop. after: at the pop.
+    """
+
+    membrane: int
+    name: str
+    time: Finite  # time of the pop, s
+
+
+class PlungerLoss(FeltLoss):
+    """The loss of resistance at the plunger, from a second device. Forces are on the thumb.
+
+    before: in the last tick before the point came out behind the membrane. after: the least in the time of a hand's
+    reaction after the plunger gave way.
+    """
+
+    name: str = "plunger"
 
 
 class Yield(_Part):
@@ -91,8 +103,17 @@ class Yield(_Part):
     time: Finite  # s
     push: Finite  # of the thumb in the last tick before the point came out behind the membrane
     push_after: Finite | None = None  # the largest one later than a hand's reaction; None: not measured
+    loss: PlungerLoss | None = None  # None: no second device gave the thumb force, so it felt nothing
     injected: Finite  # m^3, in the seconds after it
     seconds: Finite  # length of the measurement, from the stop_plunger goal
+
+
+def unfelt(losses: Sequence[Loss], yields: Sequence[Yield] = ()) -> list[Loss | PlungerLoss]:
+    """Of the losses that must be felt, those that cannot be felt. For each membrane its last pop counts, and of the
+    plunger the last time that it gave way."""
+    last: dict[int, Loss | PlungerLoss] = {loss.membrane: loss for loss in losses if loss.needed is not None}
+    plunger = [one.loss for one in yields if one.loss is not None and one.loss.needed is not None]
+    return [loss for loss in [*last.values(), *plunger[-1:]] if not loss.felt]
 
 
 class Metrics(_Part):
@@ -149,9 +170,9 @@ class Result(_Part):
         return all(goal.state in ("met", "not measured") for goal in self.goals)
 
     @property
-    def unfelt(self) -> list[Loss]:
+    def unfelt(self) -> list[Loss | PlungerLoss]:
         """The losses of resistance that must be felt and that the device could not show."""
-        return unfelt(self.metrics.losses)
+        return unfelt(self.metrics.losses, self.metrics.yields)
 
     @property
     def verdict(self) -> str:

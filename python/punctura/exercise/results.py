@@ -26,7 +26,7 @@ COLUMNS = (
     "reasons", "entries", "peak_force_N", "peak_felt_force_N", "force_scale", "felt_drop_N",
     "largest_overshoot_mm", "dwell_s", "longest_stay_s", "path_length_mm", "net_distance_mm", "straightness",
     "lateral_deviation_mm", "entry_angle_deg", "time_to_target_s", "total_time_s", "lost_ticks", "force_cut_s",
-    "plunger_push_N", "injected_mL",
+    "plunger_push_N", "plunger_felt_drop_N", "injected_mL",
 )  # fmt: skip
 
 
@@ -147,6 +147,7 @@ def _row(result: Result) -> dict[str, object]:
         "lost_ticks": m.lost_ticks,
         "force_cut_s": sum(m.force_cut.values()),
         "plunger_push_N": m.yields[-1].push if m.yields else None,
+        "plunger_felt_drop_N": m.yields[-1].loss.drop if m.yields and m.yields[-1].loss else None,
         "injected_mL": max((one.injected * 1e6 for one in m.yields), default=None),
     }
 

@@ -33,6 +33,7 @@ class Ticks:
     ceiling: Numbers  # N, what all limits permit
     force_scale: Numbers  # how much of the model's force the device gives, before the limits
     push: Numbers  # N, the thumb on the syringe's plunger; NaN if unknown
+    push_felt: Numbers  # N, of it what a second device gave, after force scale and limits; 0 without one
     injected: Numbers  # m^3 that have left the syringe; NaN if unknown
     fault: NDArray[np.int64]
     limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
@@ -50,6 +51,7 @@ class Ticks:
     dwell: Numbers  # s in the space so far, in total
     # Yields fills them in.
     load: Numbers  # N, of the thumb when the point came out behind the membrane before the space; NaN in front of it
+    load_felt: Numbers  # N, the same of the felt force; NaN if no second device has given force yet
     gave_way: Flags  # the plunger gives way in this tick
 
     def __len__(self) -> int:
@@ -107,6 +109,7 @@ class Geometry:
             ceiling=np.asarray(columns["ceiling"], np.float64) if "ceiling" in columns else np.full(n, np.inf),
             force_scale=np.asarray(columns["force_scale"], np.float64) if "force_scale" in columns else np.ones(n),
             push=-np.asarray(columns["thumb_force"], np.float64) if "thumb_force" in columns else np.full(n, np.nan),
+            push_felt=-np.asarray(columns["thumb_felt"], np.float64) if "thumb_felt" in columns else np.zeros(n),
             injected=np.asarray(columns["injected"], np.float64) if "injected" in columns else np.full(n, np.nan),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
@@ -122,6 +125,7 @@ class Geometry:
             stay=np.zeros((n, 2)),
             dwell=np.zeros((n, 2)),
             load=np.full(n, np.nan),
+            load_felt=np.full(n, np.nan),
             gave_way=np.zeros(n, dtype=np.bool_),
         )
 

@@ -12,7 +12,7 @@ from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverP
 from punctura.exercise.loss import remedy
 from punctura.exercise.measures import Measures
 from punctura.exercise.plunger import PlungerJudge
-from punctura.exercise.result import GoalState, Loss
+from punctura.exercise.result import GoalState, Loss, PlungerLoss
 from punctura.exercise.schema import Space
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.stop import StopJudge
@@ -73,10 +73,11 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
     return f"Not measured: “{limit.text}”, because there was no contact with the {first}."
 
 
-def not_felt(loss: Loss) -> str:
+def not_felt(loss: Loss | PlungerLoss) -> str:
     """The reason why an attempt that achieved everything is not judged as passed."""
     return (
-        f"Not judged as passed: the device could not show the loss of resistance of the {loss.name} ({loss.figures}). "
+        f"Not judged as passed: the {'second ' if isinstance(loss, PlungerLoss) else ''}device could not show the loss "
+        f"of resistance of the {loss.name} ({loss.figures}). "
         f"{remedy(loss)}"
     )
 

@@ -1,10 +1,12 @@
-"""Measures what follows when the plunger gives way: the injected volume, and how long the thumb goes on pushing."""
+"""Measures what follows when the plunger gives way: the injected volume, how long the thumb goes on pushing, and how
+much of the loss of resistance it felt."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from punctura.exercise.result import Yield
+from punctura.exercise.loss import needed_drop
+from punctura.exercise.result import PlungerLoss, Yield
 from punctura.exercise.ticks import Ticks
 
 REACTION_S = 0.3  # a thumb reacts within it; illustrative
@@ -13,9 +15,9 @@ REACTION_S = 0.3  # a thumb reacts within it; illustrative
 class YieldMeasures:
     """Takes all ticks of an attempt, with `gave_way` filled in."""
 
-    def __init__(self, seconds: float) -> None:
-        """seconds: length of the measurement."""
-        self._seconds = seconds
+    def __init__(self, seconds: float, must: bool) -> None:
+        """seconds: length of the measurement. must: whether the thumb must feel the loss of resistance."""
+        self._seconds, self._must = seconds, must
         self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
         self.found: list[Yield] = []
 
@@ -23,7 +25,18 @@ class YieldMeasures:
         for row in np.flatnonzero(ticks.gave_way).tolist():
             self._volumes.append(float(ticks.injected[row]))
             time, push = float(ticks.time[row]), float(ticks.load[row])
-            self.found.append(Yield(time=time, push=push, injected=0.0, seconds=self._seconds))
+            loss = self._loss(ticks, row)
+            self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
+
+    def _loss(self, ticks: Ticks, row: int) -> PlungerLoss | None:
+        before, model = float(ticks.load_felt[row]), float(ticks.load[row])
+        if not np.isfinite(before):
+            return None
+        needed = needed_drop(before) if self._must else None
+        scale = float(ticks.force_scale[row])
+        return PlungerLoss(
+            before=before, after=before, model_before=model, model_after=model, force_scale=scale, needed=needed
+        )
 
     def settle(self, ticks: Ticks) -> None:
         for k, one in enumerate(self.found):
@@ -34,4 +47,10 @@ class YieldMeasures:
             late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
             pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
             update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
+            soon = ticks.push_felt[rows & (ticks.time <= one.time + REACTION_S)]
+            if one.loss is not None and len(soon):
+                model = float(ticks.push[rows & (ticks.time <= one.time + REACTION_S)].min())
+                least = {"after": min(one.loss.after, float(soon.min()))}
+                least["model_after"] = min(one.loss.model_after, model)
+                update["loss"] = one.loss.model_copy(update=least)
             self.found[k] = one.model_copy(update=update)

@@ -34,15 +34,20 @@ class Yields:
         self._behind, self._least = space.behind, push
         self._open = self._gave = False  # at the last tick; since the point came out behind the membrane
         self._load = self._push = self._injected = self._time = np.nan
+        self._load_felt = self._push_felt = np.nan
+        self._second = False  # whether a second device has given force
 
     def mark(self, ticks: Ticks) -> Ticks:
-        """Returns the ticks with `load` and `gave_way` filled in."""
+        """Returns the ticks with `load`, `load_felt` and `gave_way` filled in."""
         rows = np.arange(len(ticks))
         behind = ticks.inside[:, self._behind] & ticks.point_behind[:, self._behind]
         entering = behind & ~np.concatenate([[self._open], behind[:-1]])
         entry = np.maximum.accumulate(np.where(entering, rows, -1))
         pushes = np.concatenate([[self._push], ticks.push[:-1]])
         load = np.where(behind, np.where(entry >= 0, pushes[entry], self._load), np.nan)
+        second = self._second | np.logical_or.accumulate(ticks.push_felt != 0)
+        feels = np.concatenate([[self._push_felt], np.where(second, ticks.push_felt, np.nan)[:-1]])
+        load_felt = np.where(behind, np.where(entry >= 0, feels[entry], self._load_felt), np.nan)
 
         volume = np.diff(ticks.injected, prepend=self._injected)
         seconds = np.diff(ticks.time, prepend=self._time)
@@ -53,5 +58,7 @@ class Yields:
 
         self._open, self._gave = bool(behind[-1]), bool(gave[-1] | flows[-1])
         self._load, self._push = float(load[-1]), float(ticks.push[-1])
+        self._load_felt, self._second = float(load_felt[-1]), bool(second[-1])
+        self._push_felt = float(ticks.push_felt[-1]) if self._second else np.nan
         self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
-        return replace(ticks, load=load, gave_way=flows & ~gave)
+        return replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)

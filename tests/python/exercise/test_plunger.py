@@ -188,6 +188,35 @@ def test_an_unreasonable_number_or_unit_is_refused(tmp_path, wrong, path, reason
 
 def test_the_table_of_results_has_the_plunger():
     table = to_csv([attempted().finish()]).splitlines()
-    assert table[0].endswith("plunger_push_N,injected_mL")
-    push, injected = table[1].rsplit(",", 2)[1:]
-    assert 3 < float(push) < 4 and 0 < float(injected) < 1
+    assert table[0].endswith("plunger_push_N,plunger_felt_drop_N,injected_mL")
+    push, felt, injected = table[1].rsplit(",", 3)[1:]
+    assert 3 < float(push) < 4 and felt == "" and 0 < float(injected) < 1
+
+
+def with_second_device(scale):
+    columns = with_thumb(hand_run("epidural", LEGS), 30.0, 4.0, AT_ONCE)
+    return columns | {"thumb_felt": scale * columns["thumb_force"]}
+
+
+def test_a_loss_that_the_second_device_shows_is_measured_and_passes():
+    result = judged(load_exercise(NAME), with_second_device(0.5)).finish()
+    assert result.passed, result.reasons
+    (gave,) = result.metrics.yields
+    assert gave.loss.before == pytest.approx(0.5 * gave.push) and 0.5 < gave.loss.drop < gave.loss.before
+    assert gave.loss.needed == pytest.approx(0.1 * gave.loss.before)
+    assert float(to_csv([result]).splitlines()[1].rsplit(",", 2)[1]) == pytest.approx(gave.loss.drop, rel=1e-5)
+
+
+def test_a_loss_that_the_second_device_cannot_show_is_not_passed_and_says_why():
+    result = judged(load_exercise(NAME), with_second_device(0.03)).finish()
+    assert not result.passed and set(states(result).values()) == {"met"}
+    (gave,) = result.metrics.yields
+    assert 0.02 < gave.loss.drop < 0.1 == gave.loss.needed
+    told = "Not judged as passed: the second device could not show the loss of resistance of the plunger (0.0"
+    assert [reason for reason in result.reasons if reason.startswith(told)]
+    assert result.verdict.startswith("not judged as passed: the device could not show the loss of resistance (0.0")
+
+
+def test_the_felt_loss_does_not_depend_on_the_batches():
+    ends = [judged(load_exercise(NAME), with_second_device(0.5), cuts).finish() for cuts in (7, 100_000)]
+    assert ends[0].metrics.yields == ends[1].metrics.yields

@@ -109,14 +109,29 @@ export interface Remark {
   readonly text: string;
 }
 
-/** The loss of resistance at a pop, as the hand got it. N */
-export interface Loss {
-  readonly membrane: number;
-  readonly name: string;
+/** A loss of resistance, as the hand got it. N */
+export interface FeltLoss {
   readonly before: number;
   readonly after: number;
-  /** The smallest drop that counts as felt; null if the exercise does not need this pop to be felt. */
+  /** The smallest drop that counts as felt; null if the exercise does not need it to be felt. */
   readonly needed: number | null;
+}
+
+/** The loss of resistance at a pop. */
+export interface Loss extends FeltLoss {
+  readonly membrane: number;
+  readonly name: string;
+}
+
+/** The plunger of the syringe gave way under the thumb. */
+export interface Yield {
+  /** N, of the thumb, model force. */
+  readonly push: number;
+  /** m³ in `seconds` after it. */
+  readonly injected: number;
+  readonly seconds: number;
+  /** Null without a second device; missing in results of earlier versions. */
+  readonly loss?: FeltLoss | null;
 }
 
 export interface ExerciseMetrics {
@@ -135,13 +150,7 @@ export interface ExerciseMetrics {
     readonly seconds: number;
   }[];
   /** Each time that the plunger of the syringe gave way under the thumb; missing in results of earlier versions. */
-  readonly yields?: readonly {
-    /** N, of the thumb, model force. */
-    readonly push: number;
-    /** m³ in `seconds` after it. */
-    readonly injected: number;
-    readonly seconds: number;
-  }[];
+  readonly yields?: readonly Yield[];
   readonly dwell: number;
   readonly longest_stay: number;
   readonly path_length: number | null;

@@ -1,5 +1,5 @@
 import { element } from "../../panel.ts";
-import type { ExerciseResult, Loss } from "../../wire/files.ts";
+import type { ExerciseResult, FeltLoss, Loss, Yield } from "../../wire/files.ts";
 import type { ExerciseGoal } from "../../wire/messages.ts";
 
 const STATES = {
@@ -32,20 +32,24 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
 }
 
 /** The drop of the felt force, and how much of it a hand needs to feel it: "0.04 N; 0.1 N needed". */
-export const lossText = ({ before, after, needed }: Loss): string =>
+export const lossText = ({ before, after, needed }: FeltLoss): string =>
   `${(before - after).toFixed(2)} N; ${Number((needed ?? 0).toPrecision(2))} N needed`;
 
-/** Of the losses that must be felt, the smallest one that could not be; of each membrane the last pop counts. */
-export function unfelt(losses: readonly Loss[]): Loss | null {
+/**
+ * Of the losses that must be felt, the smallest one that could not be. Of each membrane its last pop counts, and of the
+ * plunger the last time that it gave way.
+ */
+export function unfelt(losses: readonly Loss[], yields: readonly Yield[] = []): FeltLoss | null {
   const last = new Map(losses.filter(({ needed }) => needed !== null).map((loss) => [loss.membrane, loss]));
-  const drop = ({ before, after }: Loss): number => before - after;
-  const lost = [...last.values()].filter((loss) => drop(loss) < loss.needed!);
+  const plunger = yields.flatMap(({ loss }) => (loss && loss.needed !== null ? [loss] : [])).slice(-1);
+  const drop = ({ before, after }: FeltLoss): number => before - after;
+  const lost = [...last.values(), ...plunger].filter((loss) => drop(loss) < loss.needed!);
   return lost.sort((a, b) => drop(a) - drop(b))[0] ?? null;
 }
 
 /** Passed, not passed, or not judged as passed. A pass tells if a goal was not measured. */
 export function verdict({ passed, goals, metrics }: Pick<ExerciseResult, "passed" | "goals" | "metrics">): string {
-  const lost = unfelt(metrics.losses ?? []);
+  const lost = unfelt(metrics.losses ?? [], metrics.yields ?? []);
   const achieved = goals.every(({ state }) => state === "met" || state === "not measured");
   if (!passed && achieved && lost)
     return `◐ not judged as passed: the device could not show the loss of resistance (${lossText(lost)})`;

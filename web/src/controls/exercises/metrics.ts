@@ -46,12 +46,21 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       value: millimetres(distance),
       help: `Distance that the tip moved on in the ${window} s after this pop.`,
     })),
-    ...(metrics.yields ?? []).flatMap(({ push, injected, seconds: window }) => [
+    ...(metrics.yields ?? []).flatMap(({ push, injected, seconds: window, loss }) => [
       {
         label: "Thumb when the plunger gave way",
         value: `${push.toFixed(2)} N`,
         help: "Model force of the thumb on the plunger, just before the point came into the space.",
       },
+      ...(loss
+        ? [
+            {
+              label: "Loss of resistance felt, plunger",
+              value: loss.needed === null ? `${(loss.before - loss.after).toFixed(2)} N` : lossText(loss),
+              help: "Drop of the force that the second device gave the thumb.",
+            },
+          ]
+        : []),
       {
         label: "Injected after it",
         value: `${(injected * 1e6).toFixed(1)} mL`,

@@ -37,6 +37,18 @@ test("of each membrane the last pop counts", () => {
   expect(unfelt([])).toBeNull();
 });
 
+test("the loss at the plunger must be felt as well, if a second device gave it", () => {
+  const gave = (drop: number | null, needed: number | null = 0.1) => ({
+    push: 4,
+    injected: 1e-6,
+    seconds: 1,
+    loss: drop === null ? null : { before: 1, after: 1 - drop, needed },
+  });
+  expect(unfelt([], [gave(null), gave(0.5), gave(0.01, null)])).toBeNull();
+  expect(unfelt([], [gave(0.04), gave(0.5)])).toBeNull(); // the last time counts
+  expect(unfelt([loss(1, 0.06)], [gave(0.04)])).toMatchObject({ before: 1 });
+});
+
 test("a goal that is neither met nor missed is not decided", () => {
   expect((["open", "met", "not measured"] as const).map(stateWord)).toEqual(["not decided", "met", "not measured"]);
 });
