@@ -160,6 +160,7 @@ def messages() -> dict[str, Any]:
         {"id": 13, "do": "check_exercise", "tables": {"title": "Mine"}},
         {"id": 14, "do": "try_exercise", "tables": {"title": "Mine"}, "person": "Ada", "group": ""},
         {"id": 15, "do": "save_exercise", "name": "mine", "tables": {"title": "Mine"}, "replace": False},
+        {"id": 23, "do": "open_exercise", "name": "mine", "file": "dGl0bGU=", "replace": False},
         {"id": 16, "do": "delete_exercise", "name": "mine"},
         {"id": 12, "do": "set_expert", "exercise": "venipuncture", "recording": "r"},
     ]  # fmt: skip

@@ -3,7 +3,7 @@
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.expected import cannot_show, expected_losses
-from punctura.exercise.load import exercise_names, exercise_of, exercises, load_exercise
+from punctura.exercise.load import exercise_names, exercise_of, exercise_of_bytes, exercises, load_exercise
 from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.result import GoalState, Loss, Metrics, Overshoot, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
@@ -28,6 +28,7 @@ __all__ = [
     "exercise_json_schema",
     "exercise_names",
     "exercise_of",
+    "exercise_of_bytes",
     "exercises",
     "expected_losses",
     "load_exercise",

@@ -11,10 +11,11 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.check import check_tables
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.tip import tip_warnings
-from punctura.files.toml import Tables, read_tables
+from punctura.files.toml import Tables, decoded, parse_toml, read_tables
 from punctura.scene import load_scene, scene_names
 
 _FOLDER = Path(__file__).parents[1] / "exercises"
+_A_SCENE = "is a scene file, not an exercise file: an exercise has a [space] and [[goal]] tables, and names its scene"
 
 
 def exercise_names() -> list[str]:
@@ -37,6 +38,7 @@ def load_exercise(name_or_path: str | os.PathLike[str]) -> Exercise:
     """Loads a ready exercise by its name, or a file. Raises ConfigurationError with all problems."""
     path = _path_of(name_or_path)
     tables = read_tables(path, "exercise", float)
+    _refuse_scene(tables, str(path))
     scene, scene_name, scene_problems = _scene_of(tables.get("scene"), path)
     file, problems = check_tables(tables, scene)
     problems += scene_problems
@@ -50,6 +52,7 @@ def exercise_of(tables: Tables, name: str) -> Exercise:
 
     It reads no file but that of the ready scene, so the tables may come from a page.
     """
+    _refuse_scene(tables, name)
     given = tables.get("scene")
     scene = None
     problems: list[Problem] = []
@@ -61,6 +64,18 @@ def exercise_of(tables: Tables, name: str) -> Exercise:
     if problems or more or file is None or scene is None:
         raise ConfigurationError(problems + more, name)
     return Exercise(name, Path(f"{name}.toml"), file, scene, str(given), tuple(tip_warnings(file, scene)))
+
+
+def exercise_of_bytes(data: bytes, name: str) -> Exercise:
+    """An exercise from the bytes of a file, with a ready scene. See exercise_of."""
+    path = Path(f"{name}.toml")
+    return exercise_of(parse_toml(decoded(data, path), path, float), name)
+
+
+def _refuse_scene(tables: Tables, source: str) -> None:
+    """One sentence in place of a problem for each table of a scene."""
+    if {"needle", "membrane"} & tables.keys() and not {"start", "space", "goal"} & tables.keys():
+        raise ConfigurationError([Problem("", MISSING, _A_SCENE)], source)
 
 
 def _path_of(name_or_path: str | os.PathLike[str]) -> Path:

@@ -41,16 +41,22 @@ def read_text(path: Path, what: str) -> str:
             data = file.read(MOST_BYTES + 1)
         if len(data) > MOST_BYTES:
             raise _error(path, f"is larger than {MOST_BYTES // 1024} KiB: no {what} needs that")
-        return data.decode("utf-8-sig")
+        return decoded(data, path)
     except FileNotFoundError:
         raise _error(path, "there is no such file") from None
     except IsADirectoryError:
         raise _error(path, f"is a folder, not {_file_of(what)}") from None
+    except OSError as bad:
+        raise _error(path, f"cannot be read: {bad.strerror}") from None
+
+
+def decoded(data: bytes, path: Path) -> str:
+    """The text of a TOML file's bytes, without a byte-order mark. path: for messages. Raises ConfigurationError."""
+    try:
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as bad:
         line = bad.object[: bad.start].count(b"\n") + 1
         raise _error(path, "is not UTF-8 text; save it as UTF-8", f"line {line}") from None
-    except OSError as bad:
-        raise _error(path, f"cannot be read: {bad.strerror}") from None
 
 
 def read_tables(path: Path, what: str, parse_float: Callable[[str], object] | None = None) -> Tables:

@@ -17,6 +17,7 @@ from punctura.studio.catalog import DRAFT
 from punctura.studio.exercise_activity import ExerciseActivity
 from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
 from punctura.studio.making import made_of, make
+from punctura.studio.own_exercises import NameExists
 from punctura.studio.recorded import motion_of
 from punctura.studio.session import Session
 from punctura.studio.wire import requests as ask
@@ -57,7 +58,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
             return _prepare_take(request, session)
         case ask.SetExpert():
             return _prepare_expert(request, session)
-        case ask.CheckExercise() | ask.SaveExercise() | ask.DeleteExercise():
+        case ask.CheckExercise() | ask.SaveExercise() | ask.OpenExercise() | ask.DeleteExercise():
             done = make(request, session.exercises)
             return lambda session: done
         case ask.TryExercise():
@@ -71,6 +72,8 @@ def refusal(number: int, error: Exception) -> Reply | None:
         count = len(error.problems)
         words = f"{count} problem{'s' if count != 1 else ''}"
         return Reply(id=number, ok=False, text=words, problems=problem_parts(error.problems))
+    if isinstance(error, NameExists):
+        return Reply(id=number, ok=False, text=str(error), data={"exists": 1})
     if isinstance(error, ValueError | RuntimeError | OSError):  # DeviceError, RecordingError, BadName are of these
         return Reply(id=number, ok=False, text=str(error))
     return None

@@ -10,7 +10,7 @@ MOST_BODY = 64_000  # of an HTTP request
 MOST_TRACE = 32_000_000  # of an HTTP request with the file of a trace
 MOST_TEXT = 64_000  # of a request on the socket
 MOST_OWN_EXERCISES = 100  # files of exercises that were made in the page
-MOST_SCENE_TEXT = 256_000  # of a request that carries a scene file, which has at most 200 000 characters
+MOST_SCENE_TEXT = 256_000  # of a request that carries a file: a scene has at most 200 000 characters
 MOST_BUFFERED = 65_536  # sent by the studio and not yet taken by the other end's kernel; above it, the sender waits
 MOST_PONGS = 4_096  # the same; above it, a ping gets no answer
 

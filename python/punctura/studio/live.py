@@ -18,7 +18,7 @@ from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import LoadText, NumberedRequest, Pause, TakeControl, Target
+from punctura.studio.wire.requests import LoadText, NumberedRequest, OpenExercise, Pause, TakeControl, Target
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
@@ -104,7 +104,7 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
         request = parse_request(text)
     except ValidationError as error:
         return _not_understood(text, error)
-    if len(text) > MOST_TEXT and not isinstance(request, LoadText):
+    if len(text) > MOST_TEXT and not isinstance(request, LoadText | OpenExercise):
         raise Closed("The request is too large.")
     if isinstance(request, Target):
         if hub.holder == viewer.number:

@@ -12,6 +12,10 @@ from punctura.studio.limits import MOST_OWN_EXERCISES, MOST_TEXT
 from punctura.studio.names import BadName, safe_name
 
 
+class NameExists(ValueError):
+    """There is an exercise of this name, which the page may replace."""
+
+
 class OwnExercises:
     """Usable from any thread. Links are not followed; files with other names than a page could give are left alone."""
 
@@ -33,16 +37,20 @@ class OwnExercises:
 
     def save(self, name: str, exercise: Exercise, replace: bool) -> Path:
         """Saves an exercise under a name that no other kind of exercise has. Raises ValueError, OSError."""
-        path = self.folder / f"{safe_name(name)}.toml"
-        if path.is_symlink():
-            raise ValueError(f"{name} is a link; choose another name")
         text = exercise_text(exercise.file).encode("utf-8")
         if len(text) > MOST_TEXT:
             raise ValueError(f"the file is larger than {MOST_TEXT} bytes")
+        return self.keep(name, text, replace)
+
+    def keep(self, name: str, text: bytes, replace: bool) -> Path:
+        """The same with the text of a file, which was checked before."""
+        path = self.folder / f"{safe_name(name)}.toml"
+        if path.is_symlink():
+            raise ValueError(f"{name} is a link; choose another name")
         with self._lock:
             known = self.files()
             if not replace and (path.exists() or path.stem in known):
-                raise ValueError(f"there is an exercise {name} already; choose another name, or replace it")
+                raise NameExists(f"there is an exercise {name} already; choose another name, or replace it")
             if path.stem not in known and len(known) >= MOST_OWN_EXERCISES:
                 raise ValueError(f"there are {len(known)} of at most {MOST_OWN_EXERCISES} exercises; delete one first")
             self.folder.mkdir(0o700, parents=True, exist_ok=True)

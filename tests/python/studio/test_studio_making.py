@@ -1,14 +1,18 @@
 """Exercises that are made in the page: checked by the code of files, kept in one folder, and in no other place."""
 
+import base64
 import threading
 
 import pytest
 from punctura._core import ForceLimits
+from punctura.errors import ConfigurationError
 from punctura.exercise import exercise_names, exercise_of, load_exercise
 from punctura.exercise.text import exercise_text
+from punctura.scene import scene_path
 from punctura.studio import catalog
 from punctura.studio.catalog import Exercises
-from punctura.studio.limits import MOST_OWN_EXERCISES
+from punctura.studio.client import StudioClient
+from punctura.studio.limits import MOST_OWN_EXERCISES, MOST_TEXT
 from punctura.studio.own_exercises import OwnExercises
 
 TABLES = {
@@ -127,3 +131,79 @@ def test_the_ready_scenes_come_with_their_membranes(page):
     scenes = {scene["name"]: scene for scene in page.json("/api/scenes")}
     assert [membrane["name"] for membrane in scenes["k06-fig12"]["membranes"]] == ["first membrane", "second membrane"]
     assert scenes["k06-fig12"]["tip_length"] == pytest.approx(3.76e-3, abs=1e-5)
+
+
+def sent(text, name="mine", **more):
+    data = text if isinstance(text, bytes) else text.encode("utf-8")
+    return {"do": "open_exercise", "name": name, "file": base64.b64encode(data).decode(), **more}
+
+
+TEXT = "# From the course of spring.\n" + exercise_text(exercise_of(TABLES, "mine").file)
+
+
+def test_a_file_is_opened_kept_as_it_is_listed_and_started(page, served):
+    opened = page.ask(**sent(TEXT))
+    assert opened["ok"] and opened["data"] == {"name": "mine"}, opened
+    path = served.session.shelf.folder / "exercises" / "mine.toml"
+    assert path.read_text(encoding="utf-8") == TEXT  # with its comments
+    entry = page.json("/api/exercises")[0]
+    assert (entry["name"], entry["title"], entry["made"], entry["problems"]) == ("mine", TABLES["title"], True, [])
+    assert page.ask(do="start_exercise", exercise="mine")["ok"]
+    page.wait(lambda: page.of("exercise")[-1]["running"])
+    assert page.ask(do="end_exercise")["ok"]
+
+
+def test_a_name_that_exists_is_replaced_only_if_the_page_says_so(page, served):
+    assert page.ask(**sent(TEXT))["ok"]
+    refused = page.ask(**sent(TEXT.replace("spring", "autumn")))
+    assert not refused["ok"] and refused["data"] == {"exists": 1} and "replace it" in refused["text"]
+    path = served.session.shelf.folder / "exercises" / "mine.toml"
+    assert "spring" in path.read_text(encoding="utf-8")
+    assert page.ask(**sent(TEXT.replace("spring", "autumn"), replace=True))["ok"]
+    assert "autumn" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("data", "places", "reason"),
+    [
+        (b"title = ", [""], "is not TOML"),
+        (b"\xff\xfetitle", [""], "is not UTF-8 text; save it as UTF-8"),
+        (b"\0\0\0", [""], "is not TOML"),
+        (b"a = " + b"[" * 5000, [""], "nested"),
+        (scene_path("k06-fig12").read_bytes(), [""], "is a scene file, not an exercise file"),
+        (TEXT.encode() + b"# " + b"x" * MOST_TEXT, [""], "is larger than 64 kB: no exercise needs that"),
+        (b"", ["title", "start", "space", "goal"], "is missing"),
+        (TEXT.replace("2.5", "-1").encode(), ["goal[1].seconds"], "must be at least 0.01 s"),
+        (TEXT.replace("[0, 5, 0]", "[0.0, 5.0, 0.0]").replace("5.0", "9" * 500).encode(), ["start.position_mm"], ""),
+        (TEXT.replace('"venipuncture"', '"../x.toml"').encode(), ["scene"], "must be one of the ready scenes"),
+    ],
+)
+def test_a_bad_file_is_refused_with_the_words_of_the_command(page, served, tmp_path, data, places, reason):
+    refused = page.ask(**sent(data))
+    assert not refused["ok"] and not (served.session.shelf.folder / "exercises").exists()
+    told = {problem["path"]: problem["reason"] for problem in refused["problems"]}
+    assert all(any(path.startswith(place) for path in told) for place in places), told
+    assert any(reason in why for why in told.values()), told
+    if "64 kB" in reason or "ready scenes" in reason:
+        return  # the command takes up to 256 KiB, and scene files beside the exercise
+    path = tmp_path / "mine.toml"
+    path.write_bytes(data)
+    with pytest.raises(ConfigurationError) as bad:
+        load_exercise(path)
+    assert {problem.reason for problem in bad.value.problems} == set(told.values())
+
+
+@pytest.mark.parametrize("name", ["../mine", "a/b", "c:\\mine", ".hidden", "con", "venipuncture", "draft"])
+def test_an_opened_file_cannot_leave_the_folder_or_hide_another_exercise(page, served, name):
+    for replace in (False, True):
+        refused = page.ask(**sent(TEXT, name, replace=replace))
+        assert not refused["ok"] and not refused["data"] and "name" in refused["text"]
+    assert not list(served.session.shelf.folder.rglob("*.toml"))
+
+
+def test_what_is_no_base64_is_refused_and_a_page_without_control_opens_nothing(page, served):
+    assert "base64" in page.ask(do="open_exercise", name="mine", file="%%%")["text"]
+    with StudioClient(served.address.url) as viewer:
+        viewer.wait(lambda: viewer.of("control"))
+        assert "control" in viewer.ask(**sent(TEXT))["text"]
+    assert not (served.session.shelf.folder / "exercises").exists()

@@ -7,6 +7,7 @@ import { sentence } from "./editor/problems.ts";
 import { expertChoice } from "./exercises/expert.ts";
 import { goalList } from "./exercises/goals.ts";
 import { exerciseMaker } from "./exercises/maker/maker.ts";
+import { openPart } from "./exercises/open.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personFields } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
@@ -44,6 +45,12 @@ export const exercisesPanel: Panel = (host, app) => {
   const showTitle = taskBar(task, app, titleOf);
   document.getElementById("app")?.append(task);
   const maker = exerciseMaker(app, person, () => readList());
+  const opening = openPart(app, async (name) => {
+    await readList();
+    const start = list.querySelector<HTMLElement>(`[data-exercise="${CSS.escape(name)}"] header button`);
+    start?.scrollIntoView({ block: "nearest" });
+    start?.focus();
+  });
   const list = element("fieldset", { class: "exercise-list" });
   host.append(
     element(
@@ -53,6 +60,7 @@ export const exercisesPanel: Panel = (host, app) => {
       ...personFields(person),
     ),
     list,
+    opening,
     maker,
     past.root,
   );
@@ -85,6 +93,11 @@ export const exercisesPanel: Panel = (host, app) => {
     await readList();
     await past.show(person);
   });
+  let mine = true;
+  app.control.watch(({ you }) => {
+    if (you && !mine && app.connection.value.state === "open") void readList(); // another page may have opened a file
+    mine = you;
+  });
   for (const word of [person.name, person.group])
     word.watch(() => {
       if (app.connection.value.state === "open") void past.show(person);
@@ -97,6 +110,7 @@ export const exercisesPanel: Panel = (host, app) => {
     showGoal(app, of);
     list.hidden = status?.running ?? false;
     maker.hidden = list.hidden;
+    opening.hidden = list.hidden;
     const ended = running && status !== null && !status.running;
     const begun = !running && (status?.running ?? false);
     running = status?.running ?? false;
@@ -136,7 +150,7 @@ function card(
   const wrong = exercise.problems.length > 0;
   return element(
     "article",
-    { class: "exercise" },
+    { class: "exercise", "data-exercise": exercise.name },
     element(
       "header",
       {},

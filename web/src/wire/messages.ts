@@ -35,6 +35,7 @@ export type Request =
   | CheckExercise
   | TryExercise
   | SaveExercise
+  | OpenExercise
   | DeleteExercise
   | TripFault;
 export type IdentifyLine = FileLine | StepLine | TraceLine | FitLine | RivalsLine | ReportLine | ErrorLine;
@@ -515,7 +516,17 @@ export interface SaveExercise {
   replace?: boolean;
 }
 /**
- * Deletes an exercise that was saved by the page.
+ * Checks an exercise file of the page's computer, and keeps it in the user's folder of exercises as it is.
+ */
+export interface OpenExercise {
+  id: number;
+  do: "open_exercise";
+  name: string;
+  file: string;
+  replace?: boolean;
+}
+/**
+ * Deletes an exercise that was saved or opened by the page.
  */
 export interface DeleteExercise {
   id: number;

@@ -51,6 +51,7 @@ it("has one of each kind of message and request that the page has a type for", (
     check_exercise: true,
     try_exercise: true,
     save_exercise: true,
+    open_exercise: true,
     delete_exercise: true,
     end_exercise: true, trip_fault: true,
   }; // biome-ignore format: a table

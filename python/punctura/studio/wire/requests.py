@@ -156,8 +156,17 @@ class SaveExercise(_Request):
     replace: bool = False
 
 
+class OpenExercise(_Request):
+    """Checks an exercise file of the page's computer, and keeps it in the user's folder of exercises as it is."""
+
+    do: Literal["open_exercise"] = "open_exercise"
+    name: Name  # of the file, without its ending
+    file: Annotated[str, Field(max_length=200_000)]  # the bytes in base64: the studio itself tells what is no text
+    replace: bool = False
+
+
 class DeleteExercise(_Request):
-    """Deletes an exercise that was saved by the page."""
+    """Deletes an exercise that was saved or opened by the page."""
 
     do: Literal["delete_exercise"] = "delete_exercise"
     name: Name
@@ -176,12 +185,12 @@ class TripFault(_Request):
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault
+    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | DeleteExercise | TripFault,
+    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
 

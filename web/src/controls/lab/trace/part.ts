@@ -1,14 +1,23 @@
 import { element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
+import { dropZone, type Kind } from "../../drop_zone.ts";
 import { wordsOf } from "../../recordings/library.ts";
-import { dropZone } from "./drop_zone.ts";
 import { type Form, questions } from "./form.ts";
 import { type Answers, FieldError, identify, lookAt, refusalOf } from "./job.ts";
 import { traceDialog } from "./result.ts";
 
+const TRACE: Kind = {
+  label: "File of a trace",
+  button: "Choose a file…",
+  accept: ".csv,.txt,.tsv,.parquet,.mat,.xlsx",
+  help: "Force against depth as CSV, Parquet, XLSX or MAT, or a recording of Punctura; at most 32 MB.",
+  takes: (name) => !/\.toml$/i.test(name), // that is an exercise
+  tab: "lab",
+};
+
 /** "Identify a measured trace": a file is dropped, looked at, asked about and identified. */
 export function tracePart(app: App): HTMLElement {
-  const zone = dropZone((file) => void look(file));
+  const zone = dropZone(TRACE, (file) => void look(file));
   const bar = element("progress", { "aria-label": "Progress of the identification" });
   const step = element("span", { class: "quiet" });
   const cancel = element("button", { type: "button", class: "small" }, "Cancel");
