@@ -2,71 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import islice
-
-import numpy as np
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from punctura import Needle
-from punctura.identify.contacts_moved import with_contacts_moved
-from punctura.identify.criteria import Candidate, Rule, candidate
-from punctura.identify.fit import Misfit, Start, best_fit
-from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
-from punctura.identify.pops_moved import noise_limit, with_pops_moved
-from punctura.identify.rises import rise_starts
-from punctura.identify.start import starts
+from punctura.identify.all_extensions import from_all
+from punctura.identify.criteria import Candidate
+from punctura.identify.fit import Start
+from punctura.identify.hops import GAIN, with_hops
+from punctura.identify.model import ONE_TISSUE, Model, extensions
+from punctura.identify.parameters import Parameters
+from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
-from punctura.trace import Segments, Trace, TraceError
+from punctura.trace import Segments, Trace
 
-SEARCHED = 600  # samples of a search; the last fit uses all
+SETTLED = 2  # better optima of the chosen model, found by hops, at most
 PASSES = 3  # over the extensions, at most: one may be worth it only after another
 WHITE = 0.8  # of the samples are independent: the residuals have no shape, so no wall is missing
 
 
-def thinned(trace: Trace) -> Trace:
-    """At most SEARCHED samples, evenly taken."""
-    return trace[:: max(1, -(-len(trace) // SEARCHED))]
-
-
 @dataclass(eq=False)
-class _Search:
-    """What all fits of a trace share, and all candidates so far."""
+class Choice:
+    """All models that were tried for a trace. docs/identify.md has the rule.
 
-    trace: Trace
-    segments: Segments
-    needle: Needle
-    tell: Callable[[str], None]
-    rule: Rule = field(init=False)
-    tried: list[Candidate] = field(default_factory=list)
+    most: if given, one membrane fewer and one more (up to this number) are tried, too.
+    """
 
-    def __post_init__(self) -> None:
-        self.rule = Rule(self.trace, self.segments)
+    search: Search
+    plain: Candidate  # K06 itself
+    current: Candidate  # the chosen model
+    most: int | None
 
-    def fitted(self, name: str, model: Model, from_these: Sequence[Start]) -> Candidate | None:
-        """The model's best fit from any of these; None if none ends."""
-        self.tell(name)
-        misfit = self.tried[0].fit.misfit if self.tried else Misfit(self.trace, from_these[0].parameters)
-        enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
-        try:
-            best = with_pops_moved(best_fit(misfit, model.names, from_these, enough))
-            found = candidate(name, model, with_contacts_moved(best))
-        except TraceError:
-            if not self.tried:
-                raise
-            return None
-        self.tried.append(found)
-        return found
+    @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """The chosen model first; it and K06 have a held-out error."""
+        rule = self.search.rule
+        told = {one: rule.held_out_error(one) for one in (self.current, self.plain)}
+        rest = [one for one in self.search.tried if one is not self.current]
+        return tuple(replace(one, held_out=told.get(one)) for one in (self.current, *rest))
 
-    def starts(self, membranes: int, curved: bool, most: int) -> list[Start]:
-        """Start values of K06, or of a curved grip, for this number of walls: those with the least errors."""
-        walls = starts(self.trace, self.segments, self.needle, membranes, curved)
-        found = list(islice(walls, most) if curved else walls)
-        if membranes > 1:
-            found += islice(rise_starts(self.trace, self.segments, self.needle, membranes, curved), most)
-        misfit = Misfit(self.trace, found[0])
-        found.sort(key=lambda p: float(np.sum((misfit.forces(p) - self.trace.force) ** 2)))
-        return [Start(parameters, blurred=True) for parameters in found[:most]]
+    def settle(self) -> None:
+        """Chooses a model, and again as long as hops find a better optimum of the chosen one."""
+        self.extend()
+        for _ in range(SETTLED):
+            hopped = with_hops(self.current.fit)
+            if not hopped.sse < (1 - GAIN) * self.current.fit.sse:
+                break
+            self.again(hopped.parameters)
+
+    def extend(self) -> None:
+        """Chooses extensions of the current model and its number of membranes."""
+        current = from_all(self.search, _extended(self.search, self.current))
+        if current.model.membranes > 1 and not current.model.one_tissue:
+            tied = _of_one_tissue(self.search, current)
+            if tied is not current:
+                current = _extended(self.search, tied)
+        self.current = current if self.most is None else _other_number(self.search, current, self.most)
+
+    def again(self, better: Parameters) -> None:
+        """Chooses again from a better optimum of the chosen model.
+
+        Fits of larger models began at the lesser optimum, so they count no longer. Where the search uses only some of
+        the samples, the optimum may be better only with all of them: then the choice stays.
+        """
+        old, search = self.current, self.search
+        new = search.fitted(old.name, old.model, [Start(better)])
+        if new is None or not new.fit.sse < old.fit.sse:
+            search.tried = [one for one in search.tried if one is not new]
+            return
+        more = set(old.model.names)
+        search.tried = [
+            new if one is old else one for one in search.tried
+            if one is not new and not more < set(one.model.names)
+        ]  # fmt: skip
+        self.plain = new if self.plain is old else self.plain
+        self.current = new
+        self.extend()
 
 
 def choose(
@@ -77,33 +88,23 @@ def choose(
     tell: Callable[[str], None] = lambda _: None,
     *,
     most: int | None = None,
-) -> tuple[Candidate, ...]:
-    """All models that were tried, the chosen one first. docs/identify.md has the rule.
-
-    most: if given, one membrane fewer and one more (up to this number) are tried, too.
-    """
-    search = _Search(trace, segments, needle, tell)
+) -> Choice:
+    """Tries the models that this trace may ask for, and chooses one."""
+    search = Search(trace, segments, needle, tell)
     drift = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
     plain = search.fitted("K06", Model(membranes, drift=drift), search.starts(membranes, False, 3))
     assert plain is not None
-    current = _extended(search, plain)
-    if membranes > 1:
-        tied = _of_one_tissue(search, current)
-        if tied is not current:
-            current = _extended(search, tied)
-    if most is not None:
-        current = _other_number(search, current, most)
-    told = {current: search.rule.held_out_error(current), plain: search.rule.held_out_error(plain)}
-    rest = [c for c in search.tried if c is not current]
-    return tuple(replace(c, held_out=told.get(c)) for c in (current, *rest))
+    choice = Choice(search, plain, plain, most)
+    choice.settle()
+    return choice
 
 
-def _extended(search: _Search, current: Candidate) -> Candidate:
+def _extended(search: Search, current: Candidate) -> Candidate:
     """Adds extensions, one after the other, as long as one is worth it."""
     for _ in range(PASSES):
         before = current
         for extension in extensions(search.needle):
-            if not _seen(search.segments, extension, current.model):
+            if not seen(search.segments, extension, current.model):
                 continue
             model = current.model.extended(extension)
             if any(one.model == model for one in search.tried):
@@ -121,18 +122,7 @@ def _extended(search: _Search, current: Candidate) -> Candidate:
     return current
 
 
-def _seen(segments: Segments, extension: Extension, model: Model) -> bool:
-    """Whether the trace can show an extension that the model has not yet."""
-    return not (
-        all(name in model.names for name in extension.start)
-        or (extension.needs_hold and not segments.holds)
-        or (extension.needs_withdrawal and not any(stroke.kind == "out" for stroke in segments.strokes))
-        or segments.insertions < extension.needs_insertions
-        or (extension.after and extension.after not in model.words)
-    )
-
-
-def _of_one_tissue(search: _Search, current: Candidate) -> Candidate:
+def _of_one_tissue(search: Search, current: Candidate) -> Candidate:
     """The same model with one stiffness, friction and thickness for all walls, if the rule prefers it."""
     model = replace(current.model, one_tissue=True)
     from_these = [Start(model.start(current.fit.parameters), blurred=True)]
@@ -143,7 +133,7 @@ def _of_one_tissue(search: _Search, current: Candidate) -> Candidate:
     return found if found is not None and search.rule.prefers(found, current) else current
 
 
-def _other_number(search: _Search, current: Candidate, most: int) -> Candidate:
+def _other_number(search: Search, current: Candidate, most: int) -> Candidate:
     """One membrane fewer, and one more where the residuals still have a shape: the rule decides."""
     count, best = current.model.membranes, current
     if count > 1:

@@ -134,6 +134,17 @@ def fit(
     return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
 
 
+def shortly(misfit: Misfit, free: Free, u: Array, evaluations: int, limit: float) -> Fit | None:
+    """The fit from the coordinates u; None if its sum of squares is above `limit`, N^2, after some evaluations.
+
+    Raises TraceError, as fit() does.
+    """
+    u, _, message = _search(misfit, free, u, 0, evaluations)
+    if message and _cost(misfit, free, u) > limit:
+        return None
+    return fit(misfit, free.names, free.parameters(u))
+
+
 def _cost(misfit: Misfit, free: Free, u: Array) -> float:
     left = misfit.residuals(free, u)
     return float(left @ left)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from punctura import Needle, Scene
-from punctura.identify.choose import choose, thinned
+from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit
@@ -19,12 +19,19 @@ from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.records import IdentificationRecord
 from punctura.identify.scene import scene_of
+from punctura.identify.search import thinned
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
+from punctura.identify.watch import BetterPoint
 from punctura.one_thread import one_thread
 from punctura.trace import Segments, Trace, TraceError, segment
 
 MOST_MEMBRANES = 6
+BETTER_OPTIMA = 5  # that the intervals may meet, each one better than the one before; then they end as they are
+MORE_OPTIMA = (
+    f"The search for the intervals met {BETTER_OPTIMA} better optima, one after the other, and there may be more. Do "
+    "not trust the values: the trace holds too little for so many parameters, or the model is wrong."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,18 +121,37 @@ def _identified(
     few = thinned(trace)
     all_used = len(few) == len(trace)
     count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
-    candidates = choose(few, segments if all_used else segment(few), needle, count, tell, most=most)
-    final = few_fit = candidates[0].fit
-    if not all_used:
-        tell("all samples")
-        # Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
-        ends = [Start(parameters) for parameters in (final.parameters, *final.others)]
-        final = with_contacts_moved(with_pops_moved(best_fit(Misfit(trace, final.parameters), final.free.names, ends)))
-    tell("intervals")
-    found = estimates(final, (few_fit.parameters, *few_fit.others))
+    choice = choose(few, segments if all_used else segment(few), needle, count, tell, most=most)
+    found: tuple[Estimate, ...] | None = None
+    better: list[Parameters] = []
+    while found is None:
+        few_fit = final = choice.current.fit
+        if not all_used:
+            tell("all samples")
+            final = _with_all_samples(trace, few_fit, better)
+        tell("intervals")
+        try:
+            found = estimates(final, (few_fit.parameters, *few_fit.others), stops=len(better) < BETTER_OPTIMA)
+        except BetterPoint as point:
+            tell("a better optimum")
+            better.append(point.parameters)
+            choice.again(point.parameters)
     effective = effective_samples(final.residuals, len(final.u))
     said = verdicts(found, trace, segments, few_fit)
-    return Identification(trace, segments, final, found, said, candidates, effective)
+    if len(better) == BETTER_OPTIMA:
+        said = (*said, MORE_OPTIMA)
+    return Identification(trace, segments, final, found, said, choice.candidates, effective)
+
+
+def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:
+    """The fit of all samples. better: points that are better than such a fit was.
+
+    Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
+    """
+    misfit = Misfit(trace, few.parameters)
+    own = [one for one in better if len(one.membranes) == len(few.parameters.membranes)]
+    ends = [Start(parameters) for parameters in (few.parameters, *few.others, *own)]
+    return with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends)))
 
 
 def _pops(trace: Trace, segments: Segments) -> int:

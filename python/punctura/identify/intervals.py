@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from punctura.identify.parameters import UNITS, Parameters, kind_of
 from punctura.identify.profile import bound
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95, Uncertainty
+from punctura.identify.watch import Watch
 from punctura.trace import TraceError
 
 Array = NDArray[np.float64]
@@ -41,40 +43,45 @@ class Estimate:
         return self.high < 10 * max(self.low, 0.02 * self.high)
 
 
-def estimates(fit: Fit, others: Sequence[Parameters] = ()) -> tuple[Estimate, ...]:
+def estimates(fit: Fit, others: Sequence[Parameters] = (), stops: bool = True) -> tuple[Estimate, ...]:
     """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one. A
     surface that can be farther away than the trace is long has no bounds.
 
     others: ends of other searches. One that explains the trace nearly as well as the fit has an interval of its own,
-    and each estimate's interval reaches over all of them.
+    and each estimate's interval reaches over all of them. stops: raises BetterPoint where a search meets one.
     """
+    watch = Watch(fit, stops)
     main = Uncertainty(fit)
-    modes = [main, *_modes(main, others)]
+    modes = [main, *_modes(main, others, watch)]
     found = []
     values = fit.free.values(fit.u)
     for j, name in enumerate(fit.free.names):
-        bounds = [_bounds(mode, j, mode.fit.sse - fit.sse) for mode in modes]
+        bounds = [_bounds(mode, j, mode.fit.sse - fit.sse, watch) for mode in modes]
         lows, highs = [low for low, _ in bounds], [high for _, high in bounds]
         low = None if None in lows else min(low for low in lows if low is not None)
         high = None if None in highs else max(high for high in highs if high is not None)
         found.append(Estimate(name, float(values[j]), low, high, UNITS[kind_of(name)]))
     if all(estimate.identifiable for estimate in found):
         return tuple(found)
-    return tuple(_searched_again(main, j, estimate, others) for j, estimate in enumerate(found))
+    return tuple(_searched_again(main, j, estimate, others, watch) for j, estimate in enumerate(found))
 
 
-def _searched_again(main: Uncertainty, j: int, estimate: Estimate, others: Sequence[Parameters]) -> Estimate:
+def _searched_again(
+    main: Uncertainty, j: int, estimate: Estimate, others: Sequence[Parameters], watch: Watch
+) -> Estimate:
     """The estimate with bounds moved outwards as long as a full search for the other parameters fits there as well.
 
     Where some parameters cannot be told, the others follow a long, curved valley, which few steps do not follow.
     """
     if not estimate.identifiable or kind_of(estimate.name) in ("surface", "offset", "drift"):
         return estimate
-    low, high = (_outwards(main, j, edge, others) for edge in (estimate.low, estimate.high))
+    low, high = (_outwards(main, j, edge, others, watch) for edge in (estimate.low, estimate.high))
     return replace(estimate, low=low, high=high)
 
 
-def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[Parameters]) -> float | None:
+def _outwards(
+    main: Uncertainty, j: int, value: float | None, others: Sequence[Parameters], watch: Watch
+) -> float | None:
     fit, free = main.fit, main.fit.free
     if value is None:
         return None
@@ -82,13 +89,16 @@ def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[P
     names = [name for name in free.names if name != free.names[j]]
     at = float(np.log(value)) if free.logarithmic(j) else value
     last = fit.parameters
+    # Other grips explain a rise that the trace leaves unfinished; of several walls that pop, they are no use.
+    several = len(fit.parameters.membranes) > 1 and len(free.walls) == len(fit.parameters.membranes)
     for _ in range(SEARCHES):
         value = float(np.exp(at) if free.logarithmic(j) else at)
-        for start in (last, *others, *other_grips(last)):
+        for start in (last, *others, *(() if several else other_grips(last))):
             try:
                 end = fitted(fit.misfit, names, start.with_values({free.names[j]: value}), evaluations=60)
             except TraceError:
                 continue
+            watch.met(end.sse, partial(_parameters, end))
             if end.sse - fit.sse <= limit:
                 break
         else:
@@ -100,7 +110,11 @@ def _outwards(main: Uncertainty, j: int, value: float | None, others: Sequence[P
     return None
 
 
-def _modes(main: Uncertainty, others: Sequence[Parameters]) -> Iterator[Uncertainty]:
+def _parameters(end: Fit) -> Parameters:
+    return end.parameters
+
+
+def _modes(main: Uncertainty, others: Sequence[Parameters], watch: Watch) -> Iterator[Uncertainty]:
     """Other optima within the confidence region: far from the fit, and with nearly its sum of squares."""
     seen = [main.fit.u]
     errors = np.sqrt(np.diag(main.covariance))
@@ -110,12 +124,13 @@ def _modes(main: Uncertainty, others: Sequence[Parameters]) -> Iterator[Uncertai
             found = fitted(main.fit.misfit, main.fit.free.names, other)
         except TraceError:
             continue
+        watch.met(found.sse, partial(_parameters, found))
         if found.sse - main.fit.sse < limit and all(np.any(np.abs(found.u - u) > errors) for u in seen):
             seen.append(found.u)
             yield Uncertainty(found)
 
 
-def _bounds(uncertainty: Uncertainty, j: int, used: float) -> tuple[float | None, float | None]:
+def _bounds(uncertainty: Uncertainty, j: int, used: float, watch: Watch) -> tuple[float | None, float | None]:
     """The interval of parameter j at one optimum, whose sum of squares is `used` (N^2) above that of the best one."""
     fit = uncertainty.fit
     if kind_of(fit.free.names[j]) == "surface":
@@ -125,4 +140,4 @@ def _bounds(uncertainty: Uncertainty, j: int, used: float) -> tuple[float | None
         if spread > float(np.ptp(fit.misfit.trace.depth)):
             return None, None
         return value - spread, value + spread
-    return bound(uncertainty, j, -1, used), bound(uncertainty, j, 1, used)
+    return bound(uncertainty, j, -1, used, watch), bound(uncertainty, j, 1, used, watch)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from punctura import Needle
-from punctura.identify.parameters import Parameters
+from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters, default_coupling, default_membrane, kind_of
 
 OWN = ("surface", "stiffness", "precompression", "friction", "thickness")  # each membrane's own
 SHARED = ("stiffness", "friction", "thickness")  # of all membranes of one tissue
@@ -86,6 +86,21 @@ class Model:
     def extended(self, extension: Extension) -> Model:
         """With one extension more."""
         return replace(self, extensions=(*self.extensions, extension))
+
+    def without(self, extension: Extension) -> Model:
+        """With one extension less, and without those that need it."""
+        kept = [one for one in self.extensions if extension.name not in (one.name, one.after)]
+        return replace(self, extensions=tuple(kept))
+
+    def switched_off(self, parameters: Parameters) -> Parameters:
+        """Parameters in which every extension that this model has not is off."""
+        values = dict(zip(MEMBRANE, default_membrane(), strict=True))
+        values |= dict(zip(COUPLING, default_coupling(0.0), strict=True))
+        off = {
+            name: float(values[kind_of(name)])
+            for extension in extensions(parameters.needle) for name in extension.start if name not in self.names
+        }  # fmt: skip
+        return parameters.with_values(off)
 
     def start(self, parameters: Parameters, weak: bool = False) -> Parameters:
         """Parameters from which this model can start: its extensions are there, and what it shares is the median."""

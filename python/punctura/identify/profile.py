@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
 from punctura.identify.uncertainty import CHI2_95, Uncertainty
+from punctura.identify.watch import Watch
 
 Array = NDArray[np.float64]
 
 FARTHEST = 12.0  # standard errors; an interval that goes on beyond is open
 
 
-def bound(uncertainty: Uncertainty, j: int, side: int, used: float = 0.0) -> float | None:
-    """The bound of parameter j below (side -1) or above (+1), SI; None if there is none.
+def bound(uncertainty: Uncertainty, j: int, side: int, used: float = 0.0, watch: Watch | None = None) -> float | None:
+    """The bound of parameter j below (side -1) or above (+1), SI; None if there is none. Raises BetterPoint.
 
-    used: how far the optimum is above the best one, N^2. The bound is that of the profile, or that of a linear model if
-    the profile's is less than half as far: a profile rises too early where the search for the other parameters stops on
-    the way, which a rough misfit causes.
+    watch: looks at the points on the way. used: how far the optimum is above the best one, N^2. The bound is that of
+    the profile, or that of a linear model if the profile's is less than half as far: a profile rises too early where
+    the search for the other parameters stops on the way, which a rough misfit causes.
     """
     fit = uncertainty.fit
-    found = _bound(fit, uncertainty, j, side, used)
+    found = _bound(uncertainty, j, side, used, watch)
     if found is None:
         return None
     u = float(np.log(found)) if fit.free.logarithmic(j) else found
@@ -34,8 +37,9 @@ def bound(uncertainty: Uncertainty, j: int, side: int, used: float = 0.0) -> flo
     return float(np.exp(u)) if fit.free.logarithmic(j) else float(u)
 
 
-def _bound(fit: Fit, uncertainty: Uncertainty, j: int, side: int, used: float) -> float | None:
+def _bound(uncertainty: Uncertainty, j: int, side: int, used: float, watch: Watch | None) -> float | None:
     """Where the profile of parameter j rises by chi-squared; None if it does not within its range."""
+    fit = uncertainty.fit
     free, start = fit.free, fit.u
     limit = max(CHI2_95 * uncertainty.variance * uncertainty.inflation[j] - used, 0.1 * uncertainty.variance)
     error = float(np.sqrt(uncertainty.covariance[j, j]))
@@ -48,6 +52,8 @@ def _bound(fit: Fit, uncertainty: Uncertainty, j: int, side: int, used: float) -
     for _ in range(6):
         guess = np.clip(at + follow * (start[j] + side * step - at[j]), free.low, free.high)
         at, rise = _constrained(fit, guess, j, start[j] + side * step)
+        if watch is not None:
+            watch.met(fit.sse + rise, partial(free.parameters, at))
         height = float(np.sqrt(max(rise, 0.0) / limit))
         if abs(height - 1) < 0.03:
             below = (step, 1.0)

@@ -1,0 +1,79 @@
+"""What all fits of a trace share while its model is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+
+import numpy as np
+
+from punctura import Needle
+from punctura.identify.contacts_moved import with_contacts_moved
+from punctura.identify.criteria import Candidate, Rule, candidate
+from punctura.identify.fit import Misfit, Start, best_fit
+from punctura.identify.hops import with_hops
+from punctura.identify.model import Extension, Model
+from punctura.identify.pops_moved import noise_limit, with_pops_moved
+from punctura.identify.rises import rise_starts
+from punctura.identify.start import starts
+from punctura.trace import Segments, Trace, TraceError
+
+SEARCHED = 600  # samples of a search; the last fit uses all
+
+
+def thinned(trace: Trace) -> Trace:
+    """At most SEARCHED samples, evenly taken."""
+    return trace[:: max(1, -(-len(trace) // SEARCHED))]
+
+
+@dataclass(eq=False)
+class Search:
+    """What all fits of a trace share, and all candidates so far."""
+
+    trace: Trace
+    segments: Segments
+    needle: Needle
+    tell: Callable[[str], None]
+    rule: Rule = field(init=False)
+    tried: list[Candidate] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.rule = Rule(self.trace, self.segments)
+
+    def fitted(self, name: str, model: Model, from_these: Sequence[Start], hops: bool = False) -> Candidate | None:
+        """The model's best fit from any of these, and with hops around its end; None if none ends."""
+        self.tell(name)
+        misfit = self.tried[0].fit.misfit if self.tried else Misfit(self.trace, from_these[0].parameters)
+        enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
+        try:
+            best = best_fit(misfit, model.names, from_these, enough)
+            best = with_pops_moved(with_hops(best) if hops else best)
+            found = candidate(name, model, with_contacts_moved(best))
+        except TraceError:
+            if not self.tried:
+                raise
+            return None
+        self.tried.append(found)
+        return found
+
+    def starts(self, membranes: int, curved: bool, most: int) -> list[Start]:
+        """Start values of K06, or of a curved grip, for this number of walls: those with the least errors."""
+        walls = starts(self.trace, self.segments, self.needle, membranes, curved)
+        found = list(islice(walls, most) if curved else walls)
+        if membranes > 1:
+            found += islice(rise_starts(self.trace, self.segments, self.needle, membranes, curved), most)
+        misfit = Misfit(self.trace, found[0])
+        found.sort(key=lambda p: float(np.sum((misfit.forces(p) - self.trace.force) ** 2)))
+        return [Start(parameters, blurred=True) for parameters in found[:most]]
+
+
+def seen(segments: Segments, extension: Extension, model: Model) -> bool:
+    """Whether the trace can show an extension that the model has not yet."""
+    return not (
+        all(name in model.names for name in extension.start)
+        or (extension.needs_hold and not segments.holds)
+        or (extension.needs_withdrawal and not any(stroke.kind == "out" for stroke in segments.strokes))
+        or segments.insertions < extension.needs_insertions
+        or (extension.after and extension.after not in model.words)
+    )

@@ -1,0 +1,106 @@
+"""An identification ends at the best optimum of its model, also where its first search ends at a lesser one."""
+
+import runpy
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from punctura import Needle
+from punctura._core import TraceModel
+from punctura.identify import identify
+from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.hops import with_hops
+from punctura.identify.intervals import estimates
+from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters, default_coupling, default_membrane
+from punctura.identify.search import Search
+from punctura.identify.watch import BetterPoint
+from punctura.trace import Trace
+
+TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
+STEP = "a better optimum"
+NOISE = 4e-3
+
+
+def rise(seed):
+    """A trace that ends in the rise, and its needle: such a trace has several optima."""
+    trace, needle, truth = TOOL["random_trace"](seed, TOOL["Conditions"](early=True))
+    return TOOL["until_half"](trace, truth, needle), needle
+
+
+@pytest.fixture
+def one_start(monkeypatch):
+    """The search begins at one place only, the least promising one, so that it ends at a lesser optimum."""
+    every = Search.starts
+    monkeypatch.setattr(Search, "starts", lambda *given: every(*given)[-1:])
+    monkeypatch.setattr("punctura.identify.search.with_contacts_moved", lambda found: found)
+
+
+@pytest.mark.parametrize("seed", [27, 39])
+def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_start, monkeypatch):
+    trace, needle = rise(seed)
+    told = []
+    found = identify(trace, needle, 1, tell=told.append)
+    assert STEP in told
+    monkeypatch.undo()
+    best = identify(trace, needle, 1)
+    assert found.fit.sse < best.fit.sse * (1 + 2 / len(trace))  # within two variances of a sample
+    assert not any("better optima" in verdict for verdict in found.verdicts)
+
+
+def test_the_report_says_where_there_may_be_still_better_optima(one_start, monkeypatch):
+    monkeypatch.setattr(sys.modules["punctura.identify.identify"], "BETTER_OPTIMA", 1)
+    told = []
+    found = identify(*rise(19), 1, tell=told.append)
+    assert told.count(STEP) == 1
+    assert any("better optima" in verdict for verdict in found.verdicts)
+
+
+def three_walls():
+    """Three walls with a curved grip and a tail behind a spring that relaxes: in, a hold, out."""
+    rng = np.random.default_rng(2)
+    time = np.arange(0, 9.2, 1 / 60)
+    depth = np.interp(time, [0, 2.6, 6.6, 9.2], np.array([0, 26e-3, 26e-3, 0]))
+    rows = []
+    for surface, stiffness, precompression, friction, thickness in (
+        (4.5e-3, 220, 0.03, 0.1, 1.7e-3), (11.3e-3, 420, 0.25, 0.2, 0.8e-3), (16.2e-3, 150, 0.1, 0.15, 1.2e-3),
+    ):  # fmt: skip
+        values = {
+            "surface": surface, "stiffness": stiffness, "precompression": precompression, "friction": friction,
+            "thickness": thickness, "tail_length": 2e-3, "tail_floor": 0.3, "growth": 800.0, "tip_length": 3e-3,
+        }  # fmt: skip
+        row = default_membrane()
+        for name, value in values.items():
+            row[MEMBRANE.index(name)] = value
+        rows.append(row)
+    coupling = default_coupling(500)
+    coupling[COUPLING.index("relaxation_1_stiffness")] = 250
+    truth = Parameters(Needle(1.2e-3, 0.3), np.array(rows), coupling)
+    force, _ = TraceModel(truth.needle, depth, time).forces(rows, coupling, False)
+    return Trace(depth, np.asarray(force) + NOISE * rng.normal(size=len(depth)), time), truth
+
+
+def test_hops_lead_from_a_lesser_optimum_of_three_walls_to_the_truth():
+    trace, truth = three_walls()
+    kinds = ("surface", "stiffness", "precompression", "friction", "thickness")
+    walls = [f"membrane[{i}].{kind}" for i in range(3) for kind in kinds]
+    names = [*walls, "coupling_stiffness", "relaxation_1_stiffness", "tissue.tip_length", "tissue.growth"]
+    lesser = fit(Misfit(trace, truth), names, truth.with_values({"membrane[2].surface": 7e-3}))
+    assert lesser.rmse > 4 * NOISE
+    found = with_hops(lesser)
+    assert found.rmse == pytest.approx(NOISE, rel=0.05)
+    again = with_hops(lesser)
+    np.testing.assert_array_equal(again.u, found.u)
+
+
+def test_a_better_optimum_ends_the_search_for_intervals():
+    trace, truth = three_walls()
+    names = ["membrane[0].friction", "membrane[1].friction", "coupling_stiffness"]
+    best = fit(Misfit(trace, truth), names, truth)
+    poor = fit(best.misfit, names[:2], truth.with_values({"coupling_stiffness": 400.0}))
+    u = best.free.coordinates(poor.parameters)
+    lesser = Fit(best.misfit, best.free, u, poor.residuals, best.misfit.jacobian(best.free, u), poor.evaluations)
+    with pytest.raises(BetterPoint) as met:
+        estimates(lesser)
+    assert np.sum((best.misfit.forces(met.value.parameters) - trace.force) ** 2) < poor.sse
+    assert len(estimates(lesser, stops=False)) == 3
