@@ -61,6 +61,7 @@ def lines_of(
     with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as given:
         given.write(asked)
         given.seek(0)
+        ends_at = clock() + LONGEST_S
         worker = subprocess.Popen(
             command,
             stdin=given,
@@ -74,7 +75,6 @@ def lines_of(
         lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         reader = threading.Thread(target=_read, args=(worker.stdout, lines), name="punctura-lab", daemon=True)
         reader.start()
-        ends_at = clock() + LONGEST_S
         try:
             while line := _next(lines):
                 quiet = line == NOTHING
