@@ -12,6 +12,7 @@ from punctura.identify import identify
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.hops import with_hops
 from punctura.identify.intervals import estimates
+from punctura.identify.model import Model, extensions
 from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters, default_coupling, default_membrane
 from punctura.identify.search import Search
 from punctura.identify.watch import BetterPoint
@@ -104,3 +105,17 @@ def test_a_better_optimum_ends_the_search_for_intervals():
         estimates(lesser)
     assert np.sum((best.misfit.forces(met.value.parameters) - trace.force) ** 2) < poor.sse
     assert len(estimates(lesser, stops=False)) == 3
+
+
+def test_an_extension_that_is_taken_out_is_off_and_takes_those_with_it_that_need_it():
+    _, truth = three_walls()
+    model = Model(3, extensions(truth.needle)[:6])
+    assert model.words == ("curved grip", "tip length", "tail", "relaxation", "second relaxation", "set")
+    relaxation = next(one for one in model.extensions if one.name == "relaxation")
+    fewer = model.without(relaxation)
+    assert fewer.words == ("curved grip", "tip length", "tail", "set")
+    off = fewer.switched_off(truth)
+    assert off.get("relaxation_1_stiffness") == 0 and off.get("tissue.growth") == 800
+    plain = Model(3).switched_off(truth)
+    assert (plain.get("tissue.growth"), plain.get("tissue.tail_floor"), plain.get("tissue.tip_length")) == (0, 1, 0)
+    assert plain.get("membrane[1].stiffness") == truth.get("membrane[1].stiffness")
