@@ -46,8 +46,10 @@ def hand_run(name: str, legs: tuple[tuple[float, float], ...], upright: bool = F
     return experiment(as_a_device_runs_it(exercise.scene), motion, duration, axis, seed)
 
 
-def judged(exercise: Exercise, columns: Columns, cuts: int = 27, scene: pn.Scene | None = None) -> Attempt:
-    attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene))
+def judged(
+    exercise: Exercise, columns: Columns, cuts: int = 27, scene: pn.Scene | None = None, second_device: bool = False
+) -> Attempt:
+    attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene), second_device)
     for batch in cut(columns, range(0, len(columns["depth"]), cuts)):
         attempt.add(batch)
     return attempt

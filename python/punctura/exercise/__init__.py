@@ -2,7 +2,7 @@
 
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
-from punctura.exercise.expected import cannot_show, expected_losses
+from punctura.exercise.expected import cannot_show, expected_losses, thumb_cannot_show
 from punctura.exercise.load import exercise_names, exercise_of, exercise_of_bytes, exercises, load_exercise
 from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.result import GoalState, Loss, Metrics, Overshoot, Result, Status
@@ -33,4 +33,5 @@ __all__ = [
     "expected_losses",
     "load_exercise",
     "score",
+    "thumb_cannot_show",
 ]

@@ -21,7 +21,7 @@ from punctura.exercise.losses import felt_membranes
 from punctura.exercise.measures import Measures
 from punctura.exercise.plunger import PlungerJudge, judges_plunger, need_syringe
 from punctura.exercise.remark import Coaching
-from punctura.exercise.result import GoalState, Result, Status, unfelt
+from punctura.exercise.result import GoalState, Result, Status
 from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
 from punctura.exercise.stop import StopJudge
@@ -37,8 +37,11 @@ class Attempt:
     still measured.
     """
 
-    def __init__(self, exercise: Exercise, scene: Scene) -> None:
-        """scene: the running scene, at the device's rate. Raises ConfigurationError if the exercise does not fit it."""
+    def __init__(self, exercise: Exercise, scene: Scene, second_device: bool = False) -> None:
+        """scene: the running scene, at the device's rate. second_device: the thumb is on one, not on a key.
+
+        Raises ConfigurationError if the exercise does not fit the scene.
+        """
         self.exercise, self.scene = exercise, scene
         need_membranes(exercise.file, scene)
         need_syringe(exercise.file, scene)
@@ -51,7 +54,7 @@ class Attempt:
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
-        self._yields = Yields(self._space, asked_push(exercise.file))
+        self._yields = Yields(self._space, asked_push(exercise.file), second_device)
         must = felt_membranes(exercise.file, scene)
         self._measures = Measures(
             scene,
@@ -158,7 +161,7 @@ class Attempt:
     def passed(self) -> bool:
         """Whether everything was achieved, no limit was missed or still being measured, and each loss of resistance
         that the exercise needs could be felt."""
-        return self._passed and not unfelt(self._measures.losses, self._measures.yields)
+        return self._passed and not self._measures.unfelt(ended=True)
 
     def _goals(self, ended: bool) -> list[GoalState]:
         complete = self._passed or (ended and not self.over and self._achieved)
@@ -190,7 +193,7 @@ class Attempt:
 
     def _instruction(self) -> str:
         if self.over:
-            return " ".join(self._reasons())
+            return " ".join(self._reasons(ended=False))
         if self._measures.entries == 0:
             return self.exercise.instruction
         if self._too_deep:
@@ -211,7 +214,7 @@ class Attempt:
             return next((words.waiting(limit) for limit in stops if limit.waits_for == "pop"), f"{judge.text}.")
         return next((words.waiting(limit) for limit in stops if limit.waits_for), self.exercise.instruction)
 
-    def _reasons(self) -> list[str]:
+    def _reasons(self, ended: bool) -> list[str]:
         first = self.scene.membranes[0].name
         if self._invalid:
             return [self._invalid]
@@ -219,7 +222,7 @@ class Attempt:
             now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
             return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
-            lost = unfelt(self._measures.losses, self._measures.yields)
+            lost = self._measures.unfelt(ended)
             blind = [one for one in self._limits if one.state(self._decision, True) == "not measured"]
             said = words.passed(self._achievements, self._measures, self._space, first)
             said += [words.not_measured(one, self._decision, first) for one in blind]
@@ -245,7 +248,7 @@ class Attempt:
             date=when.isoformat(timespec="seconds"),
             version=__version__,
             passed=self.passed,
-            reasons=self._reasons() + words.force_cut(self._measures.force_cut),
+            reasons=self._reasons(ended=True) + words.force_cut(self._measures.force_cut),
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,

@@ -8,10 +8,13 @@ import numpy as np
 
 from punctura import Scene
 from punctura._core import ForceLimits, crossing, force_scale, grazing_cosine, law_curve
+from punctura.exercise.bounds import MOST_PUSH_N
 from punctura.exercise.exercise import Exercise, start_axis
-from punctura.exercise.loss import needed_drop, remedy
+from punctura.exercise.loss import LEAST_NEEDED_N, NEEDED_SHARE, needed_drop, remedy
 from punctura.exercise.losses import felt_membranes
+from punctura.exercise.plunger import judges_plunger
 from punctura.exercise.result import Loss, unfelt
+from punctura.exercise.yields import asked_push
 
 
 def expected_losses(exercise: Exercise, scene: Scene, limits: ForceLimits) -> list[Loss]:
@@ -53,6 +56,36 @@ def cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits) -> str:
         f"passed here. {remedy(loss)}"
         for loss in unfelt(expected_losses(exercise, scene, limits))
     )
+
+
+def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thumb: ForceLimits | None) -> str:
+    """Why the thumb cannot feel the plunger give way, or how hard it must push; empty if the asked push is enough.
+
+    limits: of the needle's device. thumb: of the second device; None without one. As for the needle, only the peak
+    limit counts. At best, nothing but the friction of the plunger is left when it gives way.
+    """
+    if scene.syringe is None or not judges_plunger(exercise.file):
+        return ""
+    if thumb is None:
+        return (
+            "The thumb is a key here and feels nothing, so the plunger is judged by the model's force. With a second "
+            "device under the thumb (--second-device), it is judged by what the thumb could feel."
+        )
+    scale, friction = force_scale(scene, limits), scene.syringe.syringe.friction
+    least = max(friction + LEAST_NEEDED_N / scale, friction / (1 - NEEDED_SHARE))
+    before, after = (min(scale * force, thumb.max_force) for force in (MOST_PUSH_N, friction))
+    if least > MOST_PUSH_N or before - after < needed_drop(before):
+        return (
+            f"The second device cannot show that the plunger gives way ({before - after:.2f} N at best; "
+            f"{needed_drop(before):.2g} N needed), so an attempt cannot be passed here. Set another force_scale in "
+            "the scene, or use a stronger second device."
+        )
+    if least > asked_push(exercise.file):
+        return (
+            f"At the force scale of {scale:.2g}, push the plunger with more than {least:.1f} N: else the thumb could "
+            "not feel it give way, and the attempt is not judged as passed."
+        )
+    return ""
 
 
 def _walls(scene: Scene, start: np.ndarray, axis: np.ndarray) -> list[tuple[float, float]]:

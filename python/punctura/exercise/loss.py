@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from punctura.exercise.result import FeltLoss
+from punctura.exercise.result import FeltLoss, PlungerLoss
 
 # A person notices a change of about 7 % (X. D. Pang, H. Z. Tan, N. I. Durlach, Perception & Psychophysics, 1991,
 # forces of 2.5 to 10 N) to 10 % (index finger, 2 to 5 N) of a force. Below 1 N the needed drop stays that of 1 N, which
@@ -29,3 +29,18 @@ def remedy(loss: FeltLoss) -> str:
     if loss.force_scale < 1:
         return "Set a larger force_scale in the scene, if the device can give it, or use a stronger device."
     return f"In this scene the loss itself is only {loss.model_before - loss.model_after:.2f} N."
+
+
+def thumb_remedy(loss: PlungerLoss) -> str:
+    """The same for the thumb on a second device."""
+    if loss.before == 0:
+        return "The thumb had no force: turn the force on, and rest the thumb on the second device."
+    wanted = loss.force_scale * loss.model_before
+    if loss.before < 0.99 * wanted:
+        return (
+            f"Its limits cut the force to {loss.before:.2f} of {wanted:.2f} N: set a smaller force_scale in the scene, "
+            "or use a stronger second device."
+        )
+    if loss.force_scale < 1:
+        return "Push the plunger harder before it gives way, or set a larger force_scale in the scene."
+    return f"The loss itself is only {loss.model_before - loss.model_after:.2f} N: push the plunger harder before it."

@@ -13,7 +13,7 @@ from punctura._core import Limit as ForceLimit
 from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.path import Path, PathSoFar
-from punctura.exercise.result import Loss, Metrics, Overshoot, Yield
+from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Geometry, Ticks
 from punctura.exercise.yield_measures import YieldMeasures
@@ -157,6 +157,11 @@ class Measures:
     def losses(self) -> list[Loss]:
         """The losses of resistance so far."""
         return self._losses.found
+
+    def unfelt(self, ended: bool) -> list[Loss | PlungerLoss]:
+        """The losses that must be felt and could not be. ended: no more ticks come. Else a loss at the plunger counts
+        only when the thumb could have reacted."""
+        return unfelt(self.losses, self.yields if ended else self._yields.complete)
 
     def metrics(self) -> Metrics:
         way = self._way or (self._path.deepest if self._path else None)

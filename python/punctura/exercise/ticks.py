@@ -51,7 +51,7 @@ class Ticks:
     dwell: Numbers  # s in the space so far, in total
     # Yields fills them in.
     load: Numbers  # N, of the thumb when the point came out behind the membrane before the space; NaN in front of it
-    load_felt: Numbers  # N, the same of the felt force; NaN if no second device has given force yet
+    load_felt: Numbers  # N, the same of the felt force; NaN without a second device
     gave_way: Flags  # the plunger gives way in this tick
 
     def __len__(self) -> int:

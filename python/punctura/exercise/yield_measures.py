@@ -19,12 +19,15 @@ class YieldMeasures:
         """seconds: length of the measurement. must: whether the thumb must feel the loss of resistance."""
         self._seconds, self._must = seconds, must
         self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
+        self._before: list[float] = []  # N, of the felt force before
+        self._seen_to = -np.inf
         self.found: list[Yield] = []
 
     def begin(self, ticks: Ticks) -> None:
         for row in np.flatnonzero(ticks.gave_way).tolist():
             self._volumes.append(float(ticks.injected[row]))
             time, push = float(ticks.time[row]), float(ticks.load[row])
+            self._before.append(float(ticks.load_felt[row]))
             loss = self._loss(ticks, row)
             self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
 
@@ -47,10 +50,25 @@ class YieldMeasures:
             late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
             pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
             update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
-            soon = ticks.push_felt[rows & (ticks.time <= one.time + REACTION_S)]
-            if one.loss is not None and len(soon):
-                model = float(ticks.push[rows & (ticks.time <= one.time + REACTION_S)].min())
-                least = {"after": min(one.loss.after, float(soon.min()))}
-                least["model_after"] = min(one.loss.model_after, model)
-                update["loss"] = one.loss.model_copy(update=least)
+            soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
+            if one.loss is not None and soon.any():
+                felt, model = float(ticks.push_felt[soon].min()), float(ticks.push[soon].min())
+                update["loss"] = self._followed(k, one.loss, felt, model)
             self.found[k] = one.model_copy(update=update)
+        if len(ticks):
+            self._seen_to = float(ticks.time[-1])
+
+    def _followed(self, k: int, loss: PlungerLoss, felt: float, model: float) -> PlungerLoss:
+        """The loss with the least forces so far. A limit that cuts the force after it is no loss of resistance: then
+        the force before counts only as far."""
+        after, model_after = min(loss.after, felt), min(loss.model_after, model)
+        wanted = loss.force_scale * model_after
+        cut = after < wanted - 0.01 * abs(wanted)
+        before = max(0.0, min(self._before[k], after) if cut else self._before[k])
+        update = {"before": before, "after": after, "model_after": model_after}
+        return loss.model_copy(update=update | {"needed": needed_drop(before) if self._must else None})
+
+    @property
+    def complete(self) -> list[Yield]:
+        """Those after which a thumb could have reacted."""
+        return [one for one in self.found if self._seen_to >= one.time + REACTION_S]

@@ -29,13 +29,13 @@ class Yields:
     to push in the space feels no loss of resistance. Each time the point comes out behind the membrane counts anew.
     """
 
-    def __init__(self, space: TargetSpace, push: float) -> None:
-        """push: N, from which the thumb pushes."""
+    def __init__(self, space: TargetSpace, push: float, second_device: bool = False) -> None:
+        """push: N, from which the thumb pushes. second_device: whether it is on one."""
         self._behind, self._least = space.behind, push
         self._open = self._gave = False  # at the last tick; since the point came out behind the membrane
         self._load = self._push = self._injected = self._time = np.nan
         self._load_felt = self._push_felt = np.nan
-        self._second = False  # whether a second device has given force
+        self._second = second_device
 
     def mark(self, ticks: Ticks) -> Ticks:
         """Returns the ticks with `load`, `load_felt` and `gave_way` filled in."""
@@ -45,8 +45,7 @@ class Yields:
         entry = np.maximum.accumulate(np.where(entering, rows, -1))
         pushes = np.concatenate([[self._push], ticks.push[:-1]])
         load = np.where(behind, np.where(entry >= 0, pushes[entry], self._load), np.nan)
-        second = self._second | np.logical_or.accumulate(ticks.push_felt != 0)
-        feels = np.concatenate([[self._push_felt], np.where(second, ticks.push_felt, np.nan)[:-1]])
+        feels = np.concatenate([[self._push_felt], ticks.push_felt[:-1] if self._second else pushes[1:] * np.nan])
         load_felt = np.where(behind, np.where(entry >= 0, feels[entry], self._load_felt), np.nan)
 
         volume = np.diff(ticks.injected, prepend=self._injected)
@@ -58,7 +57,7 @@ class Yields:
 
         self._open, self._gave = bool(behind[-1]), bool(gave[-1] | flows[-1])
         self._load, self._push = float(load[-1]), float(ticks.push[-1])
-        self._load_felt, self._second = float(load_felt[-1]), bool(second[-1])
+        self._load_felt = float(load_felt[-1])
         self._push_felt = float(ticks.push_felt[-1]) if self._second else np.nan
         self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
         return replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)

@@ -142,7 +142,8 @@ class Api:
 
     def exercises(self, request: Request) -> Response:
         experts = {name: run for name, run in self._session.experts.all().items() if self._shelf.has(run)}
-        entries = self._session.exercises.overviews(self._session.run.loop.limits)
+        run = self._session.run
+        entries = self._session.exercises.overviews(run.loop.limits, run.thumb.limits if run.thumb else None)
         return JSONResponse(
             [entry.model_dump(mode="json") | {"expert": experts.get(entry.name, "")} for entry in entries]
         )

@@ -11,7 +11,15 @@ from pydantic import Field
 
 from punctura._core import ForceLimits, tip_length
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.exercise import Attempt, Exercise, cannot_show, exercise_names, exercises, load_exercise
+from punctura.exercise import (
+    Attempt,
+    Exercise,
+    cannot_show,
+    exercise_names,
+    exercises,
+    load_exercise,
+    thumb_cannot_show,
+)
 from punctura.exercise.schema import OnLine
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
@@ -21,8 +29,9 @@ from punctura.studio.view import membrane_views
 from punctura.studio.wire.common import MembraneView, Part, ProblemPart, Vector
 from punctura.studio.wire.messages import Choice
 
-_USUAL_LIMITS = ForceLimits()
+_USUAL_LIMITS = ForceLimits()  # of a needle's device
 Stamp = tuple[int, int] | None  # size and time of a file
+Hands = tuple[ForceLimits, ForceLimits | None]  # in effect on the needle's device, and on a second one, if any
 DRAFT = "draft"  # the name of an exercise that is tried before it is saved
 
 
@@ -105,7 +114,7 @@ class Exercises:
     def __init__(self, files: Sequence[str | os.PathLike[str]] = ()) -> None:
         """Raises ConfigurationError if a file has an error, or the name of another exercise."""
         self._files: dict[str, Path] = {}
-        self._kept: dict[Path, tuple[tuple[Stamp, ForceLimits], ExerciseOverview]] = {}
+        self._kept: dict[Path, tuple[tuple[Stamp, Hands], ExerciseOverview]] = {}
         self._titles: dict[str, str] = {}
         self.warnings: list[tuple[Path, Problem]] = []  # of the files when the studio started
         for given in files:
@@ -155,12 +164,16 @@ class Exercises:
             return self.draft
         return load_exercise(self._files.get(name) or self._made().get(name) or name)
 
-    def overviews(self, limits: ForceLimits = _USUAL_LIMITS) -> list[ExerciseOverview]:
-        """All exercises. Of a file with an error: its problems. limits: in effect on the device."""
-        draft = [_on(self.draft, limits)] if self.draft else []
-        made = [self._own(name, path, limits).model_copy(update={"made": True}) for name, path in self._made().items()]
-        own = [self._own(name, path, limits) for name, path in self._files.items()]
-        ready = [entry.model_copy(update={"unfelt": _unfelt(entry.name, limits)}) for entry in _ready_exercises()]
+    def overviews(
+        self, limits: ForceLimits = _USUAL_LIMITS, thumb: ForceLimits | None = None
+    ) -> list[ExerciseOverview]:
+        """All exercises. Of a file with an error: its problems. limits: in effect on the device. thumb: in effect on
+        the second device, if there is one."""
+        hands = limits, thumb
+        draft = [_on(self.draft, hands)] if self.draft else []
+        made = [self._own(name, path, hands).model_copy(update={"made": True}) for name, path in self._made().items()]
+        own = [self._own(name, path, hands) for name, path in self._files.items()]
+        ready = [entry.model_copy(update={"unfelt": _unfelt(entry.name, hands)}) for entry in _ready_exercises()]
         return draft + own + made + ready
 
     def choices(self) -> list[Choice]:
@@ -168,15 +181,15 @@ class Exercises:
         own = [Choice(name=name, title=title) for name, title in self._titles.items()]
         return own + [Choice(name=entry.name, title=entry.title) for entry in _ready_exercises()]
 
-    def _own(self, name: str, path: Path, limits: ForceLimits) -> ExerciseOverview:
-        """The overview. It is kept until the file has another size or time, or the device has other limits."""
-        key = (_stamp(path), limits)  # before the file is read
+    def _own(self, name: str, path: Path, hands: Hands) -> ExerciseOverview:
+        """The overview. It is kept until the file has another size or time, or a device has other limits."""
+        key = (_stamp(path), hands)  # before the file is read
         kept = self._kept.get(path)
         if kept and kept[0] == key:
             return kept[1]
         try:
             exercise = load_exercise(path)
-            overview = _on(exercise, limits)
+            overview = _on(exercise, hands)
         except ConfigurationError as error:
             return ExerciseOverview(name=name, title=path.name, problems=problem_parts(error.problems))
         if exercise.scene_name in scene_names():  # another scene's file can change by itself
@@ -221,15 +234,20 @@ def _line(exercise: Exercise) -> Line | None:
     return Line(point=[v * 1e-3 for v in goal.point_mm], along=goal.along, within=goal.within_mm * 1e-3)
 
 
-def _on(exercise: Exercise, limits: ForceLimits) -> ExerciseOverview:
-    """The exercise, and what a device with these limits cannot show of it."""
-    return _overview(exercise).model_copy(update={"unfelt": cannot_show(exercise, exercise.scene, limits)})
+def _on(exercise: Exercise, hands: Hands) -> ExerciseOverview:
+    """The exercise, and what devices with these limits cannot show of it."""
+    return _overview(exercise).model_copy(update={"unfelt": _cannot_show(exercise, hands)})
+
+
+def _cannot_show(exercise: Exercise, hands: Hands) -> str:
+    limits, thumb = hands
+    said = cannot_show(exercise, exercise.scene, limits), thumb_cannot_show(exercise, exercise.scene, limits, thumb)
+    return " ".join(filter(None, said))
 
 
 @cache
-def _unfelt(name: str, limits: ForceLimits) -> str:
-    exercise = load_exercise(name)
-    return cannot_show(exercise, exercise.scene, limits)
+def _unfelt(name: str, hands: Hands) -> str:
+    return _cannot_show(load_exercise(name), hands)
 
 
 @cache

@@ -25,17 +25,24 @@ class ExerciseActivity:
     what = "exercise"
 
     def __init__(
-        self, exercise: Exercise, person: str, recording: str, results: ResultStore | None, group: str = ""
+        self,
+        exercise: Exercise,
+        person: str,
+        recording: str,
+        results: ResultStore | None,
+        group: str = "",
+        second_device: bool = False,
     ) -> None:
-        """recording: the name of the run's recording. results: where the result is saved, if at all. group: a class."""
+        """recording: the name of the run's recording. results: where the result is saved, if at all. group: a class.
+        second_device: the thumb is on one."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
-        self._group = group
+        self._group, self._second_device = group, second_device
         self._attempt: Attempt
         self._told: ExerciseStatus | None = None
         self.end_at: float | None = None
 
     def begin(self, scene: Scene) -> None:
-        self._attempt = Attempt(self._exercise, scene)
+        self._attempt = Attempt(self._exercise, scene, self._second_device)
 
     def ticks(self, ticks: Ticks, now: float) -> list[ExerciseStatus]:
         """Returns the status if it has changed."""

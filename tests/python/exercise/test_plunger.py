@@ -1,58 +1,14 @@
 """The thumb on the plunger: when it gives way, the two goals that judge it, and what the coach says about it."""
 
 import numpy as np
-import punctura as pn
 import pytest
 from attempts import goal, hand_run, judged
-from punctura import ConfigurationError, Plunger, outlet_at
-from punctura._core import tip_length
+from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, NEVER, SCENE, SLOWLY, with_thumb
+from punctura import ConfigurationError
 from punctura.exercise import load_exercise
 from punctura.exercise.results import to_csv
 
-NAME = "epidural-plunger"
-SCENE = pn.load_scene("epidural")
-# The skin at 6 mm, the flavum at 47.6 to 51, the dura at 56.
-LEGS = ((1.0, 0.0), (6.0, 47.0), (4.5, 58.3), (6.0, 58.3))
-AT_ONCE, SLOWLY, NEVER = 0.15, 0.3, 99.0  # s until the thumb lets go
-HEAD = """
-title = "Test"
-description = "A test."
-instruction = "Do it."
-scene = "epidural"
-[start]
-position_mm = [0, 6, 0]
-[space]
-name = "the epidural space"
-behind = "ligamentum flavum"
-in_front_of = "dura"
-press_mm = 1.5
-"""
 FEEL, STOP, STAY = goal("feel_plunger", at_least_N=2), goal("stop_plunger", within_mL=2), goal("stay", seconds=3)
-
-
-def with_thumb(columns, begins_mm, newtons, lets_go):
-    """The columns of a run with a thumb that pushes with this force from a depth below the skin on.
-
-    lets_go: s after the plunger gave way, until the thumb's force is 0.
-    """
-    settings, period = SCENE.syringe, 1 / SCENE.servo.rate
-    plunger, opening = Plunger(settings.syringe, settings.thumb, period), tip_length(SCENE.needle)
-    paths = [placed.membrane.thickness for placed in SCENE.membranes]
-    outlets = [(placed.outflow, placed.outflow_behind) for placed in SCENE.membranes]
-    n = len(columns["tick"])
-    force, injected, thumb, until, was = np.zeros(n), np.zeros(n), 0.0, np.inf, 0.0
-    inside = columns["phase"] > 0
-    for k in range(n):
-        depths = np.where(inside[k], columns["depth"][k], 0.0)
-        layers = [(d, u, *out) for d, u, out in zip(depths, paths, outlets, strict=True)]
-        wanted = newtons if columns["depth"][k, 0] * 1e3 > begins_mm and k * period < until else 0.0
-        thumb += 10e-3 * max(0.0, wanted + plunger.force) * period
-        plunger.step(thumb, outlet_at(layers, opening))
-        force[k], injected[k] = plunger.force, plunger.left
-        if injected[k] - was > 0.1e-6 * period and columns["depth"][k, 4] > 3.38e-3 and until == np.inf:
-            until = k * period + lets_go
-        was = injected[k]
-    return columns | {"thumb_force": force, "injected": injected}
 
 
 def attempted(begins_mm=30.0, newtons=4.0, lets_go=AT_ONCE, exercise=NAME, cuts=27):
@@ -195,11 +151,14 @@ def test_the_table_of_results_has_the_plunger():
 
 def with_second_device(scale):
     columns = with_thumb(hand_run("epidural", LEGS), 30.0, 4.0, AT_ONCE)
-    return columns | {"thumb_felt": scale * columns["thumb_force"]}
+    return columns | {
+        "thumb_felt": scale * columns["thumb_force"],
+        "force_scale": np.full(len(columns["tick"]), scale),
+    }
 
 
 def test_a_loss_that_the_second_device_shows_is_measured_and_passes():
-    result = judged(load_exercise(NAME), with_second_device(0.5)).finish()
+    result = judged(load_exercise(NAME), with_second_device(0.5), second_device=True).finish()
     assert result.passed, result.reasons
     (gave,) = result.metrics.yields
     assert gave.loss.before == pytest.approx(0.5 * gave.push) and 0.5 < gave.loss.drop < gave.loss.before
@@ -208,15 +167,10 @@ def test_a_loss_that_the_second_device_shows_is_measured_and_passes():
 
 
 def test_a_loss_that_the_second_device_cannot_show_is_not_passed_and_says_why():
-    result = judged(load_exercise(NAME), with_second_device(0.03)).finish()
+    result = judged(load_exercise(NAME), with_second_device(0.03), second_device=True).finish()
     assert not result.passed and set(states(result).values()) == {"met"}
     (gave,) = result.metrics.yields
     assert 0.02 < gave.loss.drop < 0.1 == gave.loss.needed
     told = "Not judged as passed: the second device could not show the loss of resistance of the plunger (0.0"
     assert [reason for reason in result.reasons if reason.startswith(told)]
     assert result.verdict.startswith("not judged as passed: the device could not show the loss of resistance (0.0")
-
-
-def test_the_felt_loss_does_not_depend_on_the_batches():
-    ends = [judged(load_exercise(NAME), with_second_device(0.5), cuts).finish() for cuts in (7, 100_000)]
-    assert ends[0].metrics.yields == ends[1].metrics.yields

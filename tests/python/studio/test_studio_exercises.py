@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 from attempts import HEAD, goal
 from punctura import ConfigurationError, save_scene
-from punctura.exercise import exercise_names, load_exercise
+from punctura.exercise import Attempt, exercise_names, load_exercise
+from punctura.live import SecondDevice
+from punctura.studio import exercise_activity
 from punctura.studio.catalog import Exercises
 from punctura.studio.client import StudioClient
+from punctura.studio.run import Settings
 
 from .conftest import serve
 
@@ -151,3 +154,33 @@ def test_the_depth_of_the_reach_goal_is_listed(tmp_path):
     text = HEAD.replace("[space]", "[space]\ndepth_mm = 1") + goal("stay", seconds=1) + goal("reach", depth_mm=2)
     (entry, *_) = Exercises([own_file(tmp_path, text)]).overviews()
     assert np.allclose([entry.space_from, entry.goal_from], [1e-3, 2e-3])
+
+
+@pytest.mark.parametrize(
+    ("second", "told"),
+    [
+        (
+            SecondDevice("simulated"),
+            "At the force scale of 0.055, push the plunger with more than 2.1 N: else the thumb",
+        ),
+        (None, "The thumb is a key here and feels nothing, so the plunger is judged by the model's force."),
+    ],
+)
+def test_the_list_and_the_judge_know_whether_the_thumb_is_on_a_second_device(tmp_path, monkeypatch, second, told):
+    attempts = []
+
+    def attempt(exercise, scene, second_device):
+        attempts.append(second_device)
+        return Attempt(exercise, scene, second_device)
+
+    monkeypatch.setattr(exercise_activity, "Attempt", attempt)
+    server = serve(tmp_path, "epidural", Settings(second=second))
+    with StudioClient(server.address.url) as page:
+        page.wait(lambda: page.of("scene") and page.last)
+        unfelt = {entry["name"]: entry["unfelt"] for entry in page.json("/api/exercises")}
+        assert unfelt.pop("epidural-plunger").startswith(told)
+        assert set(unfelt.values()) == {""}
+        assert page.ask(do="start_exercise", exercise="epidural-plunger")["ok"]
+        assert attempts == [second is not None]
+        assert page.ask(do="end_exercise")["ok"]
+    server.stop()

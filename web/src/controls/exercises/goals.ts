@@ -31,9 +31,9 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
   );
 }
 
-/** The drop of the felt force, and how much of it a hand needs to feel it: "0.04 N; 0.1 N needed". */
+/** The drop of the felt force, and how much of it a hand needs to feel it, if it must: "0.04 N; 0.1 N needed". */
 export const lossText = ({ before, after, needed }: FeltLoss): string =>
-  `${(before - after).toFixed(2)} N; ${Number((needed ?? 0).toPrecision(2))} N needed`;
+  `${(before - after).toFixed(2)} N${needed === null ? "" : `; ${Number(needed.toPrecision(2))} N needed`}`;
 
 /**
  * Of the losses that must be felt, the smallest one that could not be. Of each membrane its last pop counts, and of the

@@ -38,7 +38,7 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
         ]),
     ...(metrics.losses ?? []).map((loss) => ({
       label: `Loss of resistance felt, ${loss.name}`,
-      value: loss.needed === null ? `${(loss.before - loss.after).toFixed(2)} N` : lossText(loss),
+      value: lossText(loss),
       help: "Drop of the force on the hand at this pop.",
     })),
     ...metrics.overshoot.map(({ name, distance, seconds: window }) => ({
@@ -52,12 +52,12 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
         value: `${push.toFixed(2)} N`,
         help: "Model force of the thumb on the plunger, just before the point came into the space.",
       },
-      ...(loss
+      ...(loss !== undefined // missing in results of earlier versions
         ? [
             {
               label: "Loss of resistance felt, plunger",
-              value: loss.needed === null ? `${(loss.before - loss.after).toFixed(2)} N` : lossText(loss),
-              help: "Drop of the force that the second device gave the thumb.",
+              value: loss ? lossText(loss) : "none: the thumb was a key",
+              help: "Drop of the force that the second device gave the thumb, within 0.3 s.",
             },
           ]
         : []),

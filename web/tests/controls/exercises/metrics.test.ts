@@ -42,7 +42,17 @@ test("the thumb is told each time that the plunger gave way", () => {
   const rows = new Map(metricRows({ ...metrics, yields }).map(({ label, value }) => [label, value]));
   expect(rows.get("Thumb when the plunger gave way")).toBe("4.00 N");
   expect(rows.get("Injected after it")).toBe("0.9 mL");
+  expect(rows.has("Loss of resistance felt, plunger")).toBe(false); // a result of an earlier version
   expect(metricRows(metrics).some(({ label }) => label.includes("plunger"))).toBe(false);
+});
+
+test("what the thumb felt is told, or that it was a key", () => {
+  const gave = { push: 4, injected: 0, seconds: 1 };
+  const loss = { before: 0.22, after: 0.1, needed: 0.1 };
+  const felt = (one: typeof loss | null) =>
+    metricRows({ ...metrics, yields: [{ ...gave, loss: one }] }).find(({ label }) => label.endsWith("felt, plunger"));
+  expect(felt(loss)?.value).toBe("0.12 N; 0.1 N needed");
+  expect(felt(null)?.value).toBe("none: the thumb was a key");
 });
 
 test("measures are told in units for people; what there was not is a dash", () => {

@@ -1,0 +1,138 @@
+"""The plunger's loss of resistance is judged by what a thumb on a second device could feel."""
+
+import sys
+from functools import cache
+
+import numpy as np
+import pytest
+from attempts import goal, hand_run, judged
+from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, SCENE, with_thumb
+from punctura import DisplaySettings
+from punctura._core import ForceLimits, ServoLoop, SimulatedDevice, Target, ThumbLoop
+from punctura.exercise import Attempt, exercise_names, load_exercise, score, thumb_cannot_show
+from punctura.record import Recorder
+from waiting import wait_until
+
+EXERCISE = load_exercise(NAME)
+OMNI = ForceLimits(3.3, 0.88)
+
+
+@cache
+def pushed(newtons):
+    return with_thumb(hand_run("epidural", LEGS), 30.0, newtons, AT_ONCE)
+
+
+def on_device(scale=1.0, most=3.3, newtons=4.0, late=2):
+    """The columns with a second device that gives at most this force, and each force some ticks late."""
+    columns = pushed(newtons)
+    given = np.clip(scale * columns["thumb_force"], -most, most)
+    felt = np.concatenate([np.zeros(late), given[:-late]])
+    return columns | {"thumb_felt": felt, "force_scale": np.full(len(felt), scale)}
+
+
+def result(columns, cuts=27, exercise=EXERCISE):
+    return judged(exercise, columns, cuts, second_device=True).finish()
+
+
+def test_a_device_that_shows_the_loss_lets_the_attempt_pass():
+    made = result(on_device())
+    (gave,) = made.metrics.yields
+    assert made.passed and made.unfelt == [], made.reasons
+    assert gave.loss.before == pytest.approx(min(3.3, gave.push), abs=0.02)
+    assert gave.loss.needed == pytest.approx(0.1 * gave.loss.before) and gave.loss.drop > gave.loss.needed
+    assert gave.loss.model_after == pytest.approx(gave.loss.after, abs=0.05)
+
+
+def test_the_batches_do_not_matter():
+    ends = [result(on_device(), cuts).metrics.yields for cuts in (1, 27, 100_000)]
+    assert ends[0] == ends[1] == ends[2] != []
+
+
+@pytest.mark.parametrize(
+    ("scale", "most", "newtons", "why"),
+    [
+        (0.02, 3.3, 4.0, "Push the plunger harder before it gives way, or set a larger force_scale in the scene."),
+        (1.0, 0.05, 4.0, "Its limits cut the force to 0.05 of 4.0"),
+        (1.0, 0.0, 4.0, "The thumb had no force: turn the force on"),
+    ],
+)
+def test_a_loss_that_no_thumb_could_feel_is_not_passed_and_the_reason_is_told(scale, most, newtons, why):
+    made = result(on_device(scale, most, newtons))
+    assert {each.state for each in made.goals} == {"met"} and not made.passed
+    assert made.verdict.startswith("not judged as passed: the device could not show the loss of resistance (0.0")
+    (told,) = [reason for reason in made.reasons if reason.startswith("Not judged as passed")]
+    assert "the second device could not show the loss of resistance of the plunger (0.0" in told and why in told
+
+
+def test_a_limit_that_falls_is_no_loss_of_resistance():
+    columns = on_device()
+    (gave,) = result(columns).metrics.yields
+    falling = np.where(columns["time"] < gave.time, -3.3, -0.3)
+    felt = np.maximum(columns["thumb_felt"], falling)
+    (cut,) = result(columns | {"thumb_felt": felt}).metrics.yields
+    assert cut.loss.drop == 0 and not cut.loss.felt
+
+
+def test_a_key_feels_nothing_and_is_judged_by_the_models_force():
+    made = judged(EXERCISE, pushed(4.0)).finish()
+    assert made.passed and made.metrics.yields[0].loss is None
+
+
+def test_the_verdict_waits_until_a_thumb_could_react(tmp_path):
+    file = tmp_path / "feel.toml"
+    file.write_text(HEAD + goal("feel_plunger", at_least_N=2) + goal("reach"))
+    exercise, columns = load_exercise(file), on_device()
+    (gave,) = result(columns, exercise=exercise).metrics.yields
+    now = int(np.searchsorted(columns["time"], gave.time)) + 3
+    attempt = judged(exercise, {k: v[:now] for k, v in columns.items()}, second_device=True)
+    assert attempt.over and "Not judged" not in attempt.status.instruction  # the loss has only begun
+    assert not attempt.passed and "Not judged" in " ".join(attempt.finish().reasons)  # nobody has seen more
+    attempt.add({k: v[now:] for k, v in columns.items()})
+    assert attempt.passed and "Not judged" not in " ".join(attempt.finish().reasons)
+
+
+@pytest.mark.parametrize(
+    ("scale", "thumb", "told"),
+    [
+        (1.0, OMNI, ""),
+        (1.0, None, "The thumb is a key here and feels nothing"),
+        (1.0, ForceLimits(0.05, 0.05), "The second device cannot show that the plunger gives way (0.00 N at best; 0.1"),
+        (0.005, OMNI, "The second device cannot show that the plunger gives way (0.07 N at best; 0.1 N needed)"),
+        (0.05, OMNI, "At the force scale of 0.05, push the plunger with more than 2.3 N"),
+    ],
+)
+def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb, told):
+    scene = SCENE.replace(display=DisplaySettings(scale))
+    said = thumb_cannot_show(EXERCISE, scene, OMNI, thumb)
+    assert said.startswith(told) and bool(said) == bool(told), said
+
+
+def test_the_push_that_is_named_before_the_start_is_no_more_than_what_is_needed():
+    """At a scale of 0.05, 2.3 N are named; the friction is not all that is left, so a thumb needs somewhat more."""
+    assert not result(on_device(0.05, newtons=2.5)).passed
+    assert result(on_device(0.05, newtons=4.0)).passed
+
+
+@pytest.mark.parametrize("second", [True, False])
+def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, monkeypatch, second):
+    told = []
+
+    def attempt(exercise, scene, second_device):
+        told.append(second_device)
+        return Attempt(exercise, scene, second_device)
+
+    monkeypatch.setattr(sys.modules["punctura.exercise.score"], "Attempt", attempt)
+    device = SimulatedDevice(Target([0, 6e-3, 0]))
+    thumb = ThumbLoop(SimulatedDevice(Target([0, 0, 0]))) if second else None
+    file = tmp_path / "run.parquet"
+    with ServoLoop(device, SCENE, thumb=thumb) as loop, Recorder(loop, file, thumb=thumb):
+        loop.start()
+        wait_until(lambda: len(loop.latest()))
+        loop.stop()
+    assert not score(file, EXERCISE).passed and told == [second]
+
+
+def test_exercises_without_the_plunger_say_nothing_about_the_thumb():
+    for name in set(exercise_names()) - {NAME}:
+        exercise = load_exercise(name)
+        assert thumb_cannot_show(exercise, exercise.scene, OMNI, None) == ""
