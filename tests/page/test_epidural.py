@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from person import columns, drag_in, opened, ready, saved, tab, view
-from playwright.sync_api import Browser, Page, expect
+from person import columns, drag_in, opened, ready, saved, tab, ticks_come, view
+from playwright.sync_api import Browser, Locator, Page, expect
 from senses import STUBS
 from studio_process import StudioProcess
 
@@ -68,7 +68,28 @@ def test_the_slice_says_where_the_needle_is(shown: Page) -> None:
     shown.get_by_role("button", name="Close the slice").click()
 
 
-def test_a_key_and_a_trigger_push_the_plunger_and_its_force_is_in_plot_and_file(shown: Page, tmp_path: Path) -> None:
+def turn_with_alt(page: Page, force: Locator) -> None:
+    """Turns the wheel over the view with Alt until the thumb pushes. The needle must not move."""
+    hand = page.get_by_role("row", name="Hand")
+    box = view(page).bounding_box()
+    assert box
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    before = hand.inner_text()
+    page.keyboard.down("Alt")
+    for _ in range(100):
+        page.mouse.wheel(0, 100)
+        ticks_come(page, 0.1)
+        if force.inner_text()[0] in "123456789":
+            break
+    else:
+        raise AssertionError("the thumb does not push")
+    page.keyboard.up("Alt")
+    assert hand.inner_text() == before
+
+
+def test_a_key_a_trigger_and_the_wheel_push_the_plunger_and_its_force_is_in_plot_and_file(
+    shown: Page, tmp_path: Path
+) -> None:
     syringe = tab(shown, "Hand").locator("section", has=shown.get_by_role("heading", name="Syringe"))
     force = syringe.locator("output").first
     for press, release in (
@@ -80,6 +101,8 @@ def test_a_key_and_a_trigger_push_the_plunger_and_its_force_is_in_plot_and_file(
         expect(force).to_have_text(re.compile(r"^[1-9]"))
         release()
         expect(force).to_have_text(re.compile(r"^0[.][0-4]"))
+    turn_with_alt(shown, force)
+    expect(force).to_have_text(re.compile(r"^0[.][0-4]"))  # the thumb lets go when the wheel stops
     plot = shown.locator(".time-plots")
     expect(plot.get_by_role("button", name="thumb, model force")).to_have_attribute("aria-pressed", "true")
     plot.get_by_text("Save").click()

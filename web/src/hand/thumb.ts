@@ -6,13 +6,17 @@ import { Signal } from "../state/signal.ts";
 export const FIRM = 4;
 const REPEAT_MS = 400; // the server lets go after 1 s of silence
 const STEP = 0.1; // N; smaller changes of a trigger are not sent
+const MS_PER_WHEEL_PIXEL = 2.5; // a notch has about 100 pixels, so four notches a second are a steady push
+const WHEEL_MS = 400; // the longest push that is left when the wheel stops
 
-/** The simulated thumb on the plunger. It pushes as long as something holds it: a key, a button or a trigger. */
+/** The simulated thumb on the plunger. It pushes as long as something holds it: a key, a button, a trigger, a wheel. */
 export class Thumb {
   /** N, what is sent now; 0 if nothing pushes. */
   readonly force = new Signal(0);
   private readonly held = new Map<string, number>();
   private sent = 0;
+  /** ms, until which the wheel pushes. */
+  private wheelEnd = 0;
 
   constructor(private readonly app: App) {
     app.run.watch(() => this.letGo());
@@ -36,14 +40,23 @@ export class Thumb {
     this.send(now);
   }
 
+  /** Pushes while the wheel turns inwards, and somewhat longer; turned back, it lets go. */
+  turn(pixels: number, now = performance.now()): void {
+    const left = Math.max(0, this.wheelEnd - now);
+    this.wheelEnd = pixels > 0 ? now + Math.min(WHEEL_MS, left + pixels * MS_PER_WHEEL_PIXEL) : 0;
+    this.push("wheel", pixels > 0 ? FIRM : 0, now);
+  }
+
   /** Call in each frame: says again that the thumb still pushes, or lets go if the page shows another run. */
   renew(now: number): void {
+    if (this.held.has("wheel") && now >= this.wheelEnd) this.push("wheel", 0, now);
     if (!this.there) this.letGo();
     else if (this.force.value > 0 && now - this.sent > REPEAT_MS) this.send(now, true);
   }
 
   private letGo(): void {
     this.held.clear();
+    this.wheelEnd = 0;
     this.send(performance.now());
   }
 

@@ -12,6 +12,8 @@ export interface GestureHandler {
   zoom(factor: number): void;
   /** Moves along the needle, mm; positive goes in. Returns false if the needle cannot be moved. */
   push(depth: number): boolean;
+  /** The wheel, turned by so many pixels, pushes the syringe's plunger; turned back, it lets go. */
+  plunge(pixels: number): void;
 }
 
 type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
@@ -19,7 +21,7 @@ const MM_PER_WHEEL_PIXEL = 0.004;
 
 /**
  * One finger or the left button moves the needle along its line; with Shift, also sideways. The right button or two
- * fingers orbit the scene.
+ * fingers orbit the scene. The wheel moves the needle along its line; with Alt it pushes the syringe's plunger.
  */
 export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel(): void } {
   const pointers = new Map<number, { x: number; y: number }>();
@@ -88,7 +90,8 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
     (event) => {
       event.preventDefault();
       const pixels = event.deltaMode === 1 ? event.deltaY * 18 : event.deltaY;
-      if (event.ctrlKey || event.metaKey || !handler.push(pixels * MM_PER_WHEEL_PIXEL)) {
+      if (event.altKey) handler.plunge(pixels);
+      else if (event.ctrlKey || event.metaKey || !handler.push(pixels * MM_PER_WHEEL_PIXEL)) {
         handler.zoom(Math.exp(-pixels * (event.ctrlKey ? 0.006 : 0.0012)));
       }
     },

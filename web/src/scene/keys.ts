@@ -18,6 +18,7 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["A D W S", "orbit the scene"],
   ["R", "show the last pop again, slowly"],
   ["Space", "push the syringe's plunger, while held"],
+  ["Alt + wheel", "push the syringe's plunger, while it turns towards you; turned back, let it go"],
 ];
 
 /** Handles keys while the view has the focus. */

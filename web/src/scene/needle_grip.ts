@@ -1,5 +1,6 @@
 import { type Camera, Vector3 } from "three";
 import type { Hand } from "../hand/hand.ts";
+import type { Thumb } from "../hand/thumb.ts";
 import { alongNeedle } from "./along.ts";
 import type { OrbitCamera } from "./camera.ts";
 import type { GestureHandler } from "./gestures.ts";
@@ -19,6 +20,7 @@ export function needleGrip(
   world: World,
   stage: Stage,
   free: () => boolean,
+  thumb: Thumb,
 ): GestureHandler {
   const start = new Vector3(); // of the hand, mm
   const offset = new Vector3();
@@ -72,5 +74,6 @@ export function needleGrip(
       hand.push(depth / MM);
       return true;
     },
+    plunge: (pixels) => thumb.turn(pixels),
   };
 }

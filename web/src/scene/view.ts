@@ -83,7 +83,7 @@ export const view: Panel = (host, app) => {
   const sliceFrame = new SliceFrame(theme, stage.scene);
   const probe = probeOf(app);
   sentence(host, app);
-  const drag = gestures(canvas, needleGrip(hand, orbit, world, stage, free));
+  const drag = gestures(canvas, needleGrip(hand, orbit, world, stage, free, thumbOf(app)));
   app.goal.watch((goal) => world.aim(goal));
   // A drag from the last run would pull the new run's needle to the old place.
   app.run.watch(() => drag.cancel());

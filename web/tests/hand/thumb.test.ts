@@ -84,3 +84,36 @@ it("lets go when the page shows another run", () => {
   thumb.renew(1000);
   expect(sent.at(-1)).toBe(0);
 });
+
+it("pushes while the wheel turns, lets go soon after it, and at once when it turns back", () => {
+  thumb.turn(100, 0);
+  thumb.renew(240);
+  thumb.turn(100, 240); // the next notch, before the push has ended
+  thumb.renew(390);
+  expect(sent).toEqual([FIRM]);
+  thumb.renew(510);
+  expect(sent).toEqual([FIRM, 0]);
+  for (let notch = 0; notch < 20; notch++) thumb.turn(100, 1000);
+  thumb.renew(1401); // however far it was turned
+  expect(sent).toEqual([FIRM, 0, FIRM, 0]);
+  thumb.turn(100, 2000);
+  thumb.turn(-100, 2010);
+  expect(sent).toEqual([FIRM, 0, FIRM, 0, FIRM, 0]);
+});
+
+it("a wheel that stops does not end the push of a key", () => {
+  thumb.push("key", FIRM, 0);
+  thumb.turn(100, 0);
+  thumb.renew(300);
+  thumb.turn(-100, 310);
+  expect([sent, thumb.force.value]).toEqual([[FIRM], FIRM]);
+});
+
+it("does not push with the wheel in a scene without a plunger, or without control", () => {
+  scene(false, 1);
+  thumb.turn(100, 0);
+  scene(true, 2);
+  control(false);
+  thumb.turn(100, 100);
+  expect(sent).toEqual([]);
+});

@@ -52,6 +52,7 @@ beforeEach(() => {
       if (free) log.push(`push ${depth.toFixed(2)}`);
       return free;
     },
+    plunge: (pixels) => log.push(`plunge ${pixels}`),
   });
 });
 
@@ -131,5 +132,15 @@ describe("a gesture over the view", () => {
     free = false;
     wheel({});
     expect(log).toEqual(["push 0.40", "zoom 0.55", "zoom 0.89"]);
+  });
+
+  it("with the wheel and Alt pushes the plunger, and neither moves the needle nor zooms", () => {
+    const wheel = (fields: object): Event =>
+      send("wheel", { deltaY: 100, deltaMode: 0, ctrlKey: false, metaKey: false, altKey: true, ...fields });
+    expect(wheel({}).defaultPrevented).toBe(true);
+    wheel({ deltaY: -3, deltaMode: 1 });
+    free = false;
+    wheel({});
+    expect(log).toEqual(["plunge 100", "plunge -54", "plunge 100"]);
   });
 });

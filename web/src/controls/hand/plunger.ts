@@ -36,7 +36,12 @@ export function plungerRows(app: App): HTMLElement {
     "section",
     { class: "rows", hidden: true },
     element("h3", {}, "Syringe"),
-    element("div", { class: "row" }, push, element("span", {}, "or hold Space in the view")),
+    element(
+      "div",
+      { class: "row" },
+      push,
+      element("span", {}, "or hold Space in the view, or turn the wheel there with Alt"),
+    ),
     element("div", { class: "row" }, element("span", {}, "Thumb, model force"), force),
     element("div", { class: "row" }, element("span", {}, "Injected"), volume),
     empty,
