@@ -16,6 +16,7 @@ from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.rises import rise_starts
+from punctura.identify.scene import scene_of
 from punctura.trace import Finding, Trace, TraceError, segment
 from punctura.trace.blocks import held_out
 from traces import MEMBRANE, NEEDLE, force_of, motion, trace
@@ -113,6 +114,13 @@ def test_a_severe_finding_stops_the_identification():
     )
     with pytest.raises(TraceError, match=r"a.csv: wrong unit: 1000 times"):
         identify(bad, NEEDLE)
+
+
+def test_a_scene_of_unusual_values_gives_no_warning_about_units(recwarn):
+    row = default_membrane()
+    row[:5] = [5e-3, 0.11, 1.3, 0.2, 0.5e-3]
+    scene = scene_of(Parameters(NEEDLE, np.array([row]), default_coupling(2.8)), "soft")
+    assert scene.coupling.stiffness == 2.8 and not recwarn.list
 
 
 def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
