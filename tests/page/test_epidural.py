@@ -131,3 +131,10 @@ def test_no_label_covers_another_from_above_on_a_desktop_a_phone_and_at_200_perc
         shown.set_viewport_size({"width": width, "height": height})
         expect(shown.locator(".view-label.membrane:visible")).to_have_count(6)
         shown.wait_for_function(f"() => ({OVERLAPS})().length === 0", polling=100)
+
+
+def test_the_exercise_of_the_plunger_says_that_a_key_feels_nothing(shown: Page) -> None:
+    side = tab(shown, "Exercises")
+    told = side.locator("article.exercise", has_text="The thumb is a key here and feels nothing")
+    expect(told).to_have_count(1)
+    expect(told).to_contain_text("Epidural with the plunger")

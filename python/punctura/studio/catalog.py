@@ -98,6 +98,7 @@ class ExerciseOverview(Part):
     problems: list[ProblemPart] = Field(default=[])
     warnings: list[ProblemPart] = Field(default=[])
     unfelt: str = ""  # why this device cannot show what the student must feel, and what to do; empty if it can
+    note: str = ""  # what is judged in another way here: the plunger, if the thumb is a key
 
 
 class Exercises:
@@ -173,7 +174,7 @@ class Exercises:
         draft = [_on(self.draft, hands)] if self.draft else []
         made = [self._own(name, path, hands).model_copy(update={"made": True}) for name, path in self._made().items()]
         own = [self._own(name, path, hands) for name, path in self._files.items()]
-        ready = [entry.model_copy(update={"unfelt": _unfelt(entry.name, hands)}) for entry in _ready_exercises()]
+        ready = [entry.model_copy(update=_ready_felt(entry.name, hands)) for entry in _ready_exercises()]
         return draft + own + made + ready
 
     def choices(self) -> list[Choice]:
@@ -236,18 +237,22 @@ def _line(exercise: Exercise) -> Line | None:
 
 def _on(exercise: Exercise, hands: Hands) -> ExerciseOverview:
     """The exercise, and what devices with these limits cannot show of it."""
-    return _overview(exercise).model_copy(update={"unfelt": _cannot_show(exercise, hands)})
+    return _overview(exercise).model_copy(update=_felt(exercise, hands))
 
 
-def _cannot_show(exercise: Exercise, hands: Hands) -> str:
+def _felt(exercise: Exercise, hands: Hands) -> dict[str, str]:
+    """The fields `unfelt` and `note` of the overview."""
     limits, thumb = hands
-    said = cannot_show(exercise, exercise.scene, limits), thumb_cannot_show(exercise, exercise.scene, limits, thumb)
-    return " ".join(filter(None, said))
+    needle = cannot_show(exercise, exercise.scene, limits)
+    plunger = thumb_cannot_show(exercise, exercise.scene, limits, thumb)
+    if thumb is None:
+        return {"unfelt": needle, "note": plunger}
+    return {"unfelt": " ".join(filter(None, [needle, plunger])), "note": ""}
 
 
 @cache
-def _unfelt(name: str, hands: Hands) -> str:
-    return _cannot_show(load_exercise(name), hands)
+def _ready_felt(name: str, hands: Hands) -> dict[str, str]:
+    return _felt(load_exercise(name), hands)
 
 
 @cache

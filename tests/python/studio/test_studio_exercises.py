@@ -177,9 +177,10 @@ def test_the_list_and_the_judge_know_whether_the_thumb_is_on_a_second_device(tmp
     server = serve(tmp_path, "epidural", Settings(second=second))
     with StudioClient(server.address.url) as page:
         page.wait(lambda: page.of("scene") and page.last)
-        unfelt = {entry["name"]: entry["unfelt"] for entry in page.json("/api/exercises")}
-        assert unfelt.pop("epidural-plunger").startswith(told)
-        assert set(unfelt.values()) == {""}
+        said = {entry["name"]: (entry["unfelt"], entry["note"]) for entry in page.json("/api/exercises")}
+        unfelt, note = said.pop("epidural-plunger")
+        assert (unfelt or note).startswith(told) and bool(note) == (second is None) and not (unfelt and note)
+        assert set(said.values()) == {("", "")}
         assert page.ask(do="start_exercise", exercise="epidural-plunger")["ok"]
         assert attempts == [second is not None]
         assert page.ask(do="end_exercise")["ok"]

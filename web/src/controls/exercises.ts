@@ -162,6 +162,7 @@ function card(
     ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
     ...(exercise.unfelt ? [element("p", { class: "unfelt", role: "note" }, exercise.unfelt)] : []),
     element("p", {}, exercise.description),
+    ...(exercise.note ? [element("p", { class: "quiet", role: "note" }, exercise.note)] : []),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
     ...(wrong || exercise.name === DRAFT ? [] : [expertChoice(app, exercise, () => void changed())]),
     ...(exercise.made ? [deletePart(app, exercise, () => void changed())] : []),

@@ -78,6 +78,8 @@ export interface ExerciseOverview {
   readonly warnings: readonly ProblemPart[];
   /** Why this device cannot show what the student must feel, and what to do; empty if it can. */
   readonly unfelt: string;
+  /** What is judged in another way here; may be empty. */
+  readonly note: string;
 }
 
 /** `GET /api/results/NAME`: see python/punctura/exercise/result.py. SI; null: not available. */
