@@ -21,20 +21,30 @@ TARGETS = {"rules": {"target-size": {"enabled": True}}}  # WCAG 2.2; axe-core le
 def check(page: Page, state: str, part: str = "") -> None:
     """All rules in light colours at the usual size; the rules about colours in dark ones, about layout at other sizes.
 
-    The rules about colours also apply at a phone's size, where parts lie over others.
-    part: a selector of what these others look at; empty: the page. At no size may the page scroll sideways. The page
-    stays in light colours and at the usual size.
+    The rules about colours also apply at a phone's size, where parts lie over others; in a state of the whole page also
+    in dark colours, and on a tablet.
+    part: a selector of what differs from the states before; empty: the page. At no size may the page scroll sideways.
+    The page stays in light colours and at the usual size.
     """
-    _none(page, f"{state}, light", TARGETS)
+    _none(page, f"{state}, light", TARGETS, part)
     page.emulate_media(color_scheme="dark")
     _none(page, f"{state}, dark", _only(COLOURS), part)
     page.emulate_media(color_scheme="light")
     for width, height in (LARGE, TABLET, PHONE):
         page.set_viewport_size({"width": width, "height": height})
-        rules = LAYOUT + COLOURS if (width, height) == PHONE else LAYOUT
+        rules = LAYOUT + COLOURS if (width, height) == PHONE or not part else LAYOUT
         _none(page, f"{state}, {width} px wide", _only(rules), part)
         assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{state} scrolls sideways at {width} px"
+        if not part and (width, height) != LARGE:
+            page.emulate_media(color_scheme="dark")
+            _none(page, f"{state}, {width} px wide, dark", _only(COLOURS))
+            page.emulate_media(color_scheme="light")
     page.set_viewport_size({"width": USUAL[0], "height": USUAL[1]})
+
+
+def none_found(page: Page, state: str) -> None:
+    """All rules in the page's present size and colours."""
+    _none(page, state, TARGETS)
 
 
 def _only(rules: list[str]) -> dict[str, object]:

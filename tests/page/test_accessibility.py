@@ -1,8 +1,8 @@
 """axe-core finds nothing serious or moderate in any state, at four sizes, light and dark; and no address is missing."""
 
 import pytest
-from axe import AXE, USUAL, check
-from person import PATIENCE, own_exercise
+from axe import AXE, USUAL, check, none_found
+from person import PATIENCE, own_exercise, ready, tab
 from playwright.sync_api import Browser, Page, expect
 from states import SHORT, states
 from studio_process import StudioProcess
@@ -49,5 +49,42 @@ def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address
         check(page, name, part)
     the_panels_change(page)
     check(page, "the projector layout")
-    context.close()
     assert not missing, missing
+    viewer = context.new_page()
+    viewer.goto(studio.url)
+    viewer.evaluate(AXE.read_text(encoding="utf-8"))
+    expect(viewer.get_by_role("button", name="Take control").first).to_be_visible()
+    check(viewer, "a page without control", ".header, .side")
+    studio.end()
+    expect(viewer.locator(".header")).to_contain_text("No connection")
+    check(viewer, "a page without connection", ".header, .side")
+    context.close()
+
+
+SMALL = """() => [...document.querySelectorAll('button, summary, select, input, a[href], [role=tab], [role=separator]')]
+  .filter((part) => part.checkVisibility({opacityProperty: true, visibilityProperty: true}))
+  .map((part) => {
+    const target = part.closest('label') ?? (part.labels?.[0]?.contains(part) ? part.labels[0] : part);
+    const {width, height} = target.getBoundingClientRect();
+    return {part: part.outerHTML.slice(0, 160), width, height};
+  })
+  .filter(({width, height}) => width > 1 && height > 1 && (width < 43.5 || height < 43.5))"""
+OF_PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "reduced_motion": "reduce"}
+
+
+def test_for_a_finger_each_target_has_44_pixels_and_axe_finds_nothing(browser: Browser, studio):
+    context = browser.new_context(**OF_PHONE, device_scale_factor=0.2)
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    page.goto(studio.url)
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    expect(page.locator(".tour")).to_be_visible()
+    assert page.evaluate("matchMedia('(pointer: coarse)').matches")
+    small = {"the tour": page.evaluate(SMALL)}
+    ready(page)
+    for name in ("Hand", "Scene", "Exercises", "Recordings", "Lab", "Health"):
+        tab(page, name)
+        small[name] = page.evaluate(SMALL)
+    assert not any(small.values()), small
+    none_found(page, "a phone with fingers")
+    context.close()
