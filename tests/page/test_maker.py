@@ -89,7 +89,7 @@ def test_a_downloaded_exercise_is_opened_after_a_reload_and_runs(page, tmp_path)
     expect(card.get_by_role("button", name="Start")).to_be_focused()
 
     side.get_by_label("Exercise file").set_input_files(file)
-    problems = side.locator(".open-exercise .file-problems")
+    problems = side.locator(".open-exercise [role=alert]")
     expect(problems).to_contain_text("there is an exercise from-another-desk already")
     file.write_text(file.read_text(encoding="utf-8").replace("From another desk", "Corrected"), encoding="utf-8")
     side.get_by_role("button", name="Replace from-another-desk").click()
@@ -109,7 +109,7 @@ def test_a_wrong_file_is_told_with_its_places_and_a_looker_on_is_told_why(page, 
     tab(page, "Hand")
     text = load_exercise("venipuncture").path.read_text(encoding="utf-8")
     drop(page, "mine.toml", text.replace("seconds = 3\n", "seconds = -3\n").replace('"front vein wall"', '"wall"'))
-    problems = page.locator(".open-exercise .file-problems")
+    problems = page.locator(".open-exercise [role=alert]")
     expect(problems).to_contain_text("mine.toml was not opened:")  # the tab has opened
     expect(problems).to_contain_text("seconds = -3: Must be at least 0.01 s.")
     expect(problems).to_contain_text("space.behind = 'wall': Must be one of the scene's membranes: skin,")
@@ -126,7 +126,7 @@ def test_a_wrong_file_is_told_with_its_places_and_a_looker_on_is_told_why(page, 
         if second.get_by_role("button", name="Skip").count():
             second.get_by_role("button", name="Skip").click()
         drop(second, "other.toml", text)
-        expect(second.locator(".open-exercise .file-problems")).to_contain_text("other.toml was not opened. ")
+        expect(second.locator(".open-exercise [role=alert]")).to_contain_text("other.toml was not opened. ")
         expect(second.get_by_role("button", name="Open an exercise file…")).to_be_disabled()
         expect(second.locator("[data-exercise=mine]")).to_be_visible()
         expect(second.locator("[data-exercise=other]")).to_have_count(0)

@@ -192,9 +192,7 @@ function deletePart(app: App, { name }: ExerciseOverview, changed: () => void): 
 
 function problemList(kind: "problems" | "warnings", problems: readonly ProblemPart[]): HTMLElement {
   const begin = kind === "warnings" ? "Warning: " : "";
-  return element(
-    "ul",
-    { class: `file-${kind}`, role: kind === "problems" ? "alert" : "note" },
-    ...problems.map((problem) => element("li", {}, begin + sentence(problem))),
-  );
+  const list = problems.map((problem) => element("li", {}, begin + sentence(problem)));
+  const role = kind === "problems" ? "alert" : "note"; // of a list itself it would take the list from its items
+  return element("div", { role }, element("ul", { class: `file-${kind}` }, ...list));
 }

@@ -30,14 +30,18 @@ export function base64(bytes: Uint8Array): string {
  */
 export function openPart(app: App, opened: (name: string) => Promise<void>): HTMLElement {
   const good = element("p", { class: "quiet", role: "status" });
-  const wrong = element("ul", { class: "file-problems", role: "alert", hidden: true });
+  const why = element("p", { class: "error" });
+  const places = element("ul", { class: "file-problems" });
+  const wrong = element("div", { role: "alert", hidden: true }, why, places);
   const replace = element("button", { type: "button", class: "small", hidden: true });
   let asked: () => void = () => {};
   replace.addEventListener("click", () => asked());
 
-  const complain = (...problems: readonly string[]): void => {
-    wrong.replaceChildren(...problems.map((text) => element("li", {}, text)));
-    wrong.hidden = problems.length === 0;
+  const complain = (text = "", problems: readonly string[] = []): void => {
+    why.textContent = text;
+    places.replaceChildren(...problems.map((problem) => element("li", {}, problem)));
+    places.hidden = problems.length === 0; // an empty list is no list
+    wrong.hidden = text === "";
   };
   const take = async (file: File, over = false): Promise<void> => {
     good.textContent = "";
@@ -68,7 +72,7 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
     else if (reply.ok) {
       good.textContent = [`${file.name} is in the list.`, reply.text].filter(Boolean).join(" ");
       await opened(String(reply.data?.name ?? name));
-    } else if (reply.problems?.length) complain(`${file.name} was not opened:`, ...reply.problems.map(sentence));
+    } else if (reply.problems?.length) complain(`${file.name} was not opened:`, reply.problems.map(sentence));
     else {
       complain(`${file.name} was not opened: ${reply.text}.`);
       // The name is taken: whoever means the same exercise need not choose the file again.
