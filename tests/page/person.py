@@ -72,6 +72,22 @@ def events(page: Page, what: str = "") -> Locator:
     return page.locator(f".events-list .event{f'.{what}' if what else ''}")
 
 
+WHOLE = """(part) => {
+  const {left, right, top, bottom} = part.getBoundingClientRect();
+  const whole = left >= 0 && right <= innerWidth && top >= 0 && bottom <= innerHeight;
+  const over = whole && document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+  return Boolean(over) && part.contains(over) && part.scrollWidth <= part.clientWidth + 1;
+}"""
+
+
+def whole_at(page: Page, size: tuple[int, int], *parts: Locator) -> None:
+    """At this size of the window, each part is wholly inside it, without scrolling; nothing covers or clips it."""
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    for part in parts:
+        handle = part.element_handle()
+        page.wait_for_function(WHOLE, arg=handle)
+
+
 def ticks_come(page: Page, seconds: float = 0.001) -> None:
     """Waits until the page shows a tick that is later than the present one by so much time of the servo loop.
 

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from person import own_exercise, push, ready, saved, tab, view
+from person import own_exercise, push, ready, saved, tab, view, whole_at
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -34,6 +34,12 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     fetched = []
     page.on("response", lambda answer: fetched.append(answer) if "/api/recordings/" in answer.url else None)
     begin(page)
+    task = page.locator(".running")
+    for size in ((1440, 900), (1024, 768), (390, 844)):
+        whole_at(page, size, task.locator(".instruction"), task.get_by_role("button", name="End"))
+        if size != (390, 844):  # a phone has room for the instruction only
+            whole_at(page, size, *task.locator(".goals li").all())
+    page.set_viewport_size({"width": 1440, "height": 900})
     for _ in range(60):
         push(page, "Shift+ArrowDown", 5)
         if page.get_by_role("dialog").count():

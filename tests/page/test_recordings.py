@@ -2,7 +2,7 @@
 
 import numpy as np
 import pyarrow.parquet as parquet
-from person import drag_in, events, ready, saved, tab
+from person import drag_in, events, ready, saved, tab, whole_at
 from playwright.sync_api import expect
 from punctura.record import replay
 
@@ -16,6 +16,13 @@ def test_a_run_is_recorded_replayed_and_exported(page, tmp_path):
     expect(page.locator(".header")).to_contain_text("Force on")
     drag_in(page, pops=1)
     drop = events(page, "pop").first.inner_text()
+    stop = page.get_by_role("button", name="Stop", exact=True)
+    for size in ((1440, 900), (1024, 768)):
+        whole_at(page, size, stop)
+    page.set_viewport_size({"width": 390, "height": 844})
+    stop.scroll_into_view_if_needed()  # on a phone the page is one column
+    whole_at(page, (390, 844), stop)
+    page.set_viewport_size({"width": 1440, "height": 900})
     page.get_by_role("button", name="Stop", exact=True).click()
     name = page.get_by_role("textbox", name="Name of the recording")
     name.fill("second try")  # while the first one is being finished
