@@ -53,7 +53,10 @@ struct TissueBand : ManyPieces<Scalar_, N> {
       return;
     }
     if (!cut_whole) {
-      for (std::size_t k = 0; k < First::count; ++k) drop_cutting(k, First::pieces[k]), cutting[k] = {};
+      for (std::size_t k = 0; k < First::count; ++k) {
+        drop_cutting(k, First::pieces[k]);
+        cutting[k] = {};
+      }
       cut_whole = true;
     }
     if (made_to < whole) {

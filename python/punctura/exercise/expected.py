@@ -82,8 +82,8 @@ def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thu
         )
     if least > asked_push(exercise.file):
         return (
-            f"At the force scale of {scale:.2g}, push the plunger with more than {least:.1f} N: else the thumb could "
-            "not feel it give way, and the attempt is not judged as passed."
+            f"At the force scale of {scale:.2g}, push the plunger with clearly more than {least:.1f} N: with less, the "
+            "thumb could not feel it give way, and the attempt is not judged as passed."
         )
     return ""
 

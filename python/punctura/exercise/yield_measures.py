@@ -10,6 +10,7 @@ from punctura.exercise.result import PlungerLoss, Yield
 from punctura.exercise.ticks import Ticks
 
 REACTION_S = 0.3  # a thumb reacts within it; illustrative
+ROUNDING_N = 0.01  # a device gives a force with an error of about this
 
 
 class YieldMeasures:
@@ -63,7 +64,7 @@ class YieldMeasures:
         the force before counts only as far."""
         after, model_after = min(loss.after, felt), min(loss.model_after, model)
         wanted = loss.force_scale * model_after
-        cut = after < wanted - 0.01 * abs(wanted)
+        cut = after < wanted - max(0.01 * abs(wanted), ROUNDING_N)
         before = max(0.0, min(self._before[k], after) if cut else self._before[k])
         update = {"before": before, "after": after, "model_after": model_after}
         return loss.model_copy(update=update | {"needed": needed_drop(before) if self._must else None})

@@ -14,6 +14,7 @@ from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit
 from punctura.identify.intervals import Estimate, estimates
+from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
@@ -29,8 +30,8 @@ from punctura.trace import Segments, Trace, TraceError, segment
 MOST_MEMBRANES = 6
 BETTER_OPTIMA = 5  # that the intervals may meet, each one better than the one before; then they end as they are
 MORE_OPTIMA = (
-    f"The search for the intervals met {BETTER_OPTIMA} better optima, one after the other, and there may be more. Do "
-    "not trust the values: the trace holds too little for so many parameters, or the model is wrong."
+    "The search for the intervals met parameters that explain the trace better than the fit, also after new fits from "
+    "there. Do not trust the values: the trace holds too little for so many parameters, or the model is wrong."
 )
 
 
@@ -123,34 +124,41 @@ def _identified(
     count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
     choice = choose(few, segments if all_used else segment(few), needle, count, tell, most=most)
     found: tuple[Estimate, ...] | None = None
-    better: list[Parameters] = []
+    better: list[tuple[Model, Parameters]] = []
+    least, more = np.inf, False  # the squares of the last fit, N^2; whether there are better optima still
     while found is None:
         few_fit = final = choice.current.fit
         if not all_used:
             tell("all samples")
-            final = _with_all_samples(trace, few_fit, better)
+            final = _with_all_samples(
+                trace, few_fit, [point for model, point in better if model == choice.current.model]
+            )
         tell("intervals")
+        others = (few_fit.parameters, *few_fit.others)
         try:
-            found = estimates(final, (few_fit.parameters, *few_fit.others), stops=len(better) < BETTER_OPTIMA)
+            found = estimates(final, others)
         except BetterPoint as point:
+            if len(better) == BETTER_OPTIMA or not final.sse < least:
+                found, more = estimates(final, others, stops=False), True
+                break
             tell("a better optimum")
-            better.append(point.parameters)
+            least = final.sse
+            better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
     effective = effective_samples(final.residuals, len(final.u))
     said = verdicts(found, trace, segments, few_fit)
-    if len(better) == BETTER_OPTIMA:
-        said = (*said, MORE_OPTIMA)
-    return Identification(trace, segments, final, found, said, choice.candidates, effective)
+    return Identification(
+        trace, segments, final, found, (*said, MORE_OPTIMA) if more else said, choice.candidates, effective
+    )
 
 
 def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:
-    """The fit of all samples. better: points that are better than such a fit was.
+    """The fit of all samples. better: points that are better than such a fit of this model was.
 
     Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
     """
     misfit = Misfit(trace, few.parameters)
-    own = [one for one in better if len(one.membranes) == len(few.parameters.membranes)]
-    ends = [Start(parameters) for parameters in (few.parameters, *few.others, *own)]
+    ends = [Start(parameters) for parameters in (few.parameters, *few.others, *better)]
     return with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends)))
 
 

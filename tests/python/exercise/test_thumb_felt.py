@@ -98,7 +98,7 @@ def test_the_verdict_waits_until_a_thumb_could_react(tmp_path):
         (1.0, None, "The thumb is a key here and feels nothing"),
         (1.0, ForceLimits(0.05, 0.05), "The second device cannot show that the plunger gives way (0.00 N at best; 0.1"),
         (0.005, OMNI, "The second device cannot show that the plunger gives way (0.07 N at best; 0.1 N needed)"),
-        (0.05, OMNI, "At the force scale of 0.05, push the plunger with more than 2.3 N"),
+        (0.05, OMNI, "At the force scale of 0.05, push the plunger with clearly more than 2.3 N"),
     ],
 )
 def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb, told):

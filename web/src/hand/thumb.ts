@@ -25,6 +25,9 @@ export class Thumb {
     });
     // A key that is released in another window is not seen here.
     globalThis.addEventListener?.("blur", () => this.letGo());
+    globalThis.addEventListener?.("keyup", ({ key }) => {
+      if (key === "Alt") this.turn(0);
+    });
   }
 
   /** Whether the scene has a plunger that this page can push. */
@@ -40,7 +43,7 @@ export class Thumb {
     this.send(now);
   }
 
-  /** Pushes while the wheel turns inwards, and somewhat longer; turned back, it lets go. */
+  /** Pushes while the wheel turns inwards, and somewhat longer; turned back, or when Alt is released, it lets go. */
   turn(pixels: number, now = performance.now()): void {
     const left = Math.max(0, this.wheelEnd - now);
     this.wheelEnd = pixels > 0 ? now + Math.min(WHEEL_MS, left + pixels * MS_PER_WHEEL_PIXEL) : 0;

@@ -57,7 +57,7 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
       return;
     }
     if (file.size > MOST_KB * 1000) {
-      complain(`${file.name} was not opened: is larger than ${MOST_KB} kB: no exercise needs that.`);
+      complain(`${file.name} was not opened: it is larger than ${MOST_KB} kB, and no exercise needs that.`);
       return;
     }
     const bytes = await file.arrayBuffer().catch(() => null);
