@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from punctura.exercise.result import FeltLoss, PlungerLoss
 
 # A person notices a change of about 7 % (X. D. Pang, H. Z. Tan, N. I. Durlach, Perception & Psychophysics, 1991,
@@ -18,29 +20,39 @@ def needed_drop(before: float) -> float:
 
 def remedy(loss: FeltLoss) -> str:
     """What makes the loss larger, as a sentence."""
-    if loss.before == 0:
-        return "The force was off: turn it on."
     wanted = loss.force_scale * loss.model_before
+    cut = f"limits cut the force to {loss.before:.2f} of {wanted:.2f} N"
+    itself = f"{loss.model_before - loss.model_after:.2f} N"
+    words = _of_thumb(cut, itself) if isinstance(loss, PlungerLoss) else _of_needle(cut, itself)
+    if loss.before == 0:
+        return words.off
     if loss.before < 0.99 * wanted:
-        return (
-            f"The limits cut the force to {loss.before:.2f} of {wanted:.2f} N: set force_scale in the scene to "
-            '"automatic", or use a stronger device.'
-        )
-    if loss.force_scale < 1:
-        return "Set a larger force_scale in the scene, if the device can give it, or use a stronger device."
-    return f"In this scene the loss itself is only {loss.model_before - loss.model_after:.2f} N."
+        return words.cut
+    return words.scaled if loss.force_scale < 1 else words.itself
 
 
-def thumb_remedy(loss: PlungerLoss) -> str:
-    """The same for the thumb on a second device."""
-    if loss.before == 0:
-        return "The thumb had no force: turn the force on, and rest the thumb on the second device."
-    wanted = loss.force_scale * loss.model_before
-    if loss.before < 0.99 * wanted:
-        return (
-            f"Its limits cut the force to {loss.before:.2f} of {wanted:.2f} N: set a smaller force_scale in the scene, "
-            "or use a stronger second device."
-        )
-    if loss.force_scale < 1:
-        return "Push the plunger harder before it gives way, or set a larger force_scale in the scene."
-    return f"The loss itself is only {loss.model_before - loss.model_after:.2f} N: push the plunger harder before it."
+class _Words(NamedTuple):
+    """A sentence for each reason why a loss is too small: no force, a limit, the force scale, the loss itself."""
+
+    off: str
+    cut: str
+    scaled: str
+    itself: str
+
+
+def _of_needle(cut: str, itself: str) -> _Words:
+    return _Words(
+        "The force was off: turn it on.",
+        f'The {cut}: set force_scale in the scene to "automatic", or use a stronger device.',
+        "Set a larger force_scale in the scene, if the device can give it, or use a stronger device.",
+        f"In this scene the loss itself is only {itself}.",
+    )
+
+
+def _of_thumb(cut: str, itself: str) -> _Words:
+    return _Words(
+        "The thumb had no force: turn the force on, and rest the thumb on the second device.",
+        f"Its {cut}: set a smaller force_scale in the scene, or use a stronger second device.",
+        "Push the plunger harder before it gives way, or set a larger force_scale in the scene.",
+        f"The loss itself is only {itself}: push the plunger harder before it.",
+    )

@@ -9,7 +9,7 @@ from punctura._core import Fault, describe
 from punctura.exercise.achievements import Achievement, FeelJudge, StayJudge
 from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
-from punctura.exercise.loss import remedy, thumb_remedy
+from punctura.exercise.loss import remedy
 from punctura.exercise.measures import Measures
 from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.result import GoalState, Loss, PlungerLoss
@@ -75,13 +75,10 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
 
 def not_felt(loss: Loss | PlungerLoss) -> str:
     """The reason why an attempt that achieved everything is not judged as passed."""
-    if isinstance(loss, PlungerLoss):
-        device, why = "second device", thumb_remedy(loss)
-    else:
-        device, why = "device", remedy(loss)
+    device = "second device" if isinstance(loss, PlungerLoss) else "device"
     return (
         f"Not judged as passed: the {device} could not show the loss of resistance of the {loss.name} "
-        f"({loss.figures}). {why}"
+        f"({loss.figures}). {remedy(loss)}"
     )
 
 

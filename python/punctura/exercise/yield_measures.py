@@ -36,11 +36,13 @@ class YieldMeasures:
         before, model = float(ticks.load_felt[row]), float(ticks.load[row])
         if not np.isfinite(before):
             return None
-        needed = needed_drop(before) if self._must else None
-        scale = float(ticks.force_scale[row])
+        scale, needed = float(ticks.force_scale[row]), self._needed(before)
         return PlungerLoss(
             before=before, after=before, model_before=model, model_after=model, force_scale=scale, needed=needed
         )
+
+    def _needed(self, before: float) -> float | None:
+        return needed_drop(before) if self._must else None
 
     def settle(self, ticks: Ticks) -> None:
         for k, one in enumerate(self.found):
@@ -66,8 +68,8 @@ class YieldMeasures:
         wanted = loss.force_scale * model_after
         cut = after < wanted - max(0.01 * abs(wanted), ROUNDING_N)
         before = max(0.0, min(self._before[k], after) if cut else self._before[k])
-        update = {"before": before, "after": after, "model_after": model_after}
-        return loss.model_copy(update=update | {"needed": needed_drop(before) if self._must else None})
+        update = {"before": before, "after": after, "model_after": model_after, "needed": self._needed(before)}
+        return loss.model_copy(update=update)
 
     @property
     def complete(self) -> list[Yield]:

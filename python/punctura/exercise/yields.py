@@ -45,7 +45,8 @@ class Yields:
         entry = np.maximum.accumulate(np.where(entering, rows, -1))
         pushes = np.concatenate([[self._push], ticks.push[:-1]])
         load = np.where(behind, np.where(entry >= 0, pushes[entry], self._load), np.nan)
-        feels = np.concatenate([[self._push_felt], ticks.push_felt[:-1] if self._second else pushes[1:] * np.nan])
+        felt = ticks.push_felt if self._second else np.full(len(ticks), np.nan)
+        feels = np.concatenate([[self._push_felt], felt[:-1]])
         load_felt = np.where(behind, np.where(entry >= 0, feels[entry], self._load_felt), np.nan)
 
         volume = np.diff(ticks.injected, prepend=self._injected)
@@ -58,6 +59,6 @@ class Yields:
         self._open, self._gave = bool(behind[-1]), bool(gave[-1] | flows[-1])
         self._load, self._push = float(load[-1]), float(ticks.push[-1])
         self._load_felt = float(load_felt[-1])
-        self._push_felt = float(ticks.push_felt[-1]) if self._second else np.nan
+        self._push_felt = float(felt[-1])
         self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
         return replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)

@@ -43,6 +43,14 @@ def reads_little(server):
     return raw
 
 
+def buffered(connection):
+    """Bytes that asyncio holds for the other end. Python 3.12 and later add up a deque, which the server's thread may
+    change meanwhile."""
+    while True:
+        with contextlib.suppress(RuntimeError):
+            return connection.transport.get_write_buffer_size()
+
+
 def request(server, path, *headers):
     lines = [f"GET {path} HTTP/1.1", f"Host: 127.0.0.1:{server.address.port}", *headers]
     return "\r\n".join(lines).replace("TOKEN", server.address.token).encode() + b"\r\n\r\n"
@@ -131,7 +139,7 @@ def test_a_page_that_does_not_read_is_ended_and_the_others_see_every_tick(guarde
         patience = Patience()
         while len(guarded.hub.viewers) == 2:
             patience.check()
-            most = max(most, silent.transport.get_write_buffer_size())
+            most = max(most, buffered(silent))
         assert MOST_BUFFERED < most < MOST_BUFFERED + 250_000  # one message beyond the mark
         other.wait(lambda n=other.ticks: other.ticks > n + 100)
         assert other.gaps == 0
@@ -153,7 +161,7 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
             patience.check()
             with contextlib.suppress(BlockingIOError, ConnectionError):
                 raw.send(many)
-            most = max(most, connection.transport.get_write_buffer_size())
+            most = max(most, buffered(connection))
         assert MOST_BUFFERED < most < 2 * MOST_BUFFERED
 
 

@@ -1,4 +1,4 @@
-import { beforeEach, expect, it } from "vitest";
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type { Ask, Engine, EngineListener } from "../../src/engine/engine.ts";
 import { FIRM, Thumb } from "../../src/hand/thumb.ts";
 import { App } from "../../src/state/app.ts";
@@ -9,6 +9,7 @@ let server: EngineListener;
 let sent: number[];
 let app: App;
 let thumb: Thumb;
+let listeners: Map<string, (event: { key?: string }) => void>; // of the window
 
 const control = (you: boolean): void => server.message({ kind: "control", holder: 1, you, hand: null });
 const scene = (syringe: boolean, run = 0): void =>
@@ -26,6 +27,8 @@ const scene = (syringe: boolean, run = 0): void =>
 
 beforeEach(() => {
   sent = [];
+  listeners = new Map();
+  vi.stubGlobal("addEventListener", (name: string, listener: () => void) => listeners.set(name, listener));
   const engine: Partial<Engine> = {
     start: (listener: EngineListener) => {
       server = listener;
@@ -41,6 +44,10 @@ beforeEach(() => {
   thumb = new Thumb(app);
   control(true);
   scene(true);
+});
+
+afterEach(() => {
+  vi.unstubAllGlobals();
 });
 
 it("pushes while something holds it, and lets go with the last of them", () => {
@@ -99,6 +106,17 @@ it("pushes while the wheel turns, lets go soon after it, and at once when it tur
   thumb.turn(100, 2000);
   thumb.turn(-100, 2010);
   expect(sent).toEqual([FIRM, 0, FIRM, 0, FIRM, 0]);
+});
+
+it("a released Alt ends the push of the wheel, not that of a key", () => {
+  thumb.turn(100, 0);
+  listeners.get("keyup")?.({ key: "Shift" });
+  expect(sent).toEqual([FIRM]);
+  listeners.get("keyup")?.({ key: "Alt" });
+  expect(sent).toEqual([FIRM, 0]);
+  thumb.push("key", FIRM, 100);
+  listeners.get("keyup")?.({ key: "Alt" });
+  expect(sent).toEqual([FIRM, 0, FIRM]);
 });
 
 it("a wheel that stops does not end the push of a key", () => {
