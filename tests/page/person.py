@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, expect
 from punctura.exercise import load_exercise
 
@@ -66,6 +70,16 @@ def tab(page: Page, name: str) -> Locator:
 
 def view(page: Page) -> Locator:
     return page.get_by_role("application", name="The needle and the membranes")
+
+
+def still_picture(page: Page) -> NDArray[np.int16]:
+    """The picture of the view when it no longer changes, which it does not while a moment of a replay is shown."""
+    before = b""
+    while (now := view(page).screenshot()) != before:
+        before = now
+        page.wait_for_timeout(500)
+    with Image.open(io.BytesIO(now)) as picture:
+        return np.asarray(picture.convert("RGB"), dtype=np.int16)
 
 
 def events(page: Page, what: str = "") -> Locator:

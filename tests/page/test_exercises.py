@@ -2,8 +2,9 @@
 
 import json
 
+import numpy as np
 import pytest
-from person import own_exercise, push, ready, saved, tab, view, whole_at
+from person import events, own_exercise, push, ready, saved, still_picture, tab, view, whole_at
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -22,7 +23,8 @@ def studio(tmp_path, request):
 def begin(page):
     ready(page)
     tab(page, "Exercises")
-    page.get_by_role("textbox").first.fill("Ann")
+    page.get_by_role("textbox", name="Your name").fill("Ann")
+    page.get_by_role("textbox", name="Class").fill("3b")
     card = page.locator("article.exercise", has_text=TITLE)
     card.get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible()
@@ -86,8 +88,10 @@ def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page
     dialog.get_by_role("button", name="Replay").click()
     expect(page.get_by_role("group", name="Replay")).to_be_visible()
     expect(page.locator(".force-depth .plot-legend")).to_contain_text("expert")
+    the_view_shows_the_expert(page)
     page.get_by_role("button", name="Back to live").first.click()
 
+    tab(page, "Exercises")
     past = page.locator(".past-results")
     expect(past.locator(".progress").get_by_role("row", name="Ann")).to_contain_text(f"2{passed}")
     rows = saved(page, past.get_by_role("button", name="csv"), tmp_path).read_text(encoding="utf-8").splitlines()
@@ -95,6 +99,36 @@ def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page
     lines = saved(page, past.get_by_role("button", name="xapi"), tmp_path).read_text(encoding="utf-8").splitlines()
     verbs = [json.loads(line)["verb"]["id"].rsplit("/")[-1] for line in lines]
     assert len(verbs) == 2 and verbs.count("passed") == passed
+
+    page.get_by_role("textbox", name="Your name").fill("Ben")
+    page.keyboard.press("Enter")
+    expect(past).to_contain_text("No results yet.")
+    past.get_by_label("Whole class").check()
+    expect(past).to_contain_text("Results of the class 3b")
+    expect(past.locator(".progress").get_by_role("row", name="Ann")).to_contain_text(f"2{passed}")
+    rows = saved(page, past.get_by_role("button", name="csv"), tmp_path).read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 3 and all("Ann" in row and "3b" in row for row in rows[1:])
+
+
+def the_view_shows_the_expert(page):
+    """At a moment of the replay, the picture without the expert's needle is another one."""
+    for _ in range(4):
+        page.get_by_role("group", name="Replay").get_by_role("button", name="Next event").click()
+    tab(page, "Recordings")
+    compared = page.locator(".recording", has=page.get_by_role("button", name="Stop", exact=True))
+    title = compared.locator("strong").get_attribute("title")
+    row = page.locator(".recording", has=page.get_by_title(title, exact=True))
+    with_expert = still_picture(page)
+    row.get_by_role("button", name="Stop", exact=True).click()
+    without = still_picture(page)
+    row.get_by_role("button", name="Compare").click()
+    again = still_picture(page)  # the same as before, up to some pixels at an edge
+    assert changed(with_expert, without) > 5 * changed(with_expert, again)
+
+
+def changed(one, other):
+    """The number of pixels that are clearly not the same."""
+    return int((np.abs(one - other).max(axis=2) > 8).sum())
 
 
 @pytest.mark.parametrize("studio", [3], indirect=True)
@@ -124,5 +158,16 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
     page.keyboard.press("ArrowLeft")
     expect(plot.locator("[aria-live]")).to_contain_text("model force")
     expect(plot.locator("[aria-live]")).not_to_contain_text("mm")
+    page.keyboard.press("Escape")  # back to the present moment
     tab(page, "Hand")
     expect(page.get_by_role("button", name="Start strokes")).to_be_disabled()
+    for _ in range(200):  # as somebody does who looks at nothing but the plot of the force
+        if events(page, "pop").count() == 2 or page.get_by_role("dialog").count():
+            break
+        push(page, "ArrowDown", 1)
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text("Stay behind the second membrane for 2 s")
+    expect(dialog).to_contain_text("passed")
+    expect(dialog).not_to_contain_text("not passed")
+    dialog.get_by_role("button", name="Close", exact=True).click()
+    assert page.evaluate(seen)  # the place of the needle is no secret any more

@@ -22,8 +22,8 @@ export const recordingsPanel: Panel = (host, app) => {
   let rows = new Map<string, Row>();
 
   const mark = (): void => {
-    const shown = library.nameOf(app.source.value);
-    const over = library.nameOf(app.overlay.value);
+    const shown = app.source.value.recording;
+    const over = app.overlay.value?.recording;
     for (const [name, row] of rows) row.mark(name === shown, name === over);
   };
   let blocked = false;

@@ -20,6 +20,8 @@ export class Source {
   /** The ticks in which the live estimate found a puncture. */
   readonly punctures = new Signal<readonly number[]>([]);
   readonly history: History;
+  /** The name of the recording that it shows; null if it shows none. */
+  recording: string | null = null;
   /** The tick at which the timeline stands; null: it follows the last tick. */
   readonly cursor = new Signal<number | null>(null);
   /** The tick that somebody points at in a plot, with the pointer or with keys; null if nobody does. */

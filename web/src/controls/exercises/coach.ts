@@ -1,3 +1,4 @@
+import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
 import type { ExerciseResult, Remark } from "../../wire/files.ts";
 
@@ -11,7 +12,7 @@ export function coachPart({ coaching }: Pick<ExerciseResult, "coaching">): HTMLE
             "section",
             { class: `coach ${kind}` },
             element("h3", {}, title),
-            element("ul", {}, ...remarks.map(({ text }) => element("li", {}, text))),
+            element("ul", {}, ...remarks.map(({ text }) => element("li", {}, unbroken(text)))),
           ),
         ];
   return [

@@ -1,3 +1,4 @@
+import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
 import type { ExerciseResult, FeltLoss, Loss, Yield } from "../../wire/files.ts";
 import type { ExerciseGoal } from "../../wire/messages.ts";
@@ -25,15 +26,26 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
         element("span", { class: "sign", "aria-hidden": "true" }, sign),
         element("span", { class: "only-read" }, `${stateWord(state)}: `),
         // One element, because the sign and the text are the two cells of a grid.
-        element("span", {}, text, ...(state === "not measured" ? [element("em", {}, " (not measured)")] : [])),
+        element(
+          "span",
+          {},
+          unbroken(text),
+          ...(state === "not measured" ? [element("em", {}, " (not measured)")] : []),
+        ),
       );
     }),
   );
 }
 
-/** The drop of the felt force, and how much of it a hand needs to feel it, if it must: "0.04 N; 0.1 N needed". */
-export const lossText = ({ before, after, needed }: FeltLoss): string =>
-  `${(before - after).toFixed(2)} N${needed === null ? "" : `; ${Number(needed.toPrecision(2))} N needed`}`;
+/**
+ * The drop of the felt force, and how much of it a hand needs to feel it, if it must: "0.04 N; 0.1 N needed". "none" if
+ * the force did not fall: the next layer resists more.
+ */
+export function lossText({ before, after, needed }: FeltLoss): string {
+  const drop = before - after;
+  const words = drop > 0 ? `${drop.toFixed(2)} N` : "none";
+  return needed === null ? words : `${words}; ${Number(needed.toPrecision(2))} N needed`;
+}
 
 /**
  * Of the losses that must be felt, the smallest one that could not be. Of each membrane its last pop counts, and of the

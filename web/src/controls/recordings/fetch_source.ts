@@ -31,6 +31,7 @@ export async function fetchSource(
   const { scene, events, first_tick: first } = overview;
   const span = overview.ticks + entry.lost;
   const source = new Source(entry.title || entry.name, false, Math.max(Math.min(span, MOST_TICKS), 1));
+  source.recording = entry.name;
   source.scene.value = scene;
   source.laws.value = scene.laws;
   source.history.clear(scene.membranes.length, first);

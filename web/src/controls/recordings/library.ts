@@ -53,18 +53,11 @@ export class Library {
     return fetched.source;
   }
 
-  /** The name of the recording of this source. */
-  nameOf(source: Source | null): string | null {
-    for (const [name, fetched] of this.fetched) if (fetched.source === source) return name;
-    return null;
-  }
-
   async remove(entry: RecordingEntry): Promise<void> {
     await this.app.api.remove(recordingPath(entry.name));
     const { app } = this;
-    const source = this.fetched.get(entry.name)?.source;
-    if (source && app.source.value === source) app.source.value = app.live;
-    if (source && app.overlay.value === source) app.overlay.value = null;
+    if (app.source.value.recording === entry.name) app.source.value = app.live;
+    if (app.overlay.value?.recording === entry.name) app.overlay.value = null;
     this.fetched.delete(entry.name);
     await this.refresh();
   }

@@ -59,11 +59,11 @@ export function recordingRow(library: Library, first: RecordingEntry): Row {
   };
 
   const look = button("Replay", "Show it in the view, with a scrubber", () => {
-    if (app.source.value !== app.live && library.nameOf(app.source.value) === entry.name) app.source.value = app.live;
+    if (app.source.value.recording === entry.name) app.source.value = app.live;
     else void fetched((source) => (app.source.value = source));
   });
   const compare = button("Compare", "Draw it in the plots too", () => {
-    if (library.nameOf(app.overlay.value) === entry.name) app.overlay.value = null;
+    if (app.overlay.value?.recording === entry.name) app.overlay.value = null;
     else void fetched((source) => (app.overlay.value = source));
   });
   const repeat = button("Replay motion", "The simulated hand follows the tip of this recording", () => {

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { stateWord, unfelt, verdict } from "../../../src/controls/exercises/goals.ts";
+import { lossText, stateWord, unfelt, verdict } from "../../../src/controls/exercises/goals.ts";
 import type { ExerciseMetrics, Loss } from "../../../src/wire/files.ts";
 
 const goals = (...states: ("met" | "missed" | "not measured")[]) => states.map((state) => ({ text: "a goal", state }));
@@ -51,4 +51,10 @@ test("the loss at the plunger must be felt as well, if a second device gave it",
 
 test("a goal that is neither met nor missed is not decided", () => {
   expect((["open", "met", "not measured"] as const).map(stateWord)).toEqual(["not decided", "met", "not measured"]);
+});
+
+test("a force that rises is no loss of resistance", () => {
+  expect(lossText(loss(0, -0.19, null))).toBe("none");
+  expect(lossText(loss(0, -0.19))).toBe("none; 0.1 N needed");
+  expect(lossText(loss(0, 0.62, null))).toBe("0.62 N");
 });
