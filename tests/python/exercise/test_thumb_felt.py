@@ -44,7 +44,7 @@ def test_a_device_that_shows_the_loss_lets_the_attempt_pass():
 
 
 def test_the_batches_do_not_matter():
-    ends = [result(on_device(), cuts).metrics.yields for cuts in (1, 27, 100_000)]
+    ends = [result(on_device(), cuts).metrics.yields for cuts in (3, 27, 100_000)]
     assert ends[0] == ends[1] == ends[2] != []
 
 
