@@ -111,6 +111,7 @@ def test_a_wrong_file_is_told_with_its_places_and_a_looker_on_is_told_why(page, 
     drop(page, "mine.toml", text.replace("seconds = 3\n", "seconds = -3\n").replace('"front vein wall"', '"wall"'))
     problems = page.locator(".open-exercise [role=alert]")
     expect(problems).to_contain_text("mine.toml was not opened:")  # the tab has opened
+    expect(problems).to_be_in_viewport()
     expect(problems).to_contain_text("seconds = -3: Must be at least 0.01 s.")
     expect(problems).to_contain_text("space.behind = 'wall': Must be one of the scene's membranes: skin,")
     drop(page, "scene.toml", scene_path("venipuncture").read_text(encoding="utf-8"))

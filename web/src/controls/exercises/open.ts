@@ -42,6 +42,7 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
     places.replaceChildren(...problems.map((problem) => element("li", {}, problem)));
     places.hidden = problems.length === 0; // an empty list is no list
     wrong.hidden = text === "";
+    if (text !== "") root.scrollIntoView({ block: "nearest" }); // the tab of a dropped file opens at its top
   };
   const take = async (file: File, over = false): Promise<void> => {
     good.textContent = "";
@@ -74,11 +75,11 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
       await opened(String(reply.data?.name ?? name));
     } else if (reply.problems?.length) complain(`${file.name} was not opened:`, reply.problems.map(sentence));
     else {
-      complain(`${file.name} was not opened: ${reply.text}.`);
       // The name is taken: whoever means the same exercise need not choose the file again.
       asked = () => void take(file, true);
       replace.textContent = `Replace ${name}`;
       replace.hidden = over || !reply.data?.exists;
+      complain(`${file.name} was not opened: ${reply.text}.`);
     }
   };
   const zone = element(
@@ -90,5 +91,6 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
   watchBlock(app, (block) => {
     zone.disabled = block !== null;
   });
-  return element("div", { class: "open-exercise" }, zone, good, wrong);
+  const root = element("div", { class: "open-exercise" }, zone, good, wrong);
+  return root;
 }
