@@ -196,7 +196,7 @@ def in_words(summary: RunSummary) -> str:
     if summary.second_device:
         lines.append(
             f"  thumb on {summary.second_device}: strongest felt force {summary.strongest_thumb_N:.3g} N, "
-            f"{summary.injected_m3 * 1e6:.3g} mL injected at most"
+            f"{summary.injected_m3 * 1e6:.2f} mL injected at most"
         )
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
         lines.append(f"  {name}: {depth * 1e3:.3g} mm deep" if depth > 0 else f"  {name}: not reached")

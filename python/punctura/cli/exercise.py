@@ -64,7 +64,8 @@ def score(
         typer.echo(f"  {felt_force(m.force_scale)} {m.peak_felt_force:.2f} N at most")
     for loss in m.losses:
         needed = "" if loss.needed is None else f" ({loss.needed:.2g} N needed)"
-        typer.echo(f"  {loss.drop:.2f} N loss of resistance felt at the pop of the {loss.name}{needed}")
+        drop = f"{loss.drop:.2f} N" if loss.drop > 0 else "no"
+        typer.echo(f"  {drop} loss of resistance felt at the pop of the {loss.name}{needed}")
     typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
     typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
     for one in m.overshoot:

@@ -74,7 +74,10 @@ class SecondDevice(NamedTuple):
 
 def direction_of(text: str) -> tuple[float, float, float]:
     """Three numbers with commas between them. Raises ValueError."""
-    parts: Sequence[float] = [float(part) for part in text.split(",")]
+    try:
+        parts: Sequence[float] = [float(part) for part in text.split(",")]
+    except ValueError:
+        parts = ()
     if len(parts) != 3:
         raise ValueError(f"must be three numbers with commas between them, such as 0,-1,0; it is {text!r}")
     x, y, z = parts
