@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from punctura import Scene
 from punctura.exercise.limit import Moment, by, first_of
 from punctura.exercise.schema import AnyGoal, FeelPlunger, Reach, Stay
 from punctura.exercise.space import TargetSpace, depth_of
 from punctura.exercise.ticks import Flags, Ticks
+
+
+EMPTY = 0.99  # share of a syringe's contents; if more has left it, its plunger does not give way any more
 
 
 class Achievement:
@@ -66,16 +70,25 @@ class StayJudge(Achievement):
 class FeelJudge(Achievement):
     """Met when the plunger gives way under a thumb that pushed hard enough when the needle came into the space."""
 
-    def __init__(self, goal: FeelPlunger, behind: str) -> None:
+    def __init__(self, goal: FeelPlunger, behind: str, holds: float) -> None:
+        """holds: what the syringe holds at the start, m^3."""
         text = f"Feel the plunger give way: push it with at least {goal.at_least_N:g} N through the {behind}"
         super().__init__(goal.text or text)
         self.at_least, self.behind = goal.at_least_N, behind
         self.load: float | None = None  # N, of the last time that the point came out behind the membrane
+        self.injected = np.nan  # m^3 that have left the syringe in the last tick
+        self._holds = holds
+
+    @property
+    def empty(self) -> bool:
+        """Whether the syringe is empty, so that the plunger cannot give way any more."""
+        return bool(self.injected >= EMPTY * self._holds)
 
     def add(self, ticks: Ticks, busy: Flags) -> None:
         known = ticks.load[np.isfinite(ticks.load)]
         if len(known):
             self.load = float(known[-1])
+        self.injected = float(ticks.injected[-1])
         good = ticks.gave_way & (ticks.load >= self.at_least)
         self._follow(ticks, good, np.ones(len(ticks), np.bool_), busy)
 
@@ -86,11 +99,12 @@ def _reach_text(goal: Reach, space: TargetSpace, behind: str) -> str:
     return f"Reach {space.name}{' with the whole tip' if goal.whole_tip else ''}"
 
 
-def achievement_of(goal: AnyGoal, space: TargetSpace, behind: str) -> Achievement:
+def achievement_of(goal: AnyGoal, space: TargetSpace, behind: str, scene: Scene) -> Achievement:
     """behind: name of the membrane in front of the space."""
     if isinstance(goal, Stay):
         return StayJudge(goal, space)
     if isinstance(goal, FeelPlunger):
-        return FeelJudge(goal, behind)
+        syringe = scene.syringe.syringe if scene.syringe else None
+        return FeelJudge(goal, behind, syringe.liquid + syringe.air if syringe else np.inf)
     assert isinstance(goal, Reach)
     return ReachJudge(goal, space, behind)

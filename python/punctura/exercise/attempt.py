@@ -47,7 +47,7 @@ class Attempt:
         need_syringe(exercise.file, scene)
         self._space = space_of(exercise.file, scene)
         self._judges: list[Limit | Achievement] = [
-            limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind)
+            limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind, scene)
             for goal in exercise.goals
         ]
         self._limits = [judge for judge in self._judges if isinstance(judge, Limit)]
@@ -194,6 +194,8 @@ class Attempt:
     def _instruction(self) -> str:
         if self.over:
             return " ".join(self._reasons(ended=False))
+        if any(isinstance(one, FeelJudge) and one.met is None and one.empty for one in self._achievements):
+            return words.emptied(self._space)
         if self._measures.entries == 0:
             return self.exercise.instruction
         if self._too_deep:

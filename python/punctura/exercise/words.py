@@ -94,6 +94,14 @@ def push_again(goal: FeelJudge) -> str:
     return f"Draw back into the {goal.behind}, push the plunger with at least {goal.at_least:g} N, and go on."
 
 
+def emptied(space: TargetSpace) -> str:
+    """The instruction when the syringe is empty, but the plunger has not given way under the thumb."""
+    return (
+        "The syringe is empty: end this attempt and try again. Push the plunger only in the tissue in front of "
+        f"{space.name}."
+    )
+
+
 def too_deep(space: Space) -> str:
     """The instruction while the point is behind the space's end."""
     if space.in_front_of is not None:
@@ -115,6 +123,8 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
     if measures.arrival is None:
         return f"You did not reach {space.name}."
     if isinstance(achievement, FeelJudge):
+        if achievement.empty:
+            return f"The syringe was empty before the plunger could give way behind the {achievement.behind}."
         pushed = f"with {tenths(max(0.0, achievement.load))} N" if achievement.load is not None else "not at all"
         return (
             f"The plunger did not give way under your thumb: you pushed it {pushed} when the point came out behind the "

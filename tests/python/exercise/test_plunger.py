@@ -76,6 +76,20 @@ def test_a_thumb_that_begins_in_the_space_has_felt_no_loss():
     assert not result.passed and result.metrics.yields == []
 
 
+def test_a_syringe_that_is_emptied_in_the_air_is_told_at_once_and_at_the_end():
+    columns = with_thumb(hand_run("epidural", LEGS), -10.0, 4.0, NEVER)
+    told = "The syringe is empty: end this attempt and try again. Push the plunger only in the tissue in front of"
+    before_the_skin = {name: values[:1600] for name, values in columns.items()}
+    assert judged(load_exercise(NAME), before_the_skin).status.instruction.startswith(told)
+    attempt = judged(load_exercise(NAME), columns)
+    assert not attempt.over and attempt.status.instruction.startswith(told)
+    result = attempt.finish()
+    assert "The syringe was empty before the plunger could give way behind the ligamentum flavum." in result.reasons
+    remark = about(result.coaching.change)["plunger"]
+    assert remark.text.startswith("You emptied the syringe before the plunger could give way")
+    assert remark.numbers["injected_m3"] == pytest.approx(3.2e-6, rel=0.01)
+
+
 def test_a_thumb_that_pushes_too_little_is_told_both_forces():
     result = attempted(newtons=1.4).finish()
     assert not result.passed

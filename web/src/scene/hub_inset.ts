@@ -8,7 +8,7 @@ const SVG = "http://www.w3.org/2000/svg";
 /** The words under the inset. */
 export function insetWords({ look, blood, pressed, content, plunger }: NeedleState): string {
   if (look !== "tuohy") return blood > 0.05 ? "Hub: blood" : "Hub: no blood";
-  if (pressed >= 1) return "Plunger: pressed in";
+  if (pressed >= 1) return "Syringe: empty";
   if (plunger) return { free: "Plunger: not pushed", held: "Plunger: holds", moves: "Plunger: gives way" }[plunger];
   if (pressed > 0 && content !== "tissue") return "Plunger: gives way";
   return content === "outside" ? "Plunger: out" : "Plunger: holds";

@@ -14,7 +14,7 @@ source.history.push(
     thumb_force: (tick) => [tick < 200 ? -4 : 0],
   }),
 );
-function wordsAt(tick: number): string {
+function wordsAt(tick: number, pressed = 0.1): string {
   source.cursor.value = tick;
   const moment = new Moment();
   moment.read(source);
@@ -22,7 +22,7 @@ function wordsAt(tick: number): string {
     look: "tuohy",
     diameter: 1,
     blood: 0,
-    pressed: 0.1,
+    pressed,
     plunger: plungerOf(moment),
     syringe: syringeSize({}),
     content: "epidural space",
@@ -30,13 +30,14 @@ function wordsAt(tick: number): string {
 }
 
 it("a plunger gives way while it moves under the thumb, and not for ever", () => {
-  expect([0, 40, 80, 180, 250].map(wordsAt)).toEqual([
+  expect([0, 40, 80, 180, 250].map((tick) => wordsAt(tick))).toEqual([
     "Plunger: holds",
     "Plunger: holds",
     "Plunger: gives way",
     "Plunger: holds",
     "Plunger: not pushed",
   ]);
+  expect(wordsAt(180, 1)).toBe("Syringe: empty");
 });
 
 it("a syringe is drawn as wide and as full as the scene's, and an empty one empty", () => {

@@ -75,10 +75,21 @@ def pushed_on(seen: Seen) -> Iterator[Remark]:
         )
 
 
+def pushed_too_early(seen: Seen) -> Iterator[Remark]:
+    """The syringe was empty before the plunger could give way."""
+    for goal in seen.achievements:
+        if isinstance(goal, FeelJudge) and goal.met is None and goal.empty:
+            text = (
+                f"You emptied the syringe before the plunger could give way behind the {goal.behind}: push it only "
+                f"while the point is in the tissue in front of {seen.space.name}."
+            )
+            yield Remark(about="plunger", text=text, numbers={"injected_m3": goal.injected})
+
+
 def pushed_too_little(seen: Seen) -> Iterator[Remark]:
     """The thumb did not push when the needle came into the space, so it felt no loss of resistance."""
     for goal in seen.achievements:
-        if not isinstance(goal, FeelJudge) or goal.met is not None or goal.load is None:
+        if not isinstance(goal, FeelJudge) or goal.met is not None or goal.load is None or goal.empty:
             continue
         load = max(0.0, goal.load)
         if load >= goal.at_least:
@@ -229,6 +240,6 @@ def nearly_too_far(seen: Seen) -> Iterator[Remark]:
 
 
 ORDER = (
-    went_through, beside_the_line, went_too_far, pushed_on, pushed_too_little, pushed_too_hard, wrong_angle, too_short,
-    pressed, left_the_space, entered_again, nearly_too_far, trembled, paused, went_aside,
+    went_through, beside_the_line, went_too_far, pushed_on, pushed_too_early, pushed_too_little, pushed_too_hard,
+    wrong_angle, too_short, pressed, left_the_space, entered_again, nearly_too_far, trembled, paused, went_aside,
 )  # fmt: skip
