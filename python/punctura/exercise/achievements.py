@@ -10,7 +10,6 @@ from punctura.exercise.schema import AnyGoal, FeelPlunger, Reach, Stay
 from punctura.exercise.space import TargetSpace, depth_of
 from punctura.exercise.ticks import Flags, Ticks
 
-
 EMPTY = 0.99  # share of a syringe's contents; if more has left it, its plunger does not give way any more
 
 
