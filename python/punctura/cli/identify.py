@@ -71,7 +71,7 @@ def command(
     if order not in ("recorded", "depth"):
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
     task = Task(
-        needle_of(needle), number_of(membranes), pairs(column, "--column"), pairs(unit, "--unit"),
+        needle_of(needle, trace), number_of(membranes), pairs(column, "--column"), pairs(unit, "--unit"),
         "depth" if order == "depth" else "recorded", decimal_of(decimal),
     )  # fmt: skip
     if trace.is_dir():
@@ -163,9 +163,14 @@ def number_of(membranes: str) -> int | Literal["auto"]:
     return int(membranes)
 
 
-def needle_of(text: str) -> Needle:
-    """The needle of `diameter_mm=2,tip_angle_deg=45`."""
+def needle_of(text: str, trace: Path | None = None) -> Needle:
+    """The needle of `diameter_mm=2,tip_angle_deg=45`. Without a text that of the trace, if it is a recording."""
     if not text:
+        from punctura.record import open_recording
+        from punctura.trace.read import is_recording
+
+        if trace is not None and trace.is_file() and is_recording(trace):
+            return open_recording(trace).info.scene.needle
         raise typer.BadParameter(
             "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45", param_hint="--needle"
         )
@@ -179,6 +184,8 @@ def needle_of(text: str) -> Needle:
             if "tip_angle_rad" in values
             else math.radians(float(values["tip_angle_deg"]))
         )
+        if "tip_angle_rad" not in values and not 0 < angle < math.pi / 2:
+            raise ValueError(f"tip_angle_deg = {values['tip_angle_deg']}: must be between 0 and 90")
         return Needle(float(values["diameter_mm"]) * 1e-3, angle)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--needle") from None

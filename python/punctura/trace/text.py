@@ -60,7 +60,8 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     head = [[] if _is_comment(line) else _cells(line, delimiter) for line in lines]
     first = first_row(head, width, mark)
     if first == len(head):
-        raise TraceError(f"{path}: holds no rows of numbers; {width} cells in a row are expected, as at its end")
+        wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
+        raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
     names = column_names([_cells(line.lstrip("#% "), delimiter) for line in lines[:first]], width)
     above = sum(len(line) + 1 for line in lines[:first] if not _is_comment(line))
     table, left_out = _parsed(path, rows[above:], names, delimiter)

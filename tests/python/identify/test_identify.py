@@ -141,6 +141,8 @@ def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
     assert np.abs(ticks.force).max() == pytest.approx(made.force.max(), rel=0.1)
     no_needle = CliRunner().invoke(build_app(), ["identify", str(tmp_path / "a.csv")])
     assert no_needle.exit_code == 2 and "--needle" in no_needle.output
+    blunt = ["identify", str(tmp_path / "a.csv"), "--needle", "diameter_mm=1.2,tip_angle_deg=160"]
+    assert "tip_angle_deg = 160: must be between 0 and 90" in CliRunner().invoke(build_app(), blunt).output
     no_file = CliRunner().invoke(build_app(), ["identify", str(tmp_path / "b.csv")])
     assert no_file.exit_code == 2 and "b.csv" in no_file.output and "--needle" not in no_file.output
 

@@ -7,6 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 import scipy.io
 from openpyxl import Workbook
+from punctura.cli.identify import needle_of
 from punctura.live import SimulatedDevice
 from punctura.trace import TraceError, read_trace
 from recorded import recorded
@@ -68,6 +69,7 @@ def test_a_recording_is_a_trace_along_the_needle(tmp_path):
     read = read_trace(tmp_path / "run.parquet")
     assert np.ptp(read.depth) == pytest.approx(0.025, rel=0.1)
     assert read.force.max() > 0.5 and kinds(read) <= {"no_contact"}
+    assert needle_of("", tmp_path / "run.parquet") == scene.needle  # so that nobody must state it
 
 
 @pytest.mark.parametrize("name", ["Depth (mm)", "depth [mm]", "Displacement_mm", "position/mm", "INSERTION DEPTH mm"])

@@ -26,8 +26,8 @@ export function fitParts(fit: FitLine): HTMLElement[] {
       element(
         "p",
         { class: "quiet" },
-        `Neighbouring residuals are alike: the intervals count ${count} independent samples. They hold if the model ` +
-          "is right; residuals with a shape say that it is not.",
+        `The intervals count ${count} of the samples as independent: neighbouring residuals may be alike. They hold ` +
+          "if the model is right; residuals with a shape say that it is not.",
       ),
     ),
     section(
