@@ -127,7 +127,8 @@ def messages() -> dict[str, Any]:
     problem = {"path": "membrane[0].friction", "value": "3.9", "reason": "is too much"}
     goals = [{"text": "a goal", "state": state} for state in ("open", "met", "missed", "not measured")]
     sent = [
-        {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device, "limits": limits,
+        {"kind": "hello", "protocol": 1, "version": "0.1.0", "viewer": 1, "device": device,
+         "second_device": "a thumb", "limits": limits,
          "scenes": [choice], "exercises": [choice], "notes": ["a note"], "figures": True},
         {"kind": "scene", "scene": VIEW, "new_run": True, "run": 3},
         {"kind": "laws", "laws": [LAW]},

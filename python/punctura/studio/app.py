@@ -55,6 +55,7 @@ class Studio:
                 max_force=self.session.run.loop.limits.max_force,
                 rate=info.rate,
             ),
+            second_device=self.session.bench.second_model,
             limits=limits_of(self.session.run),
             scenes=ready_scenes(),
             exercises=self.session.exercises.choices(),

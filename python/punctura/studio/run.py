@@ -49,6 +49,11 @@ class Bench:
         return self._device
 
     @property
+    def second_model(self) -> str:
+        """The model of the second device; empty without one."""
+        return self._second.info.model if self._second else ""
+
+    @property
     def simulated_device(self) -> SimulatedDevice:
         """Only where `simulated`."""
         assert isinstance(self._device, SimulatedDevice)

@@ -197,6 +197,8 @@ def test_the_limits_of_the_needle_hold_for_the_thumb_but_its_dead_man_button_doe
 def test_the_studio_opens_the_second_device_for_each_run():
     loaded = from_name("epidural")
     bench = Bench(Settings("simulated", second=SecondDevice("simulated")), loaded.scene)
+    assert bench.second_model == bench.device.info.model
+    assert Bench(Settings("simulated"), loaded.scene).second_model == ""
     for number in range(2):
         run = Run(number, bench, loaded)
         run.start()

@@ -12,8 +12,9 @@ export const headerBar: Panel = (host, app) => {
   const device = element("span", { class: "device" });
   app.hello.watch((hello) => {
     const info = hello?.device;
+    const second = hello?.second_device ? `; thumb on ${hello.second_device}` : "";
     device.textContent = info ? info.model : "";
-    device.title = info ? `${info.backend}, at most ${info.max_force} N, ${info.rate} Hz` : "";
+    device.title = info ? `${info.backend}, at most ${info.max_force} N, ${info.rate} Hz${second}` : "";
   });
   host.append(
     element(

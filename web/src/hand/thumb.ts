@@ -32,7 +32,8 @@ export class Thumb {
 
   /** Whether the scene has a plunger that this page can push. */
   get there(): boolean {
-    const { source, control } = this.app;
+    const { source, control, hello } = this.app;
+    if (hello.value?.second_device) return false; // it pushes the plunger
     return source.value.live && control.value.you && Boolean(source.value.scene.value?.syringe);
   }
 

@@ -54,6 +54,7 @@ export interface Hello {
   version: string;
   viewer: number;
   device: DevicePart;
+  second_device: string;
   limits: LimitsPart;
   scenes: Choice[];
   exercises: Choice[];

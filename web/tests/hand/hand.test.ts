@@ -30,6 +30,7 @@ const hello = (device: DevicePart): void =>
     scenes: [],
     exercises: [],
     notes: [],
+    second_device: "",
     figures: false,
   });
 

@@ -49,6 +49,7 @@ export class FakeEngine implements Engine {
       scenes: [],
       exercises: [],
       notes: [],
+      second_device: "",
       figures: false,
     });
     listener.message({ kind: "scene", scene: fakeScene(this.membranes), new_run: true, run: 0 });

@@ -51,6 +51,7 @@ class Hello(Part):
     version: str
     viewer: int
     device: DevicePart
+    second_device: str  # the model of the one under the thumb; empty without one
     limits: LimitsPart
     scenes: list[Choice]
     exercises: list[Choice]

@@ -28,6 +28,15 @@ export function plungerRows(app: App): HTMLElement {
   push.addEventListener("keyup", () => hold(false));
   thumb.force.watch((force) => push.setAttribute("aria-pressed", String(force > 0)));
 
+  const keys = element("div", { class: "row" }, push, "or hold Space in the view, or turn the wheel there with Alt");
+  const second = element("p", { class: "quiet" });
+  app.hello.watch((hello) => {
+    const model = hello?.second_device ?? "";
+    keys.hidden = model !== "";
+    second.hidden = model === "";
+    second.textContent = `The second device pushes the plunger: ${model}. Keys, wheel and trigger do not.`;
+  });
+
   const force = element("output", { class: "figure" }, "– N");
   const refill = "Empty. Load the scene again to fill it.";
   const empty = element("p", { class: "quiet", role: "status", hidden: true }, refill);
@@ -36,12 +45,8 @@ export function plungerRows(app: App): HTMLElement {
     "section",
     { class: "rows", hidden: true },
     element("h3", {}, "Syringe"),
-    element(
-      "div",
-      { class: "row" },
-      push,
-      element("span", {}, "or hold Space in the view, or turn the wheel there with Alt"),
-    ),
+    keys,
+    second,
     element("div", { class: "row" }, element("span", {}, "Thumb, model force"), force),
     element("div", { class: "row" }, element("span", {}, "Injected"), volume),
     empty,

@@ -59,6 +59,7 @@ export class LocalStudio {
       ...this.core.LiveRun.about,
       scenes: scenes.map(({ name, title }) => ({ name, title })),
       exercises: [],
+      second_device: "",
       notes: NOTES,
       figures: false,
     });
