@@ -50,6 +50,7 @@ export interface Summary {
   readonly passed: number;
   /** Number of the attempt that passed first; null: none. */
   readonly firstPass: number | null;
+  /** Of the attempts that were passed: one that was given up at once has the least time and force. */
   readonly best: number | null;
   readonly last: number | null;
 }
@@ -58,13 +59,15 @@ export interface Summary {
 export function summaries(results: readonly ExerciseResult[], exercise: string, measure: Measure): Summary[] {
   return byPerson(results.filter((result) => result.exercise === exercise)).map(([person, attempts]) => {
     const values = attempts.map(measure.of).filter((value) => value !== null);
+    const good = attempts.filter(({ passed }) => passed).map(measure.of);
+    const best = good.filter((value) => value !== null);
     const first = attempts.findIndex(({ passed }) => passed);
     return {
       person,
       attempts: attempts.length,
-      passed: attempts.filter(({ passed }) => passed).length,
+      passed: good.length,
       firstPass: first < 0 ? null : first + 1,
-      best: values.length ? Math.min(...values) : null,
+      best: best.length ? Math.min(...best) : null,
       last: values.at(-1) ?? null,
     };
   });

@@ -107,11 +107,11 @@ export function drawProgress(
 
 function progressTable(results: readonly ExerciseResult[], exercise: string, measure: Measure): HTMLElement {
   const number = (value: number | null): string => (value === null ? "–" : value.toFixed(2));
-  const head = ["Name", "Attempts", "Passed", "First pass", "Best", "Last"];
+  const head = ["Name", "Attempts", "Passed", "First pass", "Best pass", "Last"];
   return element(
     "table",
     { class: "past" },
-    element("caption", { class: "only-read" }, `Attempts by person; best and last: ${measure.label}`),
+    element("caption", { class: "only-read" }, `Attempts by person; best pass and last: ${measure.label}`),
     element("thead", {}, element("tr", {}, ...head.map((text) => element("th", { scope: "col" }, text)))),
     element(
       "tbody",
