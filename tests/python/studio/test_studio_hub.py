@@ -18,6 +18,7 @@ def hello(viewer):
         "version": "",
         "viewer": viewer,
         "device": device,
+        "second_device": "",
         "scenes": [],
         "exercises": [],
         "notes": [],
