@@ -50,7 +50,8 @@ class Measures:
         self.peak_felt_force = 0.0
         self._force_scale = 1.0
         self._losses = Losses(scene, must)
-        self._yields = YieldMeasures(after_yield, thumb_must)
+        stiffness = scene.syringe.thumb.stiffness if scene.syringe else 0.0
+        self._yields = YieldMeasures(after_yield, thumb_must, stiffness)
         self.first_touch: float | None = None
         self.arrival: float | None = None
         self.longest_stay = 0.0

@@ -91,7 +91,7 @@ class PlungerLoss(FeltLoss):
     """The loss of resistance at the plunger, from a second device. Forces are on the thumb.
 
     before: in the last tick before the point came out behind the membrane. after: the least in the time of a hand's
-    reaction after the plunger gave way.
+    reaction after the plunger gave way, for a thumb that is not drawn back.
     """
 
     name: str = "plunger"

@@ -34,6 +34,8 @@ class Ticks:
     force_scale: Numbers  # how much of the model's force the device gives, before the limits
     push: Numbers  # N, the thumb on the syringe's plunger; NaN if unknown
     push_felt: Numbers  # N, of it what a second device gave, after force scale and limits; 0 without one
+    thumb: Numbers  # m, how far the thumb has moved in; NaN if unknown
+    plunger: Numbers  # m, the same of the plunger
     injected: Numbers  # m^3 that have left the syringe; NaN if unknown
     fault: NDArray[np.int64]
     limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
@@ -110,7 +112,9 @@ class Geometry:
             force_scale=np.asarray(columns["force_scale"], np.float64) if "force_scale" in columns else np.ones(n),
             push=-np.asarray(columns["thumb_force"], np.float64) if "thumb_force" in columns else np.full(n, np.nan),
             push_felt=-np.asarray(columns["thumb_felt"], np.float64) if "thumb_felt" in columns else np.zeros(n),
-            injected=np.asarray(columns["injected"], np.float64) if "injected" in columns else np.full(n, np.nan),
+            thumb=_column(columns, "thumb", n),
+            plunger=_column(columns, "plunger", n),
+            injected=_column(columns, "injected", n),
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & COMMAND_SCENE) != 0,
@@ -146,6 +150,10 @@ class Geometry:
             held = np.einsum("nmk,mk->nm", _wide(columns["direction"], m, np.nan), self.normals)
             cosine = np.where(inside & np.isfinite(held), held, cosine)
         return np.clip(np.where(np.isfinite(cosine), cosine, 1.0), grazing_cosine, 1.0)
+
+
+def _column(columns: Columns, name: str, n: int) -> Numbers:
+    return np.asarray(columns[name], np.float64) if name in columns else np.full(n, np.nan)
 
 
 def _rows(column: NDArray[Any] | None, n: int) -> Numbers:

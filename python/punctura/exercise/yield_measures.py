@@ -7,7 +7,7 @@ import numpy as np
 
 from punctura.exercise.loss import needed_drop
 from punctura.exercise.result import PlungerLoss, Yield
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import Flags, Ticks
 
 REACTION_S = 0.3  # a thumb reacts within it; illustrative
 ROUNDING_N = 0.01  # a device gives a force with an error of about this
@@ -16,10 +16,12 @@ ROUNDING_N = 0.01  # a device gives a force with an error of about this
 class YieldMeasures:
     """Takes all ticks of an attempt, with `gave_way` filled in."""
 
-    def __init__(self, seconds: float, must: bool) -> None:
-        """seconds: length of the measurement. must: whether the thumb must feel the loss of resistance."""
-        self._seconds, self._must = seconds, must
+    def __init__(self, seconds: float, must: bool, stiffness: float = 0.0) -> None:
+        """seconds: length of the measurement. must: whether the thumb must feel the loss of resistance. stiffness: of
+        the coupling between thumb and plunger, N/m."""
+        self._seconds, self._must, self._stiffness = seconds, must, stiffness
         self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
+        self._farthest: list[float] = []  # m, how far in the thumb has been since then
         self._before: list[float] = []  # N, of the felt force before
         self._seen_to = -np.inf
         self.found: list[Yield] = []
@@ -27,6 +29,7 @@ class YieldMeasures:
     def begin(self, ticks: Ticks) -> None:
         for row in np.flatnonzero(ticks.gave_way).tolist():
             self._volumes.append(float(ticks.injected[row]))
+            self._farthest.append(float(ticks.thumb[row]))
             time, push = float(ticks.time[row]), float(ticks.load[row])
             self._before.append(float(ticks.load_felt[row]))
             loss = self._loss(ticks, row)
@@ -55,11 +58,22 @@ class YieldMeasures:
             update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
             soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
             if one.loss is not None and soon.any():
-                felt, model = float(ticks.push_felt[soon].min()), float(ticks.push[soon].min())
-                update["loss"] = self._followed(k, one.loss, felt, model)
+                update["loss"] = self._followed(k, one.loss, *self._least(k, one.loss.force_scale, ticks, soon))
             self.found[k] = one.model_copy(update=update)
         if len(ticks):
             self._seen_to = float(ticks.time[-1])
+
+    def _least(self, k: int, scale: float, ticks: Ticks, soon: Flags) -> tuple[float, float]:
+        """The least felt and model force of the thumb, N, if it had not been drawn back.
+
+        A thumb that is drawn back feels less force, whether or not the plunger gives way: so each force counts as at
+        least that of the coupling to a thumb at its farthest place so far.
+        """
+        thumb, push = ticks.thumb[soon], ticks.push[soon]
+        farthest = np.fmax.accumulate(np.fmax(thumb, self._farthest[k]))
+        self._farthest[k] = float(farthest[-1])
+        held = np.fmax(push, self._stiffness * (farthest - ticks.plunger[soon]))
+        return float((ticks.push_felt[soon] + scale * (held - push)).min()), float(held.min())
 
     def _followed(self, k: int, loss: PlungerLoss, felt: float, model: float) -> PlungerLoss:
         """The loss with the least forces so far. A limit that cuts the force after it is no loss of resistance: then

@@ -18,13 +18,13 @@ OMNI = ForceLimits(3.3, 0.88)
 
 
 @cache
-def pushed(newtons):
-    return with_thumb(hand_run("epidural", LEGS), 30.0, newtons, AT_ONCE)
+def pushed(newtons, lets_go=AT_ONCE, draws=0.0):
+    return with_thumb(hand_run("epidural", LEGS), 30.0, newtons, lets_go, draws)
 
 
-def on_device(scale=1.0, most=3.3, newtons=4.0, late=2):
+def on_device(scale=1.0, most=3.3, newtons=4.0, late=2, **thumb):
     """The columns with a second device that gives at most this force, and each force some ticks late."""
-    columns = pushed(newtons)
+    columns = pushed(newtons, **thumb)
     given = np.clip(scale * columns["thumb_force"], -most, most)
     felt = np.concatenate([np.zeros(late), given[:-late]])
     return columns | {"thumb_felt": felt, "force_scale": np.full(len(felt), scale)}
@@ -71,6 +71,22 @@ def test_a_limit_that_falls_is_no_loss_of_resistance():
     felt = np.maximum(columns["thumb_felt"], falling)
     (cut,) = result(columns | {"thumb_felt": felt}).metrics.yields
     assert cut.loss.drop == 0 and not cut.loss.felt
+
+
+@pytest.mark.parametrize(("scale", "most", "newtons"), [(0.055, 0.08, 3.5), (0.055, 3.3, 2.2), (1.0, 0.3, 4.0)])
+def test_a_thumb_that_is_drawn_back_does_not_make_the_loss_that_the_device_could_not_show(scale, most, newtons):
+    columns = on_device(scale, most, newtons, lets_go=0.03, draws=50e-3)
+    made = result(columns)
+    (gave,) = made.metrics.yields
+    first = np.searchsorted(columns["time"], gave.time)
+    drawn = columns["thumb_felt"][first : first + 450]  # the device pulls the thumb that is drawn back
+    assert gave.loss.before - -drawn.max() > gave.loss.needed
+    assert {each.state for each in made.goals} == {"met"}
+    assert not made.passed and not gave.loss.felt and gave.loss.after > 0, gave.loss
+
+
+def test_a_strong_device_shows_the_loss_also_to_a_thumb_that_is_drawn_back():
+    assert result(on_device(lets_go=AT_ONCE, draws=50e-3)).passed
 
 
 def test_a_key_feels_nothing_and_is_judged_by_the_models_force():
