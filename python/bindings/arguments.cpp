@@ -2,6 +2,7 @@
 #include "arguments.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include "punctura/scene/usual.hpp"
 
@@ -34,7 +35,14 @@ std::size_t threads_from(const nb::object& given) {
   return given.is_none() ? 0 : count_from(given, "threads", 0, 4096);
 }
 
+namespace {
+thread_local bool unusual_warnings = true;
+}
+
+bool set_unusual_warnings(bool on) { return std::exchange(unusual_warnings, on); }
+
 void warn_unusual(const std::string& path, double value) {
+  if (!unusual_warnings) return;
   const std::string advice = unusual(path, value);
   if (advice.empty()) return;
   char given[40];

@@ -26,5 +26,7 @@ void def_init(nb::class_<T>& cls, T (*make)(A...), const Extra&... extra) {
 /// Emits a UserWarning if a number lies outside the usual range of its field in SI units, but inside it in mm, um, N/mm
 /// or mN: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
 void warn_unusual(const std::string& path, double value);
+/// Sets whether warn_unusual warns in this thread; it does at first. Returns the value before.
+bool set_unusual_warnings(bool on);
 
 }  // namespace punctura::bindings

@@ -291,6 +291,9 @@ void bind_scene(nb::module_& m) {
       "What to write instead of a number that is off by a factor of 1,000; empty if it is not. written: in a unit of\n"
       "`size` in SI.");
 
+  m.def("set_unusual_warnings", &set_unusual_warnings, nb::arg("on"),
+        "Sets whether constructors warn in this thread of numbers in a probably wrong unit. Returns the value before.");
+
   m.def(
       "fields",
       [] {

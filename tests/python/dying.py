@@ -20,3 +20,9 @@ def goes_on(path, task):
     if not path.endswith("a.csv"):
         threading.Event().wait()
     return _failed(Path(path), task, "was reached"), False
+
+
+def holds_ctrl_c(path, task):
+    """Tells whether this process holds Ctrl-C back."""
+    held = signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    return _failed(Path(path), task, "held" if held else "a traceback"), False

@@ -22,6 +22,7 @@ import pyarrow.parquet
 
 import punctura
 from punctura import Needle, PuncturaError
+from punctura.files.names import as_text
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
@@ -107,14 +108,16 @@ def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Itera
     """
     left = list(paths)
     with _pool(processes or os.cpu_count()) as pool:
-        running = {pool.submit(_one, str(path), task): path for path in left}
+        with _ctrl_c_later():
+            running = {pool.submit(_one, str(path), task): path for path in left}
         for future in as_completed(running):
             if not isinstance(future.exception(), BrokenProcessPool):
                 left.remove(running[future])
                 yield running[future], *future.result()
     for path in left:  # one process died, and all lost their results; which one it was, is not known
         with _pool(1) as pool:
-            alone = pool.submit(_one, str(path), task)
+            with _ctrl_c_later():
+                alone = pool.submit(_one, str(path), task)
             died = isinstance(alone.exception(), BrokenProcessPool)
             yield path, *((_failed(path, task, DIED), True) if died else alone.result())
 
@@ -131,6 +134,22 @@ def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+@contextmanager
+def _ctrl_c_later() -> Iterator[None]:
+    """For the start of processes: they inherit that a Ctrl-C waits, and this process gets it at the end of the block.
+
+    Without it, a process that Ctrl-C meets before _follow_parent prints a traceback.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # on Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _follow_parent(stopped: Connection) -> None:
@@ -174,7 +193,7 @@ def _known(result: Path, path: Path, task: Task) -> TraceRecord | None:
     """The earlier result of a trace, if neither its file nor the task has changed since."""
     try:
         told = json.loads(result.read_bytes())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     if not (isinstance(told, dict) and told.get("task") == task.key() and told.get("stamp") == _stamp(path)):
         return None
@@ -198,5 +217,5 @@ def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
 
 
 def _shown(source: str) -> str:
-    """The name of a file as text; bytes that are no UTF-8 become question marks."""
-    return os.fsencode(Path(source).name).decode("utf-8", "replace")
+    """The name of a file as text."""
+    return as_text(Path(source).name)

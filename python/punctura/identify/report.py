@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from punctura.files.names import as_text
 from punctura.identify.identify import Identification
 from punctura.identify.records import IdentificationRecord
 
@@ -32,7 +33,7 @@ def report_html(found: Identification) -> bytes:
     )
     page = (
         f"<!doctype html><html lang=en><meta charset=utf-8><title>Identification</title><style>{_STYLE}</style>"
-        f"<h1>Membranes of {escape(found.trace.source or 'a trace')}</h1><p>{escape(head)}.</p>"
+        f"<h1>Membranes of {escape(as_text(found.trace.source) or 'a trace')}</h1><p>{escape(head)}.</p>"
         f'<img alt="Force against depth, residuals, law of each membrane" src="data:image/png;base64,{picture}">'
         f"<h2>Parameters, with 95 % intervals</h2>{_parameters(told)}"
         f"<h2>What the trace cannot tell, and which experiment would</h2><ul>{doubts}</ul>"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from punctura import (
     Scene,
     Tissue,
 )
+from punctura._core import set_unusual_warnings
 from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters
 
 DAMPING = 1.0  # N s/m, of the coupling: a servo loop needs some, and slow traces do not show it
@@ -24,13 +26,24 @@ TABLE = 28  # points of a grip that the scene's chords do not follow
 
 def scene_of(parameters: Parameters, name: str) -> Scene:
     """The identified membranes along -y, for `punctura run`: the first surface is at the origin."""
-    with warnings.catch_warnings():
-        # Nobody wrote these values, so an unusual one is no wrong unit: the trace is what the findings judge.
-        warnings.simplefilter("ignore", UserWarning)
+    with _without_unusual_warnings():
         try:
             return _scene(parameters, name, False)
         except ConfigurationError:  # the grip is curved too much for the chords of an exponential grip
             return _scene(parameters, name, True)
+
+
+@contextmanager
+def _without_unusual_warnings() -> Iterator[None]:
+    """Nobody wrote these values, so an unusual one is no wrong unit: the trace is what the findings judge.
+
+    In this thread only: filters of `warnings` belong to the whole process, and other threads would lose warnings.
+    """
+    before = set_unusual_warnings(False)
+    try:
+        yield
+    finally:
+        set_unusual_warnings(before)
 
 
 def _scene(parameters: Parameters, name: str, as_table: bool) -> Scene:

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from punctura import Needle, ProfileLaw
 from punctura.identify.parameters import MEMBRANE, Parameters, default_coupling, default_membrane
-from punctura.trace import Segments, Trace
+from punctura.trace import Segments, Trace, TraceError
 
 Array = NDArray[np.float64]
 
 KNOTS = 12  # a wall
+FEWEST = 5  # samples of the first insertion
 PLACES = (0.5, 0.3, 0.7, 0.9)  # of a wall without a pop, shares of the way
 OTHER_SHARES = (0.5, 0.2, 0.05)  # of a grip, that are precompression
 STIFFER = 5.0  # times the spring
@@ -35,9 +36,17 @@ class ProfileFit:
 
 
 def first_insertion(trace: Trace, segments: Segments) -> Trace:
-    """The samples of the first insertion up to its end, without holds and withdrawals."""
+    """The samples of the first insertion up to its end, without holds and withdrawals. Raises TraceError."""
     going_in = next((s for s in segments.strokes if s.kind == "in"), None)
-    return trace if going_in is None else trace[going_in.start : going_in.end]
+    if going_in is None:
+        return trace
+    if (few := going_in.end - going_in.start) < FEWEST:
+        doubts = "".join(f"; {finding}" for finding in trace.findings if finding.kind == "depth_doubtful")
+        raise TraceError(
+            f"{trace.source or 'the trace'}: the needle goes in within {few} samples, from sample "
+            f"{going_in.start + 1} on, and a fit needs at least {FEWEST}{doubts}"
+        )
+    return trace[going_in.start : going_in.end]
 
 
 def profile_fit(trace: Trace, surfaces: Array, lengths: Array, thickness: float, stiffness: float) -> ProfileFit:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -25,7 +26,7 @@ class PartFile:
         self.survey = Survey()
         self.notes: list[str] = []
         self.damaged = False  # whether ticks that had been written are missing
-        with pa.OSFile(str(path), "rb") as file:
+        with pa.OSFile(os.fsencode(path), "rb") as file:
             decoder = Decoder(file, self._size)
             checked = 0
             for batch in decoder:
@@ -46,7 +47,7 @@ class PartFile:
     def batches(self, progress: Progress | None = None) -> Iterator[pa.RecordBatch]:
         """The ticks that were in the file when it was opened."""
         left = self.survey.rows
-        with pa.OSFile(str(self.path), "rb") as file:
+        with pa.OSFile(os.fsencode(self.path), "rb") as file:
             for batch in Decoder(file, self._size):
                 if left <= 0:
                     return

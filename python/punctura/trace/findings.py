@@ -39,7 +39,7 @@ def examine(trace: Trace) -> Trace:
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
         )
-    if going_in is not None and segments.contact is not None:
+    if going_in is not None and segments.contact is not None and segments.contact >= going_in.start:
         before = trace.force[going_in.start : segments.contact + 1]
         zero, height = float(np.median(before)), float(np.max(np.abs(trace.force - np.median(before))))
         if abs(zero) > max(_SMALL * height, 3 * noise_of(trace.force)):

@@ -3,20 +3,24 @@
 import json
 import multiprocessing
 import os
+import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import punctura
 import pyarrow.parquet as pq
 import pytest
-from dying import dies, goes_on
+from dying import dies, goes_on, holds_ctrl_c
 from punctura.identify import folder as folder_module
 from punctura.identify import identify
 from punctura.identify.folder import Task, identify_folder
 from punctura.identify.plan import information, plans
 from punctura.identify.population import drawn_to_mean, population, random_effects
 from punctura.identify.report import report_html
+from punctura.scene.write import scene_text
+from punctura.trace import read_trace
 from traces import NEEDLE, trace
 from waiting import wait_until
 
@@ -47,7 +51,7 @@ def test_a_broken_file_does_not_stop_the_others_and_a_second_run_keeps_results(t
     assert {row["trace"] for row in rows} == {"1.csv", "2.csv"}
     assert {row["name"] for row in pq.read_table(out / "population.parquet").to_pylist()} >= {"membrane[0].stiffness"}
     before = (out / "1.csv.json").read_bytes()
-    (out / "2.csv.json").write_text("damaged")
+    (out / "2.csv.json").write_text("[" * 100_000)  # damaged
     again = identify_folder(folder, out, task, 1)
     assert again["kept"] == 2 and again["identified"] == 2
     assert (out / "1.csv.json").read_bytes() == before
@@ -91,6 +95,15 @@ def test_an_interrupt_does_not_wait_for_the_traces_that_are_computed(tmp_path, m
     # Else the program would wait for them at its end. One that still starts on a busy machine ends a little later.
     wait_until(lambda: not any(_lives(process.pid) for process in multiprocessing.active_children()), 300)
     assert {path.name for path in out.iterdir()} == {"a.csv.json"}
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="Windows has no signal masks")
+def test_ctrl_c_while_the_processes_start_is_for_the_program_alone(tmp_path, monkeypatch):
+    (tmp_path / "a.csv").write_text("1,2")
+    monkeypatch.setattr(folder_module, "_one", holds_ctrl_c)
+    told = identify_folder(tmp_path, tmp_path / "out", Task(NEEDLE), 1)
+    assert told["failed"] == {"a.csv": "held"}
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_file_that_lacks_a_package_is_tried_again_and_another_version_computes_all_again(tmp_path, monkeypatch):
@@ -150,6 +163,16 @@ def test_a_population_needs_two_traces_with_both_bounds():
     assert population([ROW, ROW | {"low": None}]) == []
     [told] = population([ROW, ROW | {"value": 2.0, "low": 1.8, "high": 2.2}])
     assert told["spread_is_relative"] and told["mean"] == pytest.approx(np.sqrt(2), rel=0.02)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only here names are bytes")
+def test_a_file_whose_name_is_no_text_is_read_and_has_a_scene_and_a_report(found, tmp_path):
+    path = tmp_path / os.fsdecode(b"n\xe4me.csv")
+    write(path, found.trace)
+    read = read_trace(path)
+    named = replace(found, trace=read)
+    assert "n\ufffdme.csv" in scene_text(named.scene) and "n\ufffdme.csv" in report_html(named).decode()
+    json.dumps(named.as_dict()).encode()
 
 
 def test_the_report_holds_every_parameter_and_verdict(found):

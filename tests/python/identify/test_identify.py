@@ -3,12 +3,17 @@
 import errno
 import json
 import os
+import threading
+import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import punctura as pn
 import pytest
+import scipy.linalg  # noqa: F401  # its libraries are among those of threadpool_info
 import threadpoolctl
 from punctura.identify import identify
+from punctura.identify import scene as identified_scene
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import OWN, Model, extensions
@@ -17,7 +22,8 @@ from punctura.identify.parameters import Free, Parameters, default_coupling, def
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.rises import rise_starts
 from punctura.identify.scene import scene_of
-from punctura.trace import Finding, Trace, TraceError, segment
+from punctura.one_thread import one_thread
+from punctura.trace import Finding, Trace, TraceError, read_trace, segment
 from punctura.trace.blocks import held_out
 from traces import MEMBRANE, NEEDLE, force_of, motion, trace
 from typer.testing import CliRunner
@@ -116,11 +122,51 @@ def test_a_severe_finding_stops_the_identification():
         identify(bad, NEEDLE)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_depth_whose_unit_changes_in_the_file_is_named_as_the_reason_why_nothing_can_be_fitted(tmp_path):
+    made = trace(noise=0.01)
+    depth = np.where(np.arange(len(made)) < len(made) // 2, 1e3, 1) * made.depth  # in mm, then in m
+    table = np.column_stack((made.time, depth, made.force))
+    np.savetxt(tmp_path / "a.csv", table, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    with pytest.raises(TraceError, match=r"a.csv: the needle goes in within \d samples.*axis is doubtful"):
+        identify(read_trace(tmp_path / "a.csv"), NEEDLE, membranes=1)
+
+
 def test_a_scene_of_unusual_values_gives_no_warning_about_units(recwarn):
     row = default_membrane()
     row[:5] = [5e-3, 0.11, 1.3, 0.2, 0.5e-3]
     scene = scene_of(Parameters(NEEDLE, np.array([row]), default_coupling(2.8)), "soft")
     assert scene.coupling.stiffness == 2.8 and not recwarn.list
+
+
+def test_scenes_that_two_threads_make_at_once_leave_the_warnings_of_the_process_alone(monkeypatch):
+    row = default_membrane()
+    row[:5] = [5e-3, 0.11, 1.3, 0.2, 0.5e-3]
+    parameters, began = Parameters(NEEDLE, np.array([row]), default_coupling(2.8)), threading.Barrier(3)
+    first_done = threading.Event()
+    whole = identified_scene._scene
+
+    def slowly(given, name, as_table):
+        began.wait(60)
+        began.wait(60)
+        if name == "second":
+            first_done.wait(60)
+        return whole(given, name, as_table)
+
+    monkeypatch.setattr(identified_scene, "_scene", slowly)
+    before = list(warnings.filters)
+    with ThreadPoolExecutor(2) as pool:
+        made = [pool.submit(scene_of, parameters, name) for name in ("first", "second")]
+        began.wait(60)
+        with pytest.warns(UserWarning, match="unusual"):  # meanwhile, in this thread
+            pn.Needle(diameter=1.2, tip_angle=0.4)
+        began.wait(60)
+        assert made[0].result(60).name == "first"
+        first_done.set()
+        assert made[1].result(60).name == "second"
+    assert list(warnings.filters) == before
+    with pytest.warns(UserWarning, match="unusual"):
+        pn.Needle(diameter=1.2, tip_angle=0.4)
 
 
 def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
@@ -263,3 +309,10 @@ def test_linear_algebra_uses_one_thread_meanwhile_and_as_many_as_before_afterwar
         meanwhile, before = [], threads()
         identify(trace(noise=0.01), NEEDLE, membranes=1, tell=lambda _: meanwhile.extend(threads()))
         assert set(before) == {2} and set(meanwhile) == {1} and threads() == before
+        first, second = one_thread("punctura.identify"), one_thread("punctura.identify")  # of two threads at once
+        first.__enter__()
+        second.__enter__()
+        first.__exit__(None, None, None)
+        assert set(threads()) == {1}
+        second.__exit__(None, None, None)
+        assert threads() == before
