@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -58,7 +59,9 @@ def command(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for the results of a folder of traces.", metavar="DIR")
     ] = None,
-    processes: Annotated[int | None, typer.Option("--processes", help="For a folder; default: all processors.")] = None,
+    processes: Annotated[
+        int | None, typer.Option("--processes", help="For a folder; default: all processors.", min=0)
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Identifies membranes from a trace: values, 95 % intervals, and what the trace cannot tell."""
@@ -83,8 +86,10 @@ def command(
             raise typer.BadParameter(f"{out} is a file; the results need a folder", param_hint="--out")
         _folder(trace, out, task, processes, as_json)
         return
-    for option, path in (("--scene", scene), ("--report", report), ("--plan", plan)):
+    written = {"--scene": scene, "--report": report, "--plan": plan}
+    for option, path in written.items():
         check_place(path, option)
+    check_apart({"TRACE": trace, **written})
     read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
     found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
@@ -120,6 +125,17 @@ def _plan(path: Path, found: Identification) -> None:
     best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
     write_whole(path, best.csv())
     typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
+
+
+def check_apart(files: Mapping[str, Path | None]) -> None:
+    """Says before a long computation that one file would overwrite another one. Raises BadParameter."""
+    seen: dict[Path, str] = {}
+    for option, path in files.items():
+        if path is None:
+            continue
+        other = seen.setdefault(path.resolve(), option)
+        if other != option:
+            raise typer.BadParameter(f"{path} is the file of {other}, too; name another one", param_hint=option)
 
 
 def check_place(path: Path | None, option: str) -> None:

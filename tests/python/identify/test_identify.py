@@ -212,6 +212,14 @@ def test_a_place_that_cannot_be_written_is_named_before_the_computation_and_the_
             ran = CliRunner().invoke(build_app(), [*given, option, place], env={"COLUMNS": "400"})
             assert ran.exit_code == 2 and option in ran.output and reason in ran.output
             assert "punctura: K06" not in ran.output
+    before, link, same = (tmp_path / "a.csv").read_bytes(), tmp_path / "link", str(tmp_path / "same")
+    link.symlink_to(tmp_path / "a.csv")
+    for place in (tmp_path / "a.csv", tmp_path / ".." / tmp_path.name / "a.csv", link):
+        ran = CliRunner().invoke(build_app(), [*given, "--scene", str(place)], env={"COLUMNS": "400"})
+        assert ran.exit_code == 2 and "is the file of TRACE, too; name another one" in ran.output
+        assert (tmp_path / "a.csv").read_bytes() == before
+    ran = CliRunner().invoke(build_app(), [*given, "--scene", same, "--plan", same], env={"COLUMNS": "400"})
+    assert ran.exit_code == 2 and "is the file of --scene, too" in ran.output
     ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path), *given[2:], "--out", str(tmp_path / "a.csv")])
     assert ran.exit_code == 2 and "is a file; the results need a folder" in ran.output
 
