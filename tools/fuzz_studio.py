@@ -2,17 +2,20 @@
 
     python tools/fuzz_studio.py --minutes 10 --seed 1
 
-Passes if the studio does not end and prints no traceback, if its memory grows by less than 5 % in the second half, and
-if no tick is lost.
+The page has control, and sends random exercise files meanwhile. Passes if the studio does not end and prints no
+traceback, if no request meets a defect, if its memory grows by less than 5 % in the second half, and if no tick is
+lost.
 """
 
 from __future__ import annotations
 
 import argparse
+import base64
 import contextlib
 import json
 import logging
 import random
+import re
 import socket
 import sys
 import tempfile
@@ -22,11 +25,17 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from punctura.exercise import exercise_names, load_exercise
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
 from studio_process import Memory, StudioProcess, blank_page
 from websockets.frames import Opcode
 from websockets.sync.client import connect
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 # A server thread keeps the memory of its largest request, so the memory settles during the first half of a run.
 WARMING_UP, MOST_GROWTH = 0.5, 0.05
@@ -85,8 +94,9 @@ class Fuzzer(threading.Thread):
             ("", "?token=" + self._token, "?token=%ff", "?" + "a&" * 500)
         )
         length = self._random.randint(-1, 10**6)
-        head = f"{method} {path} HTTP/1.1\r\nHost: {self._host}\r\nContent-Length: {length}\r\n\r\n"
-        data = bytearray(head.encode())
+        size = self._random.choice((f"Content-Length: {length}", "Transfer-Encoding: chunked"))
+        head = f"{method} {path} HTTP/1.1\r\nHost: {self._host}\r\n{size}\r\n\r\n"
+        data = bytearray(head.encode() + self._random.randbytes(self._random.choice((0, 0, 20))))
         if self._random.random() < 0.5:
             for _ in range(self._random.randint(1, 8)):
                 data[self._random.randrange(len(data))] = self._random.randrange(256)
@@ -133,6 +143,57 @@ class Fuzzer(threading.Thread):
         )
 
 
+class Maker(threading.Thread):
+    """Opens, saves, checks and deletes exercises as the page that has control. It never ends the recording."""
+
+    def __init__(self, page: StudioClient, seed: int) -> None:
+        super().__init__(daemon=True)
+        self._page, self._random = page, random.Random(seed)
+        self._files = [load_exercise(name).path.read_bytes() for name in exercise_names()]
+        self.replies: Counter[str] = Counter()
+        self.defects: list[str] = []
+        self.stop = False
+
+    def run(self) -> None:
+        with contextlib.suppress(ConnectionError):
+            while not self.stop:
+                reply = self._page.ask(**self._request())
+                self.replies["done" if reply["ok"] else "refused"] += 1
+                self.defects += [reply["text"]] if reply["text"].startswith("a defect") else []
+                time.sleep(0.01)
+
+    def _request(self) -> dict[str, Any]:
+        name = self._random.choice(
+            ("a", "\u00e4", "../a", "con", "draft", "vein-15", "x" * 80, f"e{self._random.random()}")
+        )
+        kind = self._random.random()
+        if kind < 0.15:
+            return {"do": "delete_exercise", "name": name}
+        file = self._file()
+        if kind < 0.3:
+            tables: object = {}
+            with contextlib.suppress(ValueError, RecursionError):
+                tables = json.loads(json.dumps(tomllib.loads(file.decode())))
+            more = {"do": "save_exercise", "name": name} if kind < 0.2 else {"do": "check_exercise"}
+            return {**more, "tables": tables}
+        sent = base64.b64encode(file).decode() if kind < 0.95 else "%" + file.decode("latin-1")[:1000]
+        return {"do": "open_exercise", "name": name, "file": sent, "replace": self._random.random() < 0.5}
+
+    def _file(self) -> bytes:
+        """A ready exercise, mostly with some of its bytes or numbers changed."""
+        data = bytearray(self._random.choice(self._files))
+        for _ in range(self._random.choice((0, 1, 1, 2, 5))):
+            at = self._random.randrange(len(data))
+            piece = self._random.choice((b"", b"\xff", b"\0", b"[", b'"', b"nan", b"-", b"9" * 400, b"\n", b"1e308"))
+            data[at : at + self._random.choice((0, 1, 30))] = piece
+        numbers = list(re.finditer(rb"(?<== )[0-9.]+", data))
+        if numbers and self._random.random() < 0.5:
+            found = self._random.choice(numbers)
+            values = (b"nan", b"-inf", b"-0.0", b"1e308", b"5e-324", b"0.003", b"3000", b"true", b"[]", b'"3"')
+            data[found.start() : found.end()] = self._random.choice(values)
+        return bytes(data)
+
+
 def fuzz(seconds: float, seed: int, folder: Path) -> int:
     memory = Memory(seconds, warm=WARMING_UP)
     with StudioProcess(folder, page=blank_page(folder)) as studio:
@@ -145,8 +206,9 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
         good = page.ask(do="start_recording", name="fuzz")["ok"]
         page.ask(do="strokes", period=2.0)
         fuzzers = [Fuzzer(studio.url, page, seed + i) for i in range(2)]
-        for fuzzer in fuzzers:
-            fuzzer.start()
+        maker = Maker(page, seed)
+        for thread in (*fuzzers, maker):
+            thread.start()
         told = began = time.monotonic()
         while time.monotonic() - began < seconds and studio.running and page.closed is None:
             time.sleep(0.2)
@@ -155,10 +217,10 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
             if time.monotonic() - told > 60:
                 told = time.monotonic()
                 print(f"{told - began:.0f} s: {studio.memory_mb():.1f} MB, {page.ticks} ticks", flush=True)
-        for fuzzer in fuzzers:
-            fuzzer.stop = True
-        for fuzzer in fuzzers:
-            fuzzer.join(30)
+        for thread in (*fuzzers, maker):
+            thread.stop = True
+        for thread in (*fuzzers, maker):
+            thread.join(30)
         status = page.status()
         good = good and page.ask(do="stop_recording")["ok"]
         page.close()
@@ -167,11 +229,13 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
         said = studio.said()
     ends: Counter[str] = sum((fuzzer.ends for fuzzer in fuzzers), Counter())
     print(f"{sum(f.sent for f in fuzzers)} sent, seed {seed}; ends: {dict(ends.most_common())}")
+    print(f"exercises: {dict(maker.replies)}, defects: {maker.defects[:3]}")
     print(f"{recording.rows} ticks recorded, {recording.lost} lost; page: {page.gaps} gaps, {status['lost']} not shown")
     growth = memory.growth()
     print(f"memory {memory.samples[-1] if memory.samples else 0:.1f} MB, grown by {growth:+.1%}; ended with {code}")
     good = good and code == 130 and memory.flat(MOST_GROWTH) and recording.lost == page.gaps == status["lost"] == 0
     good = good and "Traceback" not in said and sum(ends.values()) > 0
+    good = good and not maker.defects and maker.replies["done"] > 0 and maker.replies["refused"] > 0
     print("passed" if good else f"FAILED {said[-3000:]}")
     return 0 if good else 1
 

@@ -122,12 +122,16 @@ class Pump:
         kind = Fault(fault)
         began = int(np.flatnonzero(ticks.fault == fault)[0])
         happened, remedy = fault_words(kind)
+        trouble, thumb = self._run.loop.device.trouble(), self._run.thumb if kind is Fault.thumb else None
+        if thumb is not None and thumb.fault != Fault.none:
+            what, remedy = fault_words(thumb.fault)
+            happened, trouble = f"The device under the thumb has a fault. {what}", thumb.device.trouble()
         self._out.say(
             FaultMessage(
                 fault=kind.name,
                 reason=happened,
                 remedy=remedy,
-                trouble=self._run.loop.device.trouble(),
+                trouble=trouble,
                 tick=int(ticks.tick[began]),
                 kept=self._kept.keep(self._run.loop.fault_history()),
             )

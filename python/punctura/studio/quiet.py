@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 
+from h11 import LocalProtocolError
 from websockets.exceptions import InvalidState
 
 from punctura.live import DroppingStream
@@ -20,8 +21,12 @@ _STRANGERS = (
 
 def _news(record: logging.LogRecord) -> bool:
     error = record.exc_info[1] if record.exc_info else None
-    # The server's WebSocket answers text that is not UTF-8 even on a connection that is closing.
-    return not (record.getMessage().startswith(_STRANGERS) or isinstance(error, InvalidState))
+    # The server's WebSocket answers text that is not UTF-8 even on a connection that is closing, and the application
+    # answers a request after the server has ended the connection, because the rest of the request is no HTTP.
+    closing = isinstance(error, InvalidState) or (
+        isinstance(error, LocalProtocolError) and str(error).endswith("state=MUST_CLOSE")
+    )
+    return not (closing or record.getMessage().startswith(_STRANGERS))
 
 
 def quiet_server() -> None:

@@ -28,6 +28,7 @@ from punctura.live import (
 )
 from punctura.record import open_recording, replay
 from punctura.studio.loaded import from_name
+from punctura.studio.pump import Pump
 from punctura.studio.run import NO_SYRINGE, Bench, Run, Settings
 from waiting import wait_until
 
@@ -207,3 +208,22 @@ def test_the_studio_opens_the_second_device_for_each_run():
         assert run.thumb.fault == Fault.none and run.thumb.force == 0
     dry = Run(2, bench, from_name("k06-fig10"))
     assert NO_SYRINGE in dry.notes
+
+
+def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
+    thumb, told = Library("the thumb's", (0.0, 0.0, 0.0)), []
+    monkeypatch.setattr("punctura.live.second.open_for", lambda *_: thumb.device)
+    loaded, patient = from_name("epidural"), Limits(ForceLimits(), {"stale": 30.0, "deadline": 30.0})
+    bench = Bench(Settings("simulated", limits=patient, second=SecondDevice("mine")), loaded.scene)
+    run = Run(0, bench, loaded)
+    pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, say=told.append))
+    run.start()
+    wait_until(lambda: run.thumb.ticks > 10)
+    thumb.position = (math.nan, 0.0, 0.0)
+    wait_until(lambda: run.faulted)
+    run.stop()
+    thumb.die()
+    pump.turn()
+    (fault,) = [message for message in told if message.kind == "fault"]
+    assert fault.fault == "thumb" and "under the thumb has a fault. The device reported a position" in fault.reason
+    assert "cable" in fault.remedy

@@ -3,6 +3,7 @@
 import contextlib
 import http.client
 import json
+import logging
 import os
 import socket
 
@@ -295,8 +296,13 @@ def test_a_page_can_ask_why_its_socket_was_refused(guarded):
     assert get(guarded, "/api/access", Authorization="Bearer TOKEN", Origin="http://example.org")[0] == 403
 
 
-def test_bytes_that_are_no_http_do_no_harm(guarded):
-    for data in (b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/9.9\r\n\r\n", b"\r\n" * 5000, b"G" * 100_000):
+def test_bytes_that_are_no_http_do_no_harm_and_are_not_logged(guarded, monkeypatch):
+    logged, log = [], logging.StreamHandler()
+    log.emit = lambda record: logged.append(record.getMessage())
+    monkeypatch.setattr(logging.getLogger("uvicorn.error"), "handlers", [log])
+    host = f"Host: 127.0.0.1:{guarded.address.port}".encode()
+    body = b"POST / HTTP/1.1\r\n" + host + b"\r\nTransfer-Encoding: chunked\r\n\r\nno length\r\n"
+    for data in (b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/9.9\r\n\r\n", b"\r\n" * 5000, b"G" * 100_000, body):
         with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", guarded.address.port), 10) as raw:
             raw.settimeout(2)
             raw.sendall(data)
@@ -304,3 +310,4 @@ def test_bytes_that_are_no_http_do_no_harm(guarded):
             while raw.recv(1000):
                 pass
     assert get(guarded, "/assets/a.js")[0] == 200
+    assert logged == []  # nobody without the token fills the terminal
