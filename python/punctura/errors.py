@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
@@ -49,3 +50,11 @@ class ConfigurationError(PuncturaError, ValueError):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.problems, self.source)
+
+
+def sentence_of(error: BaseException) -> str:
+    """The sentence of an error; an error of the system names its file first and has no number."""
+    if not isinstance(error, OSError) or error.filename is None or not error.strerror:
+        return str(error)
+    what = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
+    return f"{os.fsdecode(error.filename)}: {what}"

@@ -26,7 +26,7 @@ from punctura.cli._streams import (
     open_closed_streams,
     wait_for_stderr_again,
 )
-from punctura.errors import ConfigurationError
+from punctura.errors import ConfigurationError, sentence_of
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
 from punctura.scene.unusual import UnusualWarning
@@ -87,7 +87,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except (PuncturaError, ValueError, OSError) as error:
             if isinstance(error, StdoutError):
                 give_up_stdout()
-            _fail(f"{_words(error)}{_where()}", FAILED)
+            _fail(f"{sentence_of(error)}{_where()}", FAILED)
         except Ended as end:
             leave(end)
         finally:
@@ -104,14 +104,6 @@ def _as_sentence(
     if issubclass(category, UnusualWarning):
         return f"punctura: warning: {message}\n"
     return _usual_warning(message, category, filename, lineno, line)
-
-
-def _words(error: Exception) -> str:
-    """The sentence of an error; an error of the system names its file first and has no number."""
-    if not isinstance(error, OSError) or error.filename is None or not error.strerror:
-        return str(error)
-    what = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
-    return f"{os.fsdecode(error.filename)}: {what}"
 
 
 def _where() -> str:

@@ -22,6 +22,7 @@ import pyarrow.parquet
 
 import punctura
 from punctura import Needle, PuncturaError
+from punctura.errors import sentence_of
 from punctura.files.names import as_text
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
@@ -172,7 +173,7 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
         told = identify(trace, task.needle, task.membranes).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
         known = isinstance(error, (PuncturaError, OSError, ValueError, ArithmeticError))
-        failed = _failed(Path(path), task, str(error) if known else f"{type(error).__name__}: {error}")
+        failed = _failed(Path(path), task, sentence_of(error) if known else f"{type(error).__name__}: {error}")
         return failed, isinstance(error, (ImportError, MissingPackage))
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False
 

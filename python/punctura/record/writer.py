@@ -16,6 +16,7 @@ from punctura.record.part_file import PartFile
 RETRY_S = 0.5
 LAST_TRIES_S = 2.0  # retry this long if the disk fails at the end of the recording
 _MOST_NOTES = 100
+_FREE_SPACE = ". Free some space on this disk: writing then goes on"  # while the recording goes on
 
 
 class Writer:
@@ -46,6 +47,7 @@ class Writer:
     def join(self) -> None:
         """Call after the backlog is closed. Waits until all pieces are written or have failed."""
         self._thread.join()
+        self.trouble = self.trouble.removesuffix(_FREE_SPACE)
 
     def note(self, text: str) -> None:
         if len(self.notes) < _MOST_NOTES:
@@ -117,7 +119,7 @@ class Writer:
             return
         reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else str(bad) or type(bad).__name__
         full = isinstance(bad, OSError) and bad.errno in (errno.ENOSPC, errno.EDQUOT)
-        advice = ". Free some space on this disk: writing then goes on" if full else ""
+        advice = _FREE_SPACE if full else ""
         self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}{advice}", reason
 
 

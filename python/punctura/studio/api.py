@@ -16,6 +16,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
+from punctura.errors import sentence_of
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.exercise.xapi import to_xapi
@@ -226,5 +227,5 @@ def _told_later(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[
 
 def _refusal(error: Exception) -> Response:
     status = next(code for kind, code in _STATUS.items() if isinstance(error, kind))
-    text = str(error)
+    text = sentence_of(error)
     return _sentence(status, text[:1].upper() + text[1:] + ("" if text.endswith(".") else "."))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeAlias
 
-from punctura.errors import ConfigurationError
+from punctura.errors import ConfigurationError, sentence_of
 from punctura.exercise import Exercise
 from punctura.exercise.space import need_membranes
 from punctura.live import room_note
@@ -75,7 +75,7 @@ def refusal(number: int, error: Exception) -> Reply | None:
     if isinstance(error, NameExists):
         return Reply(id=number, ok=False, text=str(error), data={"exists": 1})
     if isinstance(error, ValueError | RuntimeError | OSError):  # DeviceError, RecordingError, BadName are of these
-        return Reply(id=number, ok=False, text=str(error))
+        return Reply(id=number, ok=False, text=sentence_of(error))
     return None
 
 

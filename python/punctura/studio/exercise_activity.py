@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from punctura import Scene
+from punctura.errors import sentence_of
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.exercise.result import Status
 from punctura.studio.activity import Outcome
@@ -73,7 +74,7 @@ class ExerciseActivity:
         try:
             name = self._results.save(result).name
         except OSError as error:
-            return Outcome(self._status(running=False), remark=f"The result cannot be saved: {error}")
+            return Outcome(self._status(running=False), remark=f"The result cannot be saved: {sentence_of(error)}")
         return Outcome(self._status(running=False, result=name), f"The result of the last exercise is saved as {name}.")
 
     def _status(self, running: bool, result: str = "") -> ExerciseStatus:

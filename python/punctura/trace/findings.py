@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 # A needle insertion outside these bounds points to a wrong unit.
 _DEPTHS = (5e-4, 0.5)  # m, range of the depth
 _FORCES = (2e-3, 200.0)  # N, greatest force
-_FASTEST = 0.1  # m/s
+_FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
 _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
 
 
@@ -112,6 +112,9 @@ def _depth_axis(trace: Trace, segments: Segments) -> Iterator[Finding]:
         fast = float(np.median(speed[speed > 0.1 * speed.max()])) if speed.max() > 0 else 0.0
         if fast > _FASTEST:
             reasons.append(f"the needle would move at {fast:.3g} m/s; perhaps the axis is 10 or 1000 times too large")
+        elif 0 < fast < _SLOWEST:
+            text = f"the needle would take {float(np.ptp(trace.time)):.3g} s at {fast * 1e3:.2g} mm/s"
+            yield Finding("time_doubtful", f"{text}; perhaps the time is in ms (--unit time=ms)")
     if trace.time is None and float(np.mean(steps < 0)) > 0.1 and len(segments.strokes) == 1:
         reasons.append(f"{int((steps < 0).sum())} depths go back; sort a digitised curve by depth (--order depth)")
     if reasons:

@@ -1,6 +1,8 @@
 """Exercises that are made in the page: checked by the code of files, kept in one folder, and in no other place."""
 
 import base64
+import errno
+import os
 import threading
 
 import pytest
@@ -207,3 +209,12 @@ def test_what_is_no_base64_is_refused_and_a_page_without_control_opens_nothing(p
         viewer.wait(lambda: viewer.of("control"))
         assert "control" in viewer.ask(**sent(TEXT))["text"]
     assert not (served.session.shelf.folder / "exercises").exists()
+
+
+def test_a_full_disk_is_told_with_the_file_and_without_the_number_of_the_error(page, served, monkeypatch):
+    def full(path, data, replace=True):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    monkeypatch.setattr("punctura.studio.own_exercises.write_whole", full)
+    path = served.session.shelf.folder / "exercises" / "mine.toml"
+    assert page.ask(**sent(TEXT))["text"] == f"{path}: {os.strerror(errno.ENOSPC)}"

@@ -118,6 +118,7 @@ CHANGES = {
     "rows_without_numbers": lambda made: {"force_N": np.where(np.arange(len(made)) % 50 == 7, np.nan, made.force)},
     "time_repeats": lambda made: {"time_s": np.repeat(made.time[::2], 2)[: len(made)]},
     "gap": lambda made: {"time_s": made.time + (np.arange(len(made)) > 150)},
+    "time_doubtful": lambda made: {"time_s": made.time * 1e3},
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
     "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
