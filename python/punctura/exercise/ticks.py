@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Scene
-from punctura._core import grazing_cosine, tip_length
+from punctura._core import ServoState, grazing_cosine, tip_length
 from punctura.ticks import ABSENT, COMMAND_SCENE, INSIDE, Columns
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 ROUNDING = 1e-12  # m
+_OFF = [state.value for state in (ServoState.disarmed, ServoState.waiting, ServoState.faulted)]  # no force
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Ticks:
     model: Numbers  # N, the model's force against the needle, along it
     felt: Numbers  # N, the same of the felt force; the model's if only that is known
     felt_size: Numbers  # N, the norm of the felt force
-    ceiling: Numbers  # N, what all limits permit
+    ceiling: Numbers  # N, what all limits permit; 0 while the force is off
     force_scale: Numbers  # how much of the model's force the device gives, before the limits
     push: Numbers  # N, the thumb on the syringe's plunger; NaN if unknown
     push_felt: Numbers  # N, of it what a second device gave, after force scale and limits; 0 without one
@@ -108,7 +109,7 @@ class Geometry:
             model=-np.einsum("ij,ij->i", force, held),
             felt=-np.einsum("ij,ij->i", felt, held),
             felt_size=np.linalg.norm(felt, axis=1),
-            ceiling=np.asarray(columns["ceiling"], np.float64) if "ceiling" in columns else np.full(n, np.inf),
+            ceiling=_ceiling(columns, n),
             force_scale=np.asarray(columns["force_scale"], np.float64) if "force_scale" in columns else np.ones(n),
             push=-np.asarray(columns["thumb_force"], np.float64) if "thumb_force" in columns else np.full(n, np.nan),
             push_felt=-np.asarray(columns["thumb_felt"], np.float64) if "thumb_felt" in columns else np.zeros(n),
@@ -150,6 +151,11 @@ class Geometry:
             held = np.einsum("nmk,mk->nm", _wide(columns["direction"], m, np.nan), self.normals)
             cosine = np.where(inside & np.isfinite(held), held, cosine)
         return np.clip(np.where(np.isfinite(cosine), cosine, 1.0), grazing_cosine, 1.0)
+
+
+def _ceiling(columns: Columns, n: int) -> Numbers:
+    permitted = np.asarray(columns["ceiling"], np.float64) if "ceiling" in columns else np.full(n, np.inf)
+    return np.where(np.isin(columns["state"], _OFF), 0.0, permitted) if "state" in columns else permitted
 
 
 def _column(columns: Columns, name: str, n: int) -> Numbers:

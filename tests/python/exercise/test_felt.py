@@ -4,7 +4,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged
-from punctura._core import ForceLimits
+from punctura._core import ForceLimits, ServoState
 from punctura.exercise import Result, cannot_show, expected_losses, load_exercise
 from punctura.exercise.loss import needed_drop
 
@@ -68,6 +68,16 @@ def test_a_ceiling_that_falls_before_the_pop_makes_no_loss_of_resistance(write):
     falling = lambda columns: np.where(columns["tip"][:, 1] > -7.5e-3, 9.0, 0.3)  # noqa: E731
     result = attempt(write, through(ceiling=falling))
     assert not result.passed and loss_of(result).drop < 0.1
+
+
+def test_a_force_that_is_turned_off_at_the_pop_makes_no_loss_of_resistance(write):
+    columns = through(ceiling=0.3)
+    off = columns["time"] >= loss_of(attempt(write, columns)).time
+    columns |= {"force": np.where(off[:, None], 0.0, columns["force"])}
+    columns |= {"state": np.where(off, ServoState.disarmed.value, ServoState.active.value)}
+    result = attempt(write, columns)
+    assert not result.passed and loss_of(result).drop == 0
+    assert result.reasons[-1].endswith("The force was off: turn it on.")
 
 
 def test_a_scale_that_is_too_small_is_no_pass(write):
