@@ -111,13 +111,15 @@ def test_a_key_a_trigger_and_the_wheel_push_the_plunger_and_its_force_is_in_plot
     assert max(kept["injected_m3"]) > 0 and max(kept["plunger_m"]) > 0
 
 
-def test_the_tab_hand_says_that_a_second_device_pushes_the_plunger(browser: Browser, tmp_path: Path) -> None:
+def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_path: Path) -> None:
     second = ["--second-device", "simulated"]
     with StudioProcess(tmp_path, "epidural", more=second) as studio, opened(browser, studio.url) as page:
         ready(page)
         syringe = tab(page, "Hand").locator("section", has=page.get_by_role("heading", name="Syringe"))
         expect(syringe).to_contain_text("The second device pushes the plunger: PHANTOM Omni, simulated.")
         expect(syringe.get_by_role("button", name="Hold to push")).to_be_hidden()
+        health = tab(page, "Health")
+        expect(health).to_contain_text(re.compile(r"second device\d+ of 1600 Hz, at most 3.3 N"))
 
 
 OVERLAPS = """() => {

@@ -16,6 +16,6 @@ def leave(end: Ended, more: str = "") -> NoReturn:
     """Prints the signal's name, and exits with its status."""
     ignore_more_signals()
     give_up_stdout()
-    words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}{more}"
-    print(f"punctura: {words}", file=sys.stderr)
+    words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}"
+    print(f"punctura: {words}{more}", file=sys.stderr)
     sys.exit(SIGNAL + end.number)

@@ -110,6 +110,8 @@ def export(
     if results is not None and not folder.is_dir():
         raise typer.BadParameter(f"there is no folder {folder}", param_hint="--results")
     found = ResultStore(folder).all(person, group)[::-1]
+    if not found:
+        typer.echo(f"punctura: {folder} has no such results", err=True)
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
     if output is None:
         typer.echo(text, nl=False)

@@ -27,6 +27,8 @@ from punctura.live import (
 )
 from punctura.live.signals import ends_on_signals
 
+DOWN = "0,-1,0"  # the thumb pushes down
+
 
 def command(
     scene: Annotated[
@@ -67,7 +69,7 @@ def command(
             help="Direction in which the thumb pushes, in the second device's axes.",
             metavar="X,Y,Z",
         ),
-    ] = "0,-1,0",
+    ] = DOWN,
     duration: Annotated[
         float | None, typer.Option("--duration", help="Seconds to run. Default: until Ctrl-C.", min=0.0)
     ] = None,
@@ -145,6 +147,8 @@ def command(
             allowed = allowed.at_most(max_force)
         except ConfigurationError as error:
             raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
+    if second_direction != DOWN and not second_device:
+        raise typer.BadParameter("needs --second-device", param_hint="--second-direction")
     second = SecondDevice(second_device, _direction(second_direction)) if second_device else None
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second)
     with ends_on_signals() as signals:

@@ -59,7 +59,6 @@ class Studio:
             limits=limits_of(self.session.run),
             scenes=ready_scenes(),
             exercises=self.session.exercises.choices(),
-            notes=self.session.run.notes,
             figures=self.figures.exist,
         )
 

@@ -93,23 +93,27 @@ def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:
 
 
 def _load(session: Session, loaded: Loaded) -> None:
+    known = session.run.notes
     session.begin(loaded)
-    _tell_room(session)
-    for sentence in loaded.unusual:
-        session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
+    for sentence in (*(note for note in session.run.notes if note not in known), *loaded.unusual):
+        _tell(session, sentence)
+
+
+def _tell(session: Session, sentence: str) -> None:
+    session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
 
 
 def _tell_room(session: Session) -> None:
     """Warns the pages if the new run produces so many ticks that some may be lost."""
     if note := room_note(session.run.loop):
-        session.out.say(Notice(text=note))
+        _tell(session, note)
 
 
 def _edit(session: Session, loaded: Loaded) -> Done:
     told = session.run.loaded.unusual
     session.edit(loaded)
     for sentence in (sentence for sentence in loaded.unusual if sentence not in told):
-        session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
+        _tell(session, sentence)
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
         return "the new rate takes effect in the next run", {}
     return "", {}

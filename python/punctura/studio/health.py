@@ -6,12 +6,13 @@ from functools import cache
 
 import numpy as np
 
-from punctura._core import Fault
+from punctura._core import Fault, ThumbLoop
+from punctura.record.header import statements_of
 from punctura.results import Quantiles
 from punctura.studio.fault_words import NO_TICKS, fault_words
 from punctura.studio.hand import Mode
 from punctura.studio.run import Run
-from punctura.studio.wire.messages import FaultMessage, LimitsPart, RecordingStatus, Spread, Status
+from punctura.studio.wire.messages import FaultMessage, LimitsPart, RecordingStatus, SecondStatus, Spread, Status
 
 
 def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> Status:
@@ -29,8 +30,15 @@ def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> St
         armed=armed,
         hand=hand,
         compare=compare,
-        statements=run.loop.device.statements(),
+        statements=[*statements_of(run.loop.device, run.thumb), *run.notes],
+        second=second_of(run.thumb),
     )
+
+
+def second_of(thumb: ThumbLoop | None) -> SecondStatus | None:
+    if thumb is None:
+        return None
+    return SecondStatus(ticks=thumb.ticks, rate=thumb.device.info.rate, max_force=thumb.limits.max_force)
 
 
 def limits_of(run: Run) -> LimitsPart:

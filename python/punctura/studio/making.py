@@ -36,7 +36,7 @@ def make(
         own.delete(name)
         return "", {}
     if exercises.taken(name):
-        raise ValueError(f"{name} is the name of another exercise; choose another name")
+        raise ValueError(f"{name} is the name of another exercise; choose another title, or rename the file")
     if isinstance(request, ask.OpenExercise):
         return _open(request, name, own)
     path = own.save(name, made_of(request.tables), request.replace)

@@ -202,7 +202,7 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     assert process.stderr.readline() == f"punctura: Venipuncture on PHANTOM Omni, simulated, {strong}; Ctrl-C ends it\n"
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=60)
-    last = "punctura: interrupted\n" if name == "SIGINT" else f"punctura: ended by {name}; the force is off\n"
+    last = f"punctura: {'interrupted' if name == 'SIGINT' else f'ended by {name}'}; the force is off\n"
     assert said.endswith(last) and "Traceback" not in said
     assert process.returncode == 128 + getattr(signal, name)
 

@@ -21,7 +21,6 @@ def hello(viewer):
         "second_device": "",
         "scenes": [],
         "exercises": [],
-        "notes": [],
         "figures": False,
     }
     limits = dict.fromkeys(LimitsPart.model_fields, 1.0) | {"dead_man_buttons": []}
@@ -167,7 +166,7 @@ def test_each_is_told_its_own_losses():
     spread = {"p50": 0.0, "p99": 0.0, "p99_9": 0.0, "largest": 0.0, "edges": [0.0], "counts": []}
     health = {
         "ticks": 0, "late": 0, "lost": 0, "period": spread, "compute": spread, "viewers": 0, "dropped": 0,
-        "armed": True, "hand": "target", "compare": False, "statements": [],
+        "armed": True, "hand": "target", "compare": False, "statements": [], "second": None,
     }  # fmt: skip
 
     async def test(hub):

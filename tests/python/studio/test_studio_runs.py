@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from punctura.exercise import load_exercise
-from punctura.live import Limits
+from punctura.live import Limits, SecondDevice
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
 
@@ -46,8 +46,22 @@ def test_a_page_is_told_of_a_force_above_the_devices_rating(tmp_path):
     server = serve(tmp_path, settings=Settings(limits=Limits().at_most(5.0)))
     try:
         with StudioClient(server.address.url) as page:
-            page.wait(lambda: page.of("hello"))
-            assert any("max_force_N = 5 is above the rating" in note for note in page.of("hello")[0]["notes"])
+            [status] = page.wait(lambda: page.of("status")[:1])
+            assert any("max_force_N = 5 is above the rating" in note for note in status["statements"])
+    finally:
+        server.stop()
+
+
+def test_a_scene_without_a_syringe_tells_the_pages_that_the_second_device_gives_no_force(tmp_path):
+    server = serve(tmp_path, "epidural", Settings(second=SecondDevice("simulated")))
+    try:
+        with StudioClient(server.address.url) as page:
+            [status] = page.wait(lambda: page.of("status")[:1])
+            assert status["second"]["rate"] == 1600 and status["second"]["max_force"] == pytest.approx(3.3)
+            assert "this scene has no syringe" not in " ".join(status["statements"])
+            assert page.ask(do="load", scene="venipuncture")["ok"]
+            page.wait(lambda: any("This scene has no syringe" in notice["text"] for notice in page.of("notice")))
+            page.wait(lambda: "this scene has no syringe" in " ".join(page.of("status")[-1]["statements"]))
     finally:
         server.stop()
 

@@ -26,6 +26,7 @@ const HANDS: Readonly<Record<Status["hand"], string>> = {
 /** The loop's timing, sent by the server 4 times per second. */
 export const healthPanel: Panel = (host, app) => {
   const rate = new RateMeter();
+  const secondRate = new RateMeter();
   const figure = (label: string, help: string): [HTMLElement, (text: string, bad?: boolean) => void] => {
     const value = element("dd");
     const set = (text: string, bad = false): void => {
@@ -47,6 +48,10 @@ export const healthPanel: Panel = (host, app) => {
   const [viewersBox, setViewers] = figure("pages", "Connected pages");
   const [forceBox, setForce] = figure("force", "Whether the device gives the force of the model");
   const [handBox, setHand] = figure("hand", "Who moves the needle");
+  const [secondBox, setSecond] = figure(
+    "second device",
+    "Ticks per second of the device under the thumb, and its limit",
+  );
   for (const box of [lateBox, droppedBox, viewersBox]) box.hidden = !app.engine.studio;
   const period = spread("Period", "Time from the start of one tick to the next");
   const compute = spread("Compute time", "Computing time of a tick");
@@ -67,6 +72,7 @@ export const healthPanel: Panel = (host, app) => {
       viewersBox,
       forceBox,
       handBox,
+      secondBox,
     ),
     limits.root,
     period.box,
@@ -101,11 +107,18 @@ export const healthPanel: Panel = (host, app) => {
     setViewers(String(status.viewers));
     tellForce();
     setHand(HANDS[status.hand]);
+    secondBox.hidden = status.second === null;
+    if (status.second) {
+      const { ticks, rate: stated, max_force: most } = status.second;
+      const counted = secondRate.add(performance.now() / 1e3, ticks);
+      const shown = counted === null ? "–" : counted.toFixed(0);
+      setSecond(`${shown} of ${stated.toFixed(0)} Hz, at most ${Number(most.toPrecision(3))} N`);
+    }
     if (!host.hidden) {
       period.show(status.period, 1 / nominal);
       compute.show(status.compute, 1 / nominal);
     }
-    const now = [...status.statements, ...(app.hello.value?.notes ?? [])].join("\n");
+    const now = status.statements.join("\n");
     if (now !== told) {
       told = now;
       statements.replaceChildren(...now.split("\n").map((text) => element("li", {}, text)));

@@ -58,7 +58,6 @@ export interface Hello {
   limits: LimitsPart;
   scenes: Choice[];
   exercises: Choice[];
-  notes: string[];
   figures: boolean;
 }
 export interface DevicePart {
@@ -212,6 +211,7 @@ export interface Status {
   hand: "target" | "strokes" | "motion" | "device";
   compare: boolean;
   statements: string[];
+  second: SecondStatus | null;
 }
 /**
  * A distribution of times, s.
@@ -223,6 +223,14 @@ export interface Spread {
   largest: number;
   edges: number[];
   counts: number[];
+}
+/**
+ * The loop of the device under the thumb.
+ */
+export interface SecondStatus {
+  ticks: number;
+  rate: number;
+  max_force: number;
 }
 /**
  * A latched fault; cleared when `reason` is empty.

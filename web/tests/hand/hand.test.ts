@@ -29,7 +29,6 @@ const hello = (device: DevicePart): void =>
     limits: LIMITS,
     scenes: [],
     exercises: [],
-    notes: [],
     second_device: "",
     figures: false,
   });

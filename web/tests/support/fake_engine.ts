@@ -48,7 +48,6 @@ export class FakeEngine implements Engine {
       limits: LIMITS,
       scenes: [],
       exercises: [],
-      notes: [],
       second_device: "",
       figures: false,
     });
@@ -169,6 +168,7 @@ export class FakeEngine implements Engine {
       hand: "strokes",
       compare: this.compare,
       statements: ["real-time priority was not granted: run punctura devices --help", "memory is locked"],
+      second: null,
     });
   }
 }

@@ -55,7 +55,6 @@ class Hello(Part):
     limits: LimitsPart
     scenes: list[Choice]
     exercises: list[Choice]
-    notes: list[str]
     figures: bool  # the page of `punctura reproduce` exists: GET /figures/
 
 
@@ -100,6 +99,14 @@ class Spread(Part):
     counts: list[int]
 
 
+class SecondStatus(Part):
+    """The loop of the device under the thumb."""
+
+    ticks: int
+    rate: Finite  # Hz, that the device states
+    max_force: Finite  # N, the limit in use
+
+
 class Status(Part):
     """The loop's health, four times a second."""
 
@@ -114,7 +121,8 @@ class Status(Part):
     armed: bool  # requested; each tick has the actual state
     hand: Literal["target", "strokes", "motion", "device"]
     compare: bool
-    statements: list[str]
+    statements: list[str]  # of the devices, and notes on the run
+    second: SecondStatus | None  # None without a second device
 
 
 class FaultMessage(Part):

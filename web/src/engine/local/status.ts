@@ -1,5 +1,5 @@
 import type { Spread, Status } from "../../wire/messages.ts";
-import { leftOutWords } from "./words.ts";
+import { leftOutWords, NOTES } from "./words.ts";
 
 /** No times: ticks of a block begin at once, and a browser's clock is too coarse for one of them. */
 const NOT_MEASURED: Spread = { p50: 0, p99: 0, p99_9: 0, largest: 0, edges: [], counts: [] };
@@ -15,7 +15,7 @@ export interface RunFigures {
 }
 
 export function statusOf({ ticks, busyMs, leftOut, armed, hand, compare }: RunFigures): Status {
-  const statements = ["ticks are computed in blocks, in a worker of this page"];
+  const statements = [...NOTES, "ticks are computed in blocks, in a worker of this page"];
   if (ticks > 0) statements.push(`computing a tick takes ${((1e3 * busyMs) / ticks).toFixed(1)} µs on average`);
   if (leftOut > 0) statements.push(leftOutWords(leftOut));
   return {
@@ -31,5 +31,6 @@ export function statusOf({ ticks, busyMs, leftOut, armed, hand, compare }: RunFi
     hand,
     compare,
     statements,
+    second: null,
   };
 }

@@ -6,7 +6,7 @@ import { IN_CONTROL, type LiveRun, type Punctura, type StudioData, type Tables }
 import { withDefaults } from "./defaults.ts";
 import { statusOf } from "./status.ts";
 import { tomlOf } from "./toml.ts";
-import { EXERCISE_FILE, NEEDS_STUDIO, NOTES } from "./words.ts";
+import { EXERCISE_FILE, NEEDS_STUDIO } from "./words.ts";
 
 const THUMB_MS = 1000; // a page that still pushes the plunger says so more often
 const NO_FAULT = codeOf("fault", "none");
@@ -60,7 +60,6 @@ export class LocalStudio {
       scenes: scenes.map(({ name, title }) => ({ name, title })),
       exercises: [],
       second_device: "",
-      notes: NOTES,
       figures: false,
     });
     this.out.message(IN_CONTROL);

@@ -53,8 +53,17 @@ function stepOf({ x, width }: Pane): number {
   }
 }
 
-/** Draws a pane's grid and numbers, and the names of its axes. Without `x`, the pane below has the x axis. */
-export function drawAxes(pen: Pen, pane: Pane, theme: Theme, names: { readonly x?: string; readonly y: string }): void {
+/**
+ * Draws a pane's grid and numbers, and the names of its axes. Without `x`, the pane below has the x axis. least: the
+ * smallest step of the x axis, 1 for whole numbers.
+ */
+export function drawAxes(
+  pen: Pen,
+  pane: Pane,
+  theme: Theme,
+  names: { readonly x?: string; readonly y: string },
+  least = 0,
+): void {
   const { left, right, top, bottom, width, height, x, y } = pane;
   const grid = { colour: theme.line, width: 1, alpha: 0.6 };
   const quiet = { colour: theme.quiet } as const;
@@ -65,7 +74,7 @@ export function drawAxes(pen: Pen, pane: Pane, theme: Theme, names: { readonly x
     pen.segment(left, at, right, at, grid);
     pen.text(left - 6, at, label(value, stepY), { ...quiet, anchor: "end" });
   }
-  const stepX = stepOf(pane);
+  const stepX = Math.max(stepOf(pane), least);
   for (const value of ticks(x.min, x.max, stepX)) {
     const at = Math.round(x.px(value)) + 0.5;
     pen.segment(at, top, at, bottom, grid);
