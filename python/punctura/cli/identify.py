@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from punctura import Needle
+from punctura.cli._status import FAILED
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar
 
 if TYPE_CHECKING:
     from punctura.identify import Identification
     from punctura.identify.folder import Task
+    from punctura.identify.records import FolderRecord
 
 
 def command(
@@ -108,7 +110,13 @@ def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json:
         told = identify_folder(folder, out, task, processes, tell)
     if as_json:
         typer.echo(json.dumps(told, indent=2))
-        return
+    else:
+        _tell_folder(out, told)
+    if told["failed"]:
+        raise typer.Exit(FAILED)
+
+
+def _tell_folder(out: Path, told: FolderRecord) -> None:
     typer.echo(f"{out}: {told['identified']} of {told['traces']} traces identified, {told['kept']} kept from before")
     for name, reason in told["failed"].items():
         typer.echo(f"  {name}: {reason}")

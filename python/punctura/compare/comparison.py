@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
@@ -40,6 +41,13 @@ class Band:
         """(points,), the number of runs that have a value."""
         counted: Array = np.isfinite(self.runs).sum(axis=0)
         return counted
+
+    @property
+    def stretches(self) -> list[slice]:
+        """The stretches of x in which as many runs have a value, two or more: between them the mean jumps."""
+        count = self.count
+        edges = [0, *(np.flatnonzero(np.diff(count)) + 1).tolist(), len(count)]
+        return [slice(a, b) for a, b in itertools.pairwise(edges) if count[a] > 1]
 
     @property
     def mean(self) -> Array:

@@ -46,10 +46,12 @@ def _draw(axes: Axes, band: Band, x_scale: float, y_scale: float, names: Sequenc
     if len(names) < 2:
         return
     mean, deviation = band.mean * y_scale, band.deviation * y_scale
-    axes.plot(x, mean, lw=1.6, color=palette.INK.light, label=f"mean (n = {len(names)})")
-    axes.fill_between(
-        x, mean - deviation, mean + deviation, label="standard deviation", color=palette.INK.light, alpha=0.15, lw=0
-    )
+    ink = palette.INK.light
+    for k, at in enumerate(band.stretches):
+        line, shade = (None, None) if k else (f"mean (n = {len(names)})", "standard deviation")
+        axes.plot(x[at], mean[at], lw=1.6, color=ink, label=line)
+        low, high = mean[at] - deviation[at], mean[at] + deviation[at]
+        axes.fill_between(x[at], low, high, label=shade, color=ink, alpha=0.15, lw=0)
 
 
 def save_figures(comparison: Comparison, folder: str) -> list[str]:

@@ -95,6 +95,8 @@ def test_mean_and_deviation_are_those_of_the_runs_at_each_place(runs):
             assert np.allclose(band.mean[whole], band.runs[:, whole].mean(axis=0))
             assert np.allclose(band.deviation[whole], band.runs[:, whole].std(axis=0, ddof=1))
             assert np.isnan(band.deviation[band.count < 2]).all()
+            places = [slice(*np.flatnonzero(band.count == n)[[0, -1]] + [0, 1]) for n in (3, 2) if n in band.count]
+            assert band.stretches == sorted(places, key=lambda place: place.start)
     peaks = [one.peak for one in compare(runs).statistics]
     summary = compare(runs).summary()["peak"]
     assert summary == (3, pytest.approx(np.mean(peaks)), pytest.approx(np.std(peaks, ddof=1)))

@@ -220,6 +220,10 @@ def test_a_place_that_cannot_be_written_is_named_before_the_computation_and_the_
         assert (tmp_path / "a.csv").read_bytes() == before
     ran = CliRunner().invoke(build_app(), [*given, "--scene", same, "--plan", same], env={"COLUMNS": "400"})
     assert ran.exit_code == 2 and "is the file of --scene, too" in ran.output
+    (tmp_path / "many").mkdir()
+    (tmp_path / "many" / "broken.csv").write_text("time_s,depth_mm,force_N\n")
+    ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path / "many"), *given[2:], "--out", same])
+    assert ran.exit_code == 1 and "0 of 1 traces identified" in ran.output and "broken.csv: " in ran.output
     ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path), *given[2:], "--out", str(tmp_path / "a.csv")])
     assert ran.exit_code == 2 and "is a file; the results need a folder" in ran.output
 

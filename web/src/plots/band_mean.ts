@@ -22,7 +22,15 @@ export function drawRow(
   if (path.count) pen.line(path, stroke);
 }
 
-/** Draws the mean of all runs, and one standard deviation on either side as a shade. */
+/** The stretches of x, [first, end), in which as many runs have a value, two or more: between them the mean jumps. */
+export function stretches({ count }: LabBand): [number, number][] {
+  const edges = [0, ...count.flatMap((n, i) => (i && n !== count[i - 1] ? [i] : [])), count.length];
+  return edges.slice(1).flatMap((end, k): [number, number][] => (count[edges[k]!]! > 1 ? [[edges[k]!, end]] : []));
+}
+
+/**
+ * Draws the mean of the runs, and one standard deviation on either side as a shade. The line breaks where a run ends.
+ */
 export function drawMean(
   pen: Pen,
   pane: Pane,
@@ -32,12 +40,15 @@ export function drawMean(
 ): void {
   const [gainX, gainY, shift] = gains;
   const { x, y } = pane;
-  const known = band.x.map((_, i) => i).filter((i) => band.mean[i] !== null && band.deviation[i] !== null);
-  const at = (i: number, side: 1 | -1): void =>
-    path.add(x.px(shift + gainX * band.x[i]!), y.px(gainY * (band.mean[i]! + side * band.deviation[i]!)));
-  path.clear();
-  for (const i of known) at(i, 1);
-  for (const i of known.toReversed()) at(i, -1);
-  if (path.count) pen.area(path, colour, 0.18);
-  drawRow(pen, pane, band, band.mean, gains, { colour, width: 2.5 });
+  const at = (i: number, deviations: number): void =>
+    path.add(x.px(shift + gainX * band.x[i]!), y.px(gainY * (band.mean[i]! + deviations * band.deviation[i]!)));
+  for (const [first, end] of stretches(band)) {
+    path.clear();
+    for (let i = first; i < end; i++) at(i, 1);
+    for (let i = end - 1; i >= first; i--) at(i, -1);
+    pen.area(path, colour, 0.18);
+    path.clear();
+    for (let i = first; i < end; i++) at(i, 0);
+    pen.line(path, { colour, width: 2.5 });
+  }
 }

@@ -84,7 +84,7 @@ export function drawProgress(
   const pane = new Pane();
   pane.place(MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom);
   pane.rangeX(0.5, Math.max(2, ...points.map(({ number }) => number)) + 0.5);
-  pane.rangeY(0, 1.1 * Math.max(0, ...points.map(({ value }) => value)) || 1);
+  pane.rangeY(0, 1.25 * Math.max(0, ...points.map(({ value }) => value)) || 1);
   drawAxes(pen, pane, theme, { x: "attempt (full: passed, empty: not passed)", y: measure.label }, 1);
   lines.forEach((line, i) => {
     const colour = colourOf(theme, i);

@@ -79,7 +79,8 @@ function drawPane(
   names: { readonly x?: string; readonly y: string },
 ): void {
   const gainX = on === "time" ? 1 : MM;
-  const values = band.runs.flat().filter((value): value is number => value !== null);
+  const shade = band.mean.flatMap((mean, i) => [1, -1].map((side) => mean! + side * (band.deviation[i] ?? Number.NaN)));
+  const values = [...band.runs.flat(), ...shade].filter((value): value is number => Number.isFinite(value));
   const [low, high] = [
     values.reduce((a, b) => Math.min(a, b), 0),
     values.reduce((a, b) => Math.max(a, b), 0.1 / gainY),

@@ -64,7 +64,8 @@ export function openComparison(app: App, job: Job, title: string, comparison: La
       "p",
       { class: "quiet" },
       "Small numbers: the difference to the first run. Overshoot: how far the bevel ran on in the 0.3 s after a pop. " +
-        "Against depth, a curve has the values at the moment when the tip first came to each depth.",
+        "Against depth, a curve has the values at the moment when the tip first came to each depth. " +
+        "The mean is that of the runs that come so far, two or more.",
     ),
     element(
       "footer",

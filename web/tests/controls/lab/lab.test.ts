@@ -3,6 +3,7 @@ import { drawLab, labCurves, quantitiesOf } from "../../../src/controls/lab/draw
 import { fieldWords, shortNames } from "../../../src/controls/lab/fields.ts";
 import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
 import { choose } from "../../../src/controls/lab/pick.ts";
+import { stretches } from "../../../src/plots/band_mean.ts";
 import { Hidden } from "../../../src/plots/kit/legend.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
@@ -54,6 +55,16 @@ describe("a comparison", () => {
     expect(queryOf({ ...job, motion: 0.005 })).toBe("path=membrane%5B0%5D.stiffness&from=1&to=2&count=3&speed=0.005");
     expect(queryOf({ ...job, motion: "Ann" })).toContain("motion=Ann");
     expect(bundlePath({ ...job, motion: 0.005, id: "x1" }, "time")).toContain("&id=x1&on=time");
+  });
+
+  it("draws the mean only where two runs or more have a value, and breaks it where a run ends", () => {
+    const counted = (...count: number[]): LabBand => ({ x: [], runs: [], mean: [], deviation: [], count });
+    expect(stretches(counted(2, 2, 1))).toEqual([[0, 2]]);
+    expect(stretches(counted(1, 3, 3, 2, 1, 0))).toEqual([
+      [1, 3],
+      [3, 4],
+    ]);
+    expect(stretches(counted(0, 1))).toEqual([]);
   });
 
   it("offers the plunger only if a run has a syringe, with its units", () => {
