@@ -217,6 +217,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
             if time.monotonic() - told > 60:
                 told = time.monotonic()
                 print(f"{told - began:.0f} s: {studio.memory_mb():.1f} MB, {page.ticks} ticks", flush=True)
+        good = good and maker.is_alive()  # an error ends it
         for thread in (*fuzzers, maker):
             thread.stop = True
         for thread in (*fuzzers, maker):

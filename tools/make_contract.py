@@ -135,7 +135,7 @@ def messages() -> dict[str, Any]:
         {"kind": "control", "holder": 1, "you": True, "hand": {"position": TRIPLE, "axis": [0.0, -1.0, 0.0]}},
         {"kind": "status", "ticks": 1, "late": 0, "lost": 0, "period": SPREAD, "compute": SPREAD, "viewers": 1,
          "dropped": 0, "armed": True, "hand": "strokes", "compare": False, "statements": ["s"],
-         "second": {"ticks": 1, "rate": 1000.0, "max_force": 3.25}},
+         "second": {"ticks": 1, "rate": 1000.0, "max_force": 3.25, "continuous_force": 0.875, "continuous_time": 10.0}},
         {"kind": "fault", "fault": "clock", "reason": "r", "remedy": "m", "trouble": "", "tick": 7, "kept": 1000},
         {"kind": "event", "what": "pop", "membrane": 0, "name": "skin", "tick": 7, "time": 0.5, "depth": 0.004,
          "force_before": 0.75, "force_after": 0.5, "drop": 0.25},

@@ -75,9 +75,13 @@ def view(page: Page) -> Locator:
 def still_picture(page: Page) -> NDArray[np.int16]:
     """The picture of the view when it no longer changes, which it does not while a moment of a replay is shown."""
     before = b""
-    while (now := view(page).screenshot()) != before:
+    for _ in range(PATIENCE // 500):
+        if (now := view(page).screenshot()) == before:
+            break
         before = now
         page.wait_for_timeout(500)
+    else:
+        raise AssertionError("the view does not rest")
     with Image.open(io.BytesIO(now)) as picture:
         return np.asarray(picture.convert("RGB"), dtype=np.int16)
 

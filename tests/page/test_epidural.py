@@ -118,8 +118,8 @@ def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_pa
         syringe = tab(page, "Hand").locator("section", has=page.get_by_role("heading", name="Syringe"))
         expect(syringe).to_contain_text("The second device pushes the plunger: PHANTOM Omni, simulated.")
         expect(syringe.get_by_role("button", name="Hold to push")).to_be_hidden()
-        health = tab(page, "Health")
-        expect(health).to_contain_text(re.compile(r"second device\d+ of 1600 Hz, at most 3.3 N"))
+        told = re.compile(r"second device\d+ of 1600 Hz, at most 3.3 N, 0.88 N rms in any 10 s")
+        expect(tab(page, "Health")).to_contain_text(told)
 
 
 OVERLAPS = """() => {

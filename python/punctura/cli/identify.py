@@ -32,7 +32,12 @@ def command(
         ),
     ],
     needle: Annotated[
-        str, typer.Option("--needle", help="The needle: diameter_mm=2,tip_angle_deg=45.", metavar="NAME=VALUE,...")
+        str,
+        typer.Option(
+            "--needle",
+            help="The needle: diameter_mm=2,tip_angle_deg=45. A recording has its own.",
+            metavar="NAME=VALUE,...",
+        ),
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
     column: Annotated[
@@ -196,7 +201,9 @@ def needle_of(text: str, trace: Path | None = None) -> Needle:
         if trace is not None and trace.is_file() and is_recording(trace):
             return open_recording(trace).info.scene.needle
         raise typer.BadParameter(
-            "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45", param_hint="--needle"
+            "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45 (only a recording of "
+            "Punctura states its own)",
+            param_hint="--needle",
         )
     values = pairs(text.split(","), "--needle")
     unknown = set(values) - {"diameter_mm", "tip_angle_deg", "tip_angle_rad"}

@@ -27,8 +27,6 @@ from punctura.live import (
 )
 from punctura.live.signals import ends_on_signals
 
-DOWN = "0,-1,0"  # the thumb pushes down
-
 
 def command(
     scene: Annotated[
@@ -63,13 +61,13 @@ def command(
         ),
     ] = "",
     second_direction: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--second-direction",
-            help="Direction in which the thumb pushes, in the second device's axes.",
+            help="Direction in which the thumb pushes, in the second device's axes. Default: 0,-1,0.",
             metavar="X,Y,Z",
         ),
-    ] = DOWN,
+    ] = None,
     duration: Annotated[
         float | None, typer.Option("--duration", help="Seconds to run. Default: until Ctrl-C.", min=0.0)
     ] = None,
@@ -147,9 +145,10 @@ def command(
             allowed = allowed.at_most(max_force)
         except ConfigurationError as error:
             raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
-    if second_direction != DOWN and not second_device:
+    if second_direction is not None and not second_device:
         raise typer.BadParameter("needs --second-device", param_hint="--second-direction")
-    second = SecondDevice(second_device, _direction(second_direction)) if second_device else None
+    direction = {} if second_direction is None else {"direction": _direction(second_direction)}
+    second = SecondDevice(second_device, **direction) if second_device else None
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second)
     with ends_on_signals() as signals:
         try:

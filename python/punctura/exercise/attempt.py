@@ -54,7 +54,7 @@ class Attempt:
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
-        self._yields = Yields(self._space, asked_push(exercise.file), second_device)
+        self._yields = Yields(self._space, asked_push(exercise.file), scene.servo.rate, second_device)
         must = felt_membranes(exercise.file, scene)
         self._measures = Measures(
             scene,
@@ -95,7 +95,7 @@ class Attempt:
         ticks = self._geometry.ticks(columns, self._rows)
         self._rows += len(ticks)
         if self.over:
-            self._measures.settle(ticks)
+            self._measures.settle(self._yields.mark(ticks))
             return
         events = self._finder.add(columns)
         if not self._begun:

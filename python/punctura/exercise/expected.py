@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from punctura import Scene
+from punctura import Scene, Syringe
 from punctura._core import ForceLimits, crossing, force_scale, grazing_cosine, law_curve
 from punctura.exercise.bounds import MOST_PUSH_N
 from punctura.exercise.exercise import Exercise, start_axis
@@ -14,6 +14,7 @@ from punctura.exercise.loss import LEAST_NEEDED_N, NEEDED_SHARE, needed_drop, re
 from punctura.exercise.losses import felt_membranes
 from punctura.exercise.plunger import judges_plunger
 from punctura.exercise.result import Loss, unfelt
+from punctura.exercise.space import place_of
 from punctura.exercise.yields import asked_push
 
 
@@ -62,7 +63,7 @@ def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thu
     """Why the thumb cannot feel the plunger give way, or how hard it must push; empty if the asked push is enough.
 
     limits: of the needle's device. thumb: of the second device; None without one. As for the needle, only the peak
-    limit counts. At best, nothing but the friction of the plunger is left when it gives way.
+    limit counts. At best, the friction of the plunger and the pressure in the space are left when it gives way.
     """
     if scene.syringe is None or not judges_plunger(exercise.file):
         return ""
@@ -71,9 +72,9 @@ def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thu
             "The thumb is a key here and feels nothing, so the plunger is judged by the model's force. With a second "
             "device under the thumb (--second-device), it is judged by what the thumb could feel."
         )
-    scale, friction = force_scale(scene, limits), scene.syringe.syringe.friction
-    least = max(friction + LEAST_NEEDED_N / scale, friction / (1 - NEEDED_SHARE))
-    before, after = (min(scale * force, thumb.max_force) for force in (MOST_PUSH_N, friction))
+    scale, left = force_scale(scene, limits), _left(exercise, scene, scene.syringe.syringe)
+    least = max(left + LEAST_NEEDED_N / scale, left / (1 - NEEDED_SHARE))
+    before, after = (min(scale * force, thumb.max_force) for force in (MOST_PUSH_N, left))
     if least > MOST_PUSH_N or before - after < needed_drop(before):
         return (
             f"The second device cannot show that the plunger gives way ({before - after:.2f} N at best; "
@@ -86,6 +87,12 @@ def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thu
             "thumb could not feel it give way, and the attempt is not judged as passed."
         )
     return ""
+
+
+def _left(exercise: Exercise, scene: Scene, syringe: Syringe) -> float:
+    """What the plunger resists with in the space, N: its friction, and the pressure there."""
+    behind = scene.membranes[place_of(scene, exercise.file.space.behind)].outflow_behind
+    return max(0.0, syringe.friction + syringe.area * behind.pressure)
 
 
 def _walls(scene: Scene, start: np.ndarray, axis: np.ndarray) -> list[tuple[float, float]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from punctura.exercise.result import FeltLoss, PlungerLoss
+from punctura.exercise.result import FeltLoss, PlungerLoss, drop_text
 
 # A person notices a change of about 7 % (X. D. Pang, H. Z. Tan, N. I. Durlach, Perception & Psychophysics, 1991,
 # forces of 2.5 to 10 N) to 10 % (index finger, 2 to 5 N) of a force. Below 1 N the needed drop stays that of 1 N, which
 # is our choice. docs/felt-force.md has the sources.
 NEEDED_SHARE = 0.1
 LEAST_NEEDED_N = 0.1
+DRAWN_BACK = "The thumb was drawn back: keep it on the plunger until it gives way. "
 
 
 def needed_drop(before: float) -> float:
@@ -22,8 +23,13 @@ def remedy(loss: FeltLoss) -> str:
     """What makes the loss larger, as a sentence."""
     wanted = loss.force_scale * loss.model_before
     cut = f"limits cut the force to {loss.before:.2f} of {wanted:.2f} N"
-    itself = f"{loss.model_before - loss.model_after:.2f} N"
+    itself = drop_text(loss.model_before - loss.model_after)
     words = _of_thumb(cut, itself) if isinstance(loss, PlungerLoss) else _of_needle(cut, itself)
+    drawn_back = isinstance(loss, PlungerLoss) and loss.drawn_back
+    return f"{DRAWN_BACK if drawn_back else ''}{_reason(loss, words, wanted)}"
+
+
+def _reason(loss: FeltLoss, words: _Words, wanted: float) -> str:
     if loss.before == 0:
         return words.off
     if loss.before < 0.99 * wanted:
@@ -45,7 +51,7 @@ def _of_needle(cut: str, itself: str) -> _Words:
         "The force was off: turn it on.",
         f'The {cut}: set force_scale in the scene to "automatic", or use a stronger device.',
         "Set a larger force_scale in the scene, if the device can give it, or use a stronger device.",
-        f"In this scene the loss itself is only {itself}.",
+        f"In this scene the loss itself is {itself}.",
     )
 
 
@@ -54,5 +60,5 @@ def _of_thumb(cut: str, itself: str) -> _Words:
         "The thumb had no force: turn the force on, and rest the thumb on the second device.",
         f"Its {cut}: set a smaller force_scale in the scene, or use a stronger second device.",
         "Push the plunger harder before it gives way, or set a larger force_scale in the scene.",
-        f"The loss itself is only {itself}: push the plunger harder before it.",
+        f"The loss itself is {itself}: push the plunger harder before it gives way.",
     )

@@ -104,8 +104,7 @@ class Measures:
     def settled(self) -> bool:
         """Whether all windows have ended."""
         ends = [one.time + one.seconds for one in self._overshoots]
-        ends += [one.time + one.seconds for one in self._yields.found]
-        return all(self._seen_to > end for end in ends)
+        return all(self._seen_to > end for end in (*ends, *self._yields.ends))
 
     def _count(self, ticks: Ticks) -> None:
         first, last = int(ticks.tick[0]), int(ticks.tick[-1])

@@ -50,6 +50,11 @@ class Overshoot(_Part):
     seconds: Finite = 0.3  # length of the measurement, from the membrane's stop_after_pop goal
 
 
+def drop_text(drop: float) -> str:
+    """A loss of resistance in N, or "none" where the force did not fall."""
+    return f"{drop:.2f} N" if drop > 0 else "none"
+
+
 class FeltLoss(_Part):
     """A loss of resistance, as a hand got it. Forces in N."""
 
@@ -72,8 +77,8 @@ class FeltLoss(_Part):
 
     @property
     def figures(self) -> str:
-        """ "0.04 N; 0.1 N needed"."""
-        return f"{self.drop:.2f} N; {self.needed or 0:.2g} N needed"
+        """ "0.04 N; 0.1 N needed"; "none" for a force that did not fall."""
+        return f"{drop_text(self.drop)}; {self.needed or 0:.2g} N needed"
 
 
 class Loss(FeltLoss):
@@ -95,6 +100,7 @@ class PlungerLoss(FeltLoss):
     """
 
     name: str = "plunger"
+    drawn_back: bool = False  # the loss would be felt, but only because the thumb was drawn back
 
 
 class Yield(_Part):

@@ -56,6 +56,9 @@ class Ticks:
     load: Numbers  # N, of the thumb when the point came out behind the membrane before the space; NaN in front of it
     load_felt: Numbers  # N, the same of the felt force; NaN without a second device
     gave_way: Flags  # the plunger gives way in this tick
+    # Since the point last came out behind that membrane; ThumbSoFar fills them in.
+    farthest: Numbers  # m, how far in the thumb was; NaN if unknown
+    cut_to: Numbers  # N, the least felt force on the thumb that was cut by limits; inf if none was
 
     def __len__(self) -> int:
         return len(self.tick)
@@ -132,6 +135,8 @@ class Geometry:
             load=np.full(n, np.nan),
             load_felt=np.full(n, np.nan),
             gave_way=np.zeros(n, dtype=np.bool_),
+            farthest=np.full(n, np.nan),
+            cut_to=np.full(n, np.inf),
         )
 
     def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:

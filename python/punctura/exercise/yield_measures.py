@@ -10,28 +10,27 @@ from punctura.exercise.result import PlungerLoss, Yield
 from punctura.exercise.ticks import Flags, Ticks
 
 REACTION_S = 0.3  # a thumb reacts within it; illustrative
-ROUNDING_N = 0.01  # a device gives a force with an error of about this
 
 
 class YieldMeasures:
     """Takes all ticks of an attempt, with `gave_way` filled in."""
 
     def __init__(self, seconds: float, must: bool, stiffness: float = 0.0) -> None:
-        """seconds: length of the measurement. must: whether the thumb must feel the loss of resistance. stiffness: of
-        the coupling between thumb and plunger, N/m."""
+        """seconds: in which the injected volume is measured. must: whether the thumb must feel the loss of resistance.
+        stiffness: of the coupling between thumb and plunger, N/m."""
         self._seconds, self._must, self._stiffness = seconds, must, stiffness
         self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
-        self._farthest: list[float] = []  # m, how far in the thumb has been since then
-        self._before: list[float] = []  # N, of the felt force before
+        self._farthest: list[float] = []  # m, how far in the thumb has been since the point came out
+        self._least: list[float] = []  # N, of the felt force since it gave way, whatever the thumb did
         self._seen_to = -np.inf
         self.found: list[Yield] = []
 
     def begin(self, ticks: Ticks) -> None:
         for row in np.flatnonzero(ticks.gave_way).tolist():
             self._volumes.append(float(ticks.injected[row]))
-            self._farthest.append(float(ticks.thumb[row]))
+            self._farthest.append(float(ticks.farthest[row]))
+            self._least.append(np.inf)
             time, push = float(ticks.time[row]), float(ticks.load[row])
-            self._before.append(float(ticks.load_felt[row]))
             loss = self._loss(ticks, row)
             self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
 
@@ -49,41 +48,48 @@ class YieldMeasures:
 
     def settle(self, ticks: Ticks) -> None:
         for k, one in enumerate(self.found):
-            rows = (ticks.time >= one.time) & (ticks.time <= one.time + one.seconds) & np.isfinite(ticks.injected)
-            if not rows.any():
-                continue
-            injected = float(ticks.injected[rows].max()) - self._volumes[k]
-            late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
-            pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
-            update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
+            rows = (ticks.time >= one.time) & np.isfinite(ticks.injected)
             soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
+            self.found[k] = one = self._injected(k, one, ticks, rows & (ticks.time <= one.time + one.seconds))
             if one.loss is not None and soon.any():
-                update["loss"] = self._followed(k, one.loss, *self._least(k, one.loss.force_scale, ticks, soon))
-            self.found[k] = one.model_copy(update=update)
+                self.found[k] = one.model_copy(update={"loss": self._followed(k, one.loss, ticks, soon)})
         if len(ticks):
             self._seen_to = float(ticks.time[-1])
 
-    def _least(self, k: int, scale: float, ticks: Ticks, soon: Flags) -> tuple[float, float]:
-        """The least felt and model force of the thumb, N, if it had not been drawn back.
+    def _injected(self, k: int, one: Yield, ticks: Ticks, rows: Flags) -> Yield:
+        if not rows.any():
+            return one
+        injected = float(ticks.injected[rows].max()) - self._volumes[k]
+        late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
+        pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
+        update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
+        return one.model_copy(update=update)
+
+    def _followed(self, k: int, loss: PlungerLoss, ticks: Ticks, soon: Flags) -> PlungerLoss:
+        """The loss with the least forces so far, for a thumb that had not been drawn back.
 
         A thumb that is drawn back feels less force, whether or not the plunger gives way: so each force counts as at
-        least that of the coupling to a thumb at its farthest place so far.
+        least that of the coupling to a thumb at its farthest place so far. A limit that has cut the force is no loss of
+        resistance: then the force before counts only as far.
         """
-        thumb, push = ticks.thumb[soon], ticks.push[soon]
-        farthest = np.fmax.accumulate(np.fmax(thumb, self._farthest[k]))
-        self._farthest[k] = float(farthest[-1])
+        push, felt = ticks.push[soon], ticks.push_felt[soon]
+        farthest = np.fmax.accumulate(np.fmax(ticks.farthest[soon], self._farthest[k]))
         held = np.fmax(push, self._stiffness * (farthest - ticks.plunger[soon]))
-        return float((ticks.push_felt[soon] + scale * (held - push)).min()), float(held.min())
+        self._farthest[k], self._least[k] = float(farthest[-1]), min(self._least[k], float(felt.min()))
+        kept = felt + loss.force_scale * (held - push)
+        row = int(kept.argmin())
+        before, after = loss.before, loss.after
+        if kept[row] < after:
+            before, after = max(0.0, min(before, float(ticks.cut_to[soon][row]))), float(kept[row])
+        needed = self._needed(before)
+        drawn_back = before - after < needed_drop(before) <= before - self._least[k]
+        update = {"model_after": min(loss.model_after, float(held.min())), "drawn_back": drawn_back}
+        return loss.model_copy(update={"before": before, "after": after, "needed": needed, **update})
 
-    def _followed(self, k: int, loss: PlungerLoss, felt: float, model: float) -> PlungerLoss:
-        """The loss with the least forces so far. A limit that cuts the force after it is no loss of resistance: then
-        the force before counts only as far."""
-        after, model_after = min(loss.after, felt), min(loss.model_after, model)
-        wanted = loss.force_scale * model_after
-        cut = after < wanted - max(0.01 * abs(wanted), ROUNDING_N)
-        before = max(0.0, min(self._before[k], after) if cut else self._before[k])
-        update = {"before": before, "after": after, "model_after": model_after, "needed": self._needed(before)}
-        return loss.model_copy(update=update)
+    @property
+    def ends(self) -> list[float]:
+        """The time at which each measurement ends, s."""
+        return [one.time + max(one.seconds, REACTION_S if one.loss else 0.0) for one in self.found]
 
     @property
     def complete(self) -> list[Yield]:

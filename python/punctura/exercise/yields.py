@@ -8,6 +8,7 @@ import numpy as np
 
 from punctura.exercise.schema import ExerciseFile, FeelPlunger
 from punctura.exercise.space import TargetSpace
+from punctura.exercise.thumb_so_far import ThumbSoFar
 from punctura.exercise.ticks import Ticks
 
 # Both are illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
@@ -29,23 +30,23 @@ class Yields:
     to push in the space feels no loss of resistance. Each time the point comes out behind the membrane counts anew.
     """
 
-    def __init__(self, space: TargetSpace, push: float, second_device: bool = False) -> None:
-        """push: N, from which the thumb pushes. second_device: whether it is on one."""
+    def __init__(self, space: TargetSpace, push: float, rate: float, second_device: bool = False) -> None:
+        """push: N, from which the thumb pushes. rate: of the ticks, Hz. second_device: whether the thumb is on one."""
         self._behind, self._least = space.behind, push
         self._open = self._gave = False  # at the last tick; since the point came out behind the membrane
         self._load = self._push = self._injected = self._time = np.nan
         self._load_felt = self._push_felt = np.nan
-        self._second = second_device
+        self._thumb = ThumbSoFar(rate) if second_device else None
 
     def mark(self, ticks: Ticks) -> Ticks:
-        """Returns the ticks with `load`, `load_felt` and `gave_way` filled in."""
+        """Returns the ticks with `load`, `load_felt`, `gave_way`, `farthest` and `cut_to` filled in."""
         rows = np.arange(len(ticks))
         behind = ticks.inside[:, self._behind] & ticks.point_behind[:, self._behind]
         entering = behind & ~np.concatenate([[self._open], behind[:-1]])
         entry = np.maximum.accumulate(np.where(entering, rows, -1))
         pushes = np.concatenate([[self._push], ticks.push[:-1]])
         load = np.where(behind, np.where(entry >= 0, pushes[entry], self._load), np.nan)
-        felt = ticks.push_felt if self._second else np.full(len(ticks), np.nan)
+        felt = ticks.push_felt if self._thumb else np.full(len(ticks), np.nan)
         feels = np.concatenate([[self._push_felt], felt[:-1]])
         load_felt = np.where(behind, np.where(entry >= 0, feels[entry], self._load_felt), np.nan)
 
@@ -61,4 +62,5 @@ class Yields:
         self._load_felt = float(load_felt[-1])
         self._push_felt = float(felt[-1])
         self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
-        return replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)
+        marked = replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)
+        return self._thumb.mark(marked, entering) if self._thumb else marked

@@ -38,7 +38,14 @@ def status_of(run: Run, lost: int, armed: bool, hand: Mode, compare: bool) -> St
 def second_of(thumb: ThumbLoop | None) -> SecondStatus | None:
     if thumb is None:
         return None
-    return SecondStatus(ticks=thumb.ticks, rate=thumb.device.info.rate, max_force=thumb.limits.max_force)
+    limits = thumb.limits
+    return SecondStatus(
+        ticks=thumb.ticks,
+        rate=thumb.device.info.rate,
+        max_force=limits.max_force,
+        continuous_force=limits.continuous_force,
+        continuous_time=limits.continuous_time,
+    )
 
 
 def limits_of(run: Run) -> LimitsPart:

@@ -123,9 +123,11 @@ class Pump:
         began = int(np.flatnonzero(ticks.fault == fault)[0])
         happened, remedy = fault_words(kind)
         trouble, thumb = self._run.loop.device.trouble(), self._run.thumb if kind is Fault.thumb else None
-        if thumb is not None and thumb.fault != Fault.none:
-            what, remedy = fault_words(thumb.fault)
-            happened, trouble = f"The device under the thumb has a fault. {what}", thumb.device.trouble()
+        if thumb is not None:  # one that sends nothing has no fault of its own
+            trouble = thumb.device.trouble() or trouble
+            if thumb.fault != Fault.none:
+                what, remedy = fault_words(thumb.fault)
+                happened = f"The device under the thumb has a fault. {what}"
         self._out.say(
             FaultMessage(
                 fault=kind.name,

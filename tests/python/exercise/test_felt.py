@@ -54,11 +54,11 @@ def test_a_peak_limit_that_hides_the_loss_is_no_pass(write, cuts):
     assert not result.passed
     assert [one.state for one in result.goals] == ["met"]
     assert result.verdict == (
-        "not judged as passed: the device could not show the loss of resistance (0.00 N; 0.1 N needed)"
+        "not judged as passed: the device could not show the loss of resistance (none; 0.1 N needed)"
     )
     assert result.reasons[-1] == (
         "Not judged as passed: the device could not show the loss of resistance of the front vein wall "
-        "(0.00 N; 0.1 N needed). The limits cut the force to 0.30 of "
+        "(none; 0.1 N needed). The limits cut the force to 0.30 of "
         f'{loss_of(result).model_before:.2f} N: set force_scale in the scene to "automatic", or use a stronger device.'
     )
 
@@ -115,7 +115,7 @@ def test_a_weak_device_is_known_before_the_attempt():
     weak = ForceLimits(max_force=0.88)
     assert cannot_show(exercise, whole, ForceLimits()) == ""
     assert cannot_show(exercise, whole, weak).startswith(
-        "This device cannot show the loss of resistance of the ligamentum flavum (0.00 N; 0.1 N needed), "
+        "This device cannot show the loss of resistance of the ligamentum flavum (none; 0.1 N needed), "
     )
     automatic = exercise.scene.replace(display=pn.DisplaySettings("automatic"))
     assert cannot_show(exercise, automatic, weak) == ""

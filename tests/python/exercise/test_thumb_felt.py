@@ -49,19 +49,29 @@ def test_the_batches_do_not_matter():
 
 
 @pytest.mark.parametrize(
-    ("scale", "most", "newtons", "why"),
+    ("scale", "most", "newtons", "drop", "why"),
     [
-        (0.02, 3.3, 4.0, "Push the plunger harder before it gives way, or set a larger force_scale in the scene."),
-        (1.0, 0.05, 4.0, "Its limits cut the force to 0.05 of 4.0"),
-        (1.0, 0.0, 4.0, "The thumb had no force: turn the force on"),
+        (
+            0.02,
+            3.3,
+            4.0,
+            "0.06 N",
+            "Push the plunger harder before it gives way, or set a larger force_scale in the scene.",
+        ),
+        (1.0, 0.05, 4.0, "none", "Its limits cut the force to 0.05 of 4.0"),
+        (1.0, 0.0, 4.0, "none", "The thumb had no force: turn the force on"),
     ],
 )
-def test_a_loss_that_no_thumb_could_feel_is_not_passed_and_the_reason_is_told(scale, most, newtons, why):
+def test_a_loss_that_no_thumb_could_feel_is_not_passed_and_the_reason_is_told(scale, most, newtons, drop, why):
     made = result(on_device(scale, most, newtons))
     assert {each.state for each in made.goals} == {"met"} and not made.passed
-    assert made.verdict.startswith("not judged as passed: the device could not show the loss of resistance (0.0")
+    assert made.verdict.startswith(f"not judged as passed: the device could not show the loss of resistance ({drop};")
     (told,) = [reason for reason in made.reasons if reason.startswith("Not judged as passed")]
-    assert "the second device could not show the loss of resistance of the plunger (0.0" in told and why in told
+    assert (
+        "the second device could not show the loss of resistance of the plunger" in told
+        and f"({drop};" in told
+        and why in told
+    )
 
 
 def test_a_limit_that_falls_is_no_loss_of_resistance():
@@ -70,7 +80,26 @@ def test_a_limit_that_falls_is_no_loss_of_resistance():
     falling = np.where(columns["time"] < gave.time, -3.3, -0.3)
     felt = np.maximum(columns["thumb_felt"], falling)
     (cut,) = result(columns | {"thumb_felt": felt}).metrics.yields
-    assert cut.loss.drop == 0 and not cut.loss.felt
+    assert cut.loss.drop < 0.01 and not cut.loss.felt
+
+
+def test_a_limit_that_cuts_for_a_while_is_no_loss_of_resistance_either():
+    """At first less is given than the model has, and then the model falls to it: the thumb has felt next to nothing."""
+    columns = on_device()
+    (gave,) = result(columns).metrics.yields
+    cuts = (columns["time"] > gave.time - 0.1) & (columns["time"] < gave.time + 0.05)
+    least = -columns["thumb_felt"][columns["time"] >= gave.time].max()
+    felt = np.where(cuts, np.maximum(columns["thumb_felt"], -(least + 0.03)), columns["thumb_felt"])
+    (cut,) = result(columns | {"thumb_felt": felt}).metrics.yields
+    assert gave.loss.felt and not cut.loss.felt and cut.loss.before < least + 0.06
+
+
+def test_a_short_window_of_the_volume_does_not_shorten_that_of_the_thumb(tmp_path):
+    file = tmp_path / "short.toml"
+    window = goal("stop_plunger", within_mL=2, seconds=0.01)
+    file.write_text(HEAD + goal("feel_plunger", at_least_N=2) + window + goal("reach"))
+    long, short = (result(on_device(lets_go=0.25), exercise=one) for one in (EXERCISE, load_exercise(file)))
+    assert short.metrics.yields[0].loss == long.metrics.yields[0].loss and short.passed, short.reasons
 
 
 @pytest.mark.parametrize(("scale", "most", "newtons"), [(0.055, 0.08, 3.5), (0.055, 3.3, 2.2), (1.0, 0.3, 4.0)])
@@ -83,6 +112,21 @@ def test_a_thumb_that_is_drawn_back_does_not_make_the_loss_that_the_device_could
     assert gave.loss.before - -drawn.max() > gave.loss.needed
     assert {each.state for each in made.goals} == {"met"}
     assert not made.passed and not gave.loss.felt and gave.loss.after > 0, gave.loss
+
+
+def test_a_thumb_that_is_drawn_back_between_the_wall_and_the_flow_makes_no_loss_either():
+    columns = on_device()
+    (gave,) = result(columns).metrics.yields
+    thumb = columns["thumb"].copy()
+    thumb[np.searchsorted(columns["time"], gave.time) - 1] += 2e-3  # the point is behind the wall in this tick
+    (drawn,) = result(columns | {"thumb": thumb}).metrics.yields
+    assert drawn.time == gave.time and drawn.loss.after > gave.loss.after + 0.3
+
+
+def test_whoever_draws_the_thumb_back_is_told_to_keep_it():
+    made = result(on_device(0.055, 3.3, 2.2, lets_go=0.03, draws=50e-3))
+    assert "The thumb was drawn back: keep it on the plunger until it gives way." in " ".join(made.reasons)
+    assert "drawn back" not in " ".join(result(on_device(0.055, 3.3, 2.2)).reasons)
 
 
 def test_a_strong_device_shows_the_loss_also_to_a_thumb_that_is_drawn_back():
@@ -114,7 +158,7 @@ def test_the_verdict_waits_until_a_thumb_could_react(tmp_path):
         (1.0, None, "The thumb is a key here and feels nothing"),
         (1.0, ForceLimits(0.05, 0.05), "The second device cannot show that the plunger gives way (0.00 N at best; 0.1"),
         (0.005, OMNI, "The second device cannot show that the plunger gives way (0.07 N at best; 0.1 N needed)"),
-        (0.05, OMNI, "At the force scale of 0.05, push the plunger with clearly more than 2.3 N"),
+        (0.05, OMNI, "At the force scale of 0.05, push the plunger with clearly more than 2.5 N"),
     ],
 )
 def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb, told):
@@ -124,7 +168,7 @@ def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb,
 
 
 def test_the_push_that_is_named_before_the_start_is_no_more_than_what_is_needed():
-    """At a scale of 0.05, 2.3 N are named; the friction is not all that is left, so a thumb needs somewhat more."""
+    """At a scale of 0.05, 2.5 N are named; the flow into the space needs some pressure, so a thumb needs more."""
     assert not result(on_device(0.05, newtons=2.5)).passed
     assert result(on_device(0.05, newtons=4.0)).passed
 

@@ -161,7 +161,7 @@ def test_the_depth_of_the_reach_goal_is_listed(tmp_path):
     [
         (
             SecondDevice("simulated"),
-            "At the force scale of 0.055, push the plunger with clearly more than 2.1 N: with less, the thumb",
+            "At the force scale of 0.055, push the plunger with clearly more than 2.3 N: with less, the thumb",
         ),
         (None, "The thumb is a key here and feels nothing, so the plunger is judged by the model's force."),
     ],

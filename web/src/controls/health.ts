@@ -2,7 +2,7 @@ import { element, type Panel } from "../panel.ts";
 import { Figure } from "../plots/kit/figure.ts";
 import type { Spread, Status } from "../wire/messages.ts";
 import { drawHistogram } from "./histogram.ts";
-import { limitList } from "./limit_figures.ts";
+import { limitList, number } from "./limit_figures.ts";
 import { RateMeter } from "./rate.ts";
 import { servoState } from "./servo_state.ts";
 import { STATES } from "./words.ts";
@@ -50,8 +50,9 @@ export const healthPanel: Panel = (host, app) => {
   const [handBox, setHand] = figure("hand", "Who moves the needle");
   const [secondBox, setSecond] = figure(
     "second device",
-    "Ticks per second of the device under the thumb, and its limit",
+    "Ticks per second of the device under the thumb, and its limits",
   );
+  for (const box of [handBox, secondBox]) box.classList.add("wide");
   for (const box of [lateBox, droppedBox, viewersBox]) box.hidden = !app.engine.studio;
   const period = spread("Period", "Time from the start of one tick to the next");
   const compute = spread("Compute time", "Computing time of a tick");
@@ -109,10 +110,10 @@ export const healthPanel: Panel = (host, app) => {
     setHand(HANDS[status.hand]);
     secondBox.hidden = status.second === null;
     if (status.second) {
-      const { ticks, rate: stated, max_force: most } = status.second;
+      const { ticks, rate: stated, max_force: most, continuous_force: rms, continuous_time: time } = status.second;
       const counted = secondRate.add(performance.now() / 1e3, ticks);
-      const shown = counted === null ? "–" : counted.toFixed(0);
-      setSecond(`${shown} of ${stated.toFixed(0)} Hz, at most ${Number(most.toPrecision(3))} N`);
+      const limit = `at most ${number(most)} N, ${number(rms)} N rms in any ${number(time)} s`;
+      setSecond(`${counted === null ? "–" : counted.toFixed(0)} of ${stated.toFixed(0)} Hz, ${limit}`);
     }
     if (!host.hidden) {
       period.show(status.period, 1 / nominal);

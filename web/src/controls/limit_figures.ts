@@ -11,7 +11,7 @@ export interface LimitFigure {
 const CUT = "The force is cut to this limit, and the header shows it.";
 const FAULT = "Beyond this limit, a fault ends the force.";
 const duration = (seconds: number): string => (seconds < 1 ? `${number(seconds * 1e3)} ms` : `${number(seconds)} s`);
-const number = (value: number): string => String(Number(value.toPrecision(6)));
+export const number = (value: number): string => String(Number(value.toPrecision(6)));
 
 /** The limits of docs/safety.md with the values in use. */
 export function limitFigures(limits: LimitsPart): LimitFigure[] {

@@ -132,8 +132,8 @@ export interface Yield {
   /** m³ in `seconds` after it. */
   readonly injected: number;
   readonly seconds: number;
-  /** Null without a second device; missing in results of earlier versions. */
-  readonly loss?: FeltLoss | null;
+  /** Null without a second device. */
+  readonly loss: FeltLoss | null;
 }
 
 export interface ExerciseMetrics {

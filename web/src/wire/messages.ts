@@ -231,6 +231,8 @@ export interface SecondStatus {
   ticks: number;
   rate: number;
   max_force: number;
+  continuous_force: number;
+  continuous_time: number;
 }
 /**
  * A latched fault; cleared when `reason` is empty.

@@ -104,7 +104,9 @@ class SecondStatus(Part):
 
     ticks: int
     rate: Finite  # Hz, that the device states
-    max_force: Finite  # N, the limit in use
+    max_force: Finite  # N, the limits in use
+    continuous_force: Finite  # N rms
+    continuous_time: Finite  # s
 
 
 class Status(Part):

@@ -52,15 +52,11 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
         value: `${push.toFixed(2)} N`,
         help: "Model force of the thumb on the plunger, just before the point came into the space.",
       },
-      ...(loss !== undefined // missing in results of earlier versions
-        ? [
-            {
-              label: "Loss of resistance felt, plunger",
-              value: loss ? lossText(loss) : "none: the thumb was a key",
-              help: "Drop of the force that the second device gave the thumb, within 0.3 s.",
-            },
-          ]
-        : []),
+      {
+        label: "Loss of resistance felt, plunger",
+        value: loss ? lossText(loss) : "none: the thumb was a key",
+        help: "Drop of the force that the second device gave the thumb, within 0.3 s.",
+      },
       {
         label: "Injected after it",
         value: `${(injected * 1e6).toFixed(1)} mL`,
