@@ -118,12 +118,14 @@ def the_view_shows_the_expert(page):
     compared = page.locator(".recording", has=page.get_by_role("button", name="Stop", exact=True))
     title = compared.locator("strong").get_attribute("title")
     row = page.locator(".recording", has=page.get_by_title(title, exact=True))
-    with_expert = still_picture(page)
-    row.get_by_role("button", name="Stop", exact=True).click()
-    without = still_picture(page)
-    row.get_by_role("button", name="Compare").click()
-    again = still_picture(page)  # the same as before, up to some pixels at an edge
-    assert changed(with_expert, without) > 5 * changed(with_expert, again)
+    for _ in range(10):  # a busy computer draws the view coarser for a while
+        with_expert = still_picture(page)
+        row.get_by_role("button", name="Stop", exact=True).click()
+        without = still_picture(page)
+        row.get_by_role("button", name="Compare").click()
+        if changed(with_expert, without) > 5 * changed(with_expert, still_picture(page)):
+            return
+    raise AssertionError("the picture is the same without the expert's needle")
 
 
 def changed(one, other):
