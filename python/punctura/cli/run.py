@@ -147,8 +147,9 @@ def command(
             raise typer.BadParameter(error.problems[0].reason, param_hint="--max-force-N") from None
     if second_direction is not None and not second_device:
         raise typer.BadParameter("needs --second-device", param_hint="--second-direction")
-    direction = {} if second_direction is None else {"direction": _direction(second_direction)}
-    second = SecondDevice(second_device, **direction) if second_device else None
+    second = SecondDevice(second_device) if second_device else None
+    if second and second_direction is not None:
+        second = second._replace(direction=_direction(second_direction))
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second)
     with ends_on_signals() as signals:
         try:

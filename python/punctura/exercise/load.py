@@ -15,7 +15,6 @@ from punctura.files.toml import Tables, decoded, parse_toml, read_tables
 from punctura.scene import load_scene, scene_names
 
 _FOLDER = Path(__file__).parents[1] / "exercises"
-_WITH_FILE = "punctura run --exercise FILE"
 _A_SCENE = "is a scene file, not an exercise file: an exercise has a [space] and [[goal]] tables, and names its scene"
 
 
@@ -60,7 +59,8 @@ def exercise_of(tables: Tables, name: str) -> Exercise:
     if isinstance(given, str) and given in scene_names():
         scene = load_scene(given)
     elif "scene" in tables:
-        reason = f"must be one of the ready scenes: {', '.join(scene_names())}; with a scene file: run {_WITH_FILE}"
+        ready = ", ".join(scene_names())
+        reason = f"must be one of the ready scenes: {ready}; with a scene file: run punctura run --exercise FILE"
         problems = [Problem("scene", given, reason)]
     file, more = check_tables(tables, scene)
     if problems or more or file is None or scene is None:
