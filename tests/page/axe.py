@@ -22,33 +22,33 @@ def check(page: Page, state: str, part: str = "") -> None:
     """All rules in light colours at the usual size; the rules about colours in dark ones, about layout at other sizes.
 
     The rules about colours also apply at a phone's size, where parts lie over others; in a state of the whole page also
-    in dark colours, and on a tablet.
+    on a tablet, and there and on a phone in dark colours, too.
     part: a selector of what differs from the states before; empty: the page. At no size may the page scroll sideways.
     The page stays in light colours and at the usual size.
     """
+    both, whole = LAYOUT + COLOURS, not part
     _none(page, f"{state}, light", TARGETS, part)
-    page.emulate_media(color_scheme="dark")
-    _none(page, f"{state}, dark", _only(COLOURS), part)
+    _at(page, state, LARGE, "dark", both, part)  # large as usual: one run of axe-core for dark colours and the size
+    _at(page, state, TABLET, "light", both if whole else LAYOUT, part)
+    _at(page, state, PHONE, "light", both, part)
+    if whole:
+        _at(page, state, PHONE, "dark", COLOURS)
+        _at(page, state, TABLET, "dark", COLOURS)
     page.emulate_media(color_scheme="light")
-    for width, height in (LARGE, TABLET, PHONE):
-        page.set_viewport_size({"width": width, "height": height})
-        rules = LAYOUT + COLOURS if (width, height) == PHONE or not part else LAYOUT
-        _none(page, f"{state}, {width} px wide", _only(rules), part)
-        assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{state} scrolls sideways at {width} px"
-        if not part and (width, height) != LARGE:
-            page.emulate_media(color_scheme="dark")
-            _none(page, f"{state}, {width} px wide, dark", _only(COLOURS))
-            page.emulate_media(color_scheme="light")
     page.set_viewport_size({"width": USUAL[0], "height": USUAL[1]})
+
+
+def _at(page: Page, state: str, size: tuple[int, int], colours: str, rules: list[str], part: str = "") -> None:
+    page.emulate_media(color_scheme=colours)
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    _none(page, f"{state}, {size[0]} px wide, {colours}", {"runOnly": {"type": "rule", "values": rules}}, part)
+    width = page.evaluate("document.documentElement.scrollWidth")
+    assert width <= size[0], f"{state} scrolls sideways at {size[0]} px"
 
 
 def none_found(page: Page, state: str) -> None:
     """All rules in the page's present size and colours."""
     _none(page, state, TARGETS)
-
-
-def _only(rules: list[str]) -> dict[str, object]:
-    return {"runOnly": {"type": "rule", "values": rules}}
 
 
 def _none(page: Page, state: str, rules: dict[str, object], part: str = "") -> None:

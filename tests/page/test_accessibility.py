@@ -2,7 +2,7 @@
 
 import pytest
 from axe import AXE, USUAL, check, none_found
-from person import PATIENCE, own_exercise, ready, tab
+from person import new_context, own_exercise, ready, tab
 from playwright.sync_api import Browser, Page, expect
 from states import SHORT, states
 from studio_process import StudioProcess
@@ -37,9 +37,7 @@ def the_panels_change(page: Page) -> None:
 
 
 def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address(browser: Browser, studio):
-    size = {"width": USUAL[0], "height": USUAL[1]}
-    context = browser.new_context(viewport=size, device_scale_factor=0.2, reduced_motion="reduce")
-    context.set_default_timeout(PATIENCE)
+    context = new_context(browser, scale=0.2, viewport={"width": USUAL[0], "height": USUAL[1]})
     page = context.new_page()
     missing: list[str] = []
     page.on("response", lambda answer: missing.append(answer.url) if answer.status >= 400 else None)
@@ -69,12 +67,11 @@ SMALL = """() => [...document.querySelectorAll('button, summary, select, input, 
     return {part: part.outerHTML.slice(0, 160), width, height};
   })
   .filter(({width, height}) => width > 1 && height > 1 && (width < 43.5 || height < 43.5))"""
-OF_PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "reduced_motion": "reduce"}
+OF_PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
 
 def test_for_a_finger_each_target_has_44_pixels_and_axe_finds_nothing(browser: Browser, studio):
-    context = browser.new_context(**OF_PHONE, device_scale_factor=0.2)
-    context.set_default_timeout(PATIENCE)
+    context = new_context(browser, scale=0.2, **OF_PHONE)
     page = context.new_page()
     page.goto(studio.url)
     page.evaluate(AXE.read_text(encoding="utf-8"))
