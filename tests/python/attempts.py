@@ -47,8 +47,9 @@ def hand_run(name: str, legs: tuple[tuple[float, float], ...], upright: bool = F
 
 
 def judged(
-    exercise: Exercise, columns: Columns, cuts: int = 27, scene: pn.Scene | None = None, second_device: bool = False
+    exercise: Exercise, columns: Columns, cuts: int = 160, scene: pn.Scene | None = None, second_device: bool = False
 ) -> Attempt:
+    """cuts: ticks in a batch. A page gets 27 at once; larger ones take less time."""
     attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene), second_device)
     for batch in cut(columns, range(0, len(columns["depth"]), cuts)):
         attempt.add(batch)
@@ -56,7 +57,7 @@ def judged(
 
 
 def tried(name: str, *legs: tuple[float, float], upright: bool = False, seed: int = 0) -> Result:
-    """An attempt by a simulated hand, in batches as a page gets them."""
+    """An attempt by a simulated hand."""
     return judged(load_exercise(name), hand_run(name, legs, upright, seed)).finish()
 
 

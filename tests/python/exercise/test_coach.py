@@ -24,7 +24,7 @@ def way(*legs):
     return np.stack([np.zeros_like(mm), mm * 1e-3, np.zeros_like(mm)], axis=1)
 
 
-def coached(write, position, *goals, head=HEAD, cuts=27, **columns):
+def coached(write, position, *goals, head=HEAD, cuts=160, **columns):
     given = of_positions(SCENE, position) if isinstance(position, np.ndarray) else position
     return judged(load_exercise(write(*goals, head=head)), given | columns, cuts=cuts, scene=SCENE).finish().coaching
 

@@ -29,7 +29,7 @@ def through(scale=1.0, ceiling=np.inf):
     return columns
 
 
-def attempt(write, columns, head=PRESS, cuts=27, scene=SCENE):
+def attempt(write, columns, head=PRESS, cuts=160, scene=SCENE):
     return judged(load_exercise(write(goal("reach", whole_tip=True), head=head)), columns, cuts, scene).finish()
 
 

@@ -14,7 +14,7 @@ PRESS = HEAD.replace("[space]", "[space]\npress_mm = 9")
 STOP = goal("stop_after_pop", membrane="front vein wall", within_mm=1.0)
 
 
-def attempt(write, columns, *goals, cuts=27, head=PRESS):
+def attempt(write, columns, *goals, cuts=160, head=PRESS):
     return judged(load_exercise(write(*goals, head=head)), columns, cuts, SCENE)
 
 
