@@ -77,6 +77,17 @@ pip_build_tools() {
 # compiles a module at its first import: compiling all modules of all dependencies here would take half a minute.
 pip_project() { pip install --progress-bar off --no-build-isolation --no-compile "$@"; }
 
+# uv installs the dependencies in a tenth of pip's time. It does not read pip's settings, such as the address of a
+# mirror; pip installs what it could not.
+uv_dependencies() {
+  local extra extras=""
+  for extra in ${1//,/ }; do extras="$extras --extra $extra"; done
+  pip install --progress-bar off uv &&
+    "$venv/bin/uv" pip install --system-certs --python "$venv/bin/python" -r "$root/pyproject.toml" $extras ||
+    echo "uv has failed. pip installs the dependencies."
+}
+install_all() { uv_dependencies "$1" && pip_project "$root${1:+[$1]}"; }
+
 # set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
 set_up() {
   local kind=$1 extra=${2:-} deps sources node
@@ -107,7 +118,7 @@ set_up() {
   if ! stamped "needs-$kind" "$deps"; then
     unstamp sources
     step "Punctura, built and installed with its dependencies (a minute or two)" \
-      install pip_project "$root${extra:+[$extra]}"
+      install install_all "$extra"
     stamp "needs-$kind" "$deps"
     stamp sources "$sources"
   elif ! stamped sources "$sources"; then
