@@ -1,6 +1,7 @@
 // How many random cases a test runs.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace punctura::test {
@@ -12,5 +13,8 @@ inline int cases(int ordinary) {
   const int n = wanted ? std::atoi(wanted) : 0;
   return n > 0 ? n : ordinary;
 }
+
+/// The same, but never more than `ordinary`.
+inline int at_most(int ordinary) { return std::min(ordinary, cases(ordinary)); }
 
 }  // namespace punctura::test

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/support/cases.hpp"
 #include "core/support/paper_scene.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
 
@@ -133,18 +134,19 @@ batch::RunOptions options_of(const char* code, std::size_t threads = 1, std::siz
 }  // namespace
 
 TEST_CASE("trials with a hand have the bits of trials alone with each instruction set, block and number of threads") {
+  const auto trials = static_cast<std::size_t>(test::at_most(45));
   for (const Solver solver : {Solver::paper, Solver::exact}) {
-    const batch::SceneBatch all = scene_batch(solver, 45);
+    const batch::SceneBatch all = scene_batch(solver, trials);
     const SceneBatchResults alone = run_all(all, options_of("portable", 2));
     CHECK(alone.in_lanes() == 0);
     std::size_t pops = 0;
     for (const auto& membrane : alone.numbers.membranes) pops += membrane.pops;
-    CHECK(pops > 45);
+    CHECK(pops > trials);
     for (const batch::LineCode* code : batch::line_codes()) {
       CAPTURE(code->name);
       for (const auto& [threads, block] : {std::pair<std::size_t, std::size_t>{1, 4096}, {2, 1}, {7, 9}}) {
         const SceneBatchResults together = run_all(all, options_of(code->name, threads, block));
-        CHECK(together.in_lanes() == (code->scene_exact ? 45 : 0));
+        CHECK(together.in_lanes() == (code->scene_exact ? trials : 0));
         CHECK(differ(alone, together) == 0);
       }
     }
@@ -152,19 +154,20 @@ TEST_CASE("trials with a hand have the bits of trials alone with each instructio
 }
 
 TEST_CASE("trials through measured tissue have the bits of trials alone with each instruction set") {
+  const auto trials = static_cast<std::size_t>(test::at_most(41));
   for (const Solver solver : {Solver::paper, Solver::exact})
     for (const double relaxing : {0.0, 300.0}) {
-      const batch::SceneBatch all = tissue_batch(solver, relaxing, 41);
+      const batch::SceneBatch all = tissue_batch(solver, relaxing, trials);
       const SceneBatchResults alone = run_all(all, options_of("portable", 2), true);
       CHECK(alone.in_lanes() == 0);
       CHECK(std::ranges::count(alone.numbers.membranes, 2u, &batch::MembraneNumbers::pops) >
-            10);  // a hole entered again
+            static_cast<int>(trials / 4));  // a hole entered again
       for (const batch::LineCode* code : batch::line_codes()) {
         CAPTURE(code->name);
         for (const auto& [threads, block] : {std::pair<std::size_t, std::size_t>{1, 4096}, {2, 9}}) {
           const SceneBatchResults together = run_all(all, options_of(code->name, threads, block), true);
           // The coupling of trial 1 has a branch less than the others, so it runs alone.
-          CHECK(together.in_lanes() == (!code->scene_exact ? 0 : relaxing > 0 ? 40 : 41));
+          CHECK(together.in_lanes() == (!code->scene_exact ? 0 : relaxing > 0 ? trials - 1 : trials));
           CHECK(differ(alone, together) == 0);
           CHECK(std::equal(alone.force.begin(), alone.force.end(), together.force.begin(), same));
         }
