@@ -12,6 +12,13 @@ let fresh = false; // ticks have come since the last picture
 let before = 0; // time of the last picture with new ticks
 let interval = 0; // mean of the last intervals between such pictures, ms
 let taken = false; // somebody had the turn in this picture
+let refused: Part[] = []; // in this picture
+let first: Part | undefined; // waited longest of those that the last picture refused; only this one has the turn
+
+/** A part of the page that can wait. last: when it had its last turn, ms. */
+interface Part {
+  last: number;
+}
 
 /**
  * Calls once per animation frame while the page is visible. The returned function ends that, also within a call.
@@ -39,14 +46,18 @@ export const busy = (): boolean => interval > BUSY_MS;
 
 /**
  * A turn for a part of the page that can wait. The returned function says whether it is drawn now: always, except
- * while the page is busy; then every TURN_MS at most, and not together with another such part.
+ * while the page is busy; then every TURN_MS at most, not together with another such part, and whoever has waited
+ * longest goes first.
  */
 export function turns(): (now: number) => boolean {
-  let last = Number.NEGATIVE_INFINITY;
+  const part: Part = { last: Number.NEGATIVE_INFINITY };
   return (now) => {
-    if (busy() && (taken || now - last < TURN_MS)) return false;
+    if (busy() && (taken || now - part.last < TURN_MS || (first && first !== part))) {
+      refused.push(part);
+      return false;
+    }
     taken = true;
-    last = now;
+    part.last = now;
     return true;
   };
 }
@@ -68,5 +79,7 @@ function run(now: number, painted: boolean): void {
     before = now;
   }
   fresh = taken = false;
+  first = refused.sort((a, b) => a.last - b.last)[0];
+  refused = [];
   for (const draw of [...draws]) if (draws.has(draw)) draw(now, painted);
 }

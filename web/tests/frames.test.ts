@@ -86,6 +86,8 @@ it("while pictures come late, parts that can wait take turns; in time again, eac
   run(30, 40);
   expect(had[0]! + had[1]!).toBeLessThanOrEqual(30);
   for (const times of had) expect(times).toBeGreaterThanOrEqual(14);
+  run(30, 80);
+  for (const times of had) expect(times).toBe(15);
   run(40, 16);
   run(20, 16);
   expect(had).toEqual([20, 20]);
