@@ -122,7 +122,7 @@ inline void check_relaxation(const Scene& scene, std::vector<Problem>& problems)
   const auto& branches = scene.relaxation;
   if (branches.size() > max_branches)
     problems.push_back(
-        {"coupling.relaxation", static_cast<double>(branches.size()), "there may be two branches at most"});
+        {"coupling.relaxation", static_cast<double>(branches.size()), "there may be at most two branches"});
   for (std::size_t i = 0; i < branches.size(); ++i)
     check_fields(branch_fields, branches[i], "coupling.relaxation[" + std::to_string(i) + "]", problems);
 }
@@ -152,24 +152,25 @@ inline void check_place(const PlacedMembrane& placed, const std::string& path, s
 /// none, the scene can be built.
 inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
-  check(scene.needle, "needle", problems);
+  const bool needle = check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
   check_relaxation(scene, problems);
   check(scene.servo, problems);
   check_fields(display_fields, scene.display, "display", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
+  static_assert(max_membranes == 64);
   if (scene.membranes.size() > max_membranes)
-    problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be 64 membranes at most"});
+    problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be at most 64 membranes"});
 
   for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
-    check(placed.membrane, path, problems);
-    check(placed.tissue, path, problems);
-    if (needle_fields[1].range.holds(scene.needle.tip_angle) &&
-        membrane_fields[2].range.holds(placed.membrane.friction))
-      check_insertion(scene.needle, placed.membrane, path, problems);
-    if (problems.empty()) check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
+    const bool membrane = check(placed.membrane, path, problems), tissue = check(placed.tissue, path, problems);
+    const bool enters = needle_fields[1].range.holds(scene.needle.tip_angle) &&
+                        membrane_fields[2].range.holds(placed.membrane.friction) &&
+                        check_insertion(scene.needle, placed.membrane, path, problems);
+    if (needle && membrane && tissue && enters)
+      check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
     check_fields(outflow_fields, placed.outflow, path, problems);
     check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
     check_place(placed, path, problems);

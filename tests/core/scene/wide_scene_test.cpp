@@ -164,6 +164,9 @@ TEST_CASE("each number of tissue and of the branches has a path, and a wrong one
   steep.membranes[0].tissue.growth = 1e6;
   REQUIRE(check(steep).size() == 1);
   CHECK(check(steep)[0].path == "membrane[0].growth");
+  steep.servo.rate = 0;  // a problem elsewhere does not hide it
+  REQUIRE(check(steep).size() == 2);
+  CHECK(check(steep)[1].path == "membrane[0].growth");
 }
 
 TEST_CASE(

@@ -117,7 +117,7 @@ ONE_PROBLEM = {
             "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [1, 2, 3]\n"
             "relaxation_time_constant_s = [1, 2, 3]",
         ),
-        "coupling.relaxation_stiffness_N_per_mm = [1, 2, 3]: there may be two branches at most",
+        "coupling.relaxation_stiffness_N_per_mm = [1, 2, 3]: there may be at most two branches",
     ),
     "a profile that pulls the needle in": (
         (
