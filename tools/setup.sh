@@ -77,14 +77,18 @@ pip_build_tools() {
 # compiles a module at its first import: compiling all modules of all dependencies here would take half a minute.
 pip_project() { pip install --progress-bar off --no-build-isolation --no-compile "$@"; }
 
-# uv installs the dependencies in a tenth of pip's time. It does not read pip's settings, such as the address of a
-# mirror; pip installs what it could not.
+# uv installs the dependencies in a tenth of pip's time, and leaves to pip what it could not install. It does not read
+# pip's settings: only pip runs if they name another index, a constraint or a proxy. The output has a log of its own,
+# so that an error of uv does not choose the advice after an error of pip.
 uv_dependencies() {
-  local extra extras=""
+  local extra extras="" settings links
+  settings=$(pip config list)
+  if grep -qE '\.(index-url|extra-index-url|no-index|constraint|proxy)=' <<<"$settings"; then return 0; fi
+  links=$(sed -nE "s/.*\.find-links='(.*)'/\1/p" <<<"$settings" | tail -n 1)
   for extra in ${1//,/ }; do extras="$extras --extra $extra"; done
-  pip install --progress-bar off uv &&
-    "$venv/bin/uv" pip install --system-certs --python "$venv/bin/python" -r "$root/pyproject.toml" $extras ||
-    echo "uv has failed. pip installs the dependencies."
+  { pip install --progress-bar off "uv==0.13.*" && "$venv/bin/uv" pip install --system-certs \
+    ${links:+--find-links "$links"} --python "$venv/bin/python" -r "$root/pyproject.toml" $extras; } \
+    >"$root/build/log/uv.log" 2>&1 || echo "uv has failed (build/log/uv.log). pip installs the dependencies."
 }
 install_all() { uv_dependencies "$1" && pip_project "$root${1:+[$1]}"; }
 
@@ -92,7 +96,7 @@ install_all() { uv_dependencies "$1" && pip_project "$root${1:+[$1]}"; }
 set_up() {
   local kind=$1 extra=${2:-} deps sources node
   export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1 PUNCTURA_KEEP_NODE_MODULES=1
-  # Without the modules that Python keeps compiled, each start of a command takes twice as long.
+  # Python keeps compiled modules; without them each start of a command takes twice as long.
   unset PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
   lock
   find_python

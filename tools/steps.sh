@@ -14,7 +14,7 @@ choose_steps() {
     --list) echo "$all_steps $named_steps"; exit 0 ;;
     -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$root/test"; exit 0 ;;
     *)
-      steps=$*
+      steps=$(printf '%s\n' "$@" | awk '!seen[$0]++')  # each one once
       for name in "$@"; do
         case " $all_steps $named_steps " in
           *" $name "*) ;;
@@ -25,27 +25,59 @@ choose_steps() {
   esac
 }
 
+# Each of these steps uses about one processor, so all of them start at once.
+at_once="tree format types web"
+
+# Groups of processes that run in the background; they end with this program, however it ends.
+groups=""
+end_groups() {
+  local group
+  for group in $groups; do kill -- "-$group" 2>/dev/null || true; done
+}
+
 run_steps() {
-  local name passed=0 failed="" count=0 start began=$SECONDS log code
+  local name passed=0 failed="" count=0 began=$SECONDS log code seconds group started=""
   cd "$root"
+  trap end_groups EXIT
+  trap 'printf "\nStopped.\n" >&8; exit 130' INT TERM HUP
+  set -m  # each in a process group of its own, because a background job does not get Ctrl-C
   for name in $steps; do
-    log=build/log/test-$name.log start=$SECONDS
+    case " $at_once " in *" $name "*) run_step "$name" & groups="$groups $!" started="$started $name:$!" ;; esac
+  done
+  set +m
+  for name in $steps; do
+    log=build/log/test-$name.log
     printf '  %-12s ' "$name"
-    code=0
-    ("step_$name") >"$log" 2>&1 </dev/null || code=$?
-    if [ $code -eq 0 ]; then
+    case " $started" in
+      *" $name:"*)
+        group=${started##* $name:} group=${group%% *}
+        wait "$group" || true
+        groups=${groups/ $group/}  # its number may soon be another group's
+        ;;
+      *) run_step "$name" || true ;;
+    esac
+    { read -r code seconds <"$log.result"; } 2>/dev/null || { code=137 seconds=0; }  # the step was killed
+    if [ "$code" -eq 0 ]; then
       passed=$((passed + 1))
-      printf 'passed %4d s   %s\n' $((SECONDS - start)) "$(closing_line "$log")"
+      printf 'passed %4d s   %s\n' "$seconds" "$(closing_line "$log")"
       sed -n 's/^note: /               /p' "$log"
     else
       failed="$failed $name" count=$((count + 1))
-      printf 'FAILED %4d s   the end of %s:\n' $((SECONDS - start)) "$log"
+      printf 'FAILED %4d s   the end of %s:\n' "$seconds" "$log"
       tail -n "${PUNCTURA_LOG_LINES:-60}" "$log" | sed 's/^/    /'
     fi
   done
   [ -z "$failed" ] || printf '\nFailed:%s. To repeat only these: ./test%s\n' "$failed" "$failed"
   printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) $passed $count
   [ -z "$failed" ]
+}
+
+# run_step NAME: runs the step with its output in its log, and writes its exit status and time (s) beside it.
+run_step() {
+  local log=build/log/test-$1.log start=$SECONDS code=0
+  rm -f "$log.result"
+  ("step_$1") >"$log" 2>&1 </dev/null || code=$?
+  echo "$code $((SECONDS - start))" >"$log.result"
 }
 
 # The last line of the step's test runner with the number of passed tests.

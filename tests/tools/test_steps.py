@@ -1,0 +1,72 @@
+"""The runner of the steps of ./test, with steps of its own."""
+
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+
+from waiting import wait_until
+
+TOOLS = Path(__file__).parents[2] / "tools"
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="./test is a program for bash")
+
+
+def start(folder, steps, *asked, pass_fds=()):
+    """Runs tools/steps.sh in the folder with these functions in place of its steps."""
+    (folder / "build" / "log").mkdir(parents=True)
+    script = f"""set -euo pipefail
+root={shlex.quote(str(folder))}
+source {shlex.quote(str(TOOLS / "say.sh"))}
+source {shlex.quote(str(TOOLS / "steps.sh"))}
+{steps}
+choose_steps {" ".join(asked)}
+run_steps
+"""
+    return subprocess.Popen(
+        ["bash", "-c", script],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+        pass_fds=pass_fds,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
+def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tmp_path):
+    steps = "step_tree() { sleep 0.3; }; step_web() { echo said; return 3; }; step_cpp() { echo '2 passed in 1.0s'; }"
+    with start(tmp_path, steps, "tree", "web", "cpp", "web") as run:
+        said = run.communicate(timeout=60)[0]
+    assert run.returncode == 1
+    assert re.findall(r"^  (\w+) +(passed|FAILED)", said, re.M) == [
+        ("tree", "passed"), ("web", "FAILED"), ("cpp", "passed"),
+    ]  # fmt: skip
+    assert "    said\n" in said and "2 passed in 1.0s" in said and said.endswith("2 passed, 1 failed\n")
+
+
+def test_a_step_that_was_killed_has_failed(tmp_path):
+    with start(tmp_path, "step_web() { kill -KILL 0; }", "web") as run:
+        said = run.communicate(timeout=60)[0]
+    assert run.returncode == 1 and "FAILED" in said and "0 passed, 1 failed" in said
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_the_steps_in_the_background_although_one_of_them_has_finished(tmp_path, how):
+    steps = "step_tree() { true; }; step_types() { touch begun; sleep 600; }; step_web() { sleep 600; }"
+    alive, held = os.pipe()  # each process of the steps holds it
+    with start(tmp_path, steps, "tree", "types", "web", pass_fds=[held]) as run:
+        os.close(held)
+        wait_until((tmp_path / "begun").exists, 60)
+        assert run.stdout is not None and run.stdout.readline().startswith("  tree         passed")
+        os.kill(run.pid, how)
+        assert run.stdout.read().endswith("Stopped.\n")
+        assert run.wait(60) == 130
+    assert os.read(alive, 1) == b""  # all of them have ended; otherwise this waits for ten minutes
+    os.close(alive)
