@@ -9,6 +9,7 @@
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/safety/force_budget.hpp"
+#include "punctura/safety/input_gate.hpp"
 
 namespace punctura {
 
@@ -56,8 +57,9 @@ template <typename Scalar>
 class BasicForceLimiter {
  public:
   using Vector = Vector3<Scalar>;
-  /// The longest time that a device holds a force, s: the deadline of the gate. The budget always has room for it.
-  static constexpr Scalar longest_hold = Scalar(0.020);
+  /// The budget always has room for a device that holds a force for this time, s: the ordinary deadline of the gate.
+  /// A scene with a longer deadline can exceed the continuous force (docs/safety.md).
+  static constexpr Scalar longest_hold = static_cast<Scalar>(GateLimits{}.deadline);
   static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
   BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
