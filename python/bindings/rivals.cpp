@@ -48,7 +48,7 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
     for (const auto& [key, value] : numbers)
       if (("," + std::string(" ") + known + ",").find(" " + nb::cast<std::string>(key) + ",") == std::string::npos)
         raise_word(name + "." + nb::cast<std::string>(key), nb::cast<std::string>(key),
-                   ("is no number of this rival. It has " + known).c_str());
+                   ("is not a parameter of this rival. It has " + known).c_str());
   });
   raise_if(problems);
   return *rival;

@@ -15,20 +15,23 @@ RUN = """async ([rules, parts]) => {
   return found.violations.filter(({impact}) => impact !== 'minor').map(({id, impact, nodes}) =>
     ({id, impact, nodes: nodes.map(({html, failureSummary}) => [html.slice(0, 200), failureSummary])}));
 }"""
+TWO_PICTURES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 TARGETS = {"rules": {"target-size": {"enabled": True}}}  # WCAG 2.2; axe-core leaves it out by default
 
 
 def check(page: Page, state: str, part: str = "") -> None:
-    """All rules in light colours at the usual size; the rules about colours in dark ones, about layout at other sizes.
+    """All rules in light colours at the usual size. At other sizes the rules about layout, at some those about colours.
 
-    The rules about colours also apply at a phone's size, where parts lie over others; in a state of the whole page also
-    on a tablet, and there and on a phone in dark colours, too.
+    The rules about colours: in light colours at the usual size and on a phone, where parts lie over others, and in dark
+    ones in a large window. A state of the whole page has both colours at the usual size, on a tablet and on a phone.
     part: a selector of what differs from the states before; empty: the page. At no size may the page scroll sideways.
     The page stays in light colours and at the usual size.
     """
     both, whole = LAYOUT + COLOURS, not part
     _none(page, f"{state}, light", TARGETS, part)
-    _at(page, state, LARGE, "dark", both, part)  # large as usual: one run of axe-core for dark colours and the size
+    if whole:
+        _at(page, state, USUAL, "dark", COLOURS)
+    _at(page, state, LARGE, "dark", both, part)
     _at(page, state, TABLET, "light", both if whole else LAYOUT, part)
     _at(page, state, PHONE, "light", both, part)
     if whole:
@@ -41,6 +44,7 @@ def check(page: Page, state: str, part: str = "") -> None:
 def _at(page: Page, state: str, size: tuple[int, int], colours: str, rules: list[str], part: str = "") -> None:
     page.emulate_media(color_scheme=colours)
     page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.evaluate(TWO_PICTURES)
     _none(page, f"{state}, {size[0]} px wide, {colours}", {"runOnly": {"type": "rule", "values": rules}}, part)
     width = page.evaluate("document.documentElement.scrollWidth")
     assert width <= size[0], f"{state} scrolls sideways at {size[0]} px"

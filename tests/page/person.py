@@ -19,30 +19,48 @@ from punctura.exercise import load_exercise
 # ms: of every action and every expectation. A test that passes does not wait so long, however busy the computer is.
 PATIENCE = 120_000
 # A picture every 80 ms and not every 17: the processor draws them, and has the rest of its time for the tests.
-FEWER_PICTURES = """const next = window.requestAnimationFrame.bind(window);
-window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 80);
-window.cancelAnimationFrame = clearTimeout;"""
+FEWER_PICTURES = """const next = requestAnimationFrame.bind(window), drop = cancelAnimationFrame.bind(window);
+const ends = new Map();
+let asked = 0;
+window.requestAnimationFrame = (draw) => {
+  const id = ++asked;
+  const wait = setTimeout(() => {
+    const frame = next((now) => {
+      ends.delete(id);
+      draw(now);
+    });
+    ends.set(id, () => drop(frame));
+  }, 80);
+  ends.set(id, () => clearTimeout(wait));
+  return id;
+};
+window.cancelAnimationFrame = (id) => {
+  ends.get(id)?.();
+  ends.delete(id);
+};"""
 
 
-def new_context(browser: Browser, scale: float = 0.5, **options: Any) -> BrowserContext:
+def new_context(browser: Browser, scale: float = 0.5, fewer: bool = True, **options: Any) -> BrowserContext:
     """A context of the browser that is light for the processor, which draws without a graphics card.
 
-    scale: of the resolution. Half of it is a quarter of the pixels, and nobody looks.
+    scale: of the resolution. Half of it is a quarter of the pixels, and nobody looks. fewer: pictures a second.
     """
     context = browser.new_context(device_scale_factor=scale, reduced_motion="reduce", **options)
     context.set_default_timeout(PATIENCE)
-    context.add_init_script(FEWER_PICTURES)
+    if fewer:
+        context.add_init_script(FEWER_PICTURES)
     return context
 
 
 @contextmanager
-def opened(browser: Browser, url: str, sound: str = "off", script: str = "") -> Iterator[Page]:
+def opened(browser: Browser, url: str, sound: str = "off", script: str = "", fewer: bool = True) -> Iterator[Page]:
     """The page at the address, in a context of its own. Every error of its script fails the test.
 
-    sound: an earlier answer, "on" or "off"; empty: the page asks. script: runs before the page's own.
+    sound: an earlier answer, "on" or "off"; empty: the page asks. script: runs before the page's own. fewer: pictures
+    a second than the browser gives.
     """
     errors: list[str] = []
-    context = new_context(browser, viewport={"width": 1440, "height": 900})
+    context = new_context(browser, fewer=fewer, viewport={"width": 1440, "height": 900})
     if sound:
         context.add_cookies([{"name": "punctura_sound", "value": sound, "url": url}])
     if script:

@@ -15,7 +15,7 @@ THROUGH = 3.9e-3  # m: K06 Fig. 10's tip is 3.76 mm long, its membrane 0.1 mm th
 @pytest.fixture
 def page(browser, studio):
     """The studio's page with sound on and a gamepad."""
-    with opened(browser, studio.url, sound="on", script=STUBS) as page:
+    with opened(browser, studio.url, sound="on", script=STUBS, fewer=False) as page:
         yield page
 
 

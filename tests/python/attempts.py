@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 
 import numpy as np
@@ -47,13 +47,24 @@ def hand_run(name: str, legs: tuple[tuple[float, float], ...], upright: bool = F
 
 
 def judged(
-    exercise: Exercise, columns: Columns, cuts: int = 160, scene: pn.Scene | None = None, second_device: bool = False
+    exercise: Exercise,
+    columns: Columns,
+    cuts: int | Iterable[int] = 160,
+    scene: pn.Scene | None = None,
+    second_device: bool = False,
 ) -> Attempt:
-    """cuts: ticks in a batch. A page gets 27 at once; larger ones take less time."""
+    """cuts: ticks in a batch, or where batches begin. A page gets 27 at once; larger ones take less time."""
     attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene), second_device)
-    for batch in cut(columns, range(0, len(columns["depth"]), cuts)):
+    for batch in cut(columns, range(0, len(columns["depth"]), cuts) if isinstance(cuts, int) else cuts):
         attempt.add(batch)
     return attempt
+
+
+def cuts_near(time: float, rate: float, ticks: int) -> list[int]:
+    """Where batches of one to three ticks begin within 0.4 s of a time, and larger ones elsewhere."""
+    near = round(time * rate)
+    small = [near + k for k in range(round(-0.4 * rate), round(0.4 * rate)) if k % 6 in (0, 1, 3)]
+    return sorted({*range(0, ticks, 160), *small})
 
 
 def tried(name: str, *legs: tuple[float, float], upright: bool = False, seed: int = 0) -> Result:

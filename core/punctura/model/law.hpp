@@ -60,7 +60,7 @@ concept RefreshesPieces = LawWithMemory<L> && requires(const L law, const typena
   { law.refresh(pieces, memory) } noexcept;
 };
 
-/// A law for lanes, of which some may remember. It keeps the memory and the pieces of each lane itself: a lane that is
+/// A law for lanes. Some lanes may remember. It keeps the memory and the pieces of each lane itself: a lane that is
 /// in `lanes` has reached this depth, or has left the wall in front.
 template <typename L>
 concept LanesThatRemember = Lanes<typename L::Scalar> && requires(const L law, const typename L::Scalar& depth,

@@ -89,7 +89,7 @@ inline void check_grip_table(const std::vector<GripPoint>& table, const std::str
 
 /// Adds a problem for each value that is outside its range. Returns true if there is none.
 ///
-/// check_curve() (grip.hpp) also needs the needle and the membrane: whether the chords follow the curve.
+/// check_curve() (tissue_law.hpp) also needs the needle and the membrane: whether the chords follow the curve.
 inline bool check(const Tissue& tissue, const std::string& path, std::vector<Problem>& problems) {
   const std::size_t before = problems.size();
   const std::string dot = path.empty() ? "" : path + ".";

@@ -75,7 +75,7 @@ struct SampledCoupling {
   void advance(Memory<Vector>&, const Vector&, const Vector&) const noexcept {}
 };
 
-/// e (m), rounded so that it never becomes a denormal number.
+/// e (m), rounded so that it never becomes a denormal number. The proxies in space use it.
 ///
 /// Without force, e decays by the factor B / (K T + B) in each tick, and would become denormal. Many processors compute
 /// slowly with denormal numbers. To add and subtract a tiny number prevents this without a branch.

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 
 def whole_seeds(seeds: SupportsIndex | npt.ArrayLike, trials: int) -> npt.NDArray[np.uint64]:
-    """The seed of each trial. Raises TypeError, ValueError for what is no whole number from 0 to 2^64 - 1."""
+    """The seed of each trial. Raises TypeError, ValueError if it is not a whole number from 0 to 2^64 - 1."""
     array = np.asarray(seeds)
     if array.ndim > 1:
         raise ValueError(f"seeds must be one number, or have shape ({trials},), not {array.shape}")

@@ -12,7 +12,7 @@
 
 using namespace punctura;
 using namespace punctura::test;
-using punctura::test::cases;
+using punctura::test::at_most;
 
 namespace {
 ForceLimiter ramped(const ForceLimits& limits = {}) {
@@ -98,7 +98,7 @@ TEST_CASE("the rms force of each 10 s is within the rating for any input, runs a
   const ForceLimits limits;
   WorstWindow worst;
   double spent = 0;
-  for (int run = 0; run < std::min(cases(1000), 1000); ++run) {
+  for (int run = 0; run < at_most(1000); ++run) {
     ForceLimiter limiter(limits, T);
     limiter.set_spent(spent);
     const auto ticks = static_cast<int>(1600 * 4 * share(random));

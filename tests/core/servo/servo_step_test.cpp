@@ -247,7 +247,7 @@ TEST_CASE("many ticks allocate no memory, and two runs have the same force, bit 
       auto step = build(scene), again = build(scene);
       step.arm();
       again.arm();
-      const auto ticks = std::uint64_t{1000} * static_cast<std::uint64_t>(std::min(cases(250), 250));
+      const auto ticks = std::uint64_t{1000} * static_cast<std::uint64_t>(at_most(250));
       const std::size_t before = allocations();
       for (std::uint64_t k = 0; k < ticks; ++k) {
         const double y = -3e-3 + 6e-3 * std::cos(2e-3 * static_cast<double>(k));

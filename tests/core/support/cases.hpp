@@ -14,7 +14,7 @@ inline int cases(int ordinary) {
   return n > 0 ? n : ordinary;
 }
 
-/// The same, but never more than `ordinary`.
+/// The same, but never more than `ordinary`. Also for the size of a case.
 inline int at_most(int ordinary) { return std::min(ordinary, cases(ordinary)); }
 
 }  // namespace punctura::test

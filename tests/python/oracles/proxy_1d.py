@@ -74,7 +74,7 @@ def paper_alternatives(L: Law, c: Coupling, s: State, p):
 
 
 def exact(L: Law, c: Coupling, s: State, p):
-    """f(k) of (21)-(23): stuck, or at the first root in the direction of motion (model.md section 2)."""
+    """f(k) of (21)-(23): stuck, or at the first root in the direction of motion (docs/errata.md)."""
     hold = f_star(c, s, p)
     q_prev = s.p + s.e
     lower, upper = band(L, q_prev)

@@ -1,4 +1,4 @@
-"""K06 (41) with the answers of model.md sections 3 and 4 (E1, E2, E3, E6), over lanes; and its exact counterpart.
+"""K06 (41) with the answers of docs/errata.md (E1, E2, E3, E6), over lanes; and its exact counterpart.
 
 One lane is one membrane. Vectors are (lanes, 3), depths and scalars (lanes,).
 """

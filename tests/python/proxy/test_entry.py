@@ -1,4 +1,4 @@
-"""Entry: the cases that K06 (41) leaves open and model.md decides (E6), and the direction from the motion."""
+"""Entry: the cases that K06 (41) leaves open and docs/errata.md decides (E6), and the direction from the motion."""
 
 import itertools
 

@@ -58,7 +58,7 @@ def test_the_papers_force_alternates_below_the_thickness_that_its_recursion_pred
 
 
 def test_the_force_at_the_pop_falls_from_the_peak_to_the_shaft_friction():
-    """Section 5 of model.md: H = 0.1 mm, 5 mm/s, -0.7296 N to -0.4102 N, withdrawal +0.4102 N."""
+    """H = 0.1 mm, 5 mm/s: -0.7296 N to -0.4102 N, withdrawal +0.4102 N."""
     law = punctura.ThickLaw(NEEDLE, punctura.Membrane(570.0, 0.41, 0.2, 1e-4))
     proxy = punctura.Proxy1d(law, COUPLING, PERIOD)
     inwards = proxy.run(np.arange(-1e-3, 8e-3, 5e-3 * PERIOD)).force

@@ -15,7 +15,7 @@ from punctura.reproduce.scenes import COUPLING, INWARD, NEEDLE, k06_membrane, k0
 pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they share takes seconds to make
 
 
-F = 0.41024  # N, model.md section 5
+F = 0.41024  # N, the dry friction of the shaft
 COUNT_MM = 0.055  # of the encoder
 Column = Callable[..., np.ndarray]
 

@@ -123,7 +123,7 @@ def test_a_rival_is_a_value_and_names_what_is_wrong():
     assert rival != Rival("dahl")
     with pytest.raises(pn.ConfigurationError, match=r"dahl.friction = -1.*between"):
         Rival("dahl", {"friction": -1})
-    with pytest.raises(pn.ConfigurationError, match="no number of this rival"):
+    with pytest.raises(pn.ConfigurationError, match="not a parameter of this rival"):
         Rival("dahl", {"frictions": 1})
     with pytest.raises(pn.ConfigurationError, match="must be one of okamura"):
         Rival("okamura2004")

@@ -195,6 +195,10 @@ def test_a_target_that_is_none_is_told_and_moves_nothing(page, axis):
     page.wait(lambda: any("axis" in n["text"] for n in page.of("notice")))
     page.target([9.0, 0.0, 0.0], AXIS)
     page.wait(lambda: len(page.of("notice")) == 2)
+    told = len(page.frames)
+    page.wait(lambda: len(page.frames) > told + 10)
+    tip = all_rows(page, "tip")
+    assert np.abs(tip - tip[0]).max() < 1e-3
 
 
 def test_only_who_has_control_may_ask_and_anyone_may_take_it(served, page):

@@ -159,6 +159,6 @@ TEST_CASE("our axes are the service's axes rotated by 90 degrees about x; the gr
 }
 
 TEST_CASE("reading ends for every input: random frames, random texts, and valid ones with changed bytes") {
-  Noise noise(20);
+  Noise noise(20);  // no CHECK: it fails by a crash, a sanitizer or a time limit
   for (int i = 0, n = test::cases(20'000); i < n; ++i) test::read_anything(test::spoilt_input(noise));
 }

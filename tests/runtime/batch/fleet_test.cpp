@@ -142,6 +142,7 @@ TEST_CASE("a trial that faults leaves the lanes with its whole record, and comes
 
 TEST_CASE("scenes of another kind than the others in their vector are computed alone, with the same bits") {
   const auto ticks = static_cast<std::size_t>(test::at_most(70));
+  const double far = 70.0 / static_cast<double>(ticks);  // the same way in a shorter step
   const auto scene_of = [](std::size_t i) {
     Scene scene = fleet_scene(i % 16 == 7 ? Solver::paper : Solver::exact, i);
     if (i % 16 == 3) scene.membranes.pop_back();
@@ -153,16 +154,17 @@ TEST_CASE("scenes of another kind than the others in their vector are computed a
   };
   SetOfFleets all({}, scene_of);
   for (std::size_t step = 0; step < 12; ++step)
-    CHECK(all.step([&](std::size_t i) { return fleet_speed(i, step / 6); }, ticks) == 0);
+    CHECK(all.step([&](std::size_t i) { return far * fleet_speed(i, step / 6); }, ticks) == 0);
   all.place_again(3, 8);
   all.place_again(8, 4);
   all.place_again(34, 35);
   for (std::size_t step = 0; step < 6; ++step)
-    CHECK(all.step([&](std::size_t i) { return fleet_speed(i, 0); }, ticks) == 0);
+    CHECK(all.step([&](std::size_t i) { return far * fleet_speed(i, 0); }, ticks) == 0);
 }
 
 TEST_CASE("a fleet in lanes takes every kind of scene, and another kind from the second time on that all start anew") {
   const auto ticks = static_cast<std::size_t>(test::at_most(70));
+  const double far = 70.0 / static_cast<double>(ticks);  // the same way in a shorter step
   for (const bool wide : {false, true}) {
     const auto scene_of = [&](std::size_t i) {
       Scene scene = fleet_scene(Solver::paper, i);
@@ -176,12 +178,12 @@ TEST_CASE("a fleet in lanes takes every kind of scene, and another kind from the
     };
     SetOfFleets all({}, scene_of);
     for (std::size_t step = 0; step < 12; ++step)
-      CHECK(all.step([&](std::size_t i) { return fleet_speed(i, step / 6); }, ticks) == 0);
+      CHECK(all.step([&](std::size_t i) { return far * fleet_speed(i, step / 6); }, ticks) == 0);
     CHECK(all.in_lanes(fleet_trials));
     for (int again = 0; again < 2; ++again) {
       for (std::size_t i = 0; i < fleet_trials; ++i) all.place_again(i, 100 + i);
       for (std::size_t step = 0; step < 4; ++step)
-        CHECK(all.step([&](std::size_t i) { return fleet_speed(i, 0); }, ticks) == 0);
+        CHECK(all.step([&](std::size_t i) { return far * fleet_speed(i, 0); }, ticks) == 0);
     }
     CHECK(all.in_lanes(fleet_trials));
   }
