@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 
 def _typed(name: str, column: npt.ArrayLike) -> Array:
     """The column with its field's type. Raises ValueError for a number that the type does not hold."""
-    if np.ma.is_masked(column):
+    # NumPy imports numpy.ma at its first use. In a run, that keeps Python's lock from a thread that feeds a device.
+    if "numpy.ma" in sys.modules and np.ma.is_masked(column):
         raise ValueError(f"{name} has masked elements: fill them in, or leave these ticks out")
     given = np.asarray(column)
     if name not in FIELDS:

@@ -1,6 +1,7 @@
 """Ticks, the result of every run."""
 
 import pickle
+import subprocess
 import sys
 import types
 
@@ -191,6 +192,12 @@ def test_a_number_that_is_nan_is_not_taken_for_an_absent_membrane():
 def test_a_number_that_the_type_of_its_field_does_not_hold_is_refused(phase):
     with pytest.raises(ValueError, match="phase must hold numbers of type uint8, and holds others"):
         Ticks({"phase": phase})
+
+
+def test_ticks_do_not_import_masked_arrays_which_would_stop_a_thread_that_feeds_a_device():
+    code = "import sys, punctura; punctura.Ticks({'force': [0.0]}); print('numpy.ma' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
 
 
 def test_masked_elements_are_refused():
