@@ -22,7 +22,7 @@ def plot(ticks: Columns, names: Sequence[str], x: str | None, axes: Axes | None)
             raise KeyError(f"the plot needs the field {name}; these ticks have {', '.join(ticks)}")
     axes = _new_axes() if axes is None else axes
     along = ticks[x]
-    if along.ndim > (2 if FIELDS[x].per_membrane else 1):
+    if along.ndim > (2 if x in FIELDS and FIELDS[x].per_membrane else 1):
         raise ValueError(f"x = {x!r} is a vector; x must be a scalar field, such as 'time' or 'depth'")
     for i in range(membrane_count(ticks)):
         at = _of(along, i)
@@ -43,7 +43,7 @@ def _of(values: Array, membrane: int) -> Array:
 
 
 def _label(name: str) -> str:
-    unit = FIELDS[name].unit
+    unit = FIELDS[name].unit if name in FIELDS else ""  # others, such as the lost ticks of a recording, have none
     return f"{name.replace('_', ' ')} ({unit})" if unit else name.replace("_", " ")
 
 

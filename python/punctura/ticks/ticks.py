@@ -28,6 +28,8 @@ def _typed(name: str, column: npt.ArrayLike) -> Array:
     if "numpy.ma" in sys.modules and np.ma.is_masked(column):
         raise ValueError(f"{name} has masked elements: fill them in, or leave these ticks out")
     given = np.asarray(column)
+    if given.ndim == 0:
+        raise ValueError(f"{name} must be an array with one row per tick, not a single value")
     if name not in FIELDS:
         return given
     typed = given.astype(FIELDS[name].dtype, copy=False) if given.dtype.kind in "biuf" else None
@@ -113,7 +115,10 @@ class Ticks(TickArrays):
         return describe(Fault(code)) if code else ""
 
     def to_arrow(self, words: bool = True) -> pyarrow.Table:
-        """An Arrow table with the columns of a file: time_s, x_m, depth_0_m ... words: write codes as words."""
+        """An Arrow table with the columns of a file: time_s, x_m, depth_0_m ... words: write codes as words.
+
+        Of columns that are not in docs/tick.md, only those with one value per tick are included.
+        """
         from punctura.ticks.arrow import to_arrow
 
         return to_arrow(self, words)

@@ -167,6 +167,7 @@ def test_a_plot_has_each_membranes_force_and_band():
     assert np.array_equal(axes.lines[3].get_ydata(), ticks.axial_force[:, 1])
     assert [text.get_text() for text in axes.get_legend().get_texts()] == list(ticks.membranes)
     assert on_a_line().plot().get_xlabel() == "depth (m)"
+    assert ticks.replace(lost=np.zeros(len(ticks))).plot("lost").get_xlabel() == "lost"
     with pytest.raises(ValueError, match="x = 'position' is a vector"):
         ticks.plot("position")
     with pytest.raises(KeyError, match="needs the field ceiling"):
@@ -192,6 +193,11 @@ def test_a_number_that_is_nan_is_not_taken_for_an_absent_membrane():
 def test_a_number_that_the_type_of_its_field_does_not_hold_is_refused(phase):
     with pytest.raises(ValueError, match="phase must hold numbers of type uint8, and holds others"):
         Ticks({"phase": phase})
+
+
+def test_a_single_value_is_no_column():
+    with pytest.raises(ValueError, match="force must be an array with one row per tick"):
+        Ticks({"force": 1.0})
 
 
 def test_ticks_do_not_import_masked_arrays_which_would_stop_a_thread_that_feeds_a_device():
