@@ -58,10 +58,10 @@ class BatchResult:
         return len(self.peak)
 
     def __repr__(self) -> str:
-        return f"<BatchResult of {len(self)} runs>"
+        return f"<BatchResult of {len(self)} run{'s' * (len(self) != 1)}>"
 
     def scene(self, i: int) -> Scene:
-        """The scene of run i."""
+        """The scene of run i. Raises IndexError for a run that there is not."""
         assert self.base is not None
         return self.base.with_values(self._values("", i))
 
@@ -107,6 +107,8 @@ class BatchResult:
 
     def _values(self, owner: str, i: int) -> dict[str, float]:
         """The numbers of run i whose path begins with `owner`; "" is the scene."""
+        if not -len(self) <= i < len(self):
+            raise IndexError(f"there is no run {i}: this batch has {len(self)}, and they are counted from 0")
         others = ("plant.", "hand.", "strokes.")
         chosen = (path for path in self.vary if (path.startswith(owner) if owner else not path.startswith(others)))
         return {path.removeprefix(owner): float(self.vary[path][i]) for path in chosen}

@@ -87,7 +87,12 @@ def test_recorded_motion_other_hands_and_a_table() -> None:
     assert table["drop[0]"].to_pylist() == given.drop[:, 0].tolist()
     never = batch(SCENE, p - 0.05 * NORMAL)  # in front of all membranes
     assert never.pops.sum() == 0 and never.to_arrow()["drop[0]"].to_pylist() == [None]
-    assert repr(given) == "<BatchResult of 4 runs>"
+    assert repr(given) == "<BatchResult of 4 runs>" and repr(never) == "<BatchResult of 1 run>"
+    for i in (4, -5):
+        with pytest.raises(IndexError, match=rf"there is no run {i}: this batch has 4"):
+            given.scene(i)
+        with pytest.raises(IndexError, match="there is no run"):
+            given.experiment(i)
 
 
 def test_wrong_arguments() -> None:
