@@ -30,9 +30,7 @@ def explained(function: Any, given: Sequence[Any], named: Mapping[str, object], 
         by_place -= 1
     faults, got = _assigned(parameters, by_place, values, named)
     if not faults:
-        faults = [
-            f"{name} must be {wanted}" for name, value in got.items() if (wanted := _wanted(parameters[name], value))
-        ]
+        faults = [fault for name, value in got.items() if (fault := _fault(name, parameters[name][0], value))]
     if not faults and not got:
         faults = ["the object has no value: its __init__ has not run, such as that of the base class"]
     if not faults:
@@ -90,17 +88,27 @@ def _assigned(
 
 def _plain(text: str) -> str:
     """A type as in the documentation of the constructors."""
+    text = re.sub(r"typing\.Literal\[([^]]*)\]", lambda found: found[1].replace(", ", " | "), text)
     return text.replace("_Vector", "Sequence[float]").replace("numpy.typing.", "")
 
 
-def _wanted(parameter: tuple[str, bool], value: Any) -> str:
+def _fault(name: str, text: str, value: Any) -> str:
     """What the parameter wants, and what it got; empty if the value may fit."""
-    text = parameter[0]
+    many = re.fullmatch(r"Sequence\[(\w+)\]", text)
+    if many and isinstance(value, list | tuple):
+        return next((fault for i, one in enumerate(value) if (fault := _fault(f"{name}[{i}]", many[1], one))), "")
+    if many and _known(many[1]) and not hasattr(value, "__getitem__"):
+        return f"{name} must be a list of {many[1]}, not {_shown(value)}"
     kinds = [kind.strip() for kind in text.split(" | ")]
     if all(_known(kind) and not _fits(kind, value) for kind in kinds):
-        words = " or ".join(_WORDS.get(kind) or (f"a {kind}" if kind.isidentifier() else kind) for kind in kinds)
-        return f"{words}, not {_shown(value)}"
+        return f"{name} must be {' or '.join(map(_words, kinds))}, not {_shown(value)}"
     return ""
+
+
+def _words(kind: str) -> str:
+    if kind.startswith("typing.Literal["):
+        return _plain(kind).replace(" | ", " or ")
+    return _WORDS.get(kind) or (f"a {kind}" if kind.isidentifier() else kind)
 
 
 _WORDS = {
@@ -108,6 +116,7 @@ _WORDS = {
     "int": "an integer",
     "_Vector": "three numbers",
     "numpy.typing.ArrayLike": "an array",
+    "bytes": "bytes",
     "None": "None",
 }
 _NAMED = {"str": str, "bytes": bytes, "bool": bool, "dict": dict, "None": type(None)}

@@ -35,7 +35,14 @@ DOWN = (0, -1, 0)
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
         (lambda: core.Fleet((0, -1, 0)).step([], -1), "Fleet.step(): an argument has a wrong type or"),
-        (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be a bytes, not int."),
+        (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be bytes, not int."),
+        (lambda: SCENE.replace(membranes=[MEMBRANE]), "membranes[0] must be a PlacedMembrane, not Membrane."),
+        (lambda: SCENE.replace(membranes=None), "membranes must be a list of PlacedMembrane, not NoneType."),
+        (
+            lambda: pn.Proxy1d(LINE, SCENE.coupling, 1e-3, solver=1),
+            "solver must be 'exact' or 'paper', not int. It takes (law: ThinLaw | ThickLaw | ProfileLaw | TissueLaw, "
+            "coupling: Coupling, period: float, solver: 'exact' | 'paper' (optional))",
+        ),
         (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
         (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),
         (
