@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from punctura._core import DeviceError, ServoLoop
+from punctura._core import DeviceError, PuncturaError, ServoLoop
 from punctura.files.whole_file import write_whole
 from punctura.live import fit_direction, open_for, placement_from_pose, placement_text, present_pose
 from punctura.scene import load_scene
@@ -50,7 +50,11 @@ def command(
             f"Hold the stylus so that the tip is {IN_FRONT * 1e3:g} mm in front of '{first.name}'"
             + ("" if note else " and points straight into it")
         )
-        typer.prompt("Then press Enter", default="", show_default=False, prompt_suffix=" ")
+        try:
+            typer.prompt("Then press Enter", default="", show_default=False, prompt_suffix=" ")
+        except typer.Abort:
+            typer.echo()
+            raise PuncturaError(f"the input ended before Enter was pressed; {out} was not written") from None
         position, axis = present_pose(loop)
     except DeviceError as error:
         raise typer.BadParameter(str(error), param_hint="--device") from None

@@ -125,9 +125,9 @@ def command(
     The hand of the simulated device follows the mouse in the page; with --headless it makes strokes through the scene.
     """
     never_wait_for_stderr()
-    for wrong, name in ((record, "--record"), (as_json, "--json")):
+    for wrong, name, instead in ((record, "--record", "; the page has a button for it"), (as_json, "--json", "")):
         if wrong and not headless:
-            raise typer.BadParameter("needs --headless; the page has a button for it", param_hint=name)
+            raise typer.BadParameter(f"needs --headless{instead}", param_hint=name)
     if record and record.suffix.lower() != ".parquet":
         raise typer.BadParameter("must end in .parquet", param_hint="--record")
     of_the_page = {"--port": port, "--no-browser": no_browser, "--recordings": recordings, "--exercise": exercise}

@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 from punctura._core import Scene
+from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.whole_file import write_whole
 from punctura.fmu.description import model_description
 from punctura.fmu.variables import scene_file_text, variables
@@ -27,11 +28,12 @@ def export_fmu(scene: Scene | str | os.PathLike[str], out: str | os.PathLike[str
     """Writes an FMU for co-simulation that computes the force of a scene. Returns its path.
 
     scene: a Scene, a scene file or the name of a ready scene. out: FILE.fmu. version: of FMI, 2 or 3. The FMU runs on
-    this operating system and processor. Raises ConfigurationError with all problems of the scene, ValueError, OSError.
+    this operating system and processor. Raises ConfigurationError with the problem of the name or all of
+    the scene, ValueError, OSError.
     """
     path = Path(out)
     if path.suffix != ".fmu":
-        raise ValueError(f"{path}: the name of an FMU must end in .fmu")
+        raise ConfigurationError([Problem(f"out {path}", MISSING, "must end in .fmu")])
     if version not in (2, 3):
         raise ValueError(f"FMI version {version} is unknown: give 2 or 3")
     if not isinstance(scene, Scene):

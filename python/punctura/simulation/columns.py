@@ -49,13 +49,17 @@ def _difference(names: list[str]) -> str:
     missing = [name for name in wanted if name not in names]
     unknown = [name for name in names if name not in known]
     if twice:
-        parts.append(f"column {', '.join(twice)} appears twice")
+        parts.append(f"{_columns(twice)} appear{'s' * (len(twice) == 1)} twice")
     if missing:
-        parts.append(f"column {', '.join(missing)} is missing")
+        parts.append(f"{_columns(missing)} {'is' if len(missing) == 1 else 'are'} missing")
     for name in unknown:
         near = difflib.get_close_matches(name, missing, n=1)
         parts.append(f"column {name!r} is unknown" + (f" (did you mean {near[0]}?)" if near else ""))
     return ", ".join(parts) or f"the columns are in another order, {','.join(names)}"
+
+
+def _columns(names: list[str]) -> str:
+    return f"column{'s' * (len(names) != 1)} {', '.join(names)}"
 
 
 def _is_number(text: str) -> bool:

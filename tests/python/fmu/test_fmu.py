@@ -92,7 +92,7 @@ def test_the_verb_writes_an_fmu_and_says_what_is_wrong(tmp_path, punctura):
     done = punctura("export-fmu", SCENE, "-o", file, "--fmi", "2")
     assert done.status == 0 and file.is_file() and "FMI 2.0" in done.stdout
     done = punctura("export-fmu", SCENE, "-o", tmp_path / "x.zip")
-    assert done.status == 1 and "must end in .fmu" in done.stderr
+    assert done.status == 2 and "x.zip: must end in .fmu" in done.stderr
 
 
 def test_the_same_scene_gives_the_same_file(tmp_path):

@@ -139,6 +139,13 @@ def test_place_writes_what_run_takes(punctura, enter, tmp_path):
     assert placement.rotation == pytest.approx((1, 0, 0, 0))
 
 
+def test_place_without_an_answer_writes_nothing_and_says_so(punctura, monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "stdin", io.StringIO(""))
+    done = punctura("place", "--out", tmp_path / "here.toml", "--device", "simulated")
+    assert done.status == 1 and "ended before Enter was pressed" in done.stderr and "Abort" not in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -45,11 +45,12 @@ HEADERS = {
     "time_s;x_m;y_m;z_m": "line 1: the columns are separated by semicolons; use commas, and decimal points in numbers",
     "time_s\tx_m\ty_m\tz_m": "line 1: the columns are separated by tabs; use commas, and decimal points in numbers",
     "time_s,x_m,y_m": f"line 1: column z_m is missing; {WANTED}",
-    "time_s,x_m,y_m,z_m,axis_x": f"line 1: column axis_y, axis_z is missing; {WANTED}",
+    "time_s,x_m,y_m,z_m,axis_x": f"line 1: columns axis_y, axis_z are missing; {WANTED}",
     "time_s,x_m,y_m,z_m,note": f"line 1: column 'note' is unknown; {WANTED}",
     "time_s,x_mm,y_m,z_m": f"line 1: column x_m is missing, column 'x_mm' is unknown (did you mean x_m?); {WANTED}",
     "time_s,x_m,z_m,y_m": f"line 1: the columns are in another order, time_s,x_m,z_m,y_m; {WANTED}",
     "time_s,x_m,y_m,z_m,z_m": f"line 1: column z_m appears twice; {WANTED}",
+    "time_s,x_m,y_m,y_m,z_m,z_m": f"line 1: columns y_m, z_m appear twice; {WANTED}",
     "0,0,0.001,0": f"line 1: the first line holds numbers, not the names of the columns; {WANTED}",
 }
 
