@@ -32,7 +32,8 @@ from waiting import wait_until
 
 RATE = 1600.0
 MOST_MISSING_S = 0.5
-# Longest delay of the kill, s, for each kind: after the start, the start, the recorder's creation, the call of finish.
+# For each kind of kill, its longest delay, s, after: the start of the process (kinds 0 and 1), the creation of the
+# recorder, the call of finish.
 KILLED_WITHIN_S = (0.03, 0.2, 0.8, 0.1)
 MOST_WAIT_S = 60.0
 TICKS, FINISHING, STATE = 0, 8, 16  # places in the shared memory

@@ -227,7 +227,7 @@ step_web() {
   return $code
 }
 
-# The studio in a real browser, used like by a person.
+# The studio in a real browser, used as a person uses it.
 step_page() { python -m pytest -n 3 --durations=8 tests/page; }
 
 # The documentation: every code block runs, and the site builds without a warning.

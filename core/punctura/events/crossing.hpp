@@ -33,7 +33,7 @@ BasicCrossing<V> select(const M& mask, const BasicCrossing<V>& a, const BasicCro
           select(mask, a.settled, b.settled)};
 }
 
-/// After a pop, the tip must come back by this fraction of its length before the peak. Then it can pop again.
+/// After a pop, the tip must come back to this part of its length in front of the peak before it can pop again.
 inline constexpr double pop_again = 0.1;
 
 namespace detail {
@@ -68,8 +68,8 @@ Peak<Scalar> peak_of(const Pieces& law) noexcept {
   return peak;
 }
 
-/// Where the slanted face has passed the far face: X + U if the law says its tip length X and has its maximum before,
-/// otherwise its last break. pieces: of the law. U: m.
+/// The depth at which the slanted face has passed the far face. It is X + U if the law states its tip length X and has
+/// its maximum no deeper than that; otherwise it is the last break of the law. pieces: of the law. U: m.
 template <typename L, typename Pieces>
 double passed(const L& law, const Pieces& pieces, double U) noexcept {
   const auto last = static_cast<double>(pieces.breaks[last_break(pieces)]);

@@ -6,7 +6,7 @@
 
 namespace punctura::force_dimension {
 
-/// What most functions return. Not an error below 0 means success: to test for 0 takes a saturated motor for a fault.
+/// What most functions return. Below 0 is an error; all other values mean success, not 0 alone: see the two below.
 inline constexpr int time_guard = 1;       ///< reading: asked again too soon, this is the sample before
 inline constexpr int motor_saturated = 2;  ///< force: more than the motors have, scaled down in its direction
 
