@@ -67,8 +67,11 @@ print("\n".join(tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"
 PY
 }
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check --no-input --no-color "$@"; }
+# Of an interrupted start, or of a uv that has failed.
+remove_incomplete() { "$venv/bin/python" "$root/tools/incomplete_packages.py"; }
 pip_build_tools() {
   local requirements
+  remove_incomplete
   requirements=$(build_requirements && "$venv/bin/python" "$root/tools/build_backend/studio_page.py" --requires) &&
     pip install --progress-bar off $requirements "cmake>=3.26" "ninja>=1.11"
 }
@@ -78,17 +81,20 @@ pip_build_tools() {
 pip_project() { pip install --progress-bar off --no-build-isolation --no-compile "$@"; }
 
 # uv installs the dependencies in a tenth of pip's time, and leaves to pip what it could not install. It does not read
-# pip's settings: only pip runs if they name another index, a constraint or a proxy. The output has a log of its own,
-# so that an error of uv does not choose the advice after an error of pip.
+# pip's settings: only pip runs if they name another index, a constraint or a proxy. uv's own settings are for other
+# projects: they could install elsewhere. The output has a log of its own, so that an error of uv does not choose the
+# advice after an error of pip.
 uv_dependencies() {
-  local extra extras="" settings links
+  local extra extras="" settings links log=$root/build/log/uv.log
+  remove_incomplete
   settings=$(pip config list)
   if grep -qE '\.(index-url|extra-index-url|no-index|constraint|proxy)=' <<<"$settings"; then return 0; fi
   links=$(sed -nE "s/.*\.find-links='(.*)'/\1/p" <<<"$settings" | tail -n 1)
   for extra in ${1//,/ }; do extras="$extras --extra $extra"; done
-  { pip install --progress-bar off "uv==0.13.*" && "$venv/bin/uv" pip install --system-certs \
-    ${links:+--find-links "$links"} --python "$venv/bin/python" -r "$root/pyproject.toml" $extras; } \
-    >"$root/build/log/uv.log" 2>&1 || echo "uv has failed (build/log/uv.log). pip installs the dependencies."
+  pip install --progress-bar off "uv==0.13.*" >"$log" 2>&1 &&
+    "$venv/bin/uv" pip install --no-config --system-certs ${links:+--find-links "$links"} \
+      --python "$venv/bin/python" -r "$root/pyproject.toml" $extras >>"$log" 2>&1 ||
+    { echo "uv has failed (build/log/uv.log). pip installs the dependencies." && remove_incomplete; }
 }
 install_all() { uv_dependencies "$1" && pip_project "$root${1:+[$1]}"; }
 

@@ -1,0 +1,72 @@
+"""The set-up of ./run and ./test installs the dependencies with uv, here an artificial one, and else with pip."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the set-up is a shell script")
+
+INSTALL = """
+root=$1
+source "$root/tools/setup.sh"
+pip() { echo "pip $*"; }
+step Title install install_all test
+"""
+
+
+class SetUp:
+    """`install_all` in a separate tree, whose uv is a script."""
+
+    def __init__(self, root: Path, uv: str) -> None:
+        self.root = root
+        (root / "tools").symlink_to(ROOT / "tools")
+        self.commands = root / ".venv/bin"
+        self.commands.mkdir(parents=True)
+        self.command("python", f'[ -z "$2" ] && set -- "$1" "{root}/packages"; exec "{sys.executable}" "$@"')
+        self.command("uv", uv)
+        done = subprocess.run(["bash", "-c", INSTALL, "bash", str(root)], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+    def command(self, name: str, script: str) -> None:
+        file = self.commands / name
+        file.write_text(f"#!/bin/sh\n{script}\n")
+        file.chmod(0o755)
+
+    def log(self, name: str) -> str:
+        return (self.root / "build/log" / f"{name}.log").read_text()
+
+
+def incomplete_package(root: Path) -> Path:
+    record = root / "packages/kind-1.dist-info"
+    record.mkdir(parents=True)
+    (record / "METADATA").write_text("Name: kind\nVersion: 1\n")
+    return record
+
+
+def test_a_package_that_an_interrupted_set_up_left_incomplete_is_installed_again(tmp_path):
+    record = incomplete_package(tmp_path)
+    set_up = SetUp(tmp_path, f'[ ! -e "{record}" ] && echo "installs all"')
+    assert "installs all" in set_up.log("uv")
+
+
+def test_pip_installs_what_a_failed_uv_left_incomplete(tmp_path):
+    record = tmp_path / "packages/kind-1.dist-info"
+    set_up = SetUp(tmp_path, f'mkdir -p "{record}"; echo "error: No space left on device"; exit 2')
+    assert not record.exists()
+    assert "pip install --progress-bar off --no-build-isolation" in set_up.log("install")
+
+
+def test_what_uv_says_does_not_decide_about_the_advice_after_a_failure_of_pip(tmp_path):
+    set_up = SetUp(tmp_path, 'echo "error: Failed to fetch: http://mirror/simple/h11/"; exit 2')
+    assert "Failed to fetch" in set_up.log("uv")
+    assert "Failed to fetch" not in set_up.log("install")
+
+
+def test_settings_of_uv_for_other_projects_do_not_lead_the_dependencies_elsewhere(tmp_path):
+    set_up = SetUp(tmp_path, 'echo "$@"')
+    assert "pip install --no-config" in set_up.log("uv")
