@@ -36,14 +36,14 @@ def open_plug_in(backend: str, rate: float, device: str) -> Device:
     except DeviceError:
         raise
     except (Exception, SystemExit) as error:
-        raise DeviceError(f"{found.name} ({found.value}) cannot be opened: {type(error).__name__}: {error}") from error
+        raise DeviceError(_printable(f"{found.name} ({found.value}) cannot be opened: {_reason(error)}")) from error
     if not isinstance(opened, Device):
         raise DeviceError(f"{found.name} ({found.value}): open() returned {type(opened).__name__}, not a Device")
     return opened
 
 
 def _found() -> dict[str, EntryPoint]:
-    return {found.name: found for found in entry_points(group=GROUP)}
+    return {_printable(found.name): found for found in entry_points(group=GROUP)}
 
 
 def _printable(text: object) -> str:
@@ -53,20 +53,28 @@ def _printable(text: object) -> str:
     return shown if len(shown) <= LONGEST else shown[:LONGEST] + " ..."
 
 
+def _reason(error: BaseException) -> str:
+    """The type and text of an error, even of one that has no text: its __str__ may raise."""
+    try:
+        return f"{type(error).__name__}: {error}"
+    except Exception:
+        return type(error).__name__
+
+
 def _status(found: EntryPoint, taken: set[str]) -> BackendState:
     """A package that fails must not hide the other devices."""
-    entry = BackendState(backend=found.name, state="fault", detail="", devices=[])
+    entry = BackendState(backend=_printable(found.name), state="fault", detail="", devices=[])
     if found.name in taken:
         entry["detail"] = f"{found.value}: Punctura has a device of this name; choose another one"
         return entry
     try:
         said = found.load().status()
         return BackendState(
-            backend=found.name,
+            backend=_printable(found.name),
             state=_printable(said["state"]),
             detail=_printable(said.get("detail", "")),
             devices=[_printable(name) for name in said.get("devices", [])],
         )
     except (Exception, SystemExit) as error:
-        entry["detail"] = _printable(f"{found.value}: {type(error).__name__}: {error}")
+        entry["detail"] = _printable(f"{found.value}: {_reason(error)}")
         return entry

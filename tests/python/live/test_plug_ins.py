@@ -108,3 +108,33 @@ def test_a_name_of_punctura_s_own_is_not_taken_over(tmp_path):
     listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
     assert "has a device of this name" in listed[0]["detail"]
     assert punctura(tmp_path, "run", "--headless", "--device", "simulated", "--duration", "0.2").returncode == 0
+
+
+NO_TEXT = """
+class NoText(Exception):
+    def __str__(self):
+        raise RuntimeError("no text")
+
+def status():
+    raise NoText
+
+def open(rate, device):
+    raise NoText
+"""
+
+
+def test_an_error_without_a_text_hides_no_other_device(tmp_path):
+    package(tmp_path, "punctura_mine", NO_TEXT)
+    listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
+    assert listed[0]["detail"] == "punctura_mine: NoText"
+    assert "simulated" in {entry["backend"] for entry in listed}
+    done = punctura(tmp_path, "run", "k06-fig10", "--headless", "--device", "mine")
+    assert done.returncode == 2 and "Traceback" not in done.stderr
+    assert "mine (punctura_mine) cannot be opened: NoText" in done.stderr
+
+
+def test_unprintable_names_and_errors_of_a_package_do_not_reach_the_terminal(tmp_path):
+    package(tmp_path, "punctura_mine", "def open(rate, device): raise ValueError('a\\0b')", name="m\x07ine")
+    assert json.loads(punctura(tmp_path, "devices", "--json").stdout)[0]["backend"] == "m?ine"
+    done = punctura(tmp_path, "run", "k06-fig10", "--headless", "--device", "m?ine")
+    assert "cannot be opened: ValueError: a?b" in done.stderr
