@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the set-up is a
 INSTALL = """
 root=$1
 source "$root/tools/setup.sh"
-pip() { echo "pip $*"; }
+pip() { if [ "$1" = config ]; then echo "$SETTINGS"; else echo "pip $*"; fi; }
 step Title install install_all test
 """
 
@@ -22,14 +23,21 @@ step Title install install_all test
 class SetUp:
     """`install_all` in a separate tree, whose uv is a script."""
 
-    def __init__(self, root: Path, uv: str) -> None:
+    def __init__(self, root: Path, uv: str, settings: str = "") -> None:
+        """settings: of pip, as `pip config list` prints them."""
         self.root = root
         (root / "tools").symlink_to(ROOT / "tools")
         self.commands = root / ".venv/bin"
         self.commands.mkdir(parents=True)
         self.command("python", f'[ -z "$2" ] && set -- "$1" "{root}/packages"; exec "{sys.executable}" "$@"')
         self.command("uv", uv)
-        done = subprocess.run(["bash", "-c", INSTALL, "bash", str(root)], capture_output=True, text=True, timeout=60)
+        done = subprocess.run(
+            ["bash", "-c", INSTALL, "bash", str(root)],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            env={**os.environ, "SETTINGS": settings},
+        )
         assert done.returncode == 0, done.stdout + done.stderr
 
     def command(self, name: str, script: str) -> None:
@@ -70,3 +78,14 @@ def test_what_uv_says_does_not_decide_about_the_advice_after_a_failure_of_pip(tm
 def test_settings_of_uv_for_other_projects_do_not_lead_the_dependencies_elsewhere(tmp_path):
     set_up = SetUp(tmp_path, 'echo "$@"')
     assert "pip install --no-config" in set_up.log("uv")
+
+
+def test_settings_of_pip_that_uv_would_not_read_leave_all_to_pip(tmp_path):
+    set_up = SetUp(tmp_path, 'echo "$@"', "global.index-url='https://mirror.example/simple'")
+    assert "pip install --progress-bar off --no-build-isolation" in set_up.log("install")
+    assert not (tmp_path / "build/log/uv.log").exists()
+
+
+def test_a_folder_of_packages_in_pips_settings_is_given_to_uv(tmp_path):
+    set_up = SetUp(tmp_path, 'echo "$@"', ":env:.find-links='/opt/wheels'\nglobal.cert='/etc/ssl/cert.pem'")
+    assert "--find-links /opt/wheels --python" in set_up.log("uv")
