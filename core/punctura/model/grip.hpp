@@ -71,9 +71,9 @@ struct Chords {
 };
 
 namespace detail {
-/// n chords to the exponential grip: denser where it is more curved, so that all have the same error. They are moved,
-/// so that their mean error is 0 and the average over a wall has little error. The first one moves only at its end. So
-/// its mean error is 0 if it is sqrt(1/2) times as long as the distance of the others.
+/// n chords to the exponential grip: denser where it is more curved, so that all have the same error. They are shifted
+/// so that their mean error is 0 and the average over a wall has little error. The first chord is shifted only at its
+/// far end; its mean error is 0 if it is sqrt(1/2) times as long as the others.
 template <typename Scalar>
 Chords<Scalar> exponential_chords(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
                                   const Scalar& w, std::size_t n) noexcept {

@@ -106,7 +106,7 @@ inline bool check(const Membrane& membrane, const std::string& path, std::vector
   return check_fields(membrane_fields, membrane, path, problems);
 }
 
-/// The largest friction of four digits with which a needle enters: mu tan(theta) < 1, K06 (7).
+/// The largest friction, rounded down to four digits, with which a needle enters: mu tan(theta) < 1, K06 (7).
 inline double largest_friction(double tip_angle) {
   const double bound = 1 / std::tan(tip_angle), digit = std::pow(10, std::floor(std::log10(bound)) - 3);
   const double rounded = std::floor(bound / digit) * digit;

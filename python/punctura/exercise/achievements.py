@@ -8,7 +8,7 @@ from punctura import Scene
 from punctura.exercise.limit import Moment, by, first_of
 from punctura.exercise.schema import AnyGoal, FeelPlunger, Reach, Stay
 from punctura.exercise.space import TargetSpace, depth_of
-from punctura.exercise.ticks import Flags, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks
 
 EMPTY = 0.99  # share of a syringe's contents; if more has left it, its plunger does not give way any more
 
@@ -22,7 +22,7 @@ class Achievement:
         self.left = False  # it was met and is open again
         self.done = np.zeros(0, dtype=np.bool_)  # the ticks of the batch in which it is met
 
-    def add(self, ticks: Ticks, busy: Flags) -> None:
+    def add(self, ticks: JudgedTicks, busy: Flags) -> None:
         """Takes the next ticks. busy: the ticks in which a limit is still being measured."""
         raise NotImplementedError
 
@@ -30,7 +30,7 @@ class Achievement:
         """ "open" or "met". until: the state at that moment."""
         return "met" if by(self.met, until) else "open"
 
-    def _follow(self, ticks: Ticks, good: Flags, here: Flags, busy: Flags) -> None:
+    def _follow(self, ticks: JudgedTicks, good: Flags, here: Flags, busy: Flags) -> None:
         rows = np.arange(len(ticks))
         met = np.maximum.accumulate(np.where(good, rows, -1 if self.met else -3))
         gone = np.maximum.accumulate(np.where(~here & busy, rows, -2))
@@ -47,7 +47,7 @@ class ReachJudge(Achievement):
         super().__init__(goal.text or _reach_text(goal, space, behind))
         self._whole, self._depth, self._space = goal.whole_tip, depth_of(goal), space
 
-    def add(self, ticks: Ticks, busy: Flags) -> None:
+    def add(self, ticks: JudgedTicks, busy: Flags) -> None:
         here = self._space.holds(ticks, self._whole, self._depth)
         self._follow(ticks, here, here, busy)
 
@@ -59,7 +59,7 @@ class StayJudge(Achievement):
         self.staying = False  # in the last tick
         self.held = 0.0  # s, the present stay
 
-    def add(self, ticks: Ticks, busy: Flags) -> None:
+    def add(self, ticks: JudgedTicks, busy: Flags) -> None:
         here = ticks.in_space[:, int(self.whole_tip)]
         self.staying = bool(here[-1])
         self.held = min(self.seconds, float(ticks.stay[-1, int(self.whole_tip)]))
@@ -83,7 +83,7 @@ class FeelJudge(Achievement):
         """Whether the syringe is empty, so that the plunger cannot give way any more."""
         return bool(self.injected >= EMPTY * self._holds)
 
-    def add(self, ticks: Ticks, busy: Flags) -> None:
+    def add(self, ticks: JudgedTicks, busy: Flags) -> None:
         known = ticks.load[np.isfinite(ticks.load)]
         if len(known):
             self.load = float(known[-1])

@@ -25,7 +25,7 @@ from punctura.exercise.result import GoalState, Result, Status
 from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
 from punctura.exercise.stop import StopJudge
-from punctura.exercise.ticks import Flags, Geometry, Ticks
+from punctura.exercise.ticks import Flags, Geometry, JudgedTicks
 from punctura.exercise.yields import Yields, asked_push
 
 
@@ -109,7 +109,7 @@ class Attempt:
             self._yields.mark(self._stays.mark(ticks)), [event for event in events if event.tick >= ticks.tick[0]]
         )
 
-    def _judge(self, ticks: Ticks, events: list[Event]) -> None:
+    def _judge(self, ticks: JudgedTicks, events: list[Event]) -> None:
         for limit in self._limits:
             limit.add(ticks, events)
         self._decide(ticks)
@@ -124,7 +124,7 @@ class Attempt:
         self._measures.settle(later)
         self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.behind])
 
-    def _decide(self, ticks: Ticks) -> None:
+    def _decide(self, ticks: JudgedTicks) -> None:
         failures = [limit.missed for limit in self._limits if limit.missed is not None]
         for flags, why in ((ticks.fault != 0, "fault"), (ticks.new_scene, "scene")):
             when = first_of(ticks, flags)
@@ -140,7 +140,7 @@ class Attempt:
         if self._passed:
             self._invalid = ""
 
-    def _success(self, ticks: Ticks) -> Moment | None:
+    def _success(self, ticks: JudgedTicks) -> Moment | None:
         """The first tick at which everything is achieved and no limit is still being measured."""
         busy: Flags = np.zeros(len(ticks), dtype=np.bool_)
         for limit in self._limits:

@@ -8,7 +8,7 @@ import numpy as np
 
 from punctura.events import Event
 from punctura.exercise.stays import MOST_GAP_S
-from punctura.exercise.ticks import Flags, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks
 
 
 class Moment(NamedTuple):
@@ -16,11 +16,11 @@ class Moment(NamedTuple):
     time: float  # s
 
 
-def moment(ticks: Ticks, row: int) -> Moment:
+def moment(ticks: JudgedTicks, row: int) -> Moment:
     return Moment(int(ticks.tick[row]), float(ticks.time[row]))
 
 
-def first_of(ticks: Ticks, flags: Flags) -> Moment | None:
+def first_of(ticks: JudgedTicks, flags: Flags) -> Moment | None:
     return moment(ticks, int(flags.argmax())) if flags.any() else None
 
 
@@ -40,7 +40,7 @@ class Limit:
         self.waits_for = ""  # the end of an open measurement at the last tick: "pop" or "rest"
         self._seen_at: float | None = None
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         """Takes the next ticks of the attempt and their events."""
         raise NotImplementedError
 
@@ -56,11 +56,11 @@ class Limit:
             return "open"
         return "met" if self.measured(until) else "not measured"
 
-    def _miss(self, ticks: Ticks, flags: Flags) -> None:
+    def _miss(self, ticks: JudgedTicks, flags: Flags) -> None:
         if self.missed is None:
             self.missed = first_of(ticks, flags)
 
-    def _watch(self, ticks: Ticks, seen: Flags) -> None:
+    def _watch(self, ticks: JudgedTicks, seen: Flags) -> None:
         """Notes missing readings. seen: the ticks that have a reading."""
         if self.unseen is not None:
             return

@@ -24,7 +24,7 @@ from punctura.exercise.schema import (
 )
 from punctura.exercise.space import place_of
 from punctura.exercise.stop import StopJudge
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import JudgedTicks
 
 
 class NeverPassJudge(Limit):
@@ -33,7 +33,7 @@ class NeverPassJudge(Limit):
         self.membrane, self._whole = goal.membrane, goal.whole_tip
         self._index = place_of(scene, goal.membrane)
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.past[:, self._index]))
         behind = ticks.tip_behind if self._whole else ticks.point_behind
         self._miss(ticks, behind[:, self._index])
@@ -47,7 +47,7 @@ class TimeJudge(Limit):
         self.seconds = goal.seconds
         self._began: Moment | None = None
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         if self._began is None:
             touches = (Moment(e.tick, e.time) for e in events if e.what == "touch" and e.membrane == 0)
             self._began = next(touches, None)
@@ -63,7 +63,7 @@ class ForceJudge(Limit):
         super().__init__(goal.text or f"Push with no more than {goal.at_most_N:g} N")
         self.at_most = goal.at_most_N
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.force))
         self._miss(ticks, ticks.force > self.at_most)
 
@@ -85,7 +85,7 @@ class LineJudge(Limit):
         self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
         self._first: Moment | None = None
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         aside = np.abs((ticks.tip - self._point) @ self._across)
         self._watch(ticks, np.isfinite(aside))
         here = ticks.in_space[:, 0] & np.isfinite(aside)
@@ -108,7 +108,7 @@ class EntriesJudge(Limit):
         self.at_most = goal.at_most
         self._count = 0
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.depth[:, 0]))
         for event in events:
             if event.what == "touch" and event.membrane == 0:

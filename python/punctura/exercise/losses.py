@@ -13,7 +13,7 @@ from punctura.exercise.loss import needed_drop
 from punctura.exercise.result import Loss
 from punctura.exercise.schema import ExerciseFile, StopAfterPop
 from punctura.exercise.space import place_of
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import JudgedTicks
 
 
 def felt_membranes(file: ExerciseFile, scene: Scene) -> set[int]:
@@ -48,7 +48,7 @@ class Losses:
         self._grips = [_Grip() for _ in self._names]
         self.found: list[Loss] = []
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         pops = [event for event in events if event.what == "pop"]
         for i in range(len(self._names)):
             start = 0
@@ -63,7 +63,7 @@ class Losses:
             self._hold(i, ticks.part(slice(start, len(ticks))))
         self.found.sort(key=lambda loss: (loss.time, loss.membrane))
 
-    def _hold(self, i: int, ticks: Ticks) -> None:
+    def _hold(self, i: int, ticks: JudgedTicks) -> None:
         outside = np.flatnonzero(~ticks.inside[:, i])
         if len(outside):
             self._grips[i] = _Grip()
@@ -79,7 +79,7 @@ class Losses:
             ticks = ticks.part(slice(most, len(ticks)))
         grip.ceiling = min(grip.ceiling, float(np.fmin.reduce(ticks.ceiling)))
 
-    def _loss(self, pop: Event, now: Ticks) -> Loss:
+    def _loss(self, pop: Event, now: JudgedTicks) -> Loss:
         grip = self._grips[pop.membrane]
         before = max(0.0, min(grip.felt, grip.ceiling))
         return Loss(

@@ -15,7 +15,7 @@ from punctura.exercise.losses import Losses
 from punctura.exercise.path import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Geometry, Ticks
+from punctura.exercise.ticks import Geometry, JudgedTicks
 from punctura.exercise.yield_measures import YieldMeasures
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
@@ -66,7 +66,7 @@ class Measures:
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         if len(ticks) == 0:
             return
         self._count(ticks)
@@ -89,7 +89,7 @@ class Measures:
         self.longest_stay = max(self.longest_stay, float(ticks.stay[:, kind].max()))
         self.dwell = float(ticks.dwell[-1, kind])
 
-    def settle(self, ticks: Ticks) -> None:
+    def settle(self, ticks: JudgedTicks) -> None:
         """Measures overshoots and injected volumes to the end of their windows, also after the decision."""
         self._yields.settle(ticks)
         for k, one in enumerate(self._overshoots):
@@ -106,7 +106,7 @@ class Measures:
         ends = [one.time + one.seconds for one in self._overshoots]
         return all(self._seen_to > end for end in (*ends, *self._yields.ends))
 
-    def _count(self, ticks: Ticks) -> None:
+    def _count(self, ticks: JudgedTicks) -> None:
         first, last = int(ticks.tick[0]), int(ticks.tick[-1])
         self._lost += last + 1 - (first if self._next_tick is None else self._next_tick) - len(ticks)
         self._next_tick = last + 1
@@ -116,7 +116,7 @@ class Measures:
         seconds = self._windows.get(pop.membrane, OVERSHOOT_S)
         return Overshoot(membrane=pop.membrane, name=pop.name, time=pop.time, distance=0.0, seconds=seconds)
 
-    def _follow(self, ticks: Ticks, touches: list[Event], arrived: int | None) -> None:
+    def _follow(self, ticks: JudgedTicks, touches: list[Event], arrived: int | None) -> None:
         """Follows the path from the last entry to the first arrival in the space."""
         if self._way is not None:
             return
@@ -133,7 +133,7 @@ class Measures:
             if self._path is not None:
                 self._way = self._path.at(ticks.tip[arrived])
 
-    def _enter(self, ticks: Ticks, row: int) -> None:
+    def _enter(self, ticks: JudgedTicks, row: int) -> None:
         axis = ticks.held[row]
         self._path = Path(ticks.tip[row], axis)
         self._entry_angle = math.asin(min(1.0, float(axis @ self._normal)))

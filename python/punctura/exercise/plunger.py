@@ -11,7 +11,7 @@ from punctura.errors import ConfigurationError, Problem
 from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
 from punctura.exercise.schema import ExerciseFile, FeelPlunger, StopPlunger
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import JudgedTicks
 
 
 def judges_plunger(file: ExerciseFile) -> bool:
@@ -39,7 +39,7 @@ class PlungerJudge(Limit):
         self.gave_way = False
         self._until, self._from = -np.inf, np.nan  # end of the last window, s; volume at its start, m^3
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.injected))
         cuts = np.flatnonzero(ticks.gave_way).tolist()
         window = np.zeros(len(ticks), dtype=np.bool_)

@@ -9,7 +9,7 @@ import numpy as np
 from punctura import Scene
 from punctura.errors import ConfigurationError, Problem
 from punctura.exercise.schema import ExerciseFile, Reach, Stay
-from punctura.exercise.ticks import ROUNDING, Flags, Ticks
+from punctura.exercise.ticks import ROUNDING, Flags, JudgedTicks
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class TargetSpace:
     arrive_depth: float | None  # m, if deeper than the start of the space
     stay_whole: bool
 
-    def holds(self, ticks: Ticks, whole_tip: bool, depth: float | None = None) -> Flags:
+    def holds(self, ticks: JudgedTicks, whole_tip: bool, depth: float | None = None) -> Flags:
         """The ticks in which the point, or the whole tip, is in the space and at least at `depth`, m.
 
         A needle that the front membrane does not hold is not in the space.
@@ -41,7 +41,7 @@ class TargetSpace:
         deep = past > 0 if least == 0 and not whole_tip else past >= least - ROUNDING
         return deep & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
 
-    def too_deep(self, ticks: Ticks) -> Flags:
+    def too_deep(self, ticks: JudgedTicks) -> Flags:
         """The ticks in which the point is behind the space's end, or in an unknown place."""
         flags = np.zeros(len(ticks), dtype=np.bool_)
         if self.in_front_of is not None:
@@ -50,7 +50,7 @@ class TargetSpace:
             flags |= ~(ticks.past[:, self.behind] <= self.ends + ROUNDING)
         return flags
 
-    def arrived(self, ticks: Ticks) -> Flags:
+    def arrived(self, ticks: JudgedTicks) -> Flags:
         """The ticks in which the needle meets the `reach` goal, or without one the place of the `stay` goal."""
         return self.holds(ticks, self.arrive_whole, self.arrive_depth)
 

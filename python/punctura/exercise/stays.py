@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, Numbers, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
 
 MOST_GAP_S = 0.02  # allowed time without a reading: too short for a relevant motion of the hand
 
@@ -19,7 +19,7 @@ class Stays:
         self._space = space
         self._stays = (_Stay(), _Stay())
 
-    def mark(self, ticks: Ticks) -> Ticks:
+    def mark(self, ticks: JudgedTicks) -> JudgedTicks:
         """Returns the ticks with `in_space`, `stay` and `dwell` filled in."""
         inside = np.stack([self._space.holds(ticks, whole) for whole in (False, True)], axis=1)
         times = [one.add(ticks.time, inside[:, k]) for k, one in enumerate(self._stays)]

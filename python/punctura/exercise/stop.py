@@ -11,7 +11,7 @@ from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
 from punctura.exercise.schema import StopAfterPop
 from punctura.exercise.space import place_of
-from punctura.exercise.ticks import Flags, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks
 
 
 class StopJudge(Limit):
@@ -35,7 +35,7 @@ class StopJudge(Limit):
         """Whether the membrane has given way at all."""
         return bool(np.isfinite(self._until))
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         i = self.index
         self._watch(ticks, np.isfinite(ticks.depth[:, i]))
         pops = [event for event in events if event.what == "pop" and event.membrane == i]
@@ -53,7 +53,7 @@ class StopJudge(Limit):
         self.busy = window | held
         self.waits_for = "rest" if window[-1] else "pop" if held[-1] else ""
 
-    def _popped_since_entry(self, ticks: Ticks, pops: list[int]) -> Flags:
+    def _popped_since_entry(self, ticks: JudgedTicks, pops: list[int]) -> Flags:
         rows = np.arange(len(ticks))
         out = ~ticks.inside[:, self.index] & np.isfinite(ticks.depth[:, self.index])
         popped = np.zeros(len(ticks), dtype=np.bool_)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from punctura.exercise.ticks import Flags, Numbers, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
 
 ROUNDING_N = 0.01  # a device gives a force with an error of about this
 DELAY_S = 5e-3  # a second device gives the force of an earlier tick; illustrative, for 400 Hz and more
@@ -21,7 +21,7 @@ class ThumbSoFar:
         self._wanted = np.full(max(1, round(DELAY_S * rate)), np.inf)  # N, of the last ticks
         self._farthest, self._cut_to = np.nan, np.inf
 
-    def mark(self, ticks: Ticks, entering: Flags) -> Ticks:
+    def mark(self, ticks: JudgedTicks, entering: Flags) -> JudgedTicks:
         """Returns the ticks with `farthest` and `cut_to` filled in. entering: the point comes out behind."""
         starts = np.flatnonzero(entering).tolist()
         farthest = _since(starts, ticks.thumb, self._farthest, np.fmax)
@@ -29,7 +29,7 @@ class ThumbSoFar:
         self._farthest, self._cut_to = float(farthest[-1]), float(cut_to[-1])
         return replace(ticks, farthest=farthest, cut_to=cut_to)
 
-    def _cut(self, ticks: Ticks) -> Flags:
+    def _cut(self, ticks: JudgedTicks) -> Flags:
         """Whether the device gives less than it was asked for in any of the last ticks: a limit cuts the force."""
         wanted = np.concatenate([self._wanted, ticks.force_scale * ticks.push])
         self._wanted = wanted[len(wanted) - len(self._wanted) :]

@@ -20,7 +20,7 @@ _OFF = [state.value for state in (ServoState.disarmed, ServoState.waiting, Servo
 
 
 @dataclass
-class Ticks:
+class JudgedTicks:
     """n ticks, m membranes. Depths are the model's: a wall that is only pushed ahead does not count as pierced."""
 
     tick: NDArray[np.int64]
@@ -73,11 +73,11 @@ class Ticks:
         """(n, m), whether the whole bevel is behind the membrane."""
         return self.tip_past >= -ROUNDING
 
-    def part(self, rows: slice) -> Ticks:
-        return Ticks(*(getattr(self, name)[rows] for name in _NAMES))
+    def part(self, rows: slice) -> JudgedTicks:
+        return JudgedTicks(*(getattr(self, name)[rows] for name in _NAMES))
 
 
-_NAMES = [field.name for field in fields(Ticks)]  # fields() is slow
+_NAMES = [field.name for field in fields(JudgedTicks)]  # computed once: fields() is slow
 
 
 class Geometry:
@@ -90,7 +90,7 @@ class Geometry:
         self.tip_length = tip_length(scene.needle)
         self._rate = scene.servo.rate
 
-    def ticks(self, columns: Columns, first: int = 0) -> Ticks:
+    def ticks(self, columns: Columns, first: int = 0) -> JudgedTicks:
         """Converts a batch of snapshots. first: number of its first tick, used if the batch has no `tick`."""
         m = len(self.thickness)
         depth = _wide(columns["depth"], m, np.nan)
@@ -106,7 +106,7 @@ class Geometry:
         held = self._held(columns, axis, inside)
         zeros = np.zeros(n, dtype=np.int64)
         time = np.asarray(columns["time"] if "time" in columns else tick / self._rate, dtype=np.float64)
-        return Ticks(
+        return JudgedTicks(
             tick=tick,
             time=time,
             tip=columns["tip"],

@@ -7,7 +7,7 @@ import numpy as np
 
 from punctura.exercise.loss import needed_drop
 from punctura.exercise.result import PlungerLoss, Yield
-from punctura.exercise.ticks import Flags, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks
 
 REACTION_S = 0.3  # a thumb reacts within it; illustrative
 
@@ -25,7 +25,7 @@ class YieldMeasures:
         self._seen_to = -np.inf
         self.found: list[Yield] = []
 
-    def begin(self, ticks: Ticks) -> None:
+    def begin(self, ticks: JudgedTicks) -> None:
         for row in np.flatnonzero(ticks.gave_way).tolist():
             self._volumes.append(float(ticks.injected[row]))
             self._farthest.append(float(ticks.farthest[row]))
@@ -34,7 +34,7 @@ class YieldMeasures:
             loss = self._loss(ticks, row)
             self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
 
-    def _loss(self, ticks: Ticks, row: int) -> PlungerLoss | None:
+    def _loss(self, ticks: JudgedTicks, row: int) -> PlungerLoss | None:
         before, model = float(ticks.load_felt[row]), float(ticks.load[row])
         if not np.isfinite(before):
             return None
@@ -46,7 +46,7 @@ class YieldMeasures:
     def _needed(self, before: float) -> float | None:
         return needed_drop(before) if self._must else None
 
-    def settle(self, ticks: Ticks) -> None:
+    def settle(self, ticks: JudgedTicks) -> None:
         for k, one in enumerate(self.found):
             rows = (ticks.time >= one.time) & np.isfinite(ticks.injected)
             soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
@@ -56,7 +56,7 @@ class YieldMeasures:
         if len(ticks):
             self._seen_to = float(ticks.time[-1])
 
-    def _injected(self, k: int, one: Yield, ticks: Ticks, rows: Flags) -> Yield:
+    def _injected(self, k: int, one: Yield, ticks: JudgedTicks, rows: Flags) -> Yield:
         if not rows.any():
             return one
         injected = float(ticks.injected[rows].max()) - self._volumes[k]
@@ -65,7 +65,7 @@ class YieldMeasures:
         update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
         return one.model_copy(update=update)
 
-    def _followed(self, k: int, loss: PlungerLoss, ticks: Ticks, soon: Flags) -> PlungerLoss:
+    def _followed(self, k: int, loss: PlungerLoss, ticks: JudgedTicks, soon: Flags) -> PlungerLoss:
         """The loss with the least forces so far, for a thumb that had not been drawn back.
 
         A thumb that is drawn back feels less force, whether or not the plunger gives way: so each force counts as at

@@ -9,7 +9,7 @@ import numpy as np
 from punctura.exercise.schema import ExerciseFile, FeelPlunger
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.thumb_so_far import ThumbSoFar
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import JudgedTicks
 
 # Both are illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
 FLOW = 0.1e-6  # m^3/s, from which the plunger gives way
@@ -38,7 +38,7 @@ class Yields:
         self._load_felt = self._push_felt = np.nan
         self._thumb = ThumbSoFar(rate) if second_device else None
 
-    def mark(self, ticks: Ticks) -> Ticks:
+    def mark(self, ticks: JudgedTicks) -> JudgedTicks:
         """Returns the ticks with `load`, `load_felt`, `gave_way`, `farthest` and `cut_to` filled in."""
         rows = np.arange(len(ticks))
         behind = ticks.inside[:, self._behind] & ticks.point_behind[:, self._behind]

@@ -17,7 +17,7 @@ from punctura.exercise.measures import Measures
 from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.schema import ExerciseFile
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Ticks
+from punctura.exercise.ticks import JudgedTicks
 
 Speaker = Callable[[Seen], Iterator[Remark]]
 
@@ -30,7 +30,7 @@ class Coach:
         self._first = scene.membranes[0].name
         self._trace = Trace(space, scene.servo.rate)
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         """Takes ticks with their stays marked, and their events."""
         self._trace.add(ticks, events)
 

@@ -9,7 +9,7 @@ import numpy as np
 from punctura.events import Event
 from punctura.exercise.coach.thresholds import BEFORE_S
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, Numbers, Ticks
+from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
 
 SAMPLES_HZ = 100.0  # enough for a tremor of 12 Hz
 _TICK_S = 1e-9  # rounding of times
@@ -57,7 +57,7 @@ class Trace:
         self.pressed_s = 0.0  # time of the point behind the end of the space
         self.pressed_m = 0.0  # how far it was behind it
 
-    def add(self, ticks: Ticks, events: list[Event]) -> None:
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         if len(ticks) == 0:
             return
         new = _Recent(ticks.time, ticks.tip, ticks.held, ticks.force)
@@ -80,7 +80,7 @@ class Trace:
         speed = float((tip[-1] - tip[0]) @ held[-1] / (time[-1] - time[0]))
         return Push(until, membrane, strongest if np.isfinite(strongest) else 0.0, speed)
 
-    def _depths(self, ticks: Ticks) -> None:
+    def _depths(self, ticks: JudgedTicks) -> None:
         space = self._space
         held = ticks.inside[:, space.behind]
         for name, depths in (("nearest", ticks.past), ("tip_nearest", ticks.tip_past)):
