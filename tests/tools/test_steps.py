@@ -2,6 +2,7 @@
 
 import os
 import re
+import select
 import shlex
 import signal
 import subprocess
@@ -16,6 +17,14 @@ from waiting import wait_until
 
 TOOLS = Path(__file__).parents[2] / "tools"
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="./test is a program for bash")
+
+
+ENDS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP] if os.name == "posix" else []
+
+
+def _heeds_signals():
+    for one in ENDS:
+        signal.signal(one, signal.SIG_DFL)  # bash cannot catch what nohup or a background job ignores
 
 
 def start(folder, steps, *asked, pass_fds=()):
@@ -36,7 +45,7 @@ run_steps
         text=True,
         start_new_session=True,
         pass_fds=pass_fds,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        preexec_fn=_heeds_signals,
     )
 
 
@@ -57,7 +66,7 @@ def test_a_step_that_was_killed_has_failed(tmp_path):
     assert run.returncode == 1 and "FAILED" in said and "0 passed, 1 failed" in said
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("how", ENDS)
 def test_a_signal_ends_the_steps_in_the_background_although_one_of_them_has_finished(tmp_path, how):
     steps = "step_tree() { true; }; step_types() { touch begun; sleep 600; }; step_web() { sleep 600; }"
     alive, held = os.pipe()  # each process of the steps holds it
@@ -66,7 +75,11 @@ def test_a_signal_ends_the_steps_in_the_background_although_one_of_them_has_fini
         wait_until((tmp_path / "begun").exists, 60)
         assert run.stdout is not None and run.stdout.readline().startswith("  tree         passed")
         os.kill(run.pid, how)
-        assert run.stdout.read().endswith("Stopped.\n")
-        assert run.wait(60) == 130
-    assert os.read(alive, 1) == b""  # all of them have ended; otherwise this waits for ten minutes
+        try:
+            assert run.communicate(timeout=60)[0].endswith("Stopped.\n")
+        finally:
+            run.kill()
+        assert run.returncode == 130
+    ended, _, _ = select.select([alive], [], [], 60)
+    assert ended and os.read(alive, 1) == b""  # the end of the pipe: all of them have ended
     os.close(alive)
