@@ -52,3 +52,10 @@ def test_the_record_of_a_package_with_half_a_file_is_removed(tmp_path):
     (tmp_path / "kind/__init__.py").write_text("who")
     remove_incomplete(tmp_path)
     assert not record.exists()
+
+
+def test_a_record_that_ends_in_the_middle_of_a_line_is_removed(tmp_path):
+    record = install(tmp_path)
+    (record / "RECORD").write_text(RECORD + "kind/other.py,sha2")
+    remove_incomplete(tmp_path)
+    assert not record.exists()
