@@ -10,25 +10,26 @@ function(punctura_precompile target)
     <map> <memory> <mutex> <optional> <span> <string> <system_error> <thread> <utility> <vector> ${ARGN})
 endfunction()
 
-# punctura_together(TARGET SOURCE...) compiles the given sources of a target in groups. A group has up to six files of
-# one folder, which are compiled as one source file. So the templates that they share are compiled once per group.
+# punctura_together(TARGET GROUP SOURCE...) compiles the given sources of a target as one source file. So the templates
+# that they share are compiled once.
 #
-# Therefore a name exists only once among the sources of a folder, also in an unnamed namespace. PUNCTURA_TOGETHER=OFF
-# compiles each source alone, as clang-tidy does.
-option(PUNCTURA_TOGETHER "Compile the tests of a folder together" ON)
-function(punctura_together target)
-  if(NOT PUNCTURA_TOGETHER)
-    return()
+# Therefore a name exists only once in a group, also in an unnamed namespace. PUNCTURA_TOGETHER=OFF compiles each source
+# alone, as clang-tidy does; then a change of one test is compiled sooner.
+option(PUNCTURA_TOGETHER "Compile sources together in groups" ON)
+function(punctura_together target group)
+  if(PUNCTURA_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
   endif()
-  set(most 6)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# punctura_tests_together(TARGET SOURCE...) does so with up to twelve tests a group, in the given order.
+function(punctura_tests_together target)
+  set(count 0)
   foreach(source IN LISTS ARGN)
-    get_filename_component(folder ${source} DIRECTORY)
-    get_filename_component(name ${folder} NAME)
-    list(APPEND ${name}_sources ${source})
-    list(LENGTH ${name}_sources count)
-    math(EXPR group "(${count} - 1) / ${most}")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${group})
+    math(EXPR group "${count} / 12")
+    math(EXPR count "${count} + 1")
+    punctura_together(${target} ${group} ${source})
   endforeach()
 endfunction()
 

@@ -228,7 +228,7 @@ step_web() {
 }
 
 # The studio in a real browser, used as a person uses it.
-step_page() { python -m pytest -n 3 --durations=8 tests/page; }
+step_page() { python -m pytest -n 2 --durations=8 tests/page; }
 
 # The documentation: every code block runs, and the site builds without a warning.
 step_docs() { side_by_side docs_snippets docs_site; }

@@ -26,6 +26,8 @@ ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 class StudioProcess:
     """A studio with the simulated device. `url` includes the token. Recordings and results go to `folder`."""
 
+    program: Sequence[str] = (sys.executable, "-m", "punctura.cli")
+
     def __init__(
         self,
         folder: Path,
@@ -43,7 +45,7 @@ class StudioProcess:
         standard error; `said` is then empty. more: options of `punctura run`.
         """
         self.recordings = folder / "recordings"
-        command = [sys.executable, "-m", "punctura.cli", "run", *([scene] if scene else [])]
+        command = [*self.program, "run", *([scene] if scene else [])]
         command += ["--no-browser", "--device", "simulated"]
         command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
         command += more

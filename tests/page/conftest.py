@@ -18,6 +18,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from studio_process import StudioProcess
 
 expect.set_options(timeout=PATIENCE)
+StudioProcess.program = (sys.executable, str(Path(__file__).parent / "seldom.py"))
 os.environ["PUNCTURA_LAB_NICE"] = "0"  # other tests run at the same time; a computation must not wait for them
 
 

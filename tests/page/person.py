@@ -18,7 +18,7 @@ from punctura.exercise import load_exercise
 
 # ms: of every action and every expectation. A test that passes does not wait so long, however busy the computer is.
 PATIENCE = 120_000
-# A picture every 80 ms and not every 17: the processor draws them, and has the rest of its time for the tests.
+# A picture every 160 ms and not every 17: the processor draws them, and has the rest of its time for the tests.
 FEWER_PICTURES = """const next = requestAnimationFrame.bind(window), drop = cancelAnimationFrame.bind(window);
 const ends = new Map();
 let asked = 0;
@@ -30,7 +30,7 @@ window.requestAnimationFrame = (draw) => {
       draw(now);
     });
     ends.set(id, () => drop(frame));
-  }, 80);
+  }, 160);
   ends.set(id, () => clearTimeout(wait));
   return id;
 };
@@ -147,7 +147,7 @@ def ticks_come(page: Page, seconds: float = 0.001) -> None:
     page.wait_for_function(passed, arg=[page.evaluate(shown), seconds])
 
 
-def drag_in(page: Page, pops: int, step: int = 6) -> None:
+def drag_in(page: Page, pops: int, step: int = 12) -> None:
     """Drags the needle in, until so many pops have been told."""
     box = view(page).bounding_box()
     assert box

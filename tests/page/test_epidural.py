@@ -43,8 +43,9 @@ def test_the_slice_opens_shows_the_tissue_follows_the_probe_and_is_remembered(sh
     expect(picture).to_be_visible()
     expect(shown.locator(".slice")).to_contain_text("Drawing, not a simulation of an ultrasound instrument")
     expect(shown.locator(".slice-words")).to_contain_text("The needle is not in this slice")
+    bright_and_dark = f"() => {{ const all = ({BRIGHTNESS})(); return Math.max(...all) - Math.min(...all) > 80; }}"
+    shown.wait_for_function(bright_and_dark)
     before = shown.evaluate(BRIGHTNESS)
-    assert max(before) - min(before) > 80, "bright and dark tissue"
 
     picture.focus()
     for _ in range(6):

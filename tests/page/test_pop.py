@@ -29,7 +29,7 @@ def laws_drop(scene):
 def test_a_needle_that_is_dragged_in_pops_and_the_plots_show_the_drop_of_the_law(page, tmp_path):
     ready(page)
     page.evaluate(COUNT_RINGS)
-    drag_in(page, pops=1)
+    drag_in(page, pops=1, step=6)
     told = newton(events(page, "pop").first.inner_text())
     expected = laws_drop(pn.load_scene("k06-fig10"))
     assert told == pytest.approx(expected, rel=0.02)
