@@ -3,7 +3,7 @@
 note() { printf '  %s\n' "$*"; }
 fail() { printf '\n%s\n' "$*" >&2; exit 1; }
 exec 8>&2  # the terminal, even while a step writes to a log
-trap 'printf "\nStopped. Incomplete steps will be repeated: start again at any time.\n" >&8; exit 130' INT TERM
+trap 'printf "\nStopped. Incomplete steps will be repeated: start again at any time.\n" >&8; exit 130' INT TERM HUP
 
 # step TITLE LOG COMMAND...: runs the command with its output in build/log/LOG.log, and prints the title and the time
 # in seconds. On a failure it prints the end of the log and the remedy, and exits.

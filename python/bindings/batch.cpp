@@ -41,8 +41,8 @@ struct Given {
     }
     const std::size_t n = nb::len(given);
     if (n != trials.value_or(n))
-      throw nb::value_error((std::string(name) + " has " + std::to_string(n) + " elements, and there are " +
-                             std::to_string(*trials) + " trials: give one for each trial, or a single one for all")
+      throw nb::value_error((std::string(name) + " has length " + std::to_string(n) + ", and the number of trials is " +
+                             std::to_string(*trials) + ": give one for each trial, or a single one for all")
                                 .c_str());
     trials = n;
     all.reserve(n);

@@ -50,7 +50,7 @@ class AnyExperiment : public OneThread {
     must_rest();
     auto* with_target = std::get_if<Experiment<Target>>(&experiment_);
     if (!with_target) throw nb::type_error("move_to needs an experiment whose motion is a Target");
-    with_target->motion().move_to(to_vector(position));
+    with_target->motion().move_to(place(position));
   }
 
   std::uint64_t ticks() const {

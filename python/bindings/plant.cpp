@@ -6,6 +6,7 @@
 #include "punctura/plant/stroke_ends.hpp"
 #include "punctura/scene/check.hpp"
 #include "state.hpp"
+#include "ticks.hpp"
 #include "value.hpp"
 
 namespace punctura::bindings {
@@ -89,10 +90,11 @@ void bind_plant(nb::module_& m) {
              double variation) {
             std::vector<Problem> problems;
             const Strokes made{to_vector(start), to_vector(end), count, duration, rest, variation};
-            if (!to_vector(start).allFinite())
-              problems.push_back({"strokes.start", start[0], "must be three finite numbers"});
-            if (!to_vector(end).allFinite())
-              problems.push_back({"strokes.end", end[0], "must be three finite numbers"});
+            for (std::size_t i = 0; i < 3; ++i) {
+              const std::string place = "[" + std::to_string(i) + "]";
+              if (!std::isfinite(start[i])) problems.push_back({"strokes.start" + place, start[i], "must be finite"});
+              if (!std::isfinite(end[i])) problems.push_back({"strokes.end" + place, end[i], "must be finite"});
+            }
             check_fields(strokes_fields, made, "strokes", problems);
             raise_if(problems);
             new (self) Strokes(made);
@@ -175,8 +177,8 @@ void bind_plant(nb::module_& m) {
   def_repr(target, "<Target at {0.position} m>");
   target
       .def(
-          "__init__", [](Target* self, const Triple& position) { new (self) Target(to_vector(position)); },
-          nb::arg("position"), "position: m")
+          "__init__", [](Target* self, const Triple& position) { new (self) Target(place(position)); },
+          nb::arg("position"), "position: m. Raises ValueError.")
       .def(
           "__reduce__",
           [](nb::handle self) {
@@ -198,8 +200,8 @@ void bind_plant(nb::module_& m) {
       .def_prop_ro(
           "position", [](const Target& t) { return to_array(t.position()); }, "Where it was moved last, m")
       .def(
-          "move_to", [](Target& t, const Triple& position) { t.move_to(to_vector(position)); }, nb::arg("position"),
-          "position: m");
+          "move_to", [](Target& t, const Triple& position) { t.move_to(place(position)); }, nb::arg("position"),
+          "position: m. Raises ValueError.");
 }
 
 }  // namespace punctura::bindings

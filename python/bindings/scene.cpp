@@ -102,10 +102,13 @@ std::vector<SceneField> fields_of(const Scene& scene) {
   return all;
 }
 
+bool is_number(nb::handle given) {
+  return !PyBool_Check(given.ptr()) && !nb::isinstance<nb::str>(given) && PyNumber_Check(given.ptr());
+}
+
 /// Throws TypeError, which names the path, or the exception of __float__.
 double number_at(const std::string& path, nb::handle given) {
-  if (PyBool_Check(given.ptr()) || nb::isinstance<nb::str>(given) || !PyNumber_Check(given.ptr()))
-    throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
+  if (!is_number(given)) throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
   const double number = PyFloat_AsDouble(given.ptr());
   if (PyErr_Occurred()) throw nb::python_error();
   return number;
@@ -120,16 +123,17 @@ Scene with_values(Scene scene, const nb::dict& values) {
       throw nb::type_error("with_values(): paths must be str: {\"membrane[0].friction\": 0.3}");
     const auto path =
         nb::cast<std::string>(item[0].attr("encode")("utf-8", "backslashreplace").attr("decode")("utf-8"));
-    const double number = number_at(path, item[1]);
     if (const auto place = places.find(path); place != places.end()) {
-      *place->second = number;
-      warn_unusual(path, number);
+      *place->second = number_at(path, item[1]);
+      warn_unusual(path, *place->second);
       continue;
     }
     nb::list paths;
     for (const auto& known : places) paths.append(known.first);
-    problems.push_back(
-        {path, number, "is not a number of this scene (scene.fields() lists them)" + nearest(path, paths)});
+    const std::string says = "is not a number of this scene (scene.fields() lists them)" + nearest(path, paths);
+    if (!is_number(item[1]))
+      throw nb::type_error(("with_values(): " + path + " " + says + "; replace() changes words").c_str());
+    problems.push_back({path, number_at(path, item[1]), says});
   }
   for (const Problem& problem : check(scene)) problems.push_back(problem);
   raise_if(problems);

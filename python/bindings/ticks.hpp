@@ -83,6 +83,13 @@ inline void check_places(const double* values, std::size_t n, const char* name, 
       " m: positions must be within 1000 km");
 }
 
+/// A position as a vector. Throws ValueError if a number is not finite or beyond 1000 km.
+inline Vector3d place(const Triple& position) {
+  if (!std::all_of(position.begin(), position.end(), [](double x) { return is_place(x); }))
+    throw nb::value_error("position must be three finite numbers, m, within 1000 km");
+  return to_vector(position);
+}
+
 /// Throws ValueError for a direction of length 0.
 inline void check_direction(const Vector3d& axis, const std::string& name) {
   if (axis == Vector3d())

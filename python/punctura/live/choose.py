@@ -8,6 +8,7 @@ from punctura import Scene
 from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
 from punctura.live.plug_ins import open_plug_in, plug_in_states
+from punctura.results import BackendState
 
 ANY_PROCESSOR = -1
 
@@ -22,7 +23,10 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
     if backend == "replay":
         return _replay(device, processor)
     own = {entry["backend"]: entry for entry in enumerate_devices()}
-    states = {entry["backend"]: entry for entry in plug_in_states(set(own))} | own
+    states: dict[str, BackendState] = {}
+    for entry in plug_in_states(set(own)):
+        states.setdefault(entry["backend"], entry)  # a second one of this name does not run
+    states |= own
     if not name:
         there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
         backend = there[0] if there else "simulated"

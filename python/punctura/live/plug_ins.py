@@ -25,12 +25,13 @@ def enumerate_devices() -> list[BackendState]:
 
 def plug_in_states(taken: set[str]) -> list[BackendState]:
     """The devices of other packages. taken: the names of Punctura's own devices, which no package can replace."""
-    return [_status(found, taken) for found in _found().values()]
+    named: dict[str, EntryPoint] = {}
+    return [_status(found, taken, named.setdefault(_printable(found.name), found)) for found in _all()]
 
 
 def open_plug_in(backend: str, rate: float, device: str) -> Device:
     """backend: a name that plug_in_states() lists. Raises DeviceError, whatever the package has raised."""
-    found = _found()[backend]
+    found = next(found for found in _all() if _printable(found.name) == backend)
     try:
         opened = found.load().open(rate, device)
     except DeviceError:
@@ -42,8 +43,9 @@ def open_plug_in(backend: str, rate: float, device: str) -> Device:
     return opened
 
 
-def _found() -> dict[str, EntryPoint]:
-    return {_printable(found.name): found for found in entry_points(group=GROUP)}
+def _all() -> list[EntryPoint]:
+    """In a fixed order, whatever the order of the folders on the disk."""
+    return sorted(set(entry_points(group=GROUP)), key=lambda found: (found.name, found.value))
 
 
 def _printable(text: object) -> str:
@@ -61,11 +63,14 @@ def _reason(error: BaseException) -> str:
         return type(error).__name__
 
 
-def _status(found: EntryPoint, taken: set[str]) -> BackendState:
-    """A package that fails must not hide the other devices."""
+def _status(found: EntryPoint, taken: set[str], first: EntryPoint) -> BackendState:
+    """A package that fails must not hide the other devices. first: the entry point that has its name."""
     entry = BackendState(backend=_printable(found.name), state="fault", detail="", devices=[])
     if found.name in taken:
         entry["detail"] = f"{found.value}: Punctura has a device of this name; choose another one"
+        return entry
+    if first != found:
+        entry["detail"] = f"{found.value}: {first.value} has this name, too; remove one of the two packages"
         return entry
     try:
         said = found.load().status()

@@ -23,6 +23,8 @@ def scene_names() -> list[str]:
 
 def scene_path(path_or_name: str | os.PathLike[str]) -> Path:
     """The file of the ready scene `path_or_name`, or else `path_or_name` as a path."""
+    if not isinstance(path_or_name, (str, os.PathLike)):
+        raise TypeError(f"a scene is a file or the name of a ready scene, not {type(path_or_name).__name__}")
     if isinstance(path_or_name, str) and path_or_name in scene_names():
         return _FOLDER / f"{path_or_name}.toml"
     path = Path(path_or_name)

@@ -82,7 +82,10 @@ def simulate(
     """
     if not isinstance(motion, (str, os.PathLike)):
         if out_path is not None:
-            raise TypeError("out_path is for motion files; save a result in memory with its save()")
+            raise TypeError(
+                "the third argument, out_path, is for motion files; with a motion in memory, write axis=... or "
+                "time=..., and save the result with save()"
+            )
         return simulate_arrays(
             scene if isinstance(scene, Scene) else load_scene(scene), motion, time, axis, progress, rivals
         )

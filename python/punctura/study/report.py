@@ -46,7 +46,7 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
         lines.append(f"| {name} | {len(column)} | {len(column) - len(good)} | {told} |")
         if plan.file.method == "sobol":
             indices += _indices(plan, name, column)
-    lines += ["", f"A fault ended {faults} trials."]
+    lines += ["", f"A fault ended {faults} trial{'' if faults == 1 else 's'}."]
     if indices:
         head = "| result | variable | first order | 95 % | total | 95 % |"
         about = (

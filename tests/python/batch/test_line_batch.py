@@ -88,7 +88,7 @@ def test_wrong_arguments() -> None:
         batch.run(p, out=np.empty((800, 2)))
     with pytest.raises(ValueError, match="choose one of"):
         batch.run(p, instructions="mmx")
-    with pytest.raises(ValueError, match="coupling has 3 elements, and there are 2 trials"):
+    with pytest.raises(ValueError, match="coupling has length 3, and the number of trials is 2"):
         LineBatch(LAWS[:2], COUPLINGS, PERIOD, trials=2)
     with pytest.raises(TypeError, match="law must be a ThinLaw, ThickLaw or ProfileLaw, not NoneType"):
         LineBatch(None, COUPLINGS, PERIOD)  # type: ignore[arg-type]

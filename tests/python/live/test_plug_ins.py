@@ -138,3 +138,13 @@ def test_unprintable_names_and_errors_of_a_package_do_not_reach_the_terminal(tmp
     assert json.loads(punctura(tmp_path, "devices", "--json").stdout)[0]["backend"] == "m?ine"
     done = punctura(tmp_path, "run", "k06-fig10", "--headless", "--device", "m?ine")
     assert "cannot be opened: ValueError: a?b" in done.stderr
+
+
+def test_of_two_packages_with_one_name_the_first_runs_and_the_other_is_told(of_the_docs):
+    other = "def open(rate, device):\n    raise AssertionError\ndef status():\n    raise AssertionError\n"
+    package(of_the_docs, "punctura_other", other)
+    listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
+    assert [entry["state"] for entry in listed if entry["backend"] == "mine"] == ["available", "fault"]
+    assert listed[1]["detail"] == "punctura_other: punctura_mine has this name, too; remove one of the two packages"
+    run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", "0.05", "--json")
+    assert "punctura_other" not in punctura(of_the_docs, *run).stderr

@@ -109,3 +109,31 @@ def test_a_run_without_end_is_refused():
         made.run(1e18)
     with pytest.raises(MemoryError, match=r"not enough memory for the columns of \d+ ticks: make the run in parts"):
         made.run(1e9)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: pn.load_scene(3), "a scene is a file or the name of a ready scene, not int"),
+        (lambda: pn.save_scene("out.toml", SCENE), "save_scene needs a Scene, then a path; the first argument is str"),
+        (lambda: pn.Ticks([1, 2]), "columns must be a dict of column names to arrays, not list"),
+        (lambda: pn.grid([1]), "grid needs a dict of paths to lists of numbers, not list"),
+    ],
+)
+def test_an_argument_of_another_type_is_told_in_a_sentence(call, says):
+    with pytest.raises(TypeError, match=says):
+        call()
+
+
+def test_a_target_takes_only_finite_places():
+    target = pn.Target((0, 0, 0))
+    experiment = pn.Experiment(SCENE, target)
+    for move in (pn.Target, target.move_to, experiment.move_to):
+        for place in ((0, float("nan"), 0), (0, 0, 2e6)):
+            with pytest.raises(ValueError, match="must be three finite numbers, m, within 1000 km"):
+                move(place)
+
+
+def test_strokes_name_the_number_that_is_not_finite():
+    with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = nan: must be finite"):
+        pn.Strokes((0, 0, 0), (0, float("nan"), 0))

@@ -65,6 +65,8 @@ def test_a_motion_that_cannot_be_used_says_why(arguments, says):
 def test_a_file_and_an_array_take_different_arguments(write):
     with pytest.raises(TypeError, match="save"):
         simulate(SCENE, np.zeros(5), "out.csv")
+    with pytest.raises(TypeError, match="or time="):
+        simulate(SCENE, np.zeros((5, 3)), (0, -1, 0))
     with pytest.raises(TypeError, match="motion file has columns"):
         simulate(SCENE, "motion.csv", "out.csv", axis=[0, -1, 0])
     with pytest.raises(TypeError, match="needs out_path"):
