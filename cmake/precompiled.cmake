@@ -13,8 +13,8 @@ endfunction()
 # punctura_together(TARGET GROUP SOURCE...) compiles the given sources of a target as one source file. So the templates
 # that they share are compiled once.
 #
-# Therefore a name exists only once in a group, also in an unnamed namespace. PUNCTURA_TOGETHER=OFF compiles each source
-# alone, as clang-tidy does; then a change of one test is compiled sooner.
+# Therefore a name in an unnamed namespace exists only once in a group; an overload would compile, and be a trap.
+# PUNCTURA_TOGETHER=OFF compiles each source alone, as clang-tidy does; then a change of one test is compiled sooner.
 option(PUNCTURA_TOGETHER "Compile sources together in groups" ON)
 function(punctura_together target group)
   if(PUNCTURA_TOGETHER)

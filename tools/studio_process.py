@@ -20,13 +20,14 @@ from waiting import wait_until
 
 SHORT_S = 120.0
 PATIENCE_S = 120.0  # wait for the address; long enough for a busy computer
+PUNCTURA = (sys.executable, "-m", "punctura.cli")
 ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 
 
 class StudioProcess:
     """A studio with the simulated device. `url` includes the token. Recordings and results go to `folder`."""
 
-    program: Sequence[str] = (sys.executable, "-m", "punctura.cli")
+    program: Sequence[str] = PUNCTURA
 
     def __init__(
         self,

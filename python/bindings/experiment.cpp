@@ -128,7 +128,7 @@ void bind_experiment(nb::module_& m) {
       .def_prop_ro("scene", &AnyExperiment::scene)
       .def_prop_ro("ticks", resting<AnyExperiment>(&AnyExperiment::ticks), "Number of ticks so far")
       .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")
-      .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m.");
+      .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m. Raises ValueError.");
 }
 
 }  // namespace punctura::bindings

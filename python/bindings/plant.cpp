@@ -90,11 +90,10 @@ void bind_plant(nb::module_& m) {
              double variation) {
             std::vector<Problem> problems;
             const Strokes made{to_vector(start), to_vector(end), count, duration, rest, variation};
-            for (std::size_t i = 0; i < 3; ++i) {
-              const std::string place = "[" + std::to_string(i) + "]";
-              if (!std::isfinite(start[i])) problems.push_back({"strokes.start" + place, start[i], "must be finite"});
-              if (!std::isfinite(end[i])) problems.push_back({"strokes.end" + place, end[i], "must be finite"});
-            }
+            for (const auto& [name, point] : {std::pair{"strokes.start", start}, std::pair{"strokes.end", end}})
+              for (std::size_t i = 0; i < 3; ++i)
+                if (!is_place(point[i]))
+                  problems.push_back({name + ("[" + std::to_string(i) + "]"), point[i], "must be within 1000 km"});
             check_fields(strokes_fields, made, "strokes", problems);
             raise_if(problems);
             new (self) Strokes(made);

@@ -10,6 +10,7 @@
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"
+#include "ticks.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -123,7 +124,7 @@ void bind_runtime(nb::module_& m) {
       .def(
           "move_to",
           [](SimulatedDevice& d, const Triple& position) {
-            if (!is_place(to_vector(position))) throw nb::value_error("position must be three finite numbers, in m");
+            place(position);
             d.move_to(position);
           },
           nb::arg("position"), "Moves the Target; the hand follows. position: m. Raises ValueError.")

@@ -130,10 +130,11 @@ Scene with_values(Scene scene, const nb::dict& values) {
     }
     nb::list paths;
     for (const auto& known : places) paths.append(known.first);
-    const std::string says = "is not a number of this scene (scene.fields() lists them)" + nearest(path, paths);
+    const std::string says = "is not a number of this scene (scene.fields() lists them";
     if (!is_number(item[1]))
-      throw nb::type_error(("with_values(): " + path + " " + says + "; replace() changes words").c_str());
-    problems.push_back({path, number_at(path, item[1]), says});
+      throw nb::type_error(
+          ("with_values(): " + path + " " + says + "; replace() changes other values)" + nearest(path, paths)).c_str());
+    problems.push_back({path, number_at(path, item[1]), says + ")" + nearest(path, paths)});
   }
   for (const Problem& problem : check(scene)) problems.push_back(problem);
   raise_if(problems);

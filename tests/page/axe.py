@@ -20,15 +20,16 @@ TARGETS = {"rules": {"target-size": {"enabled": True}}}  # WCAG 2.2; axe-core le
 
 
 def check(page: Page, state: str, part: str = "") -> None:
-    """All rules in light colours at the usual size. At other sizes the rules about layout and those about colours.
+    """All rules in light colours at the usual size; elsewhere the rules about layout, about colours, or both.
 
     A part is also checked in dark colours on a tablet, and in light ones on a phone, where parts lie over others. A
-    state of the whole page has both colours at the usual size, on a tablet and on a phone, and dark ones in a large
-    window. part: a selector of what differs from the states before; empty: the page. At none of the four sizes may the
-    page scroll sideways. The page stays in light colours and at the usual size.
+    state of the whole page is checked in both colours at the usual size, on a tablet and on a phone, and in dark ones
+    in a large window. part: a selector of what differs from the states before; empty: the page. At none of the four
+    sizes may the page scroll sideways. The page stays in light colours and at the usual size.
     """
     both, whole = LAYOUT + COLOURS, not part
     _none(page, f"{state}, light", TARGETS, part)
+    _fits(page, state, USUAL)
     if whole:
         _at(page, state, USUAL, "dark", COLOURS)
     _at(page, state, LARGE, "dark", both if whole else [], part)
@@ -47,6 +48,10 @@ def _at(page: Page, state: str, size: tuple[int, int], colours: str, rules: list
     page.evaluate(NEXT_PICTURE)
     if rules:
         _none(page, f"{state}, {size[0]} px wide, {colours}", {"runOnly": {"type": "rule", "values": rules}}, part)
+    _fits(page, state, size)
+
+
+def _fits(page: Page, state: str, size: tuple[int, int]) -> None:
     width = page.evaluate("document.documentElement.scrollWidth")
     assert width <= size[0], f"{state} scrolls sideways at {size[0]} px"
 

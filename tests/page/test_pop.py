@@ -8,13 +8,22 @@ import pytest
 from person import columns, drag_aside, drag_in, events, newton, opened, ready, saved
 from playwright.sync_api import expect
 from senses import COUNT_RINGS, STUBS
+from studio_process import PUNCTURA, StudioProcess
 
 THROUGH = 3.9e-3  # m: K06 Fig. 10's tip is 3.76 mm long, its membrane 0.1 mm thick
 
 
 @pytest.fixture
+def studio(tmp_path, monkeypatch):
+    """A studio that sends its ticks as often as a person's."""
+    monkeypatch.setattr(StudioProcess, "program", PUNCTURA)
+    with StudioProcess(tmp_path, "k06-fig10") as running:
+        yield running
+
+
+@pytest.fixture
 def page(browser, studio):
-    """The studio's page with sound on and a gamepad."""
+    """The studio's page with sound on and a gamepad. It draws as many pictures as a person's."""
     with opened(browser, studio.url, sound="on", script=STUBS, fewer=False) as page:
         yield page
 

@@ -18,7 +18,7 @@ def grid(values: Mapping[str, npt.ArrayLike]) -> dict[str, npt.NDArray[np.float6
     values: by path, each (n,), SI. Returns by path (n1 n2 ..., ); the last path changes fastest. Raises
     TypeError, ValueError and MemoryError.
     """
-    if not hasattr(values, "items"):
+    if isinstance(values, type) or not hasattr(values, "items"):
         raise TypeError(f"grid needs a dict of paths to lists of numbers, not {type(values).__name__}")
     axes = [np.atleast_1d(real_numbers(each, f"grid: {path}")) for path, each in values.items()]
     for path, each in zip(values, axes, strict=True):

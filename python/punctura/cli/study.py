@@ -38,6 +38,7 @@ def command(
     """
     from punctura.study import load_plan, replay_row, run_study
     from punctura.study.forecast import Forecast
+    from punctura.study.report import in_trials
 
     def foretell(told: Forecast) -> None:
         if told.is_worth_telling:
@@ -63,7 +64,7 @@ def command(
     if as_json:
         typer.echo(json.dumps(asdict(summary), indent=2))
         return
-    typer.echo(f"{summary.table}: {summary.trials} trials, of them {summary.kept} from before")
+    typer.echo(f"{summary.table}: {in_trials(summary.trials)}, of them {summary.kept} from before")
     if summary.faults:
-        typer.echo(f"  a fault ended {summary.faults} trials: column fault")
+        typer.echo(f"  a fault ended {in_trials(summary.faults)}: column fault")
     typer.echo(summary.report)

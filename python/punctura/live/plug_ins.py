@@ -67,10 +67,10 @@ def _status(found: EntryPoint, taken: set[str], first: EntryPoint) -> BackendSta
     """A package that fails must not hide the other devices. first: the entry point that has its name."""
     entry = BackendState(backend=_printable(found.name), state="fault", detail="", devices=[])
     if found.name in taken:
-        entry["detail"] = f"{found.value}: Punctura has a device of this name; choose another one"
+        entry["detail"] = _printable(f"{found.value}: Punctura has a device of this name; choose another one")
         return entry
     if first != found:
-        entry["detail"] = f"{found.value}: {first.value} has this name, too; remove one of the two packages"
+        entry["detail"] = _printable(f"{found.value} does not run: {first.value} has the same name; remove one of them")
         return entry
     try:
         said = found.load().status()

@@ -101,7 +101,7 @@ def _simulate_file(
     scene: Scene | str | os.PathLike[str], source: Path, target: Path, tell: Tell, rivals: Sequence[Rival] | None
 ) -> SimulationSummary:
     began = perf_counter()
-    name = scene.name if isinstance(scene, Scene) else str(os.fspath(scene))
+    name = scene.name if isinstance(scene, Scene) else str(scene)
     scene = scene if isinstance(scene, Scene) else load_scene(scene)
     _check_target(source, target)
 

@@ -26,8 +26,7 @@ class Forecast:
 
     def __str__(self) -> str:
         lasts = "" if self.seconds is None else f" about {_span(self.seconds)} and"
-        left = "1 trial is left: it needs" if self.trials == 1 else f"{self.trials} trials are left: they need"
-        text = f"{left}{lasts} {_size(self.bytes)} of disk"
+        text = f"{self.trials} trials are left: they need{lasts} {_size(self.bytes)} of disk"
         if self.bytes <= 0.9 * self.free:
             return text
         return f"{text}, and {_size(self.free)} are free: name fewer results in the plan, or give --out on another disk"

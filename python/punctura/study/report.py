@@ -18,6 +18,10 @@ Array = npt.NDArray[np.float64]
 _RESAMPLES = 200
 
 
+def in_trials(count: int) -> str:
+    return f"{count} trial{'' if count == 1 else 's'}"
+
+
 def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
     """Writes report.md. Returns its path and the number of trials that a fault ended."""
     names = [name for name in plan.results if name != "fault"]
@@ -46,7 +50,7 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
         lines.append(f"| {name} | {len(column)} | {len(column) - len(good)} | {told} |")
         if plan.file.method == "sobol":
             indices += _indices(plan, name, column)
-    lines += ["", f"A fault ended {faults} trial{'' if faults == 1 else 's'}."]
+    lines += ["", f"A fault ended {in_trials(faults)}."]
     if indices:
         head = "| result | variable | first order | 95 % | total | 95 % |"
         about = (

@@ -47,8 +47,8 @@ class Ticks(TickArrays):
     """
 
     def __init__(self, columns: Mapping[str, npt.ArrayLike], membranes: Sequence[str] = ()) -> None:
-        """membranes: names of the membranes, for plots. Raises ValueError if the columns differ in length."""
-        if not hasattr(columns, "items"):
+        """membranes: their names, for plots. Raises TypeError, or ValueError for columns of unequal length."""
+        if isinstance(columns, type) or not hasattr(columns, "items"):
             raise TypeError(f"columns must be a dict of column names to arrays, not {type(columns).__name__}")
         arrays = {name: _typed(name, column) for name, column in columns.items()}
         lengths = {name: len(array) for name, array in arrays.items()}

@@ -27,7 +27,7 @@ Scene with_syringe() {
   return scene;
 }
 
-DeviceSample sample(std::uint64_t k, double depth, double thumb) {
+DeviceSample sample_at(std::uint64_t k, double depth, double thumb) {
   return {k + 1, static_cast<double>(k) * T, {0, -depth, 0}, {0, -1, 0}, 0, true, 0, thumb};
 }
 double depth_at(std::uint64_t k) { return -1e-3 + 5e-3 * static_cast<double>(k) * T; }
@@ -36,7 +36,7 @@ double depth_at(std::uint64_t k) { return -1e-3 + 5e-3 * static_cast<double>(k) 
 template <typename Step, typename See>
 void insert(Step& step, std::uint64_t from, std::uint64_t to, double& thumb, See&& see) {
   for (std::uint64_t k = from; k < to; ++k) {
-    const Snapshot& s = step.step(sample(k, depth_at(k), thumb));
+    const Snapshot& s = step.step(sample_at(k, depth_at(k), thumb));
     see(k, s);
     const double wanted = s.membranes[0].depth > tip_length(paper_needle) ? 4 : 0;
     thumb = Thumb{}.step(thumb, wanted, s.syringe.force, T);
@@ -69,7 +69,7 @@ TEST_CASE("the syringe does not change the needle's force, and a scene without o
   auto with = build(with_syringe()), without = build(plain);
   double thumb = 0;
   insert(with, 0, 6400, thumb, [&](std::uint64_t k, const Snapshot& s) {
-    const Snapshot& other = without.step(sample(k, depth_at(k), 0));
+    const Snapshot& other = without.step(sample_at(k, depth_at(k), 0));
     REQUIRE(s.model_force == other.model_force);
     REQUIRE(std::isnan(other.syringe.plunger));
     REQUIRE(std::isnan(other.syringe.force));
@@ -84,7 +84,7 @@ TEST_CASE("the order of membranes in the scene does not matter") {
   auto a = build(first), b = build(second);
   double thumb = 0;
   insert(a, 0, 6400, thumb, [&](std::uint64_t k, const Snapshot& s) {
-    REQUIRE(b.step(sample(k, depth_at(k), s.sample.thumb)).syringe.force == s.syringe.force);
+    REQUIRE(b.step(sample_at(k, depth_at(k), s.sample.thumb)).syringe.force == s.syringe.force);
   });
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("a saved step continues with the same bits, thumb included") {
   insert(step, 0, 2000, thumb, [](std::uint64_t, const Snapshot&) {});
   REQUIRE(load_state(again, save_state(step)));
   insert(step, 2000, 6400, thumb, [&](std::uint64_t k, const Snapshot& s) {
-    const Snapshot& other = again.step(sample(k, depth_at(k), s.sample.thumb));
+    const Snapshot& other = again.step(sample_at(k, depth_at(k), s.sample.thumb));
     REQUIRE(other.syringe.force == s.syringe.force);
     REQUIRE(other.syringe.left == s.syringe.left);
     REQUIRE(other.model_force == s.model_force);
@@ -111,7 +111,7 @@ TEST_CASE("a change of the scene keeps what is in the syringe, a reset fills it"
   changed.membranes[0].membrane.friction = 0.25;
   auto next = build(changed);
   next.resume(step);
-  CHECK(next.step(sample(6400, depth_at(6400), thumb)).syringe.left == doctest::Approx(left).epsilon(0.01));
+  CHECK(next.step(sample_at(6400, depth_at(6400), thumb)).syringe.left == doctest::Approx(left).epsilon(0.01));
   changed.syringe->syringe.air = 1e-6;
   auto other = build(changed);
   other.resume(next);
@@ -122,8 +122,8 @@ TEST_CASE("a change of the scene keeps what is in the syringe, a reset fills it"
 
 TEST_CASE("a thumb without a reading is a fault, and takes all force away") {
   auto step = build(with_syringe());
-  step.step(sample(0, -1e-3, 0));
-  const Snapshot& s = step.step(sample(1, -1e-3, std::numeric_limits<double>::quiet_NaN()));
+  step.step(sample_at(0, -1e-3, 0));
+  const Snapshot& s = step.step(sample_at(1, -1e-3, std::numeric_limits<double>::quiet_NaN()));
   CHECK(s.fault == Fault::thumb);
   CHECK(s.syringe.force == 0);
   CHECK(s.force == std::array<double, 3>{});

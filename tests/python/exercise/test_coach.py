@@ -112,7 +112,7 @@ def test_the_angle_of_entry(write, degrees, said):
 def test_a_needle_that_stays_short_of_the_space_is_told_by_how_much(write):
     said = coached(write, way((-4, 5), (-4, 0, 1)), REACH)
     assert about(said.change)["short"] == (
-        "The point always stayed at least 1.2 mm away from the vein: push on until you notice the flash-back."
+        "The point stayed 1.2 mm or more away from the vein: push on until you notice the flash-back."
     )
     assert "short" not in about(coached(write, way((-6, 5)), REACH).change)
 

@@ -134,6 +134,7 @@ def test_a_target_takes_only_finite_places():
                 move(place)
 
 
-def test_strokes_name_the_number_that_is_not_finite():
-    with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = nan: must be finite"):
-        pn.Strokes((0, 0, 0), (0, float("nan"), 0))
+def test_strokes_name_the_number_that_is_no_place():
+    for number in (float("nan"), 2e6):
+        with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = .*: must be within 1000 km"):
+            pn.Strokes((0, 0, 0), (0, number, 0))

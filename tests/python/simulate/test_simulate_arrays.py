@@ -67,6 +67,8 @@ def test_a_file_and_an_array_take_different_arguments(write):
         simulate(SCENE, np.zeros(5), "out.csv")
     with pytest.raises(TypeError, match="or time="):
         simulate(SCENE, np.zeros((5, 3)), (0, -1, 0))
+    with pytest.raises(TypeError, match="a scene is a file or the name of a ready scene, not int"):
+        simulate(3, "motion.csv", "out.csv")
     with pytest.raises(TypeError, match="motion file has columns"):
         simulate(SCENE, "motion.csv", "out.csv", axis=[0, -1, 0])
     with pytest.raises(TypeError, match="needs out_path"):

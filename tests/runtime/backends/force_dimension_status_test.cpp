@@ -26,13 +26,13 @@ BackendStatus status() {
   return {};
 }
 
-BackendStatus status_with(const fake_drd::Settings& settings) {
+BackendStatus drd_status(const fake_drd::Settings& settings) {
   const Override library(PUNCTURA_FAKE_DRD);
   fake().reset(&settings);
   return status();
 }
 
-bool says(const BackendStatus& status, const std::string& words) {
+bool status_says(const BackendStatus& status, const std::string& words) {
   return status.detail.find(words) != std::string::npos;
 }
 
@@ -42,8 +42,8 @@ TEST_CASE("a missing library is reported with all searched places and what to do
   const Override library("/nowhere/libdrd.so.3");
   const auto missing = status();
   CHECK(missing.state == BackendState::library_not_found);
-  CHECK(says(missing, "/nowhere/libdrd.so.3"));
-  CHECK(says(missing, "PUNCTURA_DRD_LIBRARY"));
+  CHECK(status_says(missing, "/nowhere/libdrd.so.3"));
+  CHECK(status_says(missing, "PUNCTURA_DRD_LIBRARY"));
 }
 
 TEST_CASE("without an override, the library is searched in the SDK, then elsewhere, the robotics library first") {
@@ -61,36 +61,36 @@ TEST_CASE("the missing functions of a library are named") {
   const Override library(PUNCTURA_FAKE_DRD_OLD);
   const auto old = status();
   CHECK(old.state == BackendState::symbol_missing);
-  CHECK(says(old, "dhdGetButtonMask, dhdSetForceAndTorqueAndGripperForce"));
-  CHECK(says(old, PUNCTURA_FAKE_DRD_OLD));
+  CHECK(status_says(old, "dhdGetButtonMask, dhdSetForceAndTorqueAndGripperForce"));
+  CHECK(status_says(old, PUNCTURA_FAKE_DRD_OLD));
   CHECK_THROWS_WITH_AS(open_device("force_dimension"), doctest::Contains("dhdGetButtonMask"), DeviceError);
 }
 
 TEST_CASE("the states: no device, in use by another program, needs calibration, available") {
   fake_drd::Settings settings;
   settings.devices = 0;
-  const auto none = status_with(settings);
+  const auto none = drd_status(settings);
   CHECK(none.state == BackendState::no_device);
-  CHECK(says(none, "udev"));
+  CHECK(status_says(none, "udev"));
 
   settings.devices = 1;
   settings.in_use = 1;
-  const auto taken = status_with(settings);
+  const auto taken = drd_status(settings);
   CHECK(taken.state == BackendState::in_use);
-  CHECK(says(taken, "Another program"));
+  CHECK(status_says(taken, "Another program"));
 
   settings.in_use = 0;
   settings.calibrated = 0;
-  const auto lost = status_with(settings);
+  const auto lost = drd_status(settings);
   CHECK(lost.state == BackendState::needs_calibration);
-  CHECK(says(lost, "calibration pit"));
+  CHECK(status_says(lost, "calibration pit"));
   CHECK(lost.devices == std::vector<std::string>{"omega.3 12345"});
 
   settings.calibrated = 1;
-  const auto there = status_with(settings);
+  const auto there = drd_status(settings);
   CHECK(there.state == BackendState::available);
   CHECK(there.devices == std::vector<std::string>{"omega.3 12345"});
-  CHECK(says(there, PUNCTURA_FAKE_DRD));
+  CHECK(status_says(there, PUNCTURA_FAKE_DRD));
   CHECK(fake().state().open == 0);
   CHECK(fake().state().writes == 0);
   CHECK(fake().state().force_on == 0);
@@ -104,7 +104,7 @@ TEST_CASE("a device that this program uses is listed as such, and listing does n
   CHECK(device->info().rate == 2000);
   const auto taken = status();
   CHECK(taken.state == BackendState::in_use);
-  CHECK(says(taken, "This program"));
+  CHECK(status_says(taken, "This program"));
   CHECK(fake().state().open == 1);
   CHECK_THROWS_AS(open_device("force_dimension"), DeviceError);
 }

@@ -15,7 +15,9 @@ LibrarySearch search(std::vector<std::string> places) {
   return {"The library", "PUNCTURA_TEST_LIBRARY", std::move(places), "", "Install it", "Install a newer one"};
 }
 
-bool says(const LoadedLibrary& loaded, const char* words) { return loaded.detail.find(words) != std::string::npos; }
+bool detail_says(const LoadedLibrary& loaded, const char* words) {
+  return loaded.detail.find(words) != std::string::npos;
+}
 
 }  // namespace
 
@@ -35,9 +37,9 @@ TEST_CASE("a library that lacks functions is refused, with their names and what 
   void (*absent)() = nullptr;
   const auto loaded = load_makers_library(search({fake_library}), "", {{"hdNothing", absent}, {"hdNeither", absent}});
   CHECK(loaded.state == BackendState::symbol_missing);
-  CHECK(says(loaded,
-             "lacks hdNothing, hdNeither: it is too old, or another library. Install a newer one, or name the "
-             "library in PUNCTURA_TEST_LIBRARY."));
+  CHECK(detail_says(loaded,
+                    "lacks hdNothing, hdNeither: it is too old, or another library. Install a newer one, or name the "
+                    "library in PUNCTURA_TEST_LIBRARY."));
 }
 
 TEST_CASE("without a library, the message lists all searched places and what to do") {
@@ -53,6 +55,6 @@ TEST_CASE("only a named library is tried: the caller's name, then the variable's
   const test::Environment named("PUNCTURA_TEST_LIBRARY", "/nowhere/d.so");
   const auto missing = load_makers_library(search({fake_library}), "", {});
   CHECK(missing.state == BackendState::library_not_found);
-  CHECK(says(missing, "/nowhere/d.so does not load: "));
+  CHECK(detail_says(missing, "/nowhere/d.so does not load: "));
   CHECK(load_makers_library(search({}), fake_library, {}).state == BackendState::available);
 }

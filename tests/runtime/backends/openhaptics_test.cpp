@@ -20,7 +20,7 @@ using BackendState = BackendStatus::State;
 namespace {
 
 template <typename Change>
-BackendStatus status_with(Change&& change) {
+BackendStatus hd_status(Change&& change) {
   const Environment library("PUNCTURA_HD_LIBRARY", FAKE_HD);
   reset_fake_hd(change);
   const BackendStatus status = backends::openhaptics.status();
@@ -29,7 +29,7 @@ BackendStatus status_with(Change&& change) {
   return status;
 }
 
-std::string refusal(const OpenHapticsOptions& options) {
+std::string hd_refusal(const OpenHapticsOptions& options) {
   try {
     OpenHapticsDevice device(options);
   } catch (const DeviceError& error) {
@@ -58,27 +58,27 @@ std::string all_statements(const Device& device) {
 }  // namespace
 
 TEST_CASE("each state of the back-end has a message") {
-  const auto available = status_with([](auto&) {});
+  const auto available = hd_status([](auto&) {});
   CHECK(available.state == BackendState::available);
   CHECK(says(available.detail, "Simulated Omni, serial number F-0001"));
   CHECK(available.devices == std::vector<std::string>{"Default Device"});
 
-  const auto none = status_with([](auto& s) {
+  const auto none = hd_status([](auto& s) {
     s.name = "Left";
     s.null_opens = 0;
   });
   CHECK(none.state == BackendState::no_device);
   CHECK(says(none.detail, "\"Default PHANToM\""));
 
-  const auto used = status_with([](auto& s) { s.init_error = 0x301; });
+  const auto used = hd_status([](auto& s) { s.init_error = 0x301; });
   CHECK(used.state == BackendState::in_use);
   CHECK(says(used.detail, "other program"));
 
-  const auto licence = status_with([](auto& s) { s.init_error = 0x600; });
+  const auto licence = hd_status([](auto& s) { s.init_error = 0x600; });
   CHECK(licence.state == BackendState::fault);
   CHECK(says(licence.detail, "licence"));
 
-  const auto uncalibrated = status_with([](auto& s) { s.calibration = 0x5002; });
+  const auto uncalibrated = hd_status([](auto& s) { s.calibration = 0x5002; });
   CHECK(uncalibrated.state == BackendState::needs_calibration);
   CHECK(says(uncalibrated.detail, "inkwell"));
 }
@@ -120,9 +120,9 @@ TEST_CASE("the default device opens under each usual name, another device only u
   reset_fake_hd([](auto& s) { s.name = "Left"; });
   auto options = with_fake_hd();
   options.device = "Left";
-  CHECK(refusal(options).empty());
+  CHECK(hd_refusal(options).empty());
   options.device = "Right";
-  CHECK(says(refusal(options), "\"Right\""));
+  CHECK(says(hd_refusal(options), "\"Right\""));
 }
 
 TEST_CASE("a device describes itself in SI units") {
@@ -161,19 +161,19 @@ TEST_CASE("calibration runs by itself if no hand is needed; otherwise the user i
   reset_fake_hd([](auto& s) { s.calibration = 0x5001; });
   CHECK(says(all_statements(OpenHapticsDevice(with_fake_hd())), "calibration: renewed"));
   reset_fake_hd([](auto& s) { s.calibration = 0x5002; });
-  CHECK(says(refusal(with_fake_hd()), "inkwell"));
+  CHECK(says(hd_refusal(with_fake_hd()), "inkwell"));
   reset_fake_hd([](auto& s) {
     s.calibration = 0x5002;
     s.style = 1;
   });
-  CHECK(says(refusal(with_fake_hd()), "reset position"));
+  CHECK(says(hd_refusal(with_fake_hd()), "reset position"));
   CHECK(fake_hd().devices_open() == 0);
 }
 
 TEST_CASE("a process can open only one device at a time") {
   reset_fake_hd();
   const OpenHapticsDevice first(with_fake_hd());
-  CHECK(says(refusal(with_fake_hd()), "already open in this process"));
+  CHECK(says(hd_refusal(with_fake_hd()), "already open in this process"));
   const Environment library("PUNCTURA_HD_LIBRARY", FAKE_HD);
   CHECK(backends::openhaptics.status().state == BackendState::in_use);
 }
@@ -183,11 +183,11 @@ TEST_CASE("a device that must stay open is passed to the next open call") {
   auto options = with_fake_hd();
   options.keep_device = true;
   for (int k = 0; k < 3; ++k) {
-    CHECK(refusal(options).empty());
+    CHECK(hd_refusal(options).empty());
     CHECK(fake_hd().devices_open() == 1);
   }
   options.keep_device = false;
-  CHECK(refusal(options).empty());
+  CHECK(hd_refusal(options).empty());
   CHECK(fake_hd().devices_open() == 0);
 }
 

@@ -156,9 +156,7 @@ def too_short(seen: Seen) -> Iterator[Remark]:
     depth = space.begins if arrived or space.arrive_depth is None else space.arrive_depth
     point_short = depth - trace.nearest
     if point_short > 0.05e-3:
-        text = (
-            f"The point always stayed at least {mm(point_short)} away from {space.name}: push on until {_sign(seen)}."
-        )
+        text = f"The point stayed {mm(point_short)} or more away from {space.name}: push on until {_sign(seen)}."
         yield Remark(about="short", text=text, numbers={"short_m": point_short})
         return
     tip_short = depth - trace.tip_nearest
