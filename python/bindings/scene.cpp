@@ -108,7 +108,8 @@ bool is_number(nb::handle given) {
 
 /// Throws TypeError, which names the path, or the exception of __float__.
 double number_at(const std::string& path, nb::handle given) {
-  if (!is_number(given)) throw nb::type_error(("with_values(): " + path + " must be a number").c_str());
+  if (!is_number(given))
+    throw nb::type_error(("with_values(): " + path + " must be a number; replace() sets words").c_str());
   const double number = PyFloat_AsDouble(given.ptr());
   if (PyErr_Occurred()) throw nb::python_error();
   return number;
@@ -132,8 +133,7 @@ Scene with_values(Scene scene, const nb::dict& values) {
     for (const auto& known : places) paths.append(known.first);
     const std::string says = "is not a number of this scene (scene.fields() lists them";
     if (!is_number(item[1]))
-      throw nb::type_error(
-          ("with_values(): " + path + " " + says + "; replace() changes other values)" + nearest(path, paths)).c_str());
+      throw nb::type_error(("with_values(): " + path + " " + says + "); replace() sets words").c_str());
     problems.push_back({path, number_at(path, item[1]), says + ")" + nearest(path, paths)});
   }
   for (const Problem& problem : check(scene)) problems.push_back(problem);
@@ -259,7 +259,7 @@ void bind_scene(nb::module_& m) {
           .def("with_values", &with_values, nb::arg("values"),
                nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
                "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
-               "ConfigurationError.");
+               "ConfigurationError or TypeError.");
   def_init(
       scene, &make_scene, nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"),
       nb::arg("servo") = defaults, nb::arg("direction") = "stylus", nb::arg("display") = DisplaySettings{},

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from punctura import Scene
 from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
 from punctura.live.motion import strokes_through
-from punctura.live.plug_ins import open_plug_in, plug_in_states
+from punctura.live.plug_ins import open_plug_in, plug_in_names, plug_in_states
 from punctura.results import BackendState
 
 ANY_PROCESSOR = -1
@@ -23,23 +24,27 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
     if backend == "replay":
         return _replay(device, processor)
     own = {entry["backend"]: entry for entry in enumerate_devices()}
-    states: dict[str, BackendState] = {}
-    for entry in plug_in_states(set(own)):
-        states.setdefault(entry["backend"], entry)  # a second one of this name does not run
-    states |= own
     if not name:
-        there = [b for b, entry in states.items() if entry["state"] == "available" and b != "simulated"]
-        backend = there[0] if there else "simulated"
+        backend = _first_available(own)
     if backend == "simulated":
         if device:
             raise DeviceError(f"there is one simulated device only, and none of the name {device!r}: simulated")
         axis = scene.membranes[0].inward_normal
         return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
-    if backend not in states:
-        raise DeviceError(f"no device is called {backend!r}; there are: {', '.join(states)}")
-    if backend not in own:
-        return open_plug_in(backend, scene.servo.rate, device)
-    return open_device(backend, scene.servo.rate, device, processor=processor)
+    if backend in own:
+        return open_device(backend, scene.servo.rate, device, processor=processor)
+    plug_ins = plug_in_names()
+    if backend not in plug_ins:
+        raise DeviceError(f"no device is called {backend!r}; there are: {', '.join([*plug_ins, *own])}")
+    return open_plug_in(backend, scene.servo.rate, device)
+
+
+def _first_available(own: Mapping[str, BackendState]) -> str:
+    """Asks every package. For a device that was named, none is asked: a status() that hangs would end the start."""
+    for entry in [*plug_in_states(set(own)), *own.values()]:
+        if entry["state"] == "available" and entry["backend"] != "simulated":
+            return entry["backend"]
+    return "simulated"
 
 
 def _replay(file: str, processor: int) -> Device:

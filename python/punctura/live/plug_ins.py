@@ -29,23 +29,30 @@ def plug_in_states(taken: set[str]) -> list[BackendState]:
     return [_status(found, taken, named.setdefault(_printable(found.name), found)) for found in _all()]
 
 
+def plug_in_names() -> list[str]:
+    """Their names. Runs no code of the packages."""
+    return list(dict.fromkeys(_printable(found.name) for found in _all()))
+
+
 def open_plug_in(backend: str, rate: float, device: str) -> Device:
-    """backend: a name that plug_in_states() lists. Raises DeviceError, whatever the package has raised."""
+    """backend: one of plug_in_names(). Raises DeviceError, whatever the package has raised."""
     found = next(found for found in _all() if _printable(found.name) == backend)
     try:
         opened = found.load().open(rate, device)
-    except DeviceError:
-        raise
+    except DeviceError as error:
+        raise DeviceError(_printable(_text(error))) from error
     except (Exception, SystemExit) as error:
         raise DeviceError(_printable(f"{found.name} ({found.value}) cannot be opened: {_reason(error)}")) from error
     if not isinstance(opened, Device):
-        raise DeviceError(f"{found.name} ({found.value}): open() returned {type(opened).__name__}, not a Device")
+        returned = type(opened).__name__
+        raise DeviceError(_printable(f"{found.name} ({found.value}): open() returned {returned}, not a Device"))
     return opened
 
 
 def _all() -> list[EntryPoint]:
     """In a fixed order, whatever the order of the folders on the disk."""
-    return sorted(set(entry_points(group=GROUP)), key=lambda found: (found.name, found.value))
+    found = set(entry_points(group=GROUP))
+    return sorted(found, key=lambda one: (_printable(one.name), one.value.casefold(), one.value))
 
 
 def _printable(text: object) -> str:
@@ -63,6 +70,14 @@ def _reason(error: BaseException) -> str:
         return type(error).__name__
 
 
+def _text(error: DeviceError) -> str:
+    """The text alone; without one, the type."""
+    try:
+        return str(error)
+    except Exception:
+        return type(error).__name__
+
+
 def _status(found: EntryPoint, taken: set[str], first: EntryPoint) -> BackendState:
     """A package that fails must not hide the other devices. first: the entry point that has its name."""
     entry = BackendState(backend=_printable(found.name), state="fault", detail="", devices=[])
@@ -70,7 +85,8 @@ def _status(found: EntryPoint, taken: set[str], first: EntryPoint) -> BackendSta
         entry["detail"] = _printable(f"{found.value}: Punctura has a device of this name; choose another one")
         return entry
     if first != found:
-        entry["detail"] = _printable(f"{found.value} does not run: {first.value} has the same name; remove one of them")
+        told = f"{found.value} does not run: {first.value} has a device of the same name; uninstall one of the packages"
+        entry["detail"] = _printable(told)
         return entry
     try:
         said = found.load().status()

@@ -145,10 +145,19 @@ def test_of_two_packages_with_one_name_the_first_runs_and_the_other_is_told(of_t
     package(of_the_docs, "punctura_other", other)
     listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
     assert [entry["state"] for entry in listed if entry["backend"] == "mine"] == ["available", "fault"]
-    assert listed[1]["detail"] == "punctura_other does not run: punctura_mine has the same name; remove one of them"
+    assert listed[1]["detail"].startswith("punctura_other does not run: punctura_mine has a device of the same name; ")
     patient = of_the_docs / "limits.toml"
     patient.write_text("deadline_ms = 20000\nstale_ms = 20000\n")  # however busy the computer is
     run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", "0.1", "--json")
     done = punctura(of_the_docs, *run, "--limits", str(patient))
     assert done.returncode == 0, done.stderr
     assert "mine" in json.loads(done.stdout)["device"]
+
+
+def test_a_named_device_starts_while_another_package_hangs(of_the_docs):
+    package(of_the_docs, "punctura_hangs", "import time\ndef status():\n    time.sleep(1000)\n", "hangs")
+    run = ("run", "k06-fig10", "--headless", "--duration", "0.05", "--json", "--device")
+    done = punctura(of_the_docs, *run, "simulated")
+    assert done.returncode == 0, done.stderr
+    unknown = punctura(of_the_docs, *run, "nobody")
+    assert unknown.returncode == 2 and "there are: hangs, mine, " in unknown.stderr
