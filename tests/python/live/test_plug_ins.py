@@ -37,6 +37,16 @@ def punctura(folder, *arguments):
     return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
 
 
+def summary_of_mine(folder, seconds):
+    """Of a run with the device `mine`, which ends with status 0."""
+    patient = folder / "limits.toml"
+    patient.write_text("deadline_ms = 20000\nstale_ms = 20000\n")  # however busy the computer is
+    run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", seconds, "--json")
+    done = punctura(folder, *run, "--limits", str(patient))
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
 @pytest.fixture
 def of_the_docs(tmp_path):
     """The package in docs/devices.md, with simulated swinging hardware."""
@@ -49,12 +59,7 @@ def test_the_package_of_the_docs_is_listed_and_runs(of_the_docs):
     listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
     assert listed[0] == {"backend": "mine", "state": "available", "detail": "", "devices": ["mine 1"]}
     assert {"simulated", "replay", "haply"} < {entry["backend"] for entry in listed}
-    patient = of_the_docs / "limits.toml"
-    patient.write_text("deadline_ms = 20000\nstale_ms = 20000\n")  # however busy the computer is
-    run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", "2", "--json", "--limits", str(patient))
-    done = punctura(of_the_docs, *run)
-    assert done.returncode == 0, done.stderr
-    said = json.loads(done.stdout)
+    said = summary_of_mine(of_the_docs, seconds="2")
     assert "mine" in said["device"] and said["ticks"] > 50 and said["strongest_N"] > 0.1
 
 
@@ -146,12 +151,7 @@ def test_of_two_packages_with_one_name_the_first_runs_and_the_other_is_told(of_t
     listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
     assert [entry["state"] for entry in listed if entry["backend"] == "mine"] == ["available", "fault"]
     assert listed[1]["detail"].startswith("punctura_other does not run: punctura_mine has a device of the same name; ")
-    patient = of_the_docs / "limits.toml"
-    patient.write_text("deadline_ms = 20000\nstale_ms = 20000\n")  # however busy the computer is
-    run = ("run", "k06-fig10", "--headless", "--device", "mine", "--duration", "0.1", "--json")
-    done = punctura(of_the_docs, *run, "--limits", str(patient))
-    assert done.returncode == 0, done.stderr
-    assert "mine" in json.loads(done.stdout)["device"]
+    assert "mine" in summary_of_mine(of_the_docs, seconds="0.1")["device"]
 
 
 def test_a_named_device_starts_while_another_package_hangs(of_the_docs):
