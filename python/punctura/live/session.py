@@ -95,6 +95,7 @@ class Watched:
     def __init__(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         self.silence = ""  # why the ticks ceased, in words
         self._loop, self._thumb = loop, thumb
+        self._told_after: int | None = None  # ticks of the needle, when one has read the thumb's fault for certain
         self._watch = SilenceWatch(loop, thumb)
 
     def begin(self) -> None:
@@ -105,6 +106,16 @@ class Watched:
     def over(self) -> bool:
         self.silence = self._watch.ceased()
         ended = getattr(self._loop.device, "finished", False) or self._loop.latest()["fault"][0]
-        # A scene without a syringe does not read the thumb.
-        ended = ended or (self._thumb is not None and self._thumb.fault != Fault.none)
-        return bool(self.silence or ended)
+        return bool(self.silence or ended or self._thumb_is_over())
+
+    def _thumb_is_over(self) -> bool:
+        """True after a fault of the second device, once the needle's ticks had the time to latch and record it.
+
+        A scene without a syringe does not read the thumb: its ticks latch nothing, and the run ends all the same.
+        """
+        if self._thumb is None or self._thumb.fault == Fault.none:
+            return False
+        ticks = self._loop.report()["ticks"]
+        if self._told_after is None:
+            self._told_after = ticks + 2  # one tick may have begun before the fault
+        return ticks >= self._told_after

@@ -26,6 +26,7 @@ from punctura.live import (
     direction_of,
     run_live,
 )
+from punctura.live.session import Watched
 from punctura.record import open_recording, replay
 from punctura.studio.loaded import from_name
 from punctura.studio.pump import Pump
@@ -92,6 +93,24 @@ def test_a_fault_of_the_second_device_ends_the_run_and_is_told(pair):
     assert "second device: the device reported a position or direction that is not a number" in summary.fault
     assert loop.fault == Fault.non_finite_input
     wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("name", ["epidural", "k06-fig10"])
+def test_a_fault_of_the_second_device_is_latched_by_the_needle_before_the_run_ends(name):
+    needle, thumb = (FedDevice(500, info=DeviceInfo(model=model, max_force=3.0)) for model in ("needle", "thumb"))
+    loop = ThumbLoop(thumb, gate=PATIENT)
+    servo = pn._core.ServoLoop(needle, pn.load_scene(name), PATIENT, ForceLimits(), thumb=loop)
+    watched = Watched(servo, loop)
+    with servo:
+        watched.begin()
+        needle.feed(ABOVE)
+        thumb.feed((math.nan, 0.0, 0.0))
+        for _ in range(2):
+            assert not watched.over() and servo.latest()["fault"][0] == Fault.none
+        needle.feed(ABOVE)
+        needle.feed(ABOVE)
+        assert watched.over()
+        assert servo.latest()["fault"][0] == (Fault.thumb if name == "epidural" else Fault.none)
 
 
 def test_a_fault_of_the_needles_device_ends_the_force_of_the_thumb(pair):
