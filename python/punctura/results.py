@@ -70,11 +70,16 @@ class FoundEvent(TypedDict):
     drop: float
 
 
+DeviceState = Literal[
+    "available", "library_not_found", "symbol_missing", "no_device", "in_use", "needs_calibration", "fault"
+]
+
+
 class BackendState(TypedDict):
     """One kind of device, as `punctura.live.enumerate_devices` lists it."""
 
     backend: str  # the name for `--device`
-    state: str  # available, library_not_found, symbol_missing, no_device, in_use, needs_calibration, fault
+    state: DeviceState
     detail: str  # where it searched, what to do
     devices: list[str]  # the names of the connected devices
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import sys
 from typing import Annotated
 
 import typer
@@ -12,7 +14,8 @@ from punctura.live import enumerate_devices
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
     """Lists every kind of device: whether it is available, and what to do if not."""
-    entries = enumerate_devices()
+    with contextlib.redirect_stdout(sys.stderr):  # what a device of another package prints is not part of the list
+        entries = enumerate_devices()
     if as_json:
         typer.echo(json.dumps(entries, indent=2))
         return

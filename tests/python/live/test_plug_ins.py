@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from punctura.live import enumerate_devices
 
 DOCS = (Path(__file__).parents[3] / "docs" / "devices.md").read_text(encoding="utf-8")
 HARDWARE = """
@@ -89,6 +90,7 @@ def test_a_program_ends_whole_while_daemon_threads_feed(tmp_path):
         ("raise ImportError('no driver here')", "ImportError: no driver here"),
         ("def status(): return {}\ndef open(rate, device): return 3", "returned int, not a Device"),
         ("def open(rate, device): raise OSError('the cable is out')", "OSError: the cable is out"),
+        ("import asyncio\ndef open(rate, device): raise asyncio.CancelledError('no loop')", "CancelledError: no loop"),
     ],
 )
 def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, words):
@@ -97,6 +99,40 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
     assert listed[0]["backend"] == "broken" and listed[0]["state"] == "fault" and "simulated" in listed[-1]["backend"]
     done = punctura(tmp_path, "run", "--headless", "--device", "broken", "--duration", "1")
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("return {}", "status() must return a dict whose state is one of available, library_not_found, "),
+        ("return {'state': 'ready'}", "needs_calibration, fault; it is {'state': 'ready'}"),
+        ("return 3", "it is 3"),
+        ("return {'state': 'available', 'devices': 'mine'}", "devices of status() must be a list of names; it is 'm"),
+        ("import asyncio; raise asyncio.CancelledError", "mine: CancelledError"),
+        ("raise SystemExit(1)", "mine: SystemExit: 1"),
+        ("print('loud'); return {'state': 'ready'}", "it is {'state': 'ready'}"),
+    ],
+)
+def test_a_wrong_answer_of_status_is_told(tmp_path, body, words):
+    package(tmp_path, "mine", f"def status():\n    {body}\n")
+    done = punctura(tmp_path, "devices", "--json")
+    listed = json.loads(done.stdout)
+    assert listed[0]["state"] == "fault" and words in listed[0]["detail"], listed[0]
+    assert listed[-1]["backend"] == "simulated" and ("loud" in done.stderr) == ("loud" in body)
+
+
+def test_a_status_that_hangs_is_told(tmp_path, monkeypatch):
+    package(tmp_path, "a_hanging_device", "import threading\ndef status(): threading.Event().wait()\n", name="hangs")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr("punctura.live.plug_ins.STATUS_S", 0.05)
+    (entry,) = (entry for entry in enumerate_devices() if entry["backend"] == "hangs")
+    assert entry["state"] == "fault" and "no answer from status() within 0.05 s" in entry["detail"]
+
+
+def test_a_name_with_a_colon_is_told(tmp_path):
+    package(tmp_path, "mine", "def status(): return {'state': 'available'}", name="mine:1")
+    listed = json.loads(punctura(tmp_path, "devices", "--json").stdout)
+    assert listed[0]["state"] == "fault" and "a name with a colon cannot be chosen" in listed[0]["detail"]
 
 
 def test_unprintable_and_endless_words_of_a_package_hide_no_other_device(tmp_path):
