@@ -73,7 +73,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened, thumb))
-        for note in [*limits.notes(loop), *filter(None, [room_note(loop)])]:
+        for note in [*limits.notes(loop, thumb), *filter(None, [room_note(loop)])]:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
 

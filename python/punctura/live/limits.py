@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from punctura._core import Device, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
+from punctura._core import Device, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.errors import ConfigurationError, Problem
 from punctura.files.fields import Buttons, Number
 from punctura.files.tables import Table
@@ -88,8 +88,8 @@ class Limits(NamedTuple):
         chosen = {**self.chosen, "max_force": max_force}
         return self._replace(force=self.force.replace(max_force=max_force), chosen=MappingProxyType(chosen))
 
-    def notes(self, loop: ServoLoop) -> list[str]:
-        """Warnings: a force above the device's rating, a button that nobody can press."""
+    def notes(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> list[str]:
+        """Warnings: a force above the device's rating, a button that nobody can press. thumb: of the second device."""
         model, notes = loop.device.info.model or loop.device.info.backend, []
         for name, field in _RATED.items():
             chosen, given = self.chosen.get(field, 0), getattr(loop.limits, field)
@@ -101,7 +101,14 @@ class Limits(NamedTuple):
                 f"continuous_time_s = {chosen:g} lets strong forces last longer than {usual:g} s does: "
                 "motors may get hotter than their maker allows"
             )
-        if self.gate.get("dead_man") and isinstance(loop.device, SimulatedDevice):
+        simulated = [isinstance(one.device, SimulatedDevice) for one in (loop, thumb) if one is not None]
+        longest, room = self.gate.get("deadline", 0), GateLimits().deadline
+        if longest > room and not all(simulated):
+            notes.append(
+                f"deadline_ms = {longest * 1e3:g} lets the device hold a force for longer than the long-run limit "
+                f"keeps room for, {room * 1e3:g} ms: late ticks can exceed continuous_force_N"
+            )
+        if self.gate.get("dead_man") and simulated[0]:
             notes.append("the simulated hand presses no button: with dead_man_buttons it is given no force")
         return notes
 

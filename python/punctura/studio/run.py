@@ -110,7 +110,7 @@ class Run:
         gate, placement = limits.gate_on(device), bench.settings.placement
         self.loop = ServoLoop(device, scene, gate, limits.force, placement, self.thumb)
         self._listener = self.loop.listen()
-        self.notes += [*limits.notes(self.loop), *filter(None, [room_note(self.loop)])]
+        self.notes += [*limits.notes(self.loop, self.thumb), *filter(None, [room_note(self.loop)])]
         if self.thumb is not None and scene.syringe is None:
             self.notes.append(NO_SYRINGE)
         self.recorder = Recorder(self.loop, recording, about=about, thumb=self.thumb) if recording else None

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import punctura as pn
 import pytest
-from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice
+from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.live import Limits, load_limits, run_live
 from punctura.live.summary import strongest
 
@@ -158,6 +158,16 @@ def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path
     assert any("continuous_time_s = 30 lets strong forces last longer" in note for note in longer.notes(loop))
     shorter = limits_of(tmp_path, "continuous_time_s = 5")
     assert shorter.notes(ServoLoop(weak, SCENE, shorter.gate_on(weak), shorter.force)) == []
+
+
+def test_a_longer_deadline_than_the_budget_has_room_for_is_told(tmp_path):
+    longer, usual = limits_of(tmp_path, "deadline_ms = 50"), limits_of(tmp_path, "deadline_ms = 20")
+    mine = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
+    told = [limits.notes(ServoLoop(mine, SCENE, limits.gate_on(mine), limits.force)) for limits in (longer, usual)]
+    assert ["deadline_ms = 50 lets the device hold" in note for note in told[0]] == [True] and told[1] == []
+    simulated = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    loop = ServoLoop(simulated, SCENE, longer.gate_on(simulated), longer.force)
+    assert longer.notes(loop) == [] and longer.notes(loop, ThumbLoop(mine)) == told[0]
 
 
 def test_a_run_without_any_force_says_why(punctura, tmp_path):
