@@ -21,10 +21,11 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
   for (std::size_t i = 0; i < n; ++i) {
     const double* row = position.data() + 3 * i;
     tips[i] = {row[0], row[1], row[2]};
-    const bool good =
-        std::isfinite(time.data()[i]) && tips[i].allFinite() && (i == 0 || time.data()[i] > time.data()[i - 1]);
-    if (!good)
-      throw nb::value_error(("sample " + std::to_string(i) + ": time must ascend, and all numbers be finite").c_str());
+    const std::string sample = "sample " + std::to_string(i);
+    if (!std::isfinite(time.data()[i]) || (i > 0 && !(time.data()[i] > time.data()[i - 1])))
+      throw nb::value_error((sample + ": time must be finite and ascend").c_str());
+    if (!std::all_of(row, row + 3, [](double x) { return is_place(x); }))
+      throw nb::value_error((sample + ": position must be three finite numbers, m, within 1000 km").c_str());
   }
   return {std::vector<double>(time.data(), time.data() + n), std::move(tips)};
 }
@@ -93,7 +94,8 @@ void bind_plant(nb::module_& m) {
             for (const auto& [name, point] : {std::pair{"strokes.start", start}, std::pair{"strokes.end", end}})
               for (std::size_t i = 0; i < 3; ++i)
                 if (!is_place(point[i]))
-                  problems.push_back({name + ("[" + std::to_string(i) + "]"), point[i], "must be within 1000 km"});
+                  problems.push_back(
+                      {name + ("[" + std::to_string(i) + "]"), point[i], "must be finite and within 1000 km"});
             check_fields(strokes_fields, made, "strokes", problems);
             raise_if(problems);
             new (self) Strokes(made);

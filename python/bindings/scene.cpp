@@ -103,16 +103,22 @@ std::vector<SceneField> fields_of(const Scene& scene) {
 }
 
 bool is_number(nb::handle given) {
-  return !PyBool_Check(given.ptr()) && !nb::isinstance<nb::str>(given) && PyNumber_Check(given.ptr());
+  return !PyBool_Check(given.ptr()) && !nb::isinstance<nb::str>(given) && !PyComplex_Check(given.ptr()) &&
+         PyNumber_Check(given.ptr());
 }
 
-/// Throws TypeError, which names the path, or the exception of __float__.
+/// Throws TypeError or ValueError, which names the path and has the exception of __float__ as its cause.
 double number_at(const std::string& path, nb::handle given) {
   if (!is_number(given))
     throw nb::type_error(("with_values(): " + path + " must be a number; replace() sets words").c_str());
   const double number = PyFloat_AsDouble(given.ptr());
-  if (PyErr_Occurred()) throw nb::python_error();
-  return number;
+  if (!PyErr_Occurred()) return number;
+  nb::python_error error;
+  const bool too_large = error.matches(PyExc_OverflowError);
+  if (!too_large && !error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw error;
+  const std::string says =
+      "with_values(): " + path + (too_large ? " is too large for a number" : " must be one real number");
+  nb::raise_from(error, too_large ? PyExc_ValueError : PyExc_TypeError, "%s", says.c_str());
 }
 
 Scene with_values(Scene scene, const nb::dict& values) {

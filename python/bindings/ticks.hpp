@@ -86,7 +86,9 @@ inline void check_places(const double* values, std::size_t n, const char* name, 
 /// A position as a vector. Throws ValueError if a number is not finite or beyond 1000 km.
 inline Vector3d place(const Triple& position) {
   if (!std::all_of(position.begin(), position.end(), [](double x) { return is_place(x); }))
-    throw nb::value_error("position must be three finite numbers, m, within 1000 km");
+    throw nb::value_error(("position must be three finite numbers, m, within 1000 km, not " +
+                           nb::cast<std::string>(nb::repr(nb::make_tuple(position[0], position[1], position[2]))))
+                              .c_str());
   return to_vector(position);
 }
 

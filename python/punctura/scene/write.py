@@ -71,6 +71,8 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Writes a scene file. A file at `path` stays until the new one is complete. Raises TypeError or OSError."""
     if not isinstance(scene, Scene):
         raise TypeError(f"save_scene needs a Scene, then a path; the first argument is {type(scene).__name__}")
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"save_scene needs a Scene, then a path; the second argument is {type(path).__name__}")
     write_whole(Path(path), scene_text(scene).encode("utf-8"))
 
 

@@ -80,6 +80,8 @@ def simulate(
     progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. rivals: force models of other
     authors instead of the scene's law (punctura.rivals), one, or one for each membrane.
     """
+    if motion is None:
+        raise TypeError("motion must be an array of positions, m, or the name of a motion file, not None")
     if not isinstance(motion, (str, os.PathLike)):
         if out_path is not None:
             raise TypeError(

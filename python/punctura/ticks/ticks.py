@@ -50,6 +50,8 @@ class Ticks(TickArrays):
         """membranes: their names, for plots. Raises TypeError, or ValueError for columns of unequal length."""
         if isinstance(columns, type) or not hasattr(columns, "items"):
             raise TypeError(f"columns must be a dict of column names to arrays, not {type(columns).__name__}")
+        if unnamed := [name for name in columns if not isinstance(name, str)]:
+            raise TypeError(f"the names of columns must be str, not {type(unnamed[0]).__name__}: {unnamed[0]!r}")
         arrays = {name: _typed(name, column) for name, column in columns.items()}
         lengths = {name: len(array) for name, array in arrays.items()}
         if len(set(lengths.values())) > 1:

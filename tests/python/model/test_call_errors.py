@@ -10,6 +10,7 @@ MEMBRANE = SCENE.membranes[0].membrane
 INSERTION = pn.Insertion(SCENE)
 LINE = pn.Proxy1d(pn.ThickLaw(SCENE.needle, MEMBRANE), SCENE.coupling, 1 / 1600)
 DOWN = (0, -1, 0)
+FRICTION = "membrane[0].friction"
 
 
 @pytest.mark.parametrize(
@@ -117,6 +118,14 @@ def test_a_run_without_end_is_refused():
         (lambda: pn.load_scene(3), "a scene is a file or the name of a ready scene, not int"),
         (lambda: pn.save_scene("out.toml", SCENE), "save_scene needs a Scene, then a path; the first argument is str"),
         (lambda: pn.Ticks([1, 2]), "columns must be a dict of column names to arrays, not list"),
+        (lambda: pn.save_scene(SCENE, 3), "save_scene needs a Scene, then a path; the second argument is int"),
+        (
+            lambda: pn.simulate(SCENE, None),
+            "motion must be an array of positions, m, or the name of a motion file, not",
+        ),
+        (lambda: pn.Ticks({3: [0.0]}), "the names of columns must be str, not int: 3"),
+        (lambda: SCENE.with_values({FRICTION: 1j}), r"membrane\[0\].friction must be a number; replace\(\) sets words"),
+        (lambda: SCENE.with_values({FRICTION: np.ones(1)}), r"membrane\[0\].friction must be one real number"),
         (lambda: pn.grid([1]), "grid needs a dict of paths to lists of numbers, not list"),
     ],
 )
@@ -134,7 +143,23 @@ def test_a_target_takes_only_finite_places():
                 move(place)
 
 
+def test_a_recorded_motion_takes_only_finite_places_and_ascending_times():
+    for time, y, says in (
+        ([0, 1], 2e6, "sample 1: position must be three finite numbers, m, within 1000 km"),
+        ([0, 0], 0.0, "sample 1: time must be finite and ascend"),
+        ([0, np.nan], 0.0, "sample 1: time must be finite and ascend"),
+    ):
+        with pytest.raises(ValueError, match=says):
+            pn.RecordedMotion(time, [(0, 0, 0), (0, y, 0)])
+
+
+def test_a_number_that_no_float_holds_is_told_with_its_path():
+    with pytest.raises(ValueError, match=r"membrane\[0\].friction is too large for a number") as error:
+        SCENE.with_values({FRICTION: 10**400})
+    assert isinstance(error.value.__cause__, OverflowError)
+
+
 def test_strokes_name_the_number_that_is_no_place():
     for number in (float("nan"), 2e6):
-        with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = .*: must be within 1000 km"):
+        with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = .*: must be finite and within 1000 km"):
             pn.Strokes((0, 0, 0), (0, number, 0))
