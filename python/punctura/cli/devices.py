@@ -13,7 +13,7 @@ from punctura.live import enumerate_devices
 
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
-    """Lists every kind of device: whether it is available, and what to do if not."""
+    """Lists the devices. If one is not available, says what to do."""
     with contextlib.redirect_stdout(sys.stderr):  # what a device of another package prints is not part of the list
         entries = enumerate_devices()
     if as_json:

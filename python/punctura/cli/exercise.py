@@ -94,7 +94,7 @@ def export(
     home_page: Annotated[
         str | None, typer.Option(help="For xapi: address of the system that knows the persons.", metavar="URL")
     ] = None,
-    output: Annotated[Path | None, typer.Option(help="Write to this file.", metavar="FILE")] = None,
+    out: Annotated[Path | None, typer.Option(help="File to write. Default: standard output.", metavar="FILE")] = None,
 ) -> None:
     """Exports the results that the studio has saved, the oldest first."""
     from punctura.exercise import ResultStore, default_folder
@@ -113,9 +113,9 @@ def export(
     if not found:
         typer.echo(f"punctura: {folder} has no such results", err=True)
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
-    if output is None:
+    if out is None:
         typer.echo(text, nl=False)
-    elif output.exists() and not output.is_file():  # such as /dev/stdout
-        output.write_text(text, encoding="utf-8")
+    elif out.exists() and not out.is_file():  # such as /dev/stdout
+        out.write_text(text, encoding="utf-8")
     else:
-        write_whole(output, text.encode("utf-8"))
+        write_whole(out, text.encode("utf-8"))

@@ -17,6 +17,6 @@ def command(
     out: Annotated[Path, typer.Option("-o", "--out", help="File to write.", metavar="FILE.fmu")],
     fmi: Annotated[int, typer.Option("--fmi", help="The version of FMI, 2 or 3.", min=2, max=3)] = 3,
 ) -> None:
-    """Writes an FMU for co-simulation: position and direction of the needle in, force out."""
+    """Writes an FMU for co-simulation. Inputs: the needle's position and direction. Output: the force."""
     path = export_fmu(scene, out, version=fmi)
     typer.echo(f"{path}: FMI {fmi}.0, {path.stat().st_size // 1024} KiB")

@@ -64,14 +64,14 @@ def command(
         typer.Option("--plan", help="Motion of the next experiment to write, for a robot.", metavar="OUT.csv"),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results of a folder of traces.", metavar="DIR")
+        Path | None, typer.Option("--out", help="Folder for the results of a folder of traces.", metavar="FOLDER")
     ] = None,
     processes: Annotated[
         int | None, typer.Option("--processes", help="For a folder; default: all processors.", min=0)
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
-    """Identifies membranes from a trace: values, 95 % intervals, and what the trace cannot tell."""
+    """Identifies membranes from a measured trace. Gives values, 95 % intervals, and what the trace cannot tell."""
     from punctura.identify import identify
     from punctura.identify.folder import Task
     from punctura.identify.report import report_html
@@ -86,9 +86,9 @@ def command(
     )  # fmt: skip
     if trace.is_dir():
         if scene or report or plan:
-            raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out DIR")
+            raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out FOLDER")
         if out is None:
-            raise typer.BadParameter("a folder of traces needs --out DIR for the results", param_hint="--out")
+            raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         if out.exists() and not out.is_dir():
             raise typer.BadParameter(f"{out} is a file; the results need a folder", param_hint="--out")
         _folder(trace, out, task, processes, as_json)

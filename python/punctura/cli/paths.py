@@ -13,7 +13,7 @@ def command(
     include: Annotated[bool, typer.Option("--include", help="Print the folder of the C++ headers only.")] = False,
     cmake: Annotated[bool, typer.Option("--cmake", help="Print the folder of the CMake package only.")] = False,
 ) -> None:
-    """Prints the folders that a C++ project needs: headers and CMake package."""
+    """Prints the folders of the C++ headers and the CMake package."""
     if include and cmake:
         raise typer.BadParameter("give --include or --cmake, not both", param_hint="--include")
     if include or cmake:

@@ -28,7 +28,7 @@ def command(
         "placement.toml"
     ),
 ) -> None:
-    """Asks for one pose and writes a placement file for `punctura run --placement`. Gives no force."""
+    """Asks for one pose and writes a placement file. Gives no force. The file is for `punctura run --placement`."""
     if device.startswith("replay:"):
         raise typer.BadParameter("a replay has no hand that holds a pose; choose another device", param_hint="--device")
     if not out.parent.is_dir() or out.is_dir():

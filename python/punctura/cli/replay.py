@@ -20,7 +20,7 @@ def command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Computes every tick of a recording again and compares the forces bit for bit.
+    """Computes a recording again and compares the forces. Equal means equal to the last bit.
 
     Status 0: all ticks are identical. 1: some are not, some could not be computed, or there are none.
     """

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 
 def command(
-    out: Annotated[Path, typer.Option("--out", help="Folder to write to.", metavar="DIR")] = Path("out/reproduce"),
+    out: Annotated[Path, typer.Option("--out", help="Folder to write to.", metavar="FOLDER")] = Path("out/reproduce"),
     as_json: Annotated[bool, typer.Option("--json", help="Print files and measured numbers as JSON.")] = False,
 ) -> None:
-    """Makes Figures 3, 5, 10, 11 and 12 of K06 as PNG, SVG and CSV, and a page that shows them."""
+    """Makes Figures 3, 5, 10, 11 and 12 of K06. Writes PNG, SVG, CSV, and a page that shows them."""
     from punctura.reproduce import reproduce  # imported here, because the drawing library takes long to load
 
     with progress_bar("reproduce") as tell:

@@ -28,7 +28,7 @@ def command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Computes the model's force for a motion from a file, without safety limits.
+    """Computes the model's force for a motion file. There are no safety limits.
 
     With --rival, a force model of another author takes the place of the scene's law, at the places of its membranes.
     """

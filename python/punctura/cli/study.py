@@ -17,7 +17,7 @@ def command(
     plan: Annotated[Path, typer.Argument(help="The plan of the study, TOML (docs/study.md).", metavar="PLAN")],
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="Folder for the results. Default: PLAN with .study for .toml.", metavar="DIR"),
+        typer.Option("--out", help="Folder for the results. Default: PLAN with .study for .toml.", metavar="FOLDER"),
     ] = None,
     workers: Annotated[
         int | None, typer.Option("--workers", min=1, help="Number of threads. Default: one for each processor.")
@@ -32,7 +32,7 @@ def command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Runs a parameter study: grid, Latin hypercube, Sobol or Monte Carlo.
+    """Runs a parameter study. The trials are a grid, Latin hypercube, Sobol or Monte Carlo.
 
     Writes one row for each trial and a report. After an interruption, the same command goes on with the missing trials.
     """

@@ -57,6 +57,11 @@ def test_without_a_verb_it_lists_the_verbs(punctura):
         assert re.search(rf"^\s+{verb} +\w", done.stdout + done.stderr, re.M)
 
 
+def test_the_list_of_verbs_cuts_no_text_off(punctura):
+    listed = punctura("-h").stdout.partition("Commands:")[2]
+    assert len(listed.splitlines()) > 10 and "..." not in listed
+
+
 def test_each_verb_is_a_file_and_tells_how_it_is_used(punctura):
     for verb in ("scenes", "schema", "simulate"):
         for asks in ("--help", "-h"):

@@ -81,12 +81,12 @@ def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording,
     lines = punctura("exercise", "export", "--format", "xapi", "--class", "9b", *folder).stdout.splitlines()
     assert sorted(json.loads(line)["actor"]["name"] for line in lines) == ["Ada", "Bob"]
     file = tmp_path / "ada.jsonl"
-    more = "--person", "Ada", "--home-page", "https://school.example", "--output", file
+    more = "--person", "Ada", "--home-page", "https://school.example", "--out", file
     assert punctura("exercise", "export", "--format", "xapi", *more, *folder).stdout == ""
     whole = file.read_text(encoding="utf-8")
     assert json.loads(whole)["actor"]["account"]["homePage"] == "https://school.example"
     monkeypatch.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "No space left on device")))
-    assert punctura("exercise", "export", "--format", "csv", "--output", file, *folder).status != 0
+    assert punctura("exercise", "export", "--format", "csv", "--out", file, *folder).status != 0
     assert file.read_text(encoding="utf-8") == whole  # a full disk leaves the earlier file
 
 
