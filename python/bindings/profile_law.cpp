@@ -20,7 +20,7 @@ GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> 
   for (const auto& [name, values] : {std::pair{"lower", &lower}, std::pair{"upper", &upper}})
     if (values->size() != n)
       problems.push_back({name, static_cast<double>(values->size()), "must have one number a knot"});
-  const Field& H = membrane_fields[3];
+  const Field& H = field_of(membrane_fields, &Membrane::thickness);
   check_field(H, thickness, "", problems);
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);

@@ -14,7 +14,7 @@ namespace {
 
 void check_rate(double rate) {
   std::vector<Problem> problems;
-  check_field(servo_fields[0], rate, "device", problems);
+  check_field(field_of(servo_fields, &ServoSettings::rate), rate, "device", problems);
   raise_if(problems);
 }
 

@@ -103,7 +103,7 @@ void bind_runtime(nb::module_& m) {
             made.dynamics = plant;
             made.hand = hand;
             std::vector<Problem> problems;
-            check_field(servo_fields[0], rate, "device", problems);
+            check_field(field_of(servo_fields, &ServoSettings::rate), rate, "device", problems);
             raise_if(problems);
             made.rate = rate;
             made.seed = seed;

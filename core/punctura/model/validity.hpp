@@ -1,6 +1,7 @@
 // The permitted values of a needle, of a membrane and of a pair of them. Check them before you construct a law.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -96,6 +97,12 @@ bool check_fields(const FieldOf<Owner> (&fields)[n], const Owner& owner, const s
   bool good = true;
   for (const auto& field : fields) good &= check_field(field, owner.*field.member, path, problems);
   return good;
+}
+
+/// The field of this member, which is in the table.
+template <typename Owner, std::size_t n>
+constexpr const FieldOf<Owner>& field_of(const FieldOf<Owner> (&fields)[n], double Owner::* member) {
+  return *std::find_if(fields, fields + n - 1, [&](const FieldOf<Owner>& field) { return field.member == member; });
 }
 
 inline bool check(const Needle& needle, const std::string& path, std::vector<Problem>& problems) {

@@ -166,8 +166,8 @@ inline std::vector<Problem> check(const Scene& scene) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
     const bool membrane = check(placed.membrane, path, problems), tissue = check(placed.tissue, path, problems);
-    const bool enters = needle_fields[1].range.holds(scene.needle.tip_angle) &&
-                        membrane_fields[2].range.holds(placed.membrane.friction) &&
+    const bool enters = field_of(needle_fields, &Needle::tip_angle).range.holds(scene.needle.tip_angle) &&
+                        field_of(membrane_fields, &Membrane::friction).range.holds(placed.membrane.friction) &&
                         check_insertion(scene.needle, placed.membrane, path, problems);
     if (needle && membrane && tissue && enters)
       check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
