@@ -42,6 +42,9 @@ class BasicForceBudget {
     return min(max(Scalar(1 - spent_ / depth_), Scalar(0)), Scalar(1));
   }
 
+  /// The most that a burst can take, N^2 s.
+  Scalar depth() const noexcept { return depth_; }
+
   /// The square (N^2) of the largest constant force.
   Scalar rate() const noexcept { return rate_; }
 

@@ -69,8 +69,13 @@ class BasicForceLimiter {
         period_(period),
         steady_(std::min(max_force_, std::sqrt(budget_.rate()))),
         hold_(std::max(period, longest_hold)),
-        ramp_step_(period / static_cast<Scalar>(limits.ramp_time)),
-        ceiling_(permitted(0)) {}
+        ramp_step_(period / static_cast<Scalar>(limits.ramp_time)) {
+    const Scalar full = steady_ + (max_force_ - steady_);
+    budget_.set_spent(budget_.depth() / 2);
+    usual_until_ = budget_.permitted_square(hold_) >= full * full ? budget_.spent() : -1;
+    budget_.set_spent(0);
+    ceiling_ = permitted(0);
+  }
 
   /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
   void reset() noexcept { gain_ = 0; }
@@ -93,16 +98,12 @@ class BasicForceLimiter {
     Vector force = gain_ * wanted;
 
     ceiling_ = permitted(motor_temperature);
-    if (const Scalar norm = force.stableNorm(); !(norm <= ceiling_)) {
-      force = force / norm * ceiling_;
-      if (thermal_factor(motor_temperature) < 1)
-        act(Limit::temperature, counters_.temperature);
-      else if (ceiling_ < max_force_)
-        act(Limit::continuous, counters_.continuous);
-      else
-        act(Limit::peak, counters_.peak);
-    }
     held_square_ = force.squaredNorm();
+    // Most forces are far enough below the ceiling that rounding cannot matter. They need no root.
+    if (!(held_square_ < Scalar(0.999) * ceiling_ * ceiling_)) {
+      force = clamped(force, motor_temperature);
+      held_square_ = force.squaredNorm();
+    }
     return force;
   }
 
@@ -146,7 +147,22 @@ class BasicForceLimiter {
     return std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_));
   }
 
+  /// A force whose norm is at most the ceiling, with the direction of `force`.
+  Vector clamped(const Vector& force, Scalar motor_temperature) noexcept {
+    const Scalar norm = force.stableNorm();
+    if (norm <= ceiling_) return force;
+    if (thermal_factor(motor_temperature) < 1)
+      act(Limit::temperature, counters_.temperature);
+    else if (ceiling_ < max_force_)
+      act(Limit::continuous, counters_.continuous);
+    else
+      act(Limit::peak, counters_.peak);
+    return force / norm * ceiling_;
+  }
+
   Scalar permitted(Scalar temperature) const noexcept {
+    // The same as below, to the bit, while at most half of the budget is spent: there the share is 1.
+    if (budget_.spent() <= usual_until_) return thermal_factor(temperature) * (steady_ + (max_force_ - steady_));
     const Scalar share = std::min(Scalar(1), 2 * budget_.left());
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
     return thermal_factor(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
@@ -172,7 +188,8 @@ class BasicForceLimiter {
   Scalar warm_motor_;  ///< 0 to 1
   BasicForceBudget<Scalar> budget_;
   Scalar period_;
-  Scalar steady_;  ///< the largest constant force, N
+  Scalar steady_;       ///< the largest constant force, N
+  Scalar usual_until_;  ///< the ceiling is max_force while no more than this is spent, N^2 s; -1: it may not be
   Scalar hold_, ramp_step_;
   Scalar gain_ = 0, ceiling_;
   Scalar held_square_ = 0;  ///< the square of the force that the device holds since the last tick, N^2

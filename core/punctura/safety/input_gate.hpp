@@ -64,8 +64,8 @@ class BasicInputGate {
       if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
       // Two readings that arrive close together can be a period apart. Therefore the time is at least T.
       const double since_reading = std::max(period_, s.time - fresh_time_);
-      if (!((position - position_).norm() <= static_cast<Scalar>(limits_.max_speed * since_reading)))
-        return Fault::position_jump;
+      const auto farthest = static_cast<Scalar>(limits_.max_speed * since_reading);
+      if (!((position - position_).squaredNorm() <= farthest * farthest)) return Fault::position_jump;
     }
     if (!started_ || s.sequence != sequence_) fresh_time_ = s.time;
     if (!(s.time - fresh_time_ <= limits_.stale)) return Fault::stale_sample;

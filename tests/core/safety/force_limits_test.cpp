@@ -233,3 +233,60 @@ TEST_CASE("an unknown time does not count as rest: wrong time stamps do not rest
   limiter.rest(0, 1);
   CHECK(limiter.budget().spent() < spent);
 }
+
+namespace {
+/// The limits without the ramp, as plain formulas: each tick takes every root and division.
+template <typename Scalar>
+struct PlainLimits {
+  explicit PlainLimits(const ForceLimits& limits)
+      : given(limits),
+        most(static_cast<Scalar>(limits.max_force)),
+        budget(static_cast<Scalar>(limits.continuous_time), static_cast<Scalar>(limits.continuous_force)) {}
+
+  Vector3<Scalar> step(const Vector3<Scalar>& wanted, Scalar temperature) {
+    budget.spend(held.squaredNorm(), Scalar(T));
+    const auto warm = static_cast<Scalar>(given.warm_motor);
+    const Scalar factor = temperature <= warm ? 1 : std::max(Scalar(0), (1 - temperature) / (1 - warm));
+    const Scalar steady = std::min(most, std::sqrt(budget.rate()));
+    const Scalar share = std::min(Scalar(1), 2 * budget.left());
+    const Scalar room = std::sqrt(budget.permitted_square(BasicForceLimiter<Scalar>::longest_hold));
+    ceiling = factor * std::min(steady + share * (most - steady), room);
+    const Scalar norm = wanted.stableNorm();
+    return held = norm <= ceiling ? wanted : wanted / norm * ceiling;
+  }
+
+  ForceLimits given;
+  Scalar most, ceiling = 0;
+  BasicForceBudget<Scalar> budget;
+  Vector3<Scalar> held{};
+};
+
+template <typename Scalar>
+void compare_with_plain_limits(std::mt19937& random) {
+  std::uniform_real_distribution<double> part(0, 1), side(-1, 1);
+  ForceLimits limits{0.1 + 9 * part(random), 0.05 + 2 * part(random), 0.05 + 10 * part(random), T};
+  BasicForceLimiter<Scalar> limiter(limits, Scalar(T));
+  PlainLimits<Scalar> plain(limits);
+  bool warm = false;
+  for (int k = 0; k < 4000; ++k) {
+    if (k % 500 == 0) warm = part(random) < 0.3;
+    const auto temperature = static_cast<Scalar>(warm ? part(random) : 0.5);
+    const Vector3<Scalar> direction = Vector3d(side(random), side(random), side(random)).normalized().cast<Scalar>();
+    Vector3<Scalar> wanted = static_cast<Scalar>(limits.max_force * 1.2 * part(random)) * direction;
+    if (k % 3 == 0) wanted = plain.ceiling * direction;  // next to the ceiling
+    if (k % 97 == 0) wanted = static_cast<Scalar>(1e-30) * direction;
+    const Vector3<Scalar> force = limiter.step(wanted, temperature);
+    REQUIRE(force == plain.step(wanted, temperature));
+    REQUIRE(limiter.ceiling() == plain.ceiling);
+    REQUIRE(limiter.budget().spent() == plain.budget.spent());
+  }
+}
+}  // namespace
+
+TEST_CASE("the force and the ceiling are those of the plain formulas, bit for bit") {
+  std::mt19937 random(11);
+  for (int i = 0; i < cases(20); ++i) {
+    compare_with_plain_limits<double>(random);
+    compare_with_plain_limits<float>(random);
+  }
+}
