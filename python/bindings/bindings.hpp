@@ -138,6 +138,16 @@ void raise_if(const std::vector<Problem>& problems);
 Solver solver_from(const std::string& name, const std::string& path = "solver");
 std::string name_of(Solver solver);
 
+/// The number of axes of a NumPy array or scalar; 0 for everything without `ndim`. Before NumPy 2.4, an array with one
+/// element and any number of axes counts as a number.
+inline long axes_of(nb::handle given) noexcept {
+  PyObject* axes = PyObject_GetAttrString(given.ptr(), "ndim");
+  const long n = axes ? PyLong_AsLong(axes) : 0;
+  Py_XDECREF(axes);
+  PyErr_Clear();
+  return n;
+}
+
 /// Normalizes a direction of any length but 0. Throws ConfigurationError.
 Vector3d unit(const Triple& direction, const std::string& path);
 
@@ -151,7 +161,10 @@ struct nanobind::detail::type_caster<punctura::bindings::Triple>
 
   bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
     // Only a plain ndarray: the buffer of a subclass, such as a masked array, may not hold its element values.
-    if (punctura::bindings::is_numpy_array(from) && read_buffer(from.ptr())) return true;
+    if (punctura::bindings::is_numpy_array(from)) {
+      if (read_buffer(from.ptr())) return true;
+      if (punctura::bindings::axes_of(from) != 1) return false;
+    }
     if (PyBytes_Check(from.ptr()) || PyByteArray_Check(from.ptr()) || PyUnicode_Check(from.ptr())) return false;
     return array_caster::from_python(from, flags, cleanup);
   }

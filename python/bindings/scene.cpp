@@ -111,13 +111,14 @@ bool is_number(nb::handle given) {
 double number_at(const std::string& path, nb::handle given) {
   if (!is_number(given))
     throw nb::type_error(("with_values(): " + path + " must be a number; replace() sets words").c_str());
+  const std::string no_number = "with_values(): " + path + " must be one real number";
+  if (axes_of(given) > 0) throw nb::type_error(no_number.c_str());
   const double number = PyFloat_AsDouble(given.ptr());
   if (!PyErr_Occurred()) return number;
   nb::python_error error;
   const bool too_large = error.matches(PyExc_OverflowError);
   if (!too_large && !error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw error;
-  const std::string says =
-      "with_values(): " + path + (too_large ? " is too large for a number" : " must be one real number");
+  const std::string says = too_large ? "with_values(): " + path + " is too large for a number" : no_number;
   nb::raise_from(error, too_large ? PyExc_ValueError : PyExc_TypeError, "%s", says.c_str());
 }
 

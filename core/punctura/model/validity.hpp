@@ -1,10 +1,10 @@
 // The permitted values of a needle, of a membrane and of a pair of them. Check them before you construct a law.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -99,10 +99,12 @@ bool check_fields(const FieldOf<Owner> (&fields)[n], const Owner& owner, const s
   return good;
 }
 
-/// The field of this member, which is in the table.
+/// The field of a member. A member that is not in the table does not compile.
 template <typename Owner, std::size_t n>
-constexpr const FieldOf<Owner>& field_of(const FieldOf<Owner> (&fields)[n], double Owner::* member) {
-  return *std::find_if(fields, fields + n - 1, [&](const FieldOf<Owner>& field) { return field.member == member; });
+consteval const FieldOf<Owner>& field_of(const FieldOf<Owner> (&fields)[n], double Owner::* member) {
+  for (const auto& field : fields)
+    if (field.member == member) return field;
+  std::abort();
 }
 
 inline bool check(const Needle& needle, const std::string& path, std::vector<Problem>& problems) {

@@ -30,10 +30,10 @@ class BasicForceBudget {
     spent_ = select(spent == spent, min(max(spent, Scalar(0)), most()), most());
   }
 
-  /// The square (N^2) of the largest force that the guarantee permits for a time (s).
-  Scalar permitted_square(Scalar time) const noexcept {
+  /// The square (N^2) of the largest force that the guarantee permits for a time (s), with so much (N^2 s) spent.
+  Scalar permitted_square(Scalar time, Scalar spent) const noexcept {
     using namespace lane;
-    return rate_ + max(Scalar(0), Scalar(depth_ - spent_)) / time;
+    return rate_ + max(Scalar(0), Scalar(depth_ - spent)) / time;
   }
 
   /// The part of the bucket that is left, 0 to 1.

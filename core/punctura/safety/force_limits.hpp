@@ -58,7 +58,7 @@ class BasicForceLimiter {
  public:
   using Vector = Vector3<Scalar>;
   /// The budget always has room for a device that holds a force for this time, s: the ordinary deadline of the gate.
-  /// A scene with a longer deadline can exceed the continuous force (docs/safety.md).
+  /// A longer deadline can exceed the continuous force (docs/safety.md).
   static constexpr Scalar longest_hold = static_cast<Scalar>(GateLimits{}.deadline);
   static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
@@ -68,12 +68,12 @@ class BasicForceLimiter {
         budget_(static_cast<Scalar>(limits.continuous_time), static_cast<Scalar>(limits.continuous_force)),
         period_(period),
         steady_(std::min(max_force_, std::sqrt(budget_.rate()))),
+        full_(steady_ + (max_force_ - steady_)),
         hold_(std::max(period, longest_hold)),
         ramp_step_(period / static_cast<Scalar>(limits.ramp_time)) {
-    const Scalar full = steady_ + (max_force_ - steady_);
-    budget_.set_spent(budget_.depth() / 2);
-    usual_until_ = budget_.permitted_square(hold_) >= full * full ? budget_.spent() : -1;
-    budget_.set_spent(0);
+    // Up to half of the budget the share in permitted() is 1, and there is the least room for a hold at the half.
+    const Scalar half = budget_.depth() / 2;
+    full_until_ = budget_.permitted_square(hold_, half) >= full_ * full_ ? half : -1;
     ceiling_ = permitted(0);
   }
 
@@ -161,11 +161,10 @@ class BasicForceLimiter {
   }
 
   Scalar permitted(Scalar temperature) const noexcept {
-    // The same as below, to the bit, while at most half of the budget is spent: there the share is 1.
-    if (budget_.spent() <= usual_until_) return thermal_factor(temperature) * (steady_ + (max_force_ - steady_));
+    if (budget_.spent() <= full_until_) return thermal_factor(temperature) * full_;  // the same as below, to the bit
     const Scalar share = std::min(Scalar(1), 2 * budget_.left());
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
-    return thermal_factor(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_)));
+    return thermal_factor(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_, budget_.spent())));
   }
 
   /// Counts the force of the previous tick for the time that the device held it.
@@ -188,8 +187,9 @@ class BasicForceLimiter {
   Scalar warm_motor_;  ///< 0 to 1
   BasicForceBudget<Scalar> budget_;
   Scalar period_;
-  Scalar steady_;       ///< the largest constant force, N
-  Scalar usual_until_;  ///< the ceiling is max_force while no more than this is spent, N^2 s; -1: it may not be
+  Scalar steady_;      ///< the largest constant force, N
+  Scalar full_;        ///< the ceiling of cool motors with a full budget, N: max_force, but for rounding
+  Scalar full_until_;  ///< the ceiling of cool motors is full_ while no more than this is spent, N^2 s; -1: never sure
   Scalar hold_, ramp_step_;
   Scalar gain_ = 0, ceiling_;
   Scalar held_square_ = 0;  ///< the square of the force that the device holds since the last tick, N^2

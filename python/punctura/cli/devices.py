@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import sys
 from typing import Annotated
 
 import typer
@@ -14,8 +12,7 @@ from punctura.live import enumerate_devices
 
 def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
     """Lists the devices. If one is not available, says what to do."""
-    with contextlib.redirect_stdout(sys.stderr):  # what a device of another package prints is not part of the list
-        entries = enumerate_devices()
+    entries = enumerate_devices()
     if as_json:
         typer.echo(json.dumps(entries, indent=2))
         return

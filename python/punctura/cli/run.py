@@ -120,7 +120,7 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="With --headless: print the summary as JSON.")] = False,
     page: Annotated[Path | None, typer.Option("--page", hidden=True)] = None,
 ) -> None:
-    """Runs a scene on a device and serves the studio's page. All safety limits are on.
+    """Runs a scene on a device, in the studio or in the terminal. All safety limits are on.
 
     The hand of the simulated device follows the mouse in the page; with --headless it makes strokes through the scene.
     """

@@ -32,7 +32,7 @@ def command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Runs a parameter study. The trials are a grid, Latin hypercube, Sobol or Monte Carlo.
+    """Runs a parameter study. Its plan is a grid, a Latin hypercube, Sobol points or Monte Carlo.
 
     Writes one row for each trial and a report. After an interruption, the same command goes on with the missing trials.
     """

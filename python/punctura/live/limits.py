@@ -18,6 +18,7 @@ from punctura.files.fields import Buttons, Number
 from punctura.files.tables import Table
 from punctura.files.units import split_key
 from punctura.live.choose import gate_for
+from punctura.live.silence import HELD_BY_NOBODY
 from punctura.live.tables import in_si, read_table
 
 _RATED = {"max_force_N": "max_force", "continuous_force_N": "continuous_force"}  # no device gives more
@@ -101,14 +102,14 @@ class Limits(NamedTuple):
                 f"continuous_time_s = {chosen:g} lets strong forces last longer than {usual:g} s does: "
                 "motors may get hotter than their maker allows"
             )
-        simulated = [isinstance(one.device, SimulatedDevice) for one in (loop, thumb) if one is not None]
+        held = [one for one in (loop, thumb) if one is not None and not isinstance(one.device, HELD_BY_NOBODY)]
         longest, room = self.gate.get("deadline", 0), GateLimits().deadline
-        if longest > room and not all(simulated):
+        if longest > room and held:
             notes.append(
                 f"deadline_ms = {longest * 1e3:g} lets the device hold a force for longer than the long-run limit "
-                f"keeps room for, {room * 1e3:g} ms: late ticks can exceed continuous_force_N"
+                f"keeps room for, {room * 1e3:g} ms. If ticks come late, the force can exceed continuous_force_N"
             )
-        if self.gate.get("dead_man") and simulated[0]:
+        if self.gate.get("dead_man") and isinstance(loop.device, SimulatedDevice):
             notes.append("the simulated hand presses no button: with dead_man_buttons it is given no force")
         return notes
 

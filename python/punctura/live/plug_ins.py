@@ -2,22 +2,21 @@
 
 An entry point names a module or an object with `open(rate, device)`, which returns a Device (a FedDevice that a thread
 of its own feeds), and with `status()`, which returns a dict with state, detail and devices as in BackendState. The name
-of the entry point is the name for `--device`. `status()` is called in a thread of its own, so that it may hang.
+of the entry point is the name for `--device`. status_probe.py calls `status()`.
 """
 
 from __future__ import annotations
 
-import threading
 from importlib.metadata import EntryPoint, entry_points
 from typing import get_args
 
 from punctura import _core
 from punctura._core import Device, DeviceError
+from punctura.live.status_probe import probe
 from punctura.results import BackendState, DeviceState
 
 GROUP = "punctura.devices"
 LONGEST = 500  # characters of a text that a package gives
-STATUS_S = 10.0  # for the import of a package and its status(), which may search a bus
 
 
 def enumerate_devices() -> list[BackendState]:
@@ -29,7 +28,10 @@ def enumerate_devices() -> list[BackendState]:
 def plug_in_states(taken: set[str]) -> list[BackendState]:
     """The devices of other packages. taken: the names of Punctura's own devices, which no package can replace."""
     named: dict[str, EntryPoint] = {}
-    return [_status(found, taken, named.setdefault(_printable(found.name), found)) for found in _all()]
+    refused = {found: _refusal(found, taken, named.setdefault(_printable(found.name), found)) for found in _all()}
+    asked = [found for found, why in refused.items() if not why]
+    said = dict(zip(asked, probe(asked), strict=True))
+    return [_fault(found, why) if why else _state(found, said[found]) for found, why in refused.items()]
 
 
 def plug_in_names() -> list[str]:
@@ -77,40 +79,37 @@ def _reason(error: BaseException, typed: bool = True) -> str:
     return f"{name}: {text}" if typed else text
 
 
-def _status(found: EntryPoint, taken: set[str], first: EntryPoint) -> BackendState:
-    """A package that fails must not hide the other devices. first: the entry point that has its name."""
-    name = _printable(found.name)
+def _fault(found: EntryPoint, detail: str) -> BackendState:
+    told = _printable(f"{found.value}: {detail}")
+    return BackendState(backend=_printable(found.name), state="fault", detail=told, devices=[])
+
+
+def _refusal(found: EntryPoint, taken: set[str], first: EntryPoint) -> str:
+    """Why this package is not asked at all; empty if it is. first: the entry point that has its name."""
     if found.name in taken:
-        return _fault(name, f"{found.value}: Punctura has a device of this name; choose another one")
+        return "Punctura has a device of this name; choose another one"
     if first != found:
-        told = f"{found.value} does not run: {first.value} has a device of the same name; uninstall one of the packages"
-        return _fault(name, told)
-    if ":" in name:
-        told = f"{found.value}: a name with a colon cannot be chosen; change the name of the entry point"
-        return _fault(name, told)
-    answers: list[BackendState] = []
-    thread = threading.Thread(target=lambda: answers.append(_asked(found)), name=f"status of {name}", daemon=True)
-    thread.start()
-    thread.join(STATUS_S)
-    return answers[0] if answers else _fault(name, f"{found.value}: no answer from status() within {STATUS_S:g} s")
+        return f"does not run, because {first.value} has a device of the same name; uninstall one of the packages"
+    if ":" in found.name:
+        return "a name with a colon cannot be chosen; change the name of the entry point"
+    return ""
 
 
-def _asked(found: EntryPoint) -> BackendState:
-    """The package's answer, or what is wrong with it."""
-    name = _printable(found.name)
-    try:
-        said = found.load().status()
-        if not isinstance(said, dict) or said.get("state") not in get_args(DeviceState):
-            told = f"status() must return a dict whose state is one of {', '.join(get_args(DeviceState))}; it is"
-            return _fault(name, f"{found.value}: {told} {said!r}")
-        detail, devices = said.get("detail", ""), said.get("devices", [])
-        if isinstance(devices, str):
-            return _fault(name, f"{found.value}: devices of status() must be a list of names; it is {devices!r}")
-        shown = [_printable(device) for device in devices]
-        return BackendState(backend=name, state=said["state"], detail=_printable(detail), devices=shown)
-    except BaseException as error:  # also SystemExit and CancelledError; Ctrl-C goes to another thread
-        return _fault(name, f"{found.value}: {_reason(error)}")
-
-
-def _fault(name: str, detail: str) -> BackendState:
-    return BackendState(backend=name, state="fault", detail=_printable(detail), devices=[])
+def _state(found: EntryPoint, said: dict[str, object]) -> BackendState:
+    """said: what its status() returned, or what is wrong with it."""
+    if "error" in said:
+        return _fault(found, str(said["error"]))
+    given, detail, devices = said.get("state"), said.get("detail", ""), said.get("devices", [])
+    state = next((known for known in get_args(DeviceState) if known == given), None)
+    if state is None:
+        returned = said.get("returned", f"{{'state': {given!r}, ...}}")
+        known = ", ".join(get_args(DeviceState))
+        return _fault(found, f"status() must return a dict whose state is one of {known}; it is {returned}")
+    if not isinstance(devices, list):
+        return _fault(found, f"devices of status() must be a list of names; it is {devices!r}")
+    return BackendState(
+        backend=_printable(found.name),
+        state=state,
+        detail=_printable(detail),
+        devices=[_printable(device) for device in devices],
+    )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 from punctura import Scene
 from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, ServoLoop, ThumbLoop
 from punctura.live.choose import gate_for
 from punctura.live.signals import Ended, ends_on_signals
-from punctura.live.silence import SilenceWatch
+from punctura.live.silence import LONGEST_S, SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.live.supervisor import POLL_S, Supervisor
 
@@ -95,7 +96,7 @@ class Watched:
     def __init__(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         self.silence = ""  # why the ticks ceased, in words
         self._loop, self._thumb = loop, thumb
-        self._told_after: int | None = None  # ticks of the needle, when one has read the thumb's fault for certain
+        self._thumb_seen: tuple[float, int] | None = None  # when its fault was seen: s, and the needle's ticks then
         self._watch = SilenceWatch(loop, thumb)
 
     def begin(self) -> None:
@@ -111,11 +112,13 @@ class Watched:
     def _thumb_is_over(self) -> bool:
         """True after a fault of the second device, once the needle's ticks had the time to latch and record it.
 
-        A scene without a syringe does not read the thumb: its ticks latch nothing, and the run ends all the same.
+        Needle ticks that come latch it at once, and end the force. Ticks that do not come leave the needle's last
+        force on, so the wait is short. In a scene without a syringe they latch nothing, and the run ends all the same.
         """
         if self._thumb is None or self._thumb.fault == Fault.none:
             return False
-        ticks = self._loop.report()["ticks"]
-        if self._told_after is None:
-            self._told_after = ticks + 2  # one tick may have begun before the fault
-        return ticks >= self._told_after
+        now, ticks = time.monotonic(), self._loop.report()["ticks"]
+        if self._thumb_seen is None:
+            self._thumb_seen = now, ticks
+        seen, before = self._thumb_seen
+        return ticks >= before + 2 or now - seen >= LONGEST_S  # one tick may have begun before the fault

@@ -111,6 +111,8 @@ class RunSummary:
         self._add(device.trouble())
         if thumb is None:
             return
+        if thumb.fault != Fault.none and not self.fault:  # no tick of the needle came any more to latch it
+            self.fault = describe(Fault.thumb)
         for trouble in filter(None, (words_of(thumb), thumb.device.trouble())):
             self._add(f"second device: {trouble}")
 

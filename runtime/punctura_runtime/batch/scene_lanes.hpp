@@ -251,7 +251,7 @@ class SceneLanes {
     const V most(limits.max_force), steady = min(most, sqrt(budget_.rate()));
     const V share = min(V(1), V(2) * budget_.left());
     const V hold = max(period, V(BasicForceLimiter<double>::longest_hold));
-    const V ceiling = min(steady + share * (most - steady), sqrt(budget_.permitted_square(hold)));
+    const V ceiling = min(steady + share * (most - steady), sqrt(budget_.permitted_square(hold, budget_.spent())));
 
     const V largest = largest_of(faded);
     const Vector ramped = gain_ * faded;

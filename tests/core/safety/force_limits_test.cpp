@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -249,16 +250,26 @@ struct PlainLimits {
     const Scalar factor = temperature <= warm ? 1 : std::max(Scalar(0), (1 - temperature) / (1 - warm));
     const Scalar steady = std::min(most, std::sqrt(budget.rate()));
     const Scalar share = std::min(Scalar(1), 2 * budget.left());
-    const Scalar room = std::sqrt(budget.permitted_square(BasicForceLimiter<Scalar>::longest_hold));
+    const Scalar room = std::sqrt(budget.permitted_square(BasicForceLimiter<Scalar>::longest_hold, budget.spent()));
     ceiling = factor * std::min(steady + share * (most - steady), room);
     const Scalar norm = wanted.stableNorm();
-    return held = norm <= ceiling ? wanted : wanted / norm * ceiling;
+    if (norm <= ceiling) {
+      limit = Limit::none;
+      return held = wanted;
+    }
+    limit = factor < 1 ? Limit::temperature : ceiling < most ? Limit::continuous : Limit::peak;
+    ++(limit == Limit::temperature  ? counters.temperature
+       : limit == Limit::continuous ? counters.continuous
+                                    : counters.peak);
+    return held = wanted / norm * ceiling;
   }
 
   ForceLimits given;
   Scalar most, ceiling = 0;
   BasicForceBudget<Scalar> budget;
   Vector3<Scalar> held{};
+  Limit limit = Limit::none;
+  LimitCounters counters{};
 };
 
 template <typename Scalar>
@@ -268,6 +279,7 @@ void compare_with_plain_limits(std::mt19937& random) {
   BasicForceLimiter<Scalar> limiter(limits, Scalar(T));
   PlainLimits<Scalar> plain(limits);
   bool warm = false;
+  const auto counters = [](const LimitCounters& c) { return std::array{c.peak, c.continuous, c.temperature, c.ramp}; };
   for (int k = 0; k < 4000; ++k) {
     if (k % 500 == 0) warm = part(random) < 0.3;
     const auto temperature = static_cast<Scalar>(warm ? part(random) : 0.5);
@@ -278,8 +290,10 @@ void compare_with_plain_limits(std::mt19937& random) {
     const Vector3<Scalar> force = limiter.step(wanted, temperature);
     REQUIRE(force == plain.step(wanted, temperature));
     REQUIRE(limiter.ceiling() == plain.ceiling);
+    REQUIRE(limiter.limit() == plain.limit);
     REQUIRE(limiter.budget().spent() == plain.budget.spent());
   }
+  CHECK(counters(limiter.counters()) == counters(plain.counters));
 }
 }  // namespace
 

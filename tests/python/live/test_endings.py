@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 
 import punctura as pn
 import pytest
@@ -144,7 +145,7 @@ class Silent:
 
 def test_ticks_that_cease_are_noticed_and_reported(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("punctura.live.silence.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: now[0]))
     for deadline, longest in ((0.02, 0.1), (0.1, 0.5)):
         loop = Silent(deadline)
         watch = SilenceWatch(loop)
@@ -289,7 +290,7 @@ def test_a_closed_standard_error_changes_nothing_but_what_is_said(tmp_path):
 def test_a_terminal_that_has_gone_leaves_the_exit_status_of_a_run_that_ends_by_itself(tmp_path):
     path = tmp_path / "run.parquet"
     master, slave = pty.openpty()
-    process = running(path, "--duration", "3", stdin=slave, stdout=slave, stderr=slave, preexec_fn=ignore_hangup)
+    process = running(path, "--duration", "6", stdin=slave, stdout=slave, stderr=slave, preexec_fn=ignore_hangup)
     os.close(slave)
     os.close(master)
     assert process.wait(60) == 0

@@ -90,7 +90,7 @@ def test_a_fault_ends_the_run_and_says_what_to_do():
 
 
 def test_an_encoder_that_fails_once_is_a_fault_that_stays_until_a_reset():
-    loop = ServoLoop(SimulatedDevice(STROKES, ticks=0), SCENE)
+    loop = ServoLoop(SimulatedDevice(STROKES, ticks=0), SCENE, GateLimits(stale=30, deadline=30))
     loop.arm()
     loop.start()
     loop.device.trip()

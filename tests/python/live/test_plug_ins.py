@@ -105,12 +105,17 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
     ("body", "words"),
     [
         ("return {}", "status() must return a dict whose state is one of available, library_not_found, "),
-        ("return {'state': 'ready'}", "needs_calibration, fault; it is {'state': 'ready'}"),
+        ("return {}", "; it is {'state': None, ...}"),
+        ("return {'state': 'ready'}", "needs_calibration, fault; it is {'state': 'ready', ...}"),
         ("return 3", "it is 3"),
         ("return {'state': 'available', 'devices': 'mine'}", "devices of status() must be a list of names; it is 'm"),
         ("import asyncio; raise asyncio.CancelledError", "mine: CancelledError"),
         ("raise SystemExit(1)", "mine: SystemExit: 1"),
-        ("print('loud'); return {'state': 'ready'}", "it is {'state': 'ready'}"),
+        ("print('loud'); return {'state': 'ready'}", "it is {'state': 'ready', ...}"),
+        ("import os; os.write(1, b'loud'); os._exit(3)", "mine: status() ended its process, with status 3"),
+        ("import os; os.kill(os.getpid(), 9)", "mine: status() ended its process, with status -9"),
+        ("return {'state': {'a': {1, 2}}}", "mine: TypeError: Object of type set is not JSON serializable"),
+        ("a = {}; a['devices'] = [a]; a['state'] = 'no'; return a", "it is {'state': 'no', ...}"),
     ],
 )
 def test_a_wrong_answer_of_status_is_told(tmp_path, body, words):
@@ -124,7 +129,7 @@ def test_a_wrong_answer_of_status_is_told(tmp_path, body, words):
 def test_a_status_that_hangs_is_told(tmp_path, monkeypatch):
     package(tmp_path, "a_hanging_device", "import threading\ndef status(): threading.Event().wait()\n", name="hangs")
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setattr("punctura.live.plug_ins.STATUS_S", 0.05)
+    monkeypatch.setattr("punctura.live.status_probe.STATUS_S", 0.05)
     (entry,) = (entry for entry in enumerate_devices() if entry["backend"] == "hangs")
     assert entry["state"] == "fault" and "no answer from status() within 0.05 s" in entry["detail"]
 
@@ -186,7 +191,9 @@ def test_of_two_packages_with_one_name_the_first_runs_and_the_other_is_told(of_t
     package(of_the_docs, "punctura_other", other)
     listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
     assert [entry["state"] for entry in listed if entry["backend"] == "mine"] == ["available", "fault"]
-    assert listed[1]["detail"].startswith("punctura_other does not run: punctura_mine has a device of the same name; ")
+    assert listed[1]["detail"].startswith(
+        "punctura_other: does not run, because punctura_mine has a device of the same name; "
+    )
     assert "mine" in summary_of_mine(of_the_docs, seconds="0.1")["device"]
 
 

@@ -96,7 +96,9 @@ def test_a_fault_of_the_second_device_ends_the_run_and_is_told(pair):
 
 
 @pytest.mark.parametrize("name", ["epidural", "k06-fig10"])
-def test_a_fault_of_the_second_device_is_latched_by_the_needle_before_the_run_ends(name):
+def test_a_fault_of_the_second_device_is_latched_by_the_needle_before_the_run_ends(name, monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("punctura.live.session.time", types.SimpleNamespace(monotonic=lambda: now[0]))
     needle, thumb = (FedDevice(500, info=DeviceInfo(model=model, max_force=3.0)) for model in ("needle", "thumb"))
     loop = ThumbLoop(thumb, gate=PATIENT)
     servo = pn._core.ServoLoop(needle, pn.load_scene(name), PATIENT, ForceLimits(), thumb=loop)
@@ -109,8 +111,23 @@ def test_a_fault_of_the_second_device_is_latched_by_the_needle_before_the_run_en
             assert not watched.over() and servo.latest()["fault"][0] == Fault.none
         needle.feed(ABOVE)
         needle.feed(ABOVE)
+        now[0] = 0.09
         assert watched.over()
         assert servo.latest()["fault"][0] == (Fault.thumb if name == "epidural" else Fault.none)
+
+
+def test_a_needle_that_is_silent_does_not_hold_up_the_end_after_a_fault_of_the_second_device():
+    needle, thumb = (FedDevice(500, info=DeviceInfo(model=model, max_force=3.0)) for model in ("needle", "thumb"))
+    loop, acted = ThumbLoop(thumb, gate=PATIENT), []
+
+    def watch(summary):
+        if not acted:
+            needle.feed(ABOVE)
+            acted.append(thumb.feed((math.nan, 0.0, 0.0)))
+
+    summary = run_live(needle, SCENE, 60, PATIENT, watch=watch, thumb=loop)
+    assert summary.fault.startswith("the device under the thumb has a fault of its own or sends nothing")
+    assert "ceased" not in summary.fault
 
 
 def test_a_fault_of_the_needles_device_ends_the_force_of_the_thumb(pair):
@@ -136,8 +153,8 @@ def test_a_library_that_dies_ends_the_run_of_both(pair, monkeypatch, which):
         if summary.state == "active" and not acted:
             acted.append(dead.die())
 
-    # Silence is ten seconds of the watch, whose clock goes ten times as fast: a busy computer is not silent so long.
-    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: 10 * time.monotonic()))
+    # Silence is ten seconds of the watch, whose clock goes twice as fast: a busy computer is not silent for five.
+    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: 2 * time.monotonic()))
     monkeypatch.setattr("punctura.live.silence.gate_for", lambda device: PATIENT.replace(deadline=2.0))
     gate = PATIENT.replace(deadline=2.0)
     summary = run_live(needle.device, SCENE, 60, gate, watch=watch, thumb=loop)

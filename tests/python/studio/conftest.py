@@ -7,6 +7,7 @@ from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioServer
+from waiting import wait_until
 
 os.environ["PUNCTURA_LAB_NICE"] = "0"  # other tests run at the same time; a computation must not wait for them
 
@@ -36,8 +37,20 @@ def page(served):
 
 
 @pytest.fixture(scope="module")
-def guarded(tmp_path_factory):
-    """A studio for many requests that must be rejected early."""
+def guarded_by_all(tmp_path_factory):
     server = serve(tmp_path_factory.mktemp("studio"))
     yield server
     server.stop()
+
+
+@pytest.fixture
+def guarded(guarded_by_all):
+    """A studio for many requests that must be rejected early, when nobody is connected any more."""
+    wait_until_left(guarded_by_all)
+    return guarded_by_all
+
+
+def wait_until_left(server):
+    """The server may notice late that a connection was closed at the other end."""
+    connections = server.connections
+    wait_until(lambda: not (server.hub.viewers or connections.known or connections.strangers))

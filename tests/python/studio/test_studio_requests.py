@@ -208,11 +208,12 @@ def test_only_who_has_control_may_ask_and_anyone_may_take_it(served, page):
         refused = other.ask(do="pause")
         assert not refused["ok"] and "control" in refused["text"]
         other.target([0.0, -10e-3, 0.0], AXIS)
+        other.wait(lambda n=other.ticks: other.ticks > n + 200)  # the hand would have moved
+        assert page.last.ticks["tip"][-1][1] > 4e-3
         assert other.ask(do="take_control")["ok"]
         page.wait(lambda: not page.of("control")[-1]["you"])
         assert not page.ask(do="pause")["ok"]
         assert other.ask(do="pause")["ok"]
-        assert page.last.ticks["tip"][-1][1] > 4e-3
     page.wait(lambda: page.of("control")[-1]["holder"] is None)
     with StudioClient(served.address.url) as third:
         third.wait(lambda: third.of("control") and third.of("control")[-1]["you"])

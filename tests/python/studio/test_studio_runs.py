@@ -80,6 +80,7 @@ def test_who_gets_control_is_told_where_the_hand_is(served, page):
         looks_on.wait(lambda: looks_on.of("control"))
         assert looks_on.of("control")[-1]["hand"] is None
         page.close()  # and is loaded anew
+        looks_on.wait(lambda: looks_on.of("control")[-1]["holder"] is None)
         with StudioClient(served.address.url) as again:
             told = again.wait(lambda: next((c for c in again.of("control") if c["you"]), None))
             assert told["hand"]["position"] == place

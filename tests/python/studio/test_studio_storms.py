@@ -169,7 +169,6 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
 def test_silent_connections_are_ended_and_told_why(guarded, monkeypatch, begin):
     now = [0.0]
     monkeypatch.setattr(guarded.connections, "_clock", lambda: now[0])
-    wait_until(lambda: not guarded.connections.strangers)  # those of the test before
     with tcp(guarded) as raw:
         raw.sendall(begin)
         wait_until(lambda: guarded.connections.strangers)
