@@ -19,7 +19,9 @@ GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> 
   const std::size_t n = depth.size();
   for (const auto& [name, values] : {std::pair{"lower", &lower}, std::pair{"upper", &upper}})
     if (values->size() != n)
-      problems.push_back({name, static_cast<double>(values->size()), "must have one number a knot"});
+      problems.push_back({std::string("len(") + name + ")", static_cast<double>(values->size()),
+                          "must be the number of depths, " + std::to_string(n)});
+  if (n == 0 || n > max_knots) problems.push_back({"len(depth)", static_cast<double>(n), "must be 1 to 32 knots"});
   const Field& H = field_of(membrane_fields, &Membrane::thickness);
   check_field(H, thickness, "", problems);
   check_field(obliquity_field, obliquity, "", problems);
@@ -63,7 +65,7 @@ void bind_profile_law(nb::module_& m) {
   def_bounds(law);
   def_init(law, &make_profile_law, nb::arg("depth"), nb::arg("lower"), nb::arg("upper"), nb::arg("thickness") = 0.0,
            nb::arg("obliquity") = 0.0,
-           nb::sig("def __init__(self, depth: _Vector, lower: _Vector, upper: _Vector, thickness: float = ..., "
+           nb::sig("def __init__(self, depth: _Numbers, lower: _Numbers, upper: _Numbers, thickness: float = ..., "
                    "obliquity: float = ...) -> None"),
            "depth: of the knots, m, ascending. lower: phi_I there, N, 0 or less. upper: phi_O, N. thickness: H, m.\n"
            "obliquity: beta, rad. Raises ConfigurationError.");

@@ -107,12 +107,19 @@ bool is_number(nb::handle given) {
          PyNumber_Check(given.ptr());
 }
 
+/// False for a NumPy scalar of another kind, such as complex64 or str, from which NumPy makes a float all the same.
+bool is_real(nb::handle given) {
+  if (!nb::hasattr(given, "dtype")) return true;
+  const auto kind = nb::cast<std::string>(nb::str(given.attr("dtype").attr("kind")));
+  return kind == "f" || kind == "i" || kind == "u";
+}
+
 /// Throws TypeError or ValueError, which names the path and has the exception of __float__ as its cause.
 double number_at(const std::string& path, nb::handle given) {
   if (!is_number(given))
     throw nb::type_error(("with_values(): " + path + " must be a number; replace() sets words").c_str());
   const std::string no_number = "with_values(): " + path + " must be one real number";
-  if (axes_of(given) > 0) throw nb::type_error(no_number.c_str());
+  if (axes_of(given) > 0 || !is_real(given)) throw nb::type_error(no_number.c_str());
   const double number = PyFloat_AsDouble(given.ptr());
   if (!PyErr_Occurred()) return number;
   nb::python_error error;

@@ -89,7 +89,7 @@ def _assigned(
 def _plain(text: str) -> str:
     """A type as in the documentation of the constructors."""
     text = re.sub(r"typing\.Literal\[([^]]*)\]", lambda found: found[1].replace(", ", " | "), text)
-    return text.replace("_Vector", "Sequence[float]").replace("numpy.typing.", "")
+    return re.sub("_Vector|_Numbers", "Sequence[float]", text).replace("numpy.typing.", "")
 
 
 def _fault(name: str, text: str, value: Any) -> str:
@@ -115,6 +115,7 @@ _WORDS = {
     "float": "a number",
     "int": "an integer",
     "_Vector": "three numbers",
+    "_Numbers": "a list of numbers",
     "numpy.typing.ArrayLike": "an array",
     "bytes": "bytes",
     "None": "None",
@@ -139,8 +140,8 @@ def _fits(kind: str, value: Any) -> bool:
         return _is_number(value)
     if kind == "int":
         return hasattr(type(value), "__index__")
-    if kind == "_Vector":
-        return _is_triple(value)
+    if kind in ("_Vector", "_Numbers"):
+        return _are_numbers(value) and (kind == "_Numbers" or len(value) == 3)
     if kind == "numpy.typing.ArrayLike":
         return value is not None
     if base == "typing.Literal":
@@ -158,13 +159,11 @@ def _is_number(value: Any) -> bool:
     return True
 
 
-def _is_triple(value: Any) -> bool:
+def _are_numbers(value: Any) -> bool:
+    if isinstance(value, str | bytes | bytearray | dict | set):
+        return False
     try:
-        return (
-            not isinstance(value, str | bytes | bytearray | dict | set)
-            and len(value) == 3
-            and all(map(_is_number, value))
-        )
+        return len(value) >= 0 and all(map(_is_number, value))
     except TypeError:
         return False
 

@@ -110,8 +110,7 @@ class Vector3 {
     return *this / (std::sqrt((*this / largest).squaredNorm()) * largest);
   }
   Scalar maxAbs() const noexcept { return std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])}); }
-  /// x - x is 0 for a finite x, else NaN.
-  bool allFinite() const noexcept { return (v_[0] - v_[0]) + (v_[1] - v_[1]) + (v_[2] - v_[2]) == 0; }
+  bool allFinite() const noexcept { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
 
  private:
   std::array<Scalar, 3> v_{};

@@ -60,6 +60,7 @@ class BasicForceLimiter {
   /// The budget always has room for a device that holds a force for this time, s: the ordinary deadline of the gate.
   /// A longer deadline can exceed the continuous force (docs/safety.md).
   static constexpr Scalar longest_hold = static_cast<Scalar>(GateLimits{}.deadline);
+  static constexpr Scalar smallest_square = std::numeric_limits<Scalar>::min() * 1000;
   static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
   BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
@@ -73,7 +74,8 @@ class BasicForceLimiter {
         ramp_step_(period / static_cast<Scalar>(limits.ramp_time)) {
     // Up to half of the budget the share in permitted() is 1, and there is the least room for a hold at the half.
     const Scalar half = budget_.depth() / 2;
-    full_until_ = budget_.permitted_square(hold_, half) >= full_ * full_ ? half : -1;
+    const Scalar square = full_ * full_;
+    full_until_ = square > smallest_square && budget_.permitted_square(hold_, half) >= square ? half : -1;
     ceiling_ = permitted(0);
   }
 
@@ -99,8 +101,10 @@ class BasicForceLimiter {
 
     ceiling_ = permitted(motor_temperature);
     held_square_ = force.squaredNorm();
-    // Most forces are far enough below the ceiling that rounding cannot matter. They need no root.
-    if (!(held_square_ < Scalar(0.999) * ceiling_ * ceiling_)) {
+    // Most forces are far enough below the ceiling that rounding cannot matter. They need no root. Denormal squares are
+    // too coarse for this comparison.
+    const Scalar below = Scalar(0.999) * ceiling_ * ceiling_;
+    if (!(held_square_ < below && below > smallest_square)) {
       force = clamped(force, motor_temperature);
       held_square_ = force.squaredNorm();
     }

@@ -5,6 +5,7 @@ _status.py has the statuses.
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import pkgutil
@@ -28,6 +29,7 @@ from punctura.cli._streams import (
 )
 from punctura.errors import ConfigurationError, sentence_of
 from punctura.live import Ended
+from punctura.live.choose import DeviceWarning
 from punctura.live.signals import ENDING, ends_on_signals
 from punctura.scene.unusual import UnusualWarning
 
@@ -79,8 +81,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     warnings.formatwarning = _as_sentence
     with ends_on_signals(ENDING) as signals:
         try:
+            given = list(sys.argv[1:] if arguments is None else arguments)
+            if given[:1] and given[0] in _WITH_TABLES:
+                _import_pandas()
             with signals.raised():
-                given = list(sys.argv[1:] if arguments is None else arguments)
                 build_app(*given[:1])(given, prog_name="punctura")
         except ConfigurationError as error:
             _fail(error, CALLED_WRONGLY)
@@ -90,6 +94,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
             _fail(f"{sentence_of(error)}{_where()}", FAILED)
         except Ended as end:
             leave(end)
+        except SystemExit as done:
+            if signals.number and not done.code:  # compiled code has swallowed the exception of the signal
+                leave(Ended(signals.number))
+            raise
         finally:
             if isinstance(
                 sys.exc_info()[1], SystemExit | None
@@ -97,11 +105,21 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 wait_for_stderr_again()
 
 
+# These verbs make Arrow arrays, and with the first one pyarrow imports pandas, if that is installed.
+_WITH_TABLES = ("compare", "export", "identify", "replay", "simulate", "study")
+
+
+def _import_pandas() -> None:
+    """Where a signal does not raise: the import of compiled code can swallow an exception."""
+    with contextlib.suppress(Exception):
+        importlib.import_module("pandas")
+
+
 def _as_sentence(
     message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
 ) -> str:
     """A warning as the command line tells it: without a place in Punctura's sources."""
-    if issubclass(category, UnusualWarning):
+    if issubclass(category, UnusualWarning | DeviceWarning):
         return f"punctura: warning: {message}\n"
     return _usual_warning(message, category, filename, lineno, line)
 

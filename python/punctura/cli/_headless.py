@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import typer
 
-from punctura._core import Device, Placement, ServoLoop
+from punctura._core import Device, FedDevice, Placement, ServoLoop
 from punctura.cli._status import FAILED
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
@@ -80,7 +80,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     def tell(summary: RunSummary, tell_result: Callable[[str], None]) -> None:
         told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
         tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
-        if not summary.force_was_on:
+        if not summary.force_was_on and summary.ticks > 0:
             button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
             say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")
         tape.tell_fault(summary.fault)
@@ -94,6 +94,8 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         if end.summary is not None and end.summary.ticks > 0:
             tell(end.summary, tell_if_read)
         raise
+    if summary.ticks == 0 and isinstance(opened, FedDevice) and not summary.fault:
+        summary.fault = "the device gave no reading: the program that feeds it has failed, or has not begun"
     tell(summary, tell_result)
     if summary.fault or not tape.whole:
         raise typer.Exit(FAILED)

@@ -8,6 +8,9 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._out import check_place
+from punctura.cli._status import FAILED
+
 command = typer.Typer(no_args_is_help=True, help="Lists exercises; scores a recording; exports results.")
 
 
@@ -96,9 +99,9 @@ def export(
     ] = None,
     out: Annotated[Path | None, typer.Option(help="File to write. Default: standard output.", metavar="FILE")] = None,
 ) -> None:
-    """Exports the results that the studio has saved, the oldest first."""
+    """Exports the results that the studio has saved, the oldest first. Ends with status 1 if a file cannot be read."""
     from punctura.exercise import ResultStore, default_folder
-    from punctura.exercise.results import to_csv
+    from punctura.exercise.results import ResultsError, to_csv
     from punctura.exercise.xapi import HOME, to_xapi
     from punctura.files.whole_file import write_whole
 
@@ -106,12 +109,20 @@ def export(
         raise typer.BadParameter(f"must be csv or xapi, not {format}", param_hint="--format")
     if home_page is not None and not home_page.startswith(("http://", "https://")):
         raise typer.BadParameter("must begin with http:// or https://", param_hint="--home-page")
+    if home_page is not None and format == "csv":
+        raise typer.BadParameter("is for --format xapi", param_hint="--home-page")
+    if out is not None and (out.is_file() or not out.exists()):  # not for /dev/stdout
+        check_place(out, "--out")
     folder = results or default_folder()
     if results is not None and not folder.is_dir():
         raise typer.BadParameter(f"there is no folder {folder}", param_hint="--results")
-    found = ResultStore(folder).all(person, group)[::-1]
+    unread: list[ResultsError] = []
+    found = ResultStore(folder).all(person, group, unread)[::-1]
+    for error in unread:
+        typer.echo(f"punctura: {folder}: {error}: it is left out", err=True)
     if not found:
-        typer.echo(f"punctura: {folder} has no such results", err=True)
+        whose = "".join([f" of {person}" if person else "", f" of the class {group}" if group else ""])
+        typer.echo(f"punctura: there are no results{whose} in {folder}", err=True)
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
     if out is None:
         typer.echo(text, nl=False)
@@ -119,3 +130,5 @@ def export(
         out.write_text(text, encoding="utf-8")
     else:
         write_whole(out, text.encode("utf-8"))
+    if unread:
+        raise typer.Exit(FAILED)

@@ -19,7 +19,7 @@ def command(
     out: Annotated[Path, typer.Option("--out", help="File to write.", metavar="OUT.csv|.parquet|.mcap")],
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Converts a recording to CSV, Parquet or MCAP. The run may have been killed: what was recorded is converted."""
+    """Converts a recording to CSV, Parquet or MCAP. Also reads the file of a run that was killed."""
     from punctura.record import export
 
     try:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from punctura import Needle
+from punctura.cli._out import check_apart, check_place
 from punctura.cli._status import FAILED
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar
@@ -138,29 +137,6 @@ def _plan(path: Path, found: Identification) -> None:
     best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
     write_whole(path, best.csv())
     typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
-
-
-def check_apart(files: Mapping[str, Path | None]) -> None:
-    """Says before a long computation that one file would overwrite another one. Raises BadParameter."""
-    seen: dict[Path, str] = {}
-    for option, path in files.items():
-        if path is None:
-            continue
-        other = seen.setdefault(path.resolve(), option)
-        if other != option:
-            raise typer.BadParameter(f"{path} is the file of {other}, too; name another one", param_hint=option)
-
-
-def check_place(path: Path | None, option: str) -> None:
-    """Says before a long computation that a file cannot be written there. Raises BadParameter."""
-    if path is None:
-        return
-    if path.is_dir():
-        raise typer.BadParameter(f"{path} is a folder; name a file", param_hint=option)
-    if not path.parent.is_dir():
-        raise typer.BadParameter(f"{path}: there is no folder {path.parent}; make it first", param_hint=option)
-    if not os.access(path.parent, os.W_OK):
-        raise typer.BadParameter(f"{path}: the folder may not be written; choose another", param_hint=option)
 
 
 def pairs(given: list[str] | None, option: str) -> dict[str, str]:

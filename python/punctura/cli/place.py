@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from punctura._core import DeviceError, PuncturaError, ServoLoop
+from punctura.cli._out import check_place
 from punctura.files.whole_file import write_whole
 from punctura.live import fit_direction, open_for, placement_from_pose, placement_text, present_pose
 from punctura.scene import load_scene
@@ -31,8 +32,7 @@ def command(
     """Asks for one pose and writes a placement file. Gives no force. The file is for `punctura run --placement`."""
     if device.startswith("replay:"):
         raise typer.BadParameter("a replay has no hand that holds a pose; choose another device", param_hint="--device")
-    if not out.parent.is_dir() or out.is_dir():
-        raise typer.BadParameter(f"{out} cannot be written: no such folder, or a folder itself", param_hint="--out")
+    check_place(out, "--out")
     if not math.isfinite(tip_offset_mm):
         raise typer.BadParameter("must be a finite number", param_hint="--tip-offset-mm")
     loaded = load_scene(scene)

@@ -12,6 +12,7 @@ import typer
 from punctura._core import DeviceError
 from punctura.cli._headless import USUAL_SCENE, Wishes, run_headless
 from punctura.cli._leave import leave
+from punctura.cli._out import check_place
 from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError
@@ -130,6 +131,7 @@ def command(
             raise typer.BadParameter(f"needs --headless{instead}", param_hint=name)
     if record and record.suffix.lower() != ".parquet":
         raise typer.BadParameter("must end in .parquet", param_hint="--record")
+    check_place(record, "--record")
     of_the_page = {"--port": port, "--no-browser": no_browser, "--recordings": recordings, "--exercise": exercise}
     for name, given in of_the_page.items():
         if given and headless:
@@ -160,7 +162,10 @@ def command(
                     run_page(wishes, port, not no_browser, recordings, page, exercise or ())
         except DeviceError as error:
             hint = "--second-device" if isinstance(error, SecondDeviceError) else "--device"
-            raise typer.BadParameter(str(error), param_hint=hint) from None
+            chosen = (
+                "" if device or second_device else " (the first available device; choose another one with --device)"
+            )
+            raise typer.BadParameter(f"{error}{chosen}", param_hint=hint) from None
         except Ended as end:
             leave(end, "; the force is off")
 

@@ -67,13 +67,20 @@ class ResultStore:
         """Raises ResultsError."""
         return self._read(self._path(name), name)
 
-    def all(self, person: str | None = None, group: str | None = None) -> list[Result]:
-        """All results, or those of one person or class, latest first. Files that are not results are skipped."""
+    def all(
+        self, person: str | None = None, group: str | None = None, unread: list[ResultsError] | None = None
+    ) -> list[Result]:
+        """All results, or those of one person or class, latest first. Files that are not results are skipped.
+
+        unread: takes the reasons for the files that were skipped.
+        """
         results = []
-        for path in self.folder.glob("*.json") if self.folder.is_dir() else ():
+        for path in sorted(self.folder.glob("*.json")) if self.folder.is_dir() else ():
             try:
                 result = self._read(path, path.stem)
-            except ResultsError:
+            except ResultsError as error:
+                if unread is not None:
+                    unread.append(error)
                 continue
             if person in (None, result.person) and group in (None, result.group):
                 results.append(result)
@@ -102,8 +109,12 @@ class ResultStore:
             if path.stat().st_size > _LARGEST:
                 raise ResultsError(f"{name} is too large for a result")
             result = Result.model_validate_json(path.read_bytes())
-        except (OSError, ValidationError) as bad:
-            raise ResultsError(f"{name} cannot be read as a result: {bad}") from None
+        except ValidationError as bad:
+            first = bad.errors()[0]
+            where = "".join(f"{part}: " for part in first["loc"])
+            raise ResultsError(f"{name} is no result: {where}{first['msg']}") from None
+        except OSError as bad:
+            raise ResultsError(f"{name} cannot be read: {bad.strerror}") from None
         return result.model_copy(update={"name": path.stem})
 
 

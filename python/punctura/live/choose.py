@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
 
 from punctura import Scene
@@ -12,6 +13,10 @@ from punctura.live.plug_ins import open_plug_in, plug_in_names, plug_in_states
 from punctura.results import BackendState
 
 ANY_PROCESSOR = -1
+
+
+class DeviceWarning(UserWarning):
+    """The device of another package cannot be used."""
 
 
 def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> Device:
@@ -33,7 +38,7 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
         return SimulatedDevice(strokes_through(scene), rate=scene.servo.rate, axis=axis, processor=processor)
     if backend in own:
         return open_device(backend, scene.servo.rate, device, processor=processor)
-    plug_ins = plug_in_names()
+    plug_ins = [name for name in plug_in_names() if name not in own and ":" not in name]
     if backend not in plug_ins:
         raise DeviceError(f"no device is called {backend!r}; there are: {', '.join([*plug_ins, *own])}")
     return open_plug_in(backend, scene.servo.rate, device)
@@ -41,10 +46,18 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
 
 def _first_available(own: Mapping[str, BackendState]) -> str:
     """Asks every package. For a device that was named, none is asked: a status() that hangs would end the start."""
-    for entry in [*plug_in_states(set(own)), *own.values()]:
+    for entry in [*tell_faults(plug_in_states(set(own))), *own.values()]:
         if entry["state"] == "available" and entry["backend"] != "simulated":
             return entry["backend"]
     return "simulated"
+
+
+def tell_faults(packages: list[BackendState]) -> list[BackendState]:
+    """Warns of packages whose devices cannot be used, because another device is chosen without a word otherwise."""
+    for entry in packages:
+        if entry["state"] == "fault":
+            warnings.warn(f"{entry['backend']} is left out: {entry['detail']}", DeviceWarning, stacklevel=2)
+    return packages
 
 
 def _replay(file: str, processor: int) -> Device:

@@ -62,6 +62,7 @@ class Limits(NamedTuple):
     force: ForceLimits = ForceLimits()
     gate: Mapping[str, float | int] = MappingProxyType({})
     chosen: Mapping[str, float] = MappingProxyType({})
+    source: str = ""  # the file
 
     def gate_on(self, device: Device) -> GateLimits:
         """The input limits for this device; fields that were not chosen are those of gate_for.
@@ -81,7 +82,7 @@ class Limits(NamedTuple):
                 reason = f"a period of {info.model or info.backend} is longer, {1e3 / info.rate:.3g} ms"
                 problems.append(Problem(name, limit * 1e3, reason))
         if problems:
-            raise ConfigurationError(problems)
+            raise ConfigurationError(problems, self.source)
         return made
 
     def at_most(self, max_force: float) -> Limits:
@@ -122,4 +123,4 @@ def load_limits(path: str | os.PathLike[str]) -> Limits:
         LimitsFile,
         (lambda file: ForceLimits(**file.force), lambda file: GateLimits().replace(**file.gate)),
     )
-    return Limits(ForceLimits(**file.force), file.gate, file.force)
+    return Limits(ForceLimits(**file.force), file.gate, file.force, os.fspath(path))

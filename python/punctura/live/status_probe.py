@@ -26,10 +26,15 @@ name, value, group, sys.path[:] = json.loads(sys.argv[1])
 from importlib.metadata import EntryPoint
 MOST = 2000  # characters of a text
 try:
-    said = EntryPoint(name, value, group).load().status()
-    if isinstance(said, dict):
+    package = EntryPoint(name, value, group).load()
+    said = package.status()
+    if not callable(getattr(package, "open", None)):
+        said = {"error": "it has no function open(rate, device)"}
+    elif isinstance(said, dict) and not isinstance(said.get("detail", ""), str):
+        said = {"error": "detail of status() must be a text"}
+    elif isinstance(said, dict):
         devices = said.get("devices", [])
-        said = {"state": said.get("state"), "detail": str(said.get("detail", ""))[:MOST],
+        said = {"state": said.get("state"), "detail": said.get("detail", "")[:MOST],
                 "devices": devices if isinstance(devices, str) else [str(device)[:MOST] for device in devices]}
         json.dumps(said)
     else:

@@ -57,6 +57,8 @@ class Ticks(TickArrays):
         if len(set(lengths.values())) > 1:
             listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
             raise ValueError(f"all columns must have the same length, one row per tick; their lengths are {listed}")
+        if isinstance(membranes, str | bytes):
+            raise TypeError(f"membranes must be a list of names, not {type(membranes).__name__}")
         super().__init__(arrays)
         self.membranes = tuple(membranes)
 

@@ -9,6 +9,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from importlib.metadata import entry_points, version
 
 import pytest
@@ -297,3 +298,45 @@ def test_an_interrupt_while_python_still_imports_prints_no_traceback():
     command = [sys.executable, "-c", AT_ITS_FIRST_IMPORT]
     done = subprocess.run(command, capture_output=True, text=True, preexec_fn=heed_signals)
     assert (done.returncode, done.stderr) == (128 + signal.SIGINT, "punctura: interrupted\n")
+
+
+SWALLOWS = """
+import pathlib, time
+pathlib.Path("begun").touch()
+try:
+    while not pathlib.Path("go").exists():
+        time.sleep(0.01)
+except BaseException:
+    pass  # as compiled code does that clears an error
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends signals")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_signal_while_pandas_is_imported_ends_the_command(name, tmp_path):
+    (tmp_path / "pandas").mkdir()
+    (tmp_path / "pandas/__init__.py").write_text(SWALLOWS)
+    motion = "time_s,x_m,y_m,z_m\n" + "".join(f"{k / 1600},0,{0.005 - k * 1e-6},0\n" for k in range(100))
+    (tmp_path / "motion.csv").write_text(motion)
+    command = [
+        sys.executable,
+        "-m",
+        "punctura.cli",
+        "simulate",
+        "k06-fig10",
+        "--motion",
+        "motion.csv",
+        "--out",
+        "o.csv",
+    ]
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, text=True, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        preexec_fn=heed_signals,
+    )  # fmt: skip
+    wait_until(lambda: (tmp_path / "begun").exists() or process.poll() is not None)
+    process.send_signal(getattr(signal, name))
+    time.sleep(0.1)
+    (tmp_path / "go").touch()
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 128 + getattr(signal, name), said
+    assert not (tmp_path / "o.csv").exists() and ("interrupted" in said or "ended by" in said)

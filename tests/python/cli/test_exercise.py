@@ -90,9 +90,23 @@ def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording,
     assert file.read_text(encoding="utf-8") == whole  # a full disk leaves the earlier file
 
 
+def test_a_damaged_result_is_told_and_the_others_are_exported(punctura, recording, tmp_path):
+    ResultStore(tmp_path).save(score(recording, "venipuncture", "Ada"))
+    (tmp_path / "damaged.json").write_text('{"person": 3}')
+    done = punctura("exercise", "export", "--format", "csv", "--results", tmp_path)
+    assert done.status == 1 and "Ada" in done.stdout
+    assert f"punctura: {tmp_path}: damaged is no result: " in done.stderr and done.stderr.endswith("it is left out\n")
+    nobody = punctura("exercise", "export", "--format", "csv", "--results", tmp_path, "--person", "Bob")
+    assert f"there are no results of Bob in {tmp_path}" in nobody.stderr
+
+
 def test_an_export_that_is_not_possible_is_refused(punctura, tmp_path):
     assert "must be csv or xapi" in punctura("exercise", "export", "--format", "xls").stderr
     wrong = punctura("exercise", "export", "--format", "csv", "--results", tmp_path / "none")
     assert wrong.status == 2 and "there is no folder" in wrong.stderr
     wrong = punctura("exercise", "export", "--format", "xapi", "--home-page", "school")
     assert wrong.status == 2 and "must begin with http" in wrong.stderr
+    wrong = punctura("exercise", "export", "--format", "csv", "--home-page", "http://a")
+    assert wrong.status == 2 and "is for --format xapi" in wrong.stderr
+    wrong = punctura("exercise", "export", "--format", "csv", "--out", tmp_path / "none" / "a.csv")
+    assert wrong.status == 2 and "make it first" in " ".join(wrong.stderr.split())

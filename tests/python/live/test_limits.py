@@ -87,7 +87,9 @@ def test_what_the_core_refuses_is_told_together_with_what_does_not_fit(tmp_path)
 
 def test_a_limit_shorter_than_a_period_of_the_device_is_refused(tmp_path):
     limits = limits_of(tmp_path, "deadline_ms = 0.5\nstale_ms = 0.7")
-    with pytest.raises(pn.ConfigurationError, match=r"deadline_ms = 0.5: a period of a stylus is longer, 0.625 ms"):
+    with pytest.raises(
+        pn.ConfigurationError, match=r"(?s)limits.toml: .*deadline_ms = 0.5: a period of a stylus is longer, 0.625 ms"
+    ):
         limits.gate_on(with_buttons(0))
 
 

@@ -150,7 +150,7 @@ def test_place_without_an_answer_writes_nothing_and_says_so(punctura, monkeypatc
     ("arguments", "words"),
     [
         (("--device", "replay:x.parquet"), "has no hand that holds a pose"),
-        (("--out", "nowhere/p.toml"), "cannot be written"),
+        (("--out", "nowhere/p.toml"), "there is no folder nowhere; make it first"),
         (("--tip-offset-mm", "nan"), "finite"),
     ],
 )

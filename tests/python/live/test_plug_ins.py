@@ -101,6 +101,9 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
 
 
+OPEN = "def open(rate, device): raise OSError\n"
+
+
 @pytest.mark.parametrize(
     ("body", "words"),
     [
@@ -108,6 +111,8 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
         ("return {}", "; it is {'state': None, ...}"),
         ("return {'state': 'ready'}", "needs_calibration, fault; it is {'state': 'ready', ...}"),
         ("return 3", "it is 3"),
+        ("return {'state': 'available', 'detail': None}", "detail of status() must be a text"),
+        ("del globals()['open']; return {'state': 'available'}", "mine: it has no function open(rate, device)"),
         ("return {'state': 'available', 'devices': 'mine'}", "devices of status() must be a list of names; it is 'm"),
         ("import asyncio; raise asyncio.CancelledError", "mine: CancelledError"),
         ("raise SystemExit(1)", "mine: SystemExit: 1"),
@@ -119,7 +124,7 @@ def test_a_package_that_fails_is_told_and_hides_no_other_device(tmp_path, text, 
     ],
 )
 def test_a_wrong_answer_of_status_is_told(tmp_path, body, words):
-    package(tmp_path, "mine", f"def status():\n    {body}\n")
+    package(tmp_path, "mine", f"{OPEN}def status():\n    {body}\n")
     done = punctura(tmp_path, "devices", "--json")
     listed = json.loads(done.stdout)
     assert listed[0]["state"] == "fault" and words in listed[0]["detail"], listed[0]
@@ -141,7 +146,11 @@ def test_a_name_with_a_colon_is_told(tmp_path):
 
 
 def test_unprintable_and_endless_words_of_a_package_hide_no_other_device(tmp_path):
-    text = r"def status(): return {'state': 'available', 'detail': '\ud800\x1b[2J' + 9999 * 'x', 'devices': ['a\nb']}"
+    text = (
+        r"open = print"
+        "\n"
+        r"def status(): return {'state': 'available', 'detail': '\ud800\x1b[2J' + 9999 * 'x', 'devices': ['a\nb']}"
+    )
     package(tmp_path, "loud", text, name="loud")
     done = punctura(tmp_path, "devices")
     assert done.returncode == 0 and "simulated" in done.stdout, done.stderr
@@ -204,3 +213,26 @@ def test_a_named_device_starts_while_another_package_hangs(of_the_docs):
     assert done.returncode == 0, done.stderr
     unknown = punctura(of_the_docs, *run, "nobody")
     assert unknown.returncode == 2 and "there are: hangs, mine, " in unknown.stderr
+
+
+def test_a_device_that_gives_no_reading_fails_the_run(tmp_path):
+    text = (
+        "from punctura.live import FedDevice\ndef open(rate, device): return FedDevice(rate)\ndef status(): return {}\n"
+    )
+    package(tmp_path, "punctura_mine", text)
+    done = punctura(tmp_path, "run", "k06-fig10", "--headless", "--device", "mine", "--duration", "0.2", "--json")
+    assert done.returncode == 1 and json.loads(done.stdout)["fault"].startswith("the device gave no reading")
+    assert "never in front" not in done.stderr
+
+
+def test_a_run_without_a_device_says_which_packages_it_leaves_out_and_that_it_took_the_first_device(tmp_path):
+    package(tmp_path, "broken", "def open(rate, device): raise OSError\n", name="broken")
+    run = ("run", "k06-fig10", "--headless", "--duration", "0.1")
+    done = punctura(tmp_path, *run)
+    assert done.returncode == 0, done.stderr
+    assert "punctura: warning: broken is left out: broken: AttributeError: " in done.stderr
+    package(tmp_path, "there", f"{OPEN}def status(): return {{'state': 'available'}}\n", name="there")
+    done = punctura(tmp_path, *run)
+    assert done.returncode == 2 and "(the first available device; choose another one with --device)" in " ".join(
+        done.stderr.split()
+    )

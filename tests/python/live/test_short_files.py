@@ -67,5 +67,7 @@ def test_a_byte_order_mark_is_skipped(what, tmp_path):
     plain, marked = tmp_path / "plain.toml", tmp_path / "marked.toml"
     plain.write_text(SOUND[what])
     marked.write_bytes(b"\xef\xbb\xbf" + SOUND[what].encode())
-    read = READERS[what]
-    assert read(marked) == read(plain) != (Limits() if what == "limits" else type(read(plain))())
+    sound, skipped = READERS[what](plain), READERS[what](marked)
+    if isinstance(sound, Limits):
+        sound, skipped = sound._replace(source=""), skipped._replace(source="")
+    assert skipped == sound != (Limits() if what == "limits" else type(sound)())

@@ -1,0 +1,32 @@
+"""Checks of output files before a computation."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import typer
+
+
+def check_apart(files: Mapping[str, Path | None]) -> None:
+    """Says before a long computation that one file would overwrite another one. Raises BadParameter."""
+    seen: dict[Path, str] = {}
+    for option, path in files.items():
+        if path is None:
+            continue
+        other = seen.setdefault(path.resolve(), option)
+        if other != option:
+            raise typer.BadParameter(f"{path} is the file of {other}, too; name another one", param_hint=option)
+
+
+def check_place(path: Path | None, option: str) -> None:
+    """Says before a long computation that a file cannot be written there. Raises BadParameter."""
+    if path is None:
+        return
+    if path.is_dir():
+        raise typer.BadParameter(f"{path} is a folder; name a file", param_hint=option)
+    if not path.parent.is_dir():
+        raise typer.BadParameter(f"{path}: there is no folder {path.parent}; make it first", param_hint=option)
+    if not os.access(path.parent, os.W_OK):
+        raise typer.BadParameter(f"{path}: the folder may not be written; choose another", param_hint=option)
