@@ -20,13 +20,14 @@ preset_of() { if [ "$1" = cpp ]; then echo dev; else echo "$1"; fi; }
 
 ahead=""  # the process group that compiles ahead
 
-# compile_ahead STEP...: starts to compile for those of these steps that have a compile_NAME. Does nothing if there is
-# no other step meanwhile: then they compile at the usual priority.
+# compile_ahead STEP...: starts to compile for those of these steps that have a compile_NAME. Does nothing if no long
+# step runs meanwhile: then they compile at the usual priority.
 compile_ahead() {
   local name later="" others=""
   rm -f build/log/ahead-*
   for name in "$@"; do
-    if declare -F "compile_$name" >/dev/null; then later="$later $name"; else others=yes; fi
+    if declare -F "compile_$name" >/dev/null; then later="$later $name"; fi
+    case $name in python | docs | page) others=yes ;; esac
   done
   if [ -z "$later" ] || [ -z "$others" ]; then return 0; fi
   for name in $later; do : >"build/log/ahead-$(preset_of "$name")"; done
