@@ -27,7 +27,7 @@ import punctura
 
 ticks = punctura.simulate("k06-fig12", numpy.linspace(-1e-3, 9e-3, 3200))
 print(ticks.force[-1], ticks["depth"][:, 0].max(), ticks[100:200])  # arrays; a slice gives Ticks
-table, frame = ticks.to_arrow(), ticks.to_pandas()  # with the columns of a file; to_polars() needs the package polars
+table, frame = ticks.to_arrow(), ticks.to_pandas()  # with the columns of a file; needs pandas; to_polars(): polars
 ticks.save("ticks.parquet")  # or .csv
 ticks.plot("depth").figure.savefig("run.png")  # each membrane's force along the needle, and its band
 ```

@@ -46,7 +46,10 @@ except BaseException as error:  # also SystemExit and CancelledError
         said = {"error": type(error).__name__}
 json.dump(said, answers)
 answers.close()
-os._exit(0)  # threads of the package do not hold up the end
+try:
+    sys.stdout.flush()
+finally:
+    os._exit(0)  # threads of the package do not hold up the end
 """
 
 

@@ -51,7 +51,7 @@ def summary_of_mine(folder, seconds):
 @pytest.fixture
 def of_the_docs(tmp_path):
     """The package in docs/devices.md, with simulated swinging hardware."""
-    text = re.search(r"the whole of `punctura_mine.py`:\n\n```python\n(.*?)```", DOCS, re.S)[1]
+    text = re.search(r"the whole of `punctura_mine.py`, [^:]*:\n\n```python\n(.*?)```", DOCS, re.S)[1]
     package(tmp_path, "punctura_mine", HARDWARE + text)
     return tmp_path
 
