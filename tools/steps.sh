@@ -1,10 +1,8 @@
 # The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, then a
 # summary is printed.
 
-source "$(dirname "${BASH_SOURCE[0]}")/compile_ahead.sh"
-
-all_steps="tree format types web python docs page cpp asan tsan consumer examples instructions"
-fast_steps="tree format types web python cpp"
+all_steps="tree format types web cpp asan tsan consumer examples instructions python docs page"
+fast_steps="tree format types web cpp python"
 named_steps="tidy statistics integrations"  # they run only by name
 
 choose_steps() {
@@ -42,8 +40,6 @@ run_steps() {
   cd "$root"
   trap end_groups EXIT
   trap 'printf "\nStopped.\n" >&8; exit 130' INT TERM HUP
-  compile_ahead $steps
-  groups=$ahead
   set -m  # each in a process group of its own, because a background job does not get Ctrl-C
   for name in $steps; do
     case " $at_once " in *" $name "*) run_step "$name" & groups="$groups $!" started="$started $name:$!" ;; esac
@@ -110,6 +106,15 @@ step_format() {
 }
 step_types() { mypy; }
 
+# compile PRESET [TARGET...]: configures if needed, then builds on all cores. A build folder of another path is
+# configured afresh.
+compile() {
+  local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
+  shift
+  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF && cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
   local said=build/log/side-by-side a_failed=0 b_failed=0 a b
@@ -124,10 +129,13 @@ side_by_side() {
 }
 both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }
 
-# The C++ tests, compiled by GCC.
+# The C++ tests, compiled by GCC. The golden forces also run with fused multiply-add allowed.
 step_cpp() {
-  compile_cpp || return
-  if has_fma; then build/dev/tests/core/golden_forces_fma || return; fi
+  if grep -qsw fma /proc/cpuinfo; then
+    compile dev all golden_forces_fma && build/dev/tests/core/golden_forces_fma || return
+  else
+    compile dev || return
+  fi
   build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap &&
     build/dev/tests/capi/capi_tests && tools/check_exports.sh build/dev/capi/libpunctura.so && both_tests dev
 }
@@ -135,14 +143,14 @@ step_cpp() {
 # Compiles all sources and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
 # random cases, which reach the same code, because sanitizers are slow.
 step_asan() {
-  compile_asan || return
+  compile asan all punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan
 }
 # Without AVX: the threads of a batch run the same code with each instruction set, and -O2 with a sanitizer compiles
 # slowly. cpp and asan test all of them.
 step_tsan() {
-  compile_tsan || return
+  compile tsan runtime_tests || return
   tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests")
   export PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.

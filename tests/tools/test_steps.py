@@ -60,34 +60,6 @@ def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tm
     assert "    said\n" in said and "2 passed in 1.0s" in said and said.endswith("2 passed, 1 failed\n")
 
 
-AHEAD = """
-compile_cpp() { touch begun; until [ -f go ]; do sleep 0.01; done; nice >niceness; touch compiled; }
-cmake() { ls compiled; }
-step_docs() { until [ -f begun ]; do sleep 0.01; done; ls build/log/ahead-dev && ! ls compiled && touch go; }
-step_cpp() { compile dev; }
-"""
-
-
-def test_what_a_later_step_compiles_is_compiled_ahead_at_the_lowest_priority(tmp_path):
-    with start(tmp_path, AHEAD, "docs", "cpp") as run:
-        said = run.communicate(timeout=60)[0]
-    assert run.returncode == 0, said
-    assert (tmp_path / "niceness").read_text() == "19\n" and not (tmp_path / "build/log/ahead-dev").exists()
-
-
-def test_a_step_compiles_by_itself_after_a_failure_ahead_and_where_no_other_step_uses_the_time(tmp_path):
-    failing = (
-        "cmake() { touch asked; }; compile_cpp() { return 1; }; step_cpp() { compile dev; }; step_web() { true; }; "
-    )
-    failing += "step_docs() { true; }"
-    for asked in (["docs", "cpp"], ["web", "cpp"]):
-        with start(tmp_path / "_".join(asked), failing, *asked) as run:
-            said = run.communicate(timeout=60)[0]
-        assert run.returncode == 0, said
-        assert (tmp_path / "_".join(asked) / "asked").exists()
-        assert (tmp_path / "_".join(asked) / "build/log/ahead.log").exists() == ("docs" in asked)
-
-
 def test_a_step_that_was_killed_has_failed(tmp_path):
     with start(tmp_path, "step_web() { kill -KILL 0; }", "web") as run:
         said = run.communicate(timeout=60)[0]
@@ -96,10 +68,9 @@ def test_a_step_that_was_killed_has_failed(tmp_path):
 
 @pytest.mark.parametrize("how", ENDS)
 def test_a_signal_ends_the_steps_in_the_background_although_one_of_them_has_finished(tmp_path, how):
-    steps = "step_tree() { true; }; step_types() { touch begun; sleep 600; }; step_web() { sleep 600; }; "
-    steps += "compile_cpp() { sleep 600; }"
+    steps = "step_tree() { true; }; step_types() { touch begun; sleep 600; }; step_web() { sleep 600; }"
     alive, held = os.pipe()  # each process of the steps holds it
-    with start(tmp_path, steps, "tree", "types", "web", "docs", "cpp", pass_fds=[held]) as run:
+    with start(tmp_path, steps, "tree", "types", "web", pass_fds=[held]) as run:
         os.close(held)
         wait_until((tmp_path / "begun").exists, 60)
         assert run.stdout is not None and run.stdout.readline().startswith("  tree         passed")
