@@ -19,7 +19,10 @@ def command(
         str, typer.Argument(help="A scene file, or the name of a ready scene (punctura scenes).", metavar="SCENE")
     ],
     motion: Annotated[
-        Path, typer.Option("--motion", help="CSV file: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="IN.csv")
+        Path,
+        typer.Option(
+            "--motion", help="CSV, Parquet or NumPy file: time_s,x_m,y_m,z_m[,axis_x,axis_y,axis_z].", metavar="FILE"
+        ),
     ],
     out: Annotated[Path, typer.Option("--out", help="Result file to write.", metavar="OUT.csv|.parquet")],
     rival: Annotated[
