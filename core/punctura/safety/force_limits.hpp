@@ -60,7 +60,6 @@ class BasicForceLimiter {
   /// The budget always has room for a device that holds a force for this time, s: the ordinary deadline of the gate.
   /// A longer deadline can exceed the continuous force (docs/safety.md).
   static constexpr Scalar longest_hold = static_cast<Scalar>(GateLimits{}.deadline);
-  static constexpr Scalar smallest_square = std::numeric_limits<Scalar>::min() * 1000;
   static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
   BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
@@ -186,6 +185,8 @@ class BasicForceLimiter {
     limit_ = limit;
     ++counter;
   }
+
+  static constexpr Scalar smallest_square = std::numeric_limits<Scalar>::min() * 1000;  ///< N^2, far from denormal
 
   Scalar max_force_;   ///< N
   Scalar warm_motor_;  ///< 0 to 1

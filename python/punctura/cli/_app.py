@@ -106,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 # These verbs make Arrow arrays, and with the first one pyarrow imports pandas, if that is installed.
-_WITH_TABLES = ("compare", "export", "identify", "replay", "simulate", "study")
+_WITH_TABLES = ("compare", "exercise", "export", "identify", "replay", "simulate", "study")
 
 
 def _import_pandas() -> None:

@@ -12,6 +12,7 @@ from typing import get_args
 
 from punctura import _core
 from punctura._core import Device, DeviceError
+from punctura.live.signals import Ended
 from punctura.live.status_probe import probe
 from punctura.results import BackendState, DeviceState
 
@@ -46,7 +47,7 @@ def open_plug_in(backend: str, rate: float, device: str) -> Device:
         opened = found.load().open(rate, device)
     except DeviceError as error:
         raise DeviceError(_printable(_reason(error, typed=False))) from error
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, Ended):
         raise
     except BaseException as error:  # also SystemExit and CancelledError
         raise DeviceError(_printable(f"{found.name} ({found.value}) cannot be opened: {_reason(error)}")) from error

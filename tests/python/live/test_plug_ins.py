@@ -236,3 +236,10 @@ def test_a_run_without_a_device_says_which_packages_it_leaves_out_and_that_it_to
     assert done.returncode == 2 and "(the first available device; choose another one with --device)" in " ".join(
         done.stderr.split()
     )
+
+
+def test_a_signal_while_a_package_opens_its_device_ends_the_command(tmp_path):
+    text = "import os, signal\ndef open(rate, device): os.kill(os.getpid(), signal.SIGTERM)\n"
+    package(tmp_path, "mine", text)
+    done = punctura(tmp_path, "run", "k06-fig10", "--headless", "--device", "mine")
+    assert done.returncode == 128 + 15 and "ended by SIGTERM" in done.stderr
