@@ -82,7 +82,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with ends_on_signals(ENDING) as signals:
         try:
             given = list(sys.argv[1:] if arguments is None else arguments)
-            if given[:1] and given[0] in _WITH_TABLES:
+            if _WITH_TABLES.intersection(given[:2]) and not {"-h", "--help"}.intersection(given):
                 _import_pandas()
             with signals.raised():
                 build_app(*given[:1])(given, prog_name="punctura")
@@ -106,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 # These verbs make Arrow arrays, and with the first one pyarrow imports pandas, if that is installed.
-_WITH_TABLES = ("compare", "exercise", "export", "identify", "replay", "simulate", "study")
+_WITH_TABLES = frozenset({"compare", "export", "identify", "replay", "score", "simulate", "study"})
 
 
 def _import_pandas() -> None:

@@ -111,8 +111,8 @@ def export(
         raise typer.BadParameter("must begin with http:// or https://", param_hint="--home-page")
     if home_page is not None and format == "csv":
         raise typer.BadParameter("is for --format xapi", param_hint="--home-page")
-    if out is not None and (out.is_file() or not out.exists()):  # not for /dev/stdout
-        check_place(out, "--out")
+    special = out is not None and out.exists() and not out.is_file() and not out.is_dir()  # such as /dev/stdout
+    check_place(None if special else out, "--out")
     folder = results or default_folder()
     if results is not None and not folder.is_dir():
         raise typer.BadParameter(f"there is no folder {folder}", param_hint="--results")
@@ -126,7 +126,7 @@ def export(
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
     if out is None:
         typer.echo(text, nl=False)
-    elif out.exists() and not out.is_file():  # such as /dev/stdout
+    elif special:
         out.write_text(text, encoding="utf-8")
     else:
         write_whole(out, text.encode("utf-8"))

@@ -46,18 +46,14 @@ def open_for(scene: Scene, name: str = "", processor: int = ANY_PROCESSOR) -> De
 
 def _first_available(own: Mapping[str, BackendState]) -> str:
     """Asks every package. For a device that was named, none is asked: a status() that hangs would end the start."""
-    for entry in [*tell_faults(plug_in_states(set(own))), *own.values()]:
-        if entry["state"] == "available" and entry["backend"] != "simulated":
-            return entry["backend"]
-    return "simulated"
-
-
-def tell_faults(packages: list[BackendState]) -> list[BackendState]:
-    """Warns of packages whose devices cannot be used, because another device is chosen without a word otherwise."""
+    packages = plug_in_states(set(own))
     for entry in packages:
         if entry["state"] == "fault":
             warnings.warn(f"{entry['backend']} is left out: {entry['detail']}", DeviceWarning, stacklevel=2)
-    return packages
+    for entry in [*packages, *own.values()]:
+        if entry["state"] == "available" and entry["backend"] != "simulated":
+            return entry["backend"]
+    return "simulated"
 
 
 def _replay(file: str, processor: int) -> Device:

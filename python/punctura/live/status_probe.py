@@ -36,15 +36,15 @@ try:
         devices = said.get("devices", [])
         said = {"state": said.get("state"), "detail": said.get("detail", "")[:MOST],
                 "devices": devices if isinstance(devices, str) else [str(device)[:MOST] for device in devices]}
-        json.dumps(said)
     else:
         said = {"returned": repr(said)[:MOST]}
+    answer = json.dumps(said)
 except BaseException as error:  # also SystemExit and CancelledError
     try:
-        said = {"error": f"{type(error).__name__}: {error}"}
+        answer = json.dumps({"error": f"{type(error).__name__}: {error}"})
     except BaseException:  # its __str__ raises
-        said = {"error": type(error).__name__}
-json.dump(said, answers)
+        answer = json.dumps({"error": type(error).__name__})
+answers.write(answer)
 answers.close()
 try:
     sys.stdout.flush()
