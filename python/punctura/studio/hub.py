@@ -18,7 +18,7 @@ from punctura.studio.limits import MOST_FRAMES, MOST_MESSAGES, MOST_VIEWERS
 from punctura.studio.wire.messages import Control, HandPose, Status
 
 EVENTS_KEPT = 100  # of the present run, for new viewers
-# Of these messages only the newest matters: it replaces one that still waits.
+# Of these messages only the newest matters: it takes the place of one that still waits, unless a scene came between.
 SUPERSEDED = ("status", "recording", "laws", "exercise")
 # Messages for a new viewer, in this order; "laws" belongs to the scene before it.
 RETAINED = ("scene", "laws", "control", "recording", "exercise", "fault")
@@ -28,9 +28,9 @@ Data = str | bytes
 
 @dataclass(eq=False)
 class Waiting:
-    """An entry of a queue; without data, if a newer entry has replaced it."""
+    """An entry of a queue."""
 
-    data: Data | None
+    data: Data
     kind: str
 
 
@@ -42,7 +42,7 @@ class Viewer:
         self.dropped = 0  # frames
         self.closed = ""
         self._queue: deque[Waiting] = deque()
-        self._last: dict[str, Waiting] = {}  # of each kind of SUPERSEDED, while it waits
+        self._last: dict[str, Waiting] = {}  # of each kind of SUPERSEDED since the last scene, while it waits
         self._frames = self._bytes = 0
         self._wake = asyncio.Event()
 
@@ -50,27 +50,26 @@ class Viewer:
         """kind: of a message."""
         if self.closed:
             return
-        entry = Waiting(data, kind)
         if isinstance(data, bytes):
             if self._frames >= MOST_FRAMES:
                 self._drop_frames()
             self._frames += 1
         else:
-            self._bytes += len(data)
-            if kind in SUPERSEDED:
-                self._supersede(entry)
+            waiting = self._last.get(kind)
+            self._bytes += len(data) - (len(waiting.data) if waiting else 0)
             if self._bytes > MOST_MESSAGES:
                 self.close("This page does not read what it is sent.")
                 return
+            if waiting:  # at the end of the queue, a page that reads slowly would never get it
+                waiting.data = data
+                return
+        entry = Waiting(data, kind)
+        if kind in SUPERSEDED:
+            self._last[kind] = entry
+        if kind == "scene":  # what follows belongs to this scene
+            self._last.clear()
         self._queue.append(entry)
         self._wake.set()
-
-    def _supersede(self, entry: Waiting) -> None:
-        before = self._last.get(entry.kind)
-        if before is not None and before.data is not None:
-            self._bytes -= len(before.data)
-            before.data = None
-        self._last[entry.kind] = entry
 
     def _drop_frames(self) -> None:
         self.dropped += self._frames
@@ -79,20 +78,19 @@ class Viewer:
 
     async def take(self) -> Data | None:
         """The next entry, in the order of `put`; None when the viewer must be closed."""
-        while True:
-            while not self._queue and not self.closed:
-                self._wake.clear()
-                await self._wake.wait()
-            if self.closed:
-                return None
-            entry = self._queue.popleft()
-            data, entry.data = entry.data, None
-            if isinstance(data, bytes):
-                self._frames -= 1
-            elif data is not None:
-                self._bytes -= len(data)
-            if data is not None:
-                return data
+        while not self._queue and not self.closed:
+            self._wake.clear()
+            await self._wake.wait()
+        if self.closed:
+            return None
+        entry = self._queue.popleft()
+        if isinstance(entry.data, bytes):
+            self._frames -= 1
+        else:
+            self._bytes -= len(entry.data)
+        if self._last.get(entry.kind) is entry:
+            del self._last[entry.kind]
+        return entry.data
 
     def close(self, reason: str) -> None:
         self.closed = self.closed or reason
@@ -102,7 +100,7 @@ class Viewer:
 
     @property
     def waiting(self) -> int:
-        return sum(entry.data is not None for entry in self._queue)
+        return len(self._queue)
 
 
 class Hub:

@@ -3,9 +3,18 @@
 import asyncio
 import json
 
+import numpy as np
 from punctura.studio import hub as hubs
 from punctura.studio.hub import Hub
-from punctura.studio.wire.messages import Hello, LimitsPart, MembraneEvent, Notice, RecordingStatus, SceneMessage
+from punctura.studio.wire.messages import (
+    ExerciseStatus,
+    Hello,
+    LimitsPart,
+    MembraneEvent,
+    Notice,
+    RecordingStatus,
+    SceneMessage,
+)
 from punctura.studio.wire.messages import Status as Health
 
 FRAME = b"PNT2"
@@ -99,6 +108,44 @@ def test_a_stalled_viewer_is_told_the_last_of_what_is_told_again_and_again():
         assert len(await all_of(viewer)) == 1
 
     run(test)
+
+
+def test_a_page_slower_than_frames_and_messages_is_told_of_an_exercise_each_second():
+    """60 frames and 14 messages a second come, and the page takes 60 entries a second."""
+
+    async def test(hub):
+        viewer, got = hub.join(hello), []
+        await all_of(viewer)
+        for turn in range(1200):
+            hub.frame(FRAME)
+            if turn % 15 == 0:
+                hub.say(RecordingStatus(name="r", rows=turn, lost=0, seconds=0.0, trouble=""))
+            if turn % 6 == 0:
+                hub.say(exercise(turn))
+            if '"exercise"' in (told := str(await viewer.take())):
+                got.append(json.loads(told)["time"])
+        assert got == sorted(got)
+        assert max(np.diff([0, *got, 1200])) <= hubs.MOST_FRAMES  # what it gets is at most a second old
+
+    run(test)
+
+
+def test_a_message_waits_for_the_scene_that_it_belongs_to():
+    async def test(hub):
+        viewer = hub.join(hello)
+        await all_of(viewer)
+        for turn in range(3):
+            hub.say(exercise(10 * turn))
+            hub.say(exercise(10 * turn + 1))
+            hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": turn}))
+        told = [json.loads(data) for data in await all_of(viewer)]
+        assert [one.get("time", one.get("run")) for one in told] == [1, 0, 11, 1, 21, 2]
+
+    run(test)
+
+
+def exercise(time):
+    return ExerciseStatus(exercise="e", running=True, instruction="", goals=[], result="", time=time)
 
 
 def test_there_is_room_for_so_many_and_no_more():
