@@ -1,4 +1,13 @@
-"""Punctura: the force on a needle during insertion into and withdrawal from tissue membranes."""
+"""Punctura: the force on a needle during insertion into and withdrawal from tissue membranes.
+
+A program that needs only the physics loads only the physics: the other modules, and the packages that they need, are
+imported when one of their names is used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
 
 from punctura._core import (
     Coupling,
@@ -42,12 +51,15 @@ from punctura._core import (
 from punctura._core import (
     version as _version,
 )
-from punctura.batches import BatchResult, batch, grid
 from punctura.errors import ConfigurationError, Problem
+from punctura.extras import MissingPackageError
 from punctura.paths import cmake_dir, include_dir
-from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
-from punctura.simulation import MotionError, SimulationSummary, simulate
-from punctura.ticks import Ticks
+
+if TYPE_CHECKING:
+    from punctura.batches import BatchResult, batch, grid
+    from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
+    from punctura.simulation import MotionError, SimulationSummary, simulate
+    from punctura.ticks import Ticks
 
 __version__ = _version()
 
@@ -106,3 +118,50 @@ __all__ = [
     "simulate",
     "tube_resistance",
 ]
+
+# The modules of the names that are imported at their first use.
+_LATE = {
+    "punctura.batches": ("BatchResult", "batch", "grid"),
+    "punctura.scene": ("load_scene", "save_scene", "scene_json_schema", "scene_names"),
+    "punctura.simulation": ("MotionError", "SimulationSummary", "simulate"),
+    "punctura.ticks": ("Ticks",),
+}
+_MODULE_OF = {name: module for module, names in _LATE.items() for name in names}
+# The subjects that `import punctura` also provides: punctura.live, punctura.identify, ...
+_SUBJECTS = frozenset(
+    [
+        "compare",
+        "events",
+        "exercise",
+        "fmu",
+        "gym",
+        "identify",
+        "live",
+        "mujoco",
+        "poses",
+        "record",
+        "reproduce",
+        "rivals",
+        "studio",
+        "study",
+        "trace",
+    ]
+)
+
+
+if not TYPE_CHECKING:  # a type checker must not take every name for one of these
+
+    def __getattr__(name: str) -> Any:
+        if name in _MODULE_OF:
+            value = getattr(importlib.import_module(_MODULE_OF[name]), name)
+            globals()[name] = value
+            return value
+        if name in _SUBJECTS:
+            try:
+                return importlib.import_module(f"punctura.{name}")
+            except MissingPackageError as error:
+                raise AttributeError(f"punctura.{name}: {error}") from error
+        raise AttributeError(f"module 'punctura' has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__, *_SUBJECTS})
