@@ -29,9 +29,7 @@ from punctura.cli._streams import (
 )
 from punctura.errors import ConfigurationError, sentence_of
 from punctura.live import Ended
-from punctura.live.choose import DeviceWarning
 from punctura.live.signals import ENDING, ends_on_signals
-from punctura.scene.unusual import UnusualWarning
 
 _usual_warning = warnings.formatwarning
 
@@ -119,7 +117,7 @@ def _as_sentence(
     message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
 ) -> str:
     """A warning as the command line tells it: without a place in Punctura's sources."""
-    if issubclass(category, UnusualWarning | DeviceWarning):
+    if category.__module__.startswith("punctura."):
         return f"punctura: warning: {message}\n"
     return _usual_warning(message, category, filename, lineno, line)
 

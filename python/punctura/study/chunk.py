@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 
 import numpy as np
 import pyarrow as pa
 
-from punctura import BatchResult, batch
+from punctura import BatchResult, __version__, batch
 from punctura.errors import ConfigurationError, Problem
+from punctura.scene.write import scene_text
 from punctura.study.design import Design
-from punctura.study.folder import StudyError
+from punctura.study.folder import MARK, StudyError
 from punctura.study.plan import Plan
 
 
@@ -47,9 +49,28 @@ def _in_row(problem: Problem, begin: int) -> Problem:
 
 def chunk_table(plan: Plan, trials: Design, begin: int, threads: int | None = None) -> pa.Table:
     """The rows of these trials, as they are in the table of a study."""
-    result = run_trials(plan, trials, begin, threads)
+    return _rows(plan, run_trials(plan, trials, begin, threads), begin)
+
+
+def row_schema(plan: Plan, trials: Design) -> pa.Schema:
+    """The columns of the table of a study, and the digest of what its rows depend on."""
+    one = _rows(plan, run_trials(plan, trials.part(0, 1), 0, threads=1, duration=0.0), 0)
+    return one.schema.with_metadata({MARK: _digest(plan, trials)})
+
+
+def _rows(plan: Plan, result: BatchResult, begin: int) -> pa.Table:
     table = result.to_arrow()
     kept = [*(one.path for one in plan.variables), "seed", *plan.results]
     names = [*kept, *([] if "fault" in kept else ["fault"])]
     row = pa.array(np.arange(begin, begin + len(result), dtype=np.int64))
     return table.select(names).add_column(0, "row", row)
+
+
+def _digest(plan: Plan, trials: Design) -> str:
+    """What the rows depend on."""
+    parts = repr((__version__, plan.file.chunk, plan.duration, plan.results, plan.motion, plan.plant, plan.hand))
+    found = hashlib.sha256(parts.encode() + scene_text(plan.scene).encode())
+    for path, column in trials.values.items():
+        found.update(path.encode() + column.tobytes())
+    found.update(trials.seeds.tobytes())
+    return found.hexdigest()

@@ -7,11 +7,12 @@ import time
 from pathlib import Path
 
 from punctura._core import ServoLoop
-from punctura.record import Recorder
+from punctura.record import Recorder, RecordingError, open_recording
+from punctura.results import JsonObject
 from punctura.scene.write import save_scene
-from punctura.study.chunk import run_trials
+from punctura.study.chunk import row_schema, run_trials
 from punctura.study.design import design
-from punctura.study.folder import StudyError
+from punctura.study.folder import MARK, Folder, StudyError
 from punctura.study.plan import Plan
 
 
@@ -19,7 +20,7 @@ def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path,
     """Runs the trial of a row again and writes row-N.toml and the recording row-N.parquet to the folder `out`.
 
     The recording holds each tick of the trial; punctura run --recordings FOLDER lists it in the studio. Returns the
-    two paths. Raises StudyError for an unknown row or a lost tick, RecordingError, OSError.
+    two paths. Raises StudyError for an unknown row, a lost tick, or files of another plan, RecordingError, OSError.
     """
     trials = design(plan)
     if not 0 <= row < len(trials.seeds):
@@ -29,13 +30,16 @@ def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path,
     duration = plan.duration or experiment.duration
     ticks = len(experiment.run(duration))
     folder = Path(out)
+    schema = row_schema(plan, trials)
+    Folder(folder).check(schema)
     folder.mkdir(parents=True, exist_ok=True)
     scene_path, path = folder / f"row-{row}.toml", folder / f"row-{row}.parquet"
-    path.unlink(missing_ok=True)
+    about: JsonObject = {"study": plan.path.name, "row": row, "digest": schema.metadata[MARK].decode()}
+    _make_room(path, about)
     save_scene(scene, scene_path)
     device = result.device(0, ticks)
     loop = ServoLoop(device, scene)
-    recorder = Recorder(loop, path, ticks, about={"study": plan.path.name, "row": row})
+    recorder = Recorder(loop, path, ticks, about)
     try:
         loop.arm()
         loop.start()
@@ -47,3 +51,16 @@ def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path,
     if status.lost:
         raise StudyError(f"{path}: the computer was too slow to record {status.lost} of {ticks} ticks; try again")
     return scene_path, path
+
+
+def _make_room(path: Path, about: JsonObject) -> None:
+    """Deletes the recording of the same row of the same plan. Raises StudyError for any other file."""
+    if not path.exists():
+        return
+    try:
+        found = open_recording(path).info.about
+    except RecordingError:
+        found = {}
+    if {**found, "study": about["study"]} != about:  # the plan's name says nothing about its numbers
+        raise StudyError(f"{path} is no recording of this row of this plan. Give another --out, or move this file away")
+    path.unlink()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -11,12 +10,10 @@ from time import monotonic
 
 import pyarrow as pa
 
-from punctura import __version__
 from punctura.progress import Progress, reporting
-from punctura.scene.write import scene_text
-from punctura.study.chunk import chunk_table, run_trials
+from punctura.study.chunk import chunk_table, row_schema, run_trials
 from punctura.study.cluster import Part, needed_package, on_cluster
-from punctura.study.design import Design, design
+from punctura.study.design import design
 from punctura.study.folder import Folder, StudyError
 from punctura.study.forecast import Forecast, forecast
 from punctura.study.plan import Plan
@@ -58,7 +55,7 @@ def run_study(
     starts = range(0, n, size)
     kept = 0
     with folder.locked(), reporting(progress, "study") as tell:
-        folder.claim(_digest(plan, all_of_them))
+        folder.claim(row_schema(plan, all_of_them))
         if scheduler is not None:
             needed_package()
         if folder.is_complete(n):
@@ -98,13 +95,3 @@ def _computed(
         return
     for part in parts:
         yield part.number, chunk_table(plan, part.trials, part.begin, threads)
-
-
-def _digest(plan: Plan, trials: Design) -> str:
-    """What the rows depend on."""
-    said = repr((__version__, plan.file.chunk, plan.duration, plan.results, plan.motion, plan.plant, plan.hand))
-    found = hashlib.sha256(said.encode() + scene_text(plan.scene).encode())
-    for path, column in trials.values.items():
-        found.update(path.encode() + column.tobytes())
-    found.update(trials.seeds.tobytes())
-    return found.hexdigest()

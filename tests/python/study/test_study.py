@@ -14,28 +14,10 @@ from punctura import ConfigurationError
 from punctura.record import open_recording
 from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.design import design
-from punctura.study.folder import Folder
+from punctura.study.folder import Folder, StudyWarning
 from punctura.study.forecast import Forecast
+from studies import GRID, in_chunks, written
 
-GRID = """
-scene = "k06-fig12"
-method = "grid"
-duration_s = 0.3
-results = ["peak", "drop[0]"]
-chunk = 2
-seed = 5
-[motion]
-duration_s = 0.2
-rest_s = 0.02
-[values]
-"plant.friction" = 0.1
-[[variable]]
-path = "membrane[0].friction"
-values = [0.1, 0.2, 0.3]
-[[variable]]
-path = "hand.stiffness"
-values = [400, 700]
-"""
 SOBOL = """
 scene = "k06-fig12"
 method = "sobol"
@@ -56,12 +38,6 @@ mean = 500
 sd = 100
 low = 300
 """
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "plan.toml"
-    path.write_text(text)
-    return path
 
 
 def test_all_problems_of_a_plan_at_once(tmp_path: Path) -> None:
@@ -170,12 +146,11 @@ def test_damaged_files_are_computed_again(tmp_path: Path, monkeypatch: pytest.Mo
     run_study(plan, out)
     whole = pq.read_table(out / "trials.parquet")
     damage(out / "trials.parquet")
-    with monkeypatch.context() as stopped:
-        stopped.setattr(Folder, "join", lambda *_: None)
-        stopped.setattr("punctura.study.run.write_report", lambda *_: ("", 0))
-        assert run_study(plan, out).kept == 0
+    with pytest.warns(StudyWarning, match=r"trials\.parquet is damaged"):
+        in_chunks(plan, out, monkeypatch)
     damage(out / "chunk-000001.parquet")
-    assert run_study(plan, out).kept == 4
+    with pytest.warns(StudyWarning, match=r"chunk-000001\.parquet is damaged"):
+        assert run_study(plan, out).kept == 4
     assert pq.read_table(out / "trials.parquet").equals(whole)
 
 
@@ -211,12 +186,10 @@ def test_a_refused_plan_leaves_its_folder_to_the_mended_one(tmp_path: Path) -> N
 
 def test_a_chunk_with_rows_of_another_one_is_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan, out = load_plan(written(tmp_path, GRID)), tmp_path / "out"
-    with monkeypatch.context() as stopped:
-        stopped.setattr(Folder, "join", lambda *_: None)
-        stopped.setattr("punctura.study.run.write_report", lambda *_: ("", 0))
-        run_study(plan, out)
+    in_chunks(plan, out, monkeypatch)
     (out / "chunk-000001.parquet").write_bytes((out / "chunk-000000.parquet").read_bytes())
-    assert run_study(plan, out).kept == 4
+    with pytest.warns(StudyWarning, match=r"chunk-000001\.parquet is damaged or was changed"):
+        assert run_study(plan, out).kept == 4
     assert pq.read_table(out / "trials.parquet")["row"].to_pylist() == list(range(6))
 
 
