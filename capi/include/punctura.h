@@ -284,7 +284,8 @@ PUNCTURA_API punctura_status punctura_servo_disarm(punctura_servo* servo); /* Ti
 PUNCTURA_API punctura_status punctura_servo_reset(punctura_servo* servo); /* Tick */
 /* Tick. record->force is the force for the device. It is 0 unless the state is PUNCTURA_ACTIVE. A sample that is no
  * number is a fault, not an error: the status is PUNCTURA_OK. record->struct_size must be set. If the status is not
- * PUNCTURA_OK, no tick was made, and the forces of the record are 0. */
+ * PUNCTURA_OK, no tick was made, and the forces of the record are 0, also if its struct_size is wrong: `record` is
+ * NULL or a whole punctura_record. */
 PUNCTURA_API punctura_status punctura_servo_step(punctura_servo* servo, const punctura_sample* sample,
                                                  punctura_record* record);
 PUNCTURA_API punctura_status punctura_servo_peek(punctura_servo* servo, const punctura_sample* sample,

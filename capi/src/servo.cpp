@@ -57,10 +57,12 @@ punctura_status tick(SceneServo& servo, const punctura_sample& sample, punctura_
   return ok;
 }
 
-/// No tick: the record of the last one must not keep a force.
+/// No tick: the record of the last one must not keep a force. The fields of version 1 are there whatever struct_size
+/// says, because no header has a shorter record.
 punctura_status no_tick(punctura_record* record) noexcept {
-  if (known_size(record)) {
+  if (record) {
     for (double& f : record->force) f = 0;
+    for (double& f : record->model_force) f = 0;
     record->thumb_force = 0;
   }
   return PUNCTURA_BAD_ARGUMENT;

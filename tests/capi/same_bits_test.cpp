@@ -129,12 +129,21 @@ TEST_CASE("C ABI: a servo gives the record of the core's step; a program in C99 
   CHECK(std::string(punctura_fault_text(record.fault)).find("not a number") != std::string::npos);
 
   // A call that makes no tick leaves no force of an earlier tick in the record.
-  record.force[1] = record.thumb_force = 3;
-  sample.struct_size = 8;
-  CHECK(punctura_servo_step(servo.get(), &sample, &record) == PUNCTURA_BAD_ARGUMENT);
-  CHECK(record.force[1] == 0);
-  CHECK(record.thumb_force == 0);
-  record.force[1] = 3;
-  CHECK(punctura_servo_peek(servo.get(), nullptr, &record) == PUNCTURA_BAD_ARGUMENT);
-  CHECK(record.force[1] == 0);
+  const auto refused = [&](punctura_servo* to, std::size_t sample_size, std::size_t record_size) {
+    for (const auto call : {punctura_servo_step, punctura_servo_peek}) {
+      INFO("sample.struct_size " << sample_size << ", record.struct_size " << record_size);
+      sample.struct_size = sample_size;
+      record.struct_size = record_size;
+      record.force[1] = record.model_force[1] = record.thumb_force = 3;
+      CHECK(call(to, sample_size == 0 ? nullptr : &sample, &record) == PUNCTURA_BAD_ARGUMENT);
+      CHECK(record.force[1] == 0);
+      CHECK(record.model_force[1] == 0);
+      CHECK(record.thumb_force == 0);
+    }
+  };
+  const std::size_t right = sizeof sample, whole = sizeof record;
+  for (const std::size_t wrong : {std::size_t{0}, std::size_t{8}, whole / 2, whole - 1})
+    refused(servo.get(), right, wrong);
+  for (const std::size_t wrong : {std::size_t{0}, std::size_t{8}, right - 1}) refused(servo.get(), wrong, whole);
+  refused(nullptr, right, whole);
 }
