@@ -86,10 +86,10 @@ closing_line() {
     -e '^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true
 }
 
-# Checks the rules of the source tree: rooms, sizes and equations.
+# Checks the rules of the source tree: rooms, sizes, equations and numbers in text.
 step_tree() {
   local check code=0
-  for check in rooms sizes equations; do python "tools/check_$check.py" || code=1; done
+  for check in rooms sizes equations locale; do python "tools/check_$check.py" || code=1; done
   return $code
 }
 
@@ -137,6 +137,7 @@ step_cpp() {
     compile dev || return
   fi
   build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap &&
+    build/dev/tests/core/core_c_decimals &&
     build/dev/tests/capi/capi_tests && tools/check_exports.sh build/dev/capi/libpunctura.so && both_tests dev
 }
 

@@ -1,8 +1,5 @@
 #include "errors.hpp"
 
-#include <cstdio>
-#include <limits>
-
 #include "punctura/safety/fault.hpp"
 
 namespace punctura::c {
@@ -16,13 +13,6 @@ struct LastError {
 LastError& last_error() {
   thread_local LastError error;
   return error;
-}
-
-std::string line_of(const Problem& p) {
-  char number[40];
-  std::snprintf(number, sizeof number, "%.9g", p.value);
-  const bool shown = p.value == p.value;  // NaN stands for "no number"
-  return p.path + (shown ? std::string(" = ") + number : "") + ": " + p.reason;
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ punctura_status no_path(const char* path) {
 }  // namespace
 
 bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems) {
+  if (!check_name(word, path, problems)) return false;
   if (path == "name") return scene.name = word, true;
   if (path == "needle.direction") return take(scene.direction, path, word, direction_words, problems);
   if (path == "servo.solver") return take(scene.servo.solver, path, word, solver_words, problems);

@@ -1,7 +1,13 @@
 // Scenes from the text of a scene file. The keys and units are those of the Python package (scene_keys.hpp).
 #ifdef PUNCTURA_C_TOML
+// toml++ 3.3 asserts what a wrong text does not hold, and lets the compiler assume it where NDEBUG is defined. The
+// check that follows each assertion gives an error. tests/fuzz/c_abi_fuzz.cpp looks for texts where none follows.
 #define TOML_EXCEPTIONS 0
+#define TOML_ASSERT(condition) static_cast<void>(0)
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 #endif
 
 #include <algorithm>
@@ -10,54 +16,24 @@
 #include <memory>
 #include <optional>
 
-#include "decimal.hpp"
+#include "punctura/model/decimal.hpp"
 #include "punctura/scene/values.hpp"
 #include "scene.hpp"
 #include "scene_keys.hpp"
+#include "scene_text.hpp"
 
 #ifdef PUNCTURA_C_TOML
 
 namespace punctura::c {
 namespace {
 
-/// The double nearest to the number, as it is written in decimal, times `digits` times 10^exponent.
-///
-/// A product of doubles would be rounded twice: 1.08 mm must be the double 0.00108.
-double scaled(double value, std::string_view digits, int exponent) {
-  if (!std::isfinite(value) || value == 0) return value;
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, std::abs(value), std::chars_format::scientific).ptr;
-  const std::string_view written(text, static_cast<std::size_t>(end - text));
-  const std::size_t e = written.find('e');
-  int power = 0;
-  std::from_chars(written.data() + e + (written[e + 1] == '+' ? 2 : 1), end, power);
-  std::string mantissa(written.substr(0, e));
-  if (const auto point = mantissa.find('.'); point != std::string::npos) {
-    power -= static_cast<int>(mantissa.size() - point - 1);
-    mantissa.erase(point, 1);
-  }
-  std::vector<int> product(mantissa.size() + digits.size());  // the last digit first
-  for (std::size_t i = 0; i < mantissa.size(); ++i)
-    for (std::size_t k = 0; k < digits.size(); ++k)
-      product[i + k] += (mantissa[mantissa.size() - 1 - i] - '0') * (digits[digits.size() - 1 - k] - '0');
-  std::string all;
-  for (std::size_t i = 0, carry = 0; i < product.size(); ++i) {
-    carry += static_cast<std::size_t>(product[i]);
-    all += static_cast<char>('0' + carry % 10);
-    carry /= 10;
-  }
-  std::reverse(all.begin(), all.end());
-  all += "e" + std::to_string(power + exponent);
-  double result = 0;
-  if (read_decimal(all, result) == std::errc::result_out_of_range)
-    result = power > 0 ? std::numeric_limits<double>::infinity() : 0;
-  return value < 0 ? -result : result;
-}
-
 /// Reads the tables of a file into a scene.
 class Reader {
  public:
-  Reader(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) { find_places(); }
+  Reader(const SceneText& text, Scene& scene, std::vector<Problem>& problems)
+      : text_(text), scene_(scene), problems_(problems) {
+    find_places();
+  }
 
   /// kind: the table's name in scene_keys; path: with the number of a membrane.
   void table(const toml::table& from, std::string_view kind, const std::string& path) {
@@ -66,7 +42,7 @@ class Reader {
       const SceneKey* known = nullptr;
       for (const SceneKey& row : scene_keys)
         if (row.table == kind && row.key == key.str()) known = &row;
-      const std::string place = dot + std::string(key.str());
+      const std::string place = dot + (is_plain_text(key.str()) ? std::string(key.str()) : "a key");
       if (known)
         value(*known, node, dot, place);
       else if (!path.empty() || !node.is_table())
@@ -94,7 +70,13 @@ class Reader {
     if (key.kind == KeyKind::vector) return vector(key, node, path, place);
     if (key.kind == KeyKind::column) return column(key, node, path, place);
     if (!node.is_number()) return problem(place, "must be a number");
-    *places_.at(path) = scaled(*node.value<double>(), key.digits, key.exponent);
+    *places_.at(path) = in_si(node, key);
+  }
+
+  /// In SI units.
+  double in_si(const toml::node& node, const SceneKey& key) const {
+    const double value = *node.value<double>();
+    return std::isfinite(value) ? scaled_decimal(text_.number(node), key.digits, key.exponent) : value;
   }
 
   void vector(const SceneKey& key, const toml::node& node, const std::string& path, const std::string& place) {
@@ -103,8 +85,7 @@ class Reader {
                        std::all_of(numbers->begin(), numbers->end(), [](const auto& n) { return n.is_number(); });
     if (!three) return problem(place, "must be three numbers, [x, y, z]");
     for (std::size_t k = 0; k < 3; ++k)
-      *places_.at(path + "[" + std::to_string(k) + "]") =
-          scaled(*numbers->get(k)->value<double>(), key.digits, key.exponent);
+      *places_.at(path + "[" + std::to_string(k) + "]") = in_si(*numbers->get(k), key);
   }
 
   /// A list of numbers: one field of each row of a list in the core. path: of the field, with [] for the row.
@@ -112,6 +93,9 @@ class Reader {
     const toml::array* numbers = node.as_array();
     if (!numbers || !std::all_of(numbers->begin(), numbers->end(), [](const auto& n) { return n.is_number(); }))
       return problem(place, "must be a list of numbers");
+    if (numbers->size() > longest_list)
+      return problem(
+          place, "has " + std::to_string(numbers->size()) + " numbers; the limit is " + std::to_string(longest_list));
     const std::size_t row = path.find("[]");
     make_rows(scene_, path.substr(0, row), numbers->size());
     find_places();
@@ -119,7 +103,7 @@ class Reader {
       const std::string number = "[" + std::to_string(i) + "]",
                         at = path.substr(0, row) + number + path.substr(row + 2);
       keys[at] = place + number;
-      *places_.at(at) = scaled(*numbers->get(i)->value<double>(), key.digits, key.exponent);
+      *places_.at(at) = in_si(*numbers->get(i), key);
     }
   }
 
@@ -130,10 +114,11 @@ class Reader {
   void gauge(const toml::node& node, const std::string& path, const std::string& place) {
     const auto* given = node.as_integer();
     for (const GaugeDiameter& row : gauge_diameters)
-      if (given && given->get() == row.gauge) *places_.at(path) = scaled(1, row.digits, row.exponent);
+      if (given && given->get() == row.gauge) *places_.at(path) = scaled_decimal("1", row.digits, row.exponent);
     if (!given || std::isnan(*places_.at(path))) problem(place, "must be a whole number from 10 to 34, ISO 9626");
   }
 
+  const SceneText& text_;
   Scene& scene_;
   std::vector<Problem>& problems_;
   std::map<std::string, double*> places_;
@@ -147,18 +132,20 @@ const toml::table* table_at(const toml::table& file, std::string_view name, bool
   return node ? node->as_table() : nullptr;
 }
 
-void read_file(const toml::table& file, Scene& scene, std::vector<Problem>& problems) {
+void read_file(const SceneText& text, const toml::table& file, Scene& scene, std::vector<Problem>& problems) {
   const toml::array* membranes = file.get("membrane") ? file.get("membrane")->as_array() : nullptr;
+  if (membranes && membranes->size() > max_membranes)
+    return problems.push_back({"membrane", static_cast<double>(membranes->size()), too_many_membranes});
   for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.push_back(empty_membrane());
   scene.syringe = empty_syringe();  // so that for_each_value() visits all numbers
-  Reader reader(scene, problems);
+  Reader reader(text, scene, problems);
   toml::table rest = file;
   rest.erase("membrane");
   reader.table(rest, "", "");
   for (const auto& [key, node] : rest)
     if (const std::string_view name = key.str(); node.is_table() && name != "needle" && name != "coupling" &&
                                                  name != "servo" && name != "display" && name != "syringe")
-      reader.problem(std::string(name), "scene files have no such table");
+      reader.problem(is_plain_text(name) ? std::string(name) : "a table", "scene files have no such table");
   for (const std::string name : {"needle", "coupling", "servo", "display"})
     if (const auto* table = table_at(file, name, name == "needle" || name == "coupling", reader))
       reader.table(*table, name, name);
@@ -187,7 +174,9 @@ using namespace punctura::c;
 punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene) {
   return guarded([&] {
     if (!text || !scene) return null_pointer();
-    const toml::parse_result file = toml::parse(std::string_view(text, size));
+    const SceneText lines(std::string_view(text, size));
+    if (const auto beyond = lines.excess(); !beyond.empty()) return fail({{"text", not_given, beyond}});
+    const toml::parse_result file = toml::parse(lines.all());
     if (!file) {
       const auto at = file.error().source().begin;
       const std::string path = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
@@ -195,7 +184,7 @@ punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura
     }
     auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
     std::vector<punctura::Problem> problems;
-    read_file(file.table(), made->scene, problems);
+    read_file(lines, file.table(), made->scene, problems);
     if (!problems.empty()) return fail(std::move(problems));
     *scene = made.release();
     return ok;

@@ -3,32 +3,31 @@
 #include <map>
 #include <memory>
 
-#include "decimal.hpp"
+#include "punctura/model/decimal.hpp"
 #include "punctura/scene/values.hpp"
 #include "scene.hpp"
 
 namespace punctura::c {
 namespace {
 
-/// The index behind `name` in a path, as in "membrane[3].friction"; empty if the path does not begin so.
-std::optional<std::size_t> index_after(std::string_view path, std::string_view name) {
+/// The index below `most` behind `name` in a path, as in "membrane[3].friction"; empty if the path does not begin so.
+std::optional<std::size_t> index_after(std::string_view path, std::string_view name, std::size_t most) {
   if (path.substr(0, name.size()) != name || path.substr(name.size(), 1) != "[") return std::nullopt;
-  std::size_t index = longest_list;
+  std::size_t index = most;
   const char* first = path.data() + name.size() + 1;
   const auto [end, error] = std::from_chars(first, path.data() + path.size(), index);
-  if (error != std::errc() || end == path.data() + path.size() || *end != ']' || index >= longest_list)
-    return std::nullopt;
+  if (error != std::errc() || end == path.data() + path.size() || *end != ']' || index >= most) return std::nullopt;
   return index;
 }
 
 /// Makes the membrane, the syringe or the row of a list that a path is in.
 void grow(Scene& scene, std::string_view path) {
-  if (const auto i = index_after(path, "membrane"))
+  if (const auto i = index_after(path, "membrane", max_membranes))
     while (scene.membranes.size() <= *i) scene.membranes.push_back(empty_membrane());
   if (path.substr(0, 8) == "syringe." && !scene.syringe) scene.syringe = empty_syringe();
   if (const auto close = path.rfind("]."); close != std::string_view::npos) {
     const std::string_view list = path.substr(0, path.rfind('[', close));
-    if (const auto row = index_after(path, list)) make_rows(scene, std::string(list), *row + 1);
+    if (const auto row = index_after(path, list, longest_list)) make_rows(scene, std::string(list), *row + 1);
   }
 }
 
@@ -57,20 +56,20 @@ void read_lines(std::string_view text, Scene& scene, std::vector<Problem>& probl
   std::map<std::string, double*> places;
   for_each_value(scene, [&](const std::string& path, const Field&, double& number) { places[path] = &number; });
   for_each_line(text, [&](const std::string& path, std::string_view value, int line) {
+    const std::string where = "line " + std::to_string(line);
+    if (!check_name(path, where, problems)) return;
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
       set_word(scene, path, value.substr(1, value.size() - 2), problems);
       return;
     }
     const auto place = places.find(path);
-    double number = 0;
-    const std::errc error = read_decimal(value, number);
-    const std::string where = "line " + std::to_string(line);
+    const std::optional<double> number = read_decimal(value);
     if (place == places.end())
       problems.push_back({where, not_given, "the scene has no number \"" + path + "\""});
-    else if (error != std::errc())
+    else if (!number)
       problems.push_back({where, not_given, "must be PATH = NUMBER or PATH = \"WORD\""});
     else
-      *place->second = number;
+      *place->second = *number;
   });
 }
 

@@ -1,7 +1,6 @@
 // Similar words, and warnings for numbers that are off by a factor of 1000.
 #include "arguments.hpp"
 
-#include <cstdio>
 #include <utility>
 
 #include "punctura/scene/usual.hpp"
@@ -45,9 +44,8 @@ void warn_unusual(const std::string& path, double value) {
   if (!unusual_warnings) return;
   const std::string advice = unusual(path, value);
   if (advice.empty()) return;
-  char given[40];
-  std::snprintf(given, sizeof given, " = %g ", value);
-  const std::string text = path + given + usual_unit(path) + " is unusual. " + advice + ": all numbers are in SI units";
+  const std::string text = path + " = " + decimal_text(value, 6) + " " + usual_unit(path) + " is unusual. " + advice +
+                           ": all numbers are in SI units";
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw nb::python_error();
 }
 

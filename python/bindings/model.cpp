@@ -1,5 +1,4 @@
 // core/punctura/model: needle, membrane and the friction laws of K06 section 2.
-#include <cstdio>
 #include <numbers>
 
 #include "arguments.hpp"
@@ -14,10 +13,8 @@ namespace {
 void tell_radians(std::vector<Problem>& problems) {
   for (Problem& problem : problems) {
     if (problem.path != "needle.tip_angle" || !(problem.value > 0 && problem.value < 90)) continue;
-    char text[80];
-    std::snprintf(text, sizeof text, ". If you meant %g degrees, write %.4g: the angle is in rad", problem.value,
-                  problem.value * std::numbers::pi / 180);
-    problem.reason += text;
+    problem.reason += ". If you meant " + decimal_text(problem.value, 6) + " degrees, write " +
+                      decimal_text(problem.value * std::numbers::pi / 180, 4) + ": the angle is in rad";
   }
 }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "bindings.hpp"
+#include "punctura/model/decimal.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -63,9 +63,8 @@ void check_numbers(const double* values, std::size_t n, const char* name, std::s
   if (bad == values + n) return;
   const std::size_t at = static_cast<std::size_t>(bad - values);
   const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
-  char number[32];
-  std::snprintf(number, sizeof number, "%g", *bad);
-  throw nb::value_error((std::string(name) + place + says + number + remedy + ". No tick was made").c_str());
+  throw nb::value_error(
+      (std::string(name) + place + says + decimal_text(*bad, 6) + remedy + ". No tick was made").c_str());
 }
 
 /// Requires finite numbers. row_length: numbers per row of an array; 0 for a single value.

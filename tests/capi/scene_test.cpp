@@ -8,6 +8,8 @@
 
 #include "c99.h"
 #include "handles.hpp"
+#include "punctura/scene/build.hpp"
+#include "support/comma_locale.hpp"
 
 namespace {
 using namespace capi_test;
@@ -103,6 +105,93 @@ TEST_CASE("C ABI: a scene file gives the doubles nearest to its decimal numbers"
     CHECK(given == value);
   }
   CHECK(punctura_scene_check(scene.get()) == PUNCTURA_OK);
+}
+
+TEST_CASE("C ABI: the digits of a scene file become SI units without a rounding in between") {
+  std::string text = with("diameter_mm = 1.08", "diameter_mm = 2.1855455533155981734");
+  text = text.replace(text.find("[0, -0.1, 1.7]"), 14, "[0x10, -4_5.5_0E-1, # é\n  2.1855455533155981734]");
+  const auto scene = parsed("\xef\xbb\xbf" + text);
+  const auto value = [&](const char* path) {
+    double given = 0;
+    CHECK(punctura_scene_get(scene.get(), path, &given) == PUNCTURA_OK);
+    return given;
+  };
+  CHECK(value("needle.diameter") == 0.0021855455533155983);  // the double of the text, times 1e-3, is ...598
+  CHECK(value("membrane[0].point[0]") == 0.016);
+  CHECK(value("membrane[0].point[1]") == -4.55e-3);
+  CHECK(value("membrane[0].point[2]") == 0.0021855455533155983);
+}
+
+TEST_CASE("C ABI: a text that is no TOML, or far too large, is refused; the program lives on") {
+  for (const char* text :
+       {"[+]", "[=", "[#", "[.a]", "[\xc3\xa9]", "[,", "[(]", "[", "[[", "[\"", "a = [", "a.", "\xff"}) {
+    INFO(text);
+    CHECK(problems_of(text).begin()->first.substr(0, 6) == "line 1");
+  }
+  const auto repeated = [](std::string_view part, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += part;
+    return all;
+  };
+  CHECK(problems_of(repeated("a.", 50000) + "a = 1")["text"] == "a key has more than 16 dots");
+  CHECK(problems_of("a = " + repeated("[", 50000))["text"].find("nested") != std::string::npos);
+  CHECK(problems_of("# " + repeated("x", 300000))["text"].find("256 KiB") != std::string::npos);
+  CHECK(problems_of(repeated("[[membrane]]\n", 65))["membrane"].find("64") != std::string::npos);
+  CHECK(problems_of("name = '" + repeated(".", 50) + "' # " + repeated("[", 50)).contains("needle"));
+  CHECK(problems_of("\"\\u001b[2J\" = 1").contains("a key"));
+}
+
+TEST_CASE("C ABI: names are text in UTF-8 without control characters, whichever way they come") {
+  const SceneHandle scene(c99_scene());
+  for (const char* word :
+       {"\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "a\nb", "\x1b[31m", "\x7f", "\xc2\x9b"}) {
+    for (const char* path : {"name", "membrane[0].name", "servo.solver"}) {
+      CHECK(punctura_scene_set_word(scene.get(), path, word) == PUNCTURA_BAD_SCENE);
+      CHECK(std::string(punctura_last_error()) ==
+            std::string(path) + ": must be text in UTF-8 without control characters (a new line, an escape)");
+    }
+    auto named = through_c([&] {
+      punctura::Scene wrong;
+      wrong.name = word;
+      wrong.needle = {1e-3, 0.3};
+      wrong.coupling = {400, 1};
+      wrong.membranes.push_back({word, {500, 0.4, 0.2, 0}, {0, 0, 0}, {0, -1, 0}});
+      return wrong;
+    }());
+    CHECK(punctura_scene_check(named.get()) == PUNCTURA_BAD_SCENE);
+    CHECK(punctura_problem_count() == 2);
+  }
+  for (const char* word : {"", "Haut, 2 mm\t(weich)", "\xc3\xa9", "\xe7\x9a\xae", "\xf0\x9f\xa9\xb8"})
+    CHECK(punctura_scene_set_word(scene.get(), "name", word) == PUNCTURA_OK);
+  CHECK(problems_of(with("name = \"two\"", "name = \"\\u001b[31m\"")).contains("name"));
+}
+
+TEST_CASE("C ABI: numbers in messages have a point, and all their digits, in every locale") {
+  const punctura::test::CommaLocale comma;
+#ifndef _WIN32
+  REQUIRE(comma.works());
+#endif
+  const auto scene = parsed(with("friction = 0.2", "friction = 0.25"));
+  const auto set = [&](const char* path, double v) { CHECK(punctura_scene_set(scene.get(), path, v) == PUNCTURA_OK); };
+  set("membrane[0].stiffness", 0.57);
+  CHECK(std::string(punctura_scene_unusual(scene.get())) ==
+        "membrane[0].stiffness = 0.57 N/m is unusual. If you meant 0.57 N/mm, write 570");
+  set("membrane[0].thickness", -1e-7);
+  set("membrane[0].friction", 7.25);
+  CHECK(punctura_scene_check(scene.get()) == PUNCTURA_BAD_SCENE);
+  const std::string problems = punctura_last_error();
+  CHECK(problems.find("membrane[0].thickness = -1e-07: must be") != std::string::npos);
+  CHECK(problems.find("membrane[0].friction = 7.25: the largest value that is allowed with this tip angle is 4.664,") !=
+        std::string::npos);
+  punctura::Scene core;
+  core.needle = {1.08e-3, 0.28};
+  core.membranes.push_back({"skin", {570, 0.41, 0.2, -1e-7}, {0, 0, 0}, {0, -1, 0}});
+  try {
+    punctura::build_insertion(core);
+    FAIL("the scene is wrong");
+  } catch (const punctura::SceneError& error) {
+    CHECK(std::string(error.what()).find("membrane[0].thickness = -1e-07: must be") != std::string::npos);
+  }
 }
 
 TEST_CASE("C ABI: all problems of a scene file, with the keys of the file") {

@@ -38,12 +38,23 @@ def said(module: ModuleType, root: Path) -> list[str]:
     return [str(finding) for finding in module.findings(root)]
 
 
-@pytest.mark.parametrize("name", ["rooms", "sizes", "equations"])
+@pytest.mark.parametrize("name", ["rooms", "sizes", "equations", "locale"])
 def test_a_finding_is_printed_and_fails_the_command(check, name, tmp_path, capsys):
     module = check(name)
-    root = plant(tmp_path, core__punctura__model__a_dot_hpp='#include "punctura/servo/b.hpp"  // K06 (99)\n' * 400)
+    root = plant(
+        tmp_path, core__punctura__model__a_dot_hpp='#include "punctura/servo/b.hpp"; atof("1")  // K06 (99)\n' * 400
+    )
     assert module.report(name, module.findings, ["check", str(root)]) == 1
     assert capsys.readouterr().out.endswith(" findings\n")
+
+
+def test_a_number_that_follows_the_locale_is_found(check, tmp_path):
+    text = 'snprintf(text, 9, "%d %.4g", 1, x);\nprintf("%5.1f");  // %g\nsnprintf(text, 9, "%d %%");\nstrtod(a, b);\n'
+    root = plant(tmp_path, capi__a_dot_cpp=text, examples__b_dot_cpp=text)
+    places = [(1, "%.4g"), (2, "%5.1f"), (4, "strtod")]
+    assert said(check("locale"), root) == [
+        f"capi/a.cpp:{n}: {what} follows the locale: use decimal.hpp" for n, what in places
+    ]
 
 
 def test_an_include_of_a_lower_room_is_found(check, tmp_path):

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/needle.hpp"
 
@@ -22,6 +22,11 @@ struct Problem {
   double value;        ///< the given value, SI
   std::string reason;  ///< the bound that the value breaks, and the reason for the bound
 };
+
+/// "membrane[1].friction = 7: must be ...", without the number if the value is NaN.
+inline std::string line_of(const Problem& p) {
+  return p.path + (std::isnan(p.value) ? "" : " = " + decimal_text(p.value)) + ": " + p.reason;
+}
 
 /// The permitted range of one field, SI. Schemas and documents read their bounds from here.
 struct Range {
@@ -128,11 +133,10 @@ inline double largest_friction(double tip_angle) {
 inline bool check_insertion(const Needle& needle, const Membrane& membrane, const std::string& membrane_path,
                             std::vector<Problem>& problems) {
   if (membrane.friction * std::tan(needle.tip_angle) < 1) return true;
-  char text[96];
-  std::snprintf(text, sizeof text, "the largest value that is allowed with this tip angle is %.4g, K06 (7)",
-                largest_friction(needle.tip_angle));
   const std::string dot = membrane_path.empty() ? "" : ".";
-  problems.push_back({membrane_path + dot + "friction", membrane.friction, text});
+  problems.push_back({membrane_path + dot + "friction", membrane.friction,
+                      "the largest value that is allowed with this tip angle is " +
+                          decimal_text(largest_friction(needle.tip_angle), 4) + ", K06 (7)"});
   return false;
 }
 

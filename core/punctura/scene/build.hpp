@@ -124,7 +124,7 @@ class SceneError : public std::invalid_argument {
  private:
   static std::string text(const std::vector<Problem>& problems) {
     std::string all = "the scene cannot be built";
-    for (const Problem& p : problems) all += "\n  " + p.path + " = " + std::to_string(p.value) + ": " + p.reason;
+    for (const Problem& p : problems) all += "\n  " + line_of(p);
     return all;
   }
   std::vector<Problem> problems_;

@@ -11,6 +11,7 @@
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/scene/lumen.hpp"
+#include "punctura/scene/name.hpp"
 #include "punctura/scene/scene.hpp"
 #include "punctura/servo/snapshot.hpp"
 
@@ -148,23 +149,27 @@ inline void check_place(const PlacedMembrane& placed, const std::string& path, s
     problems.push_back({path + ".inward_normal", 0, "must be a direction: at least one of the three not 0"});
 }
 
+static_assert(max_membranes == 64);
+inline constexpr const char* too_many_membranes = "there may be at most 64 membranes";
+
 /// All problems of a scene, each with its path (`membrane[1].friction`), its SI value and the reason. If there are
 /// none, the scene can be built.
 inline std::vector<Problem> check(const Scene& scene) {
   std::vector<Problem> problems;
+  check_name(scene.name, "name", problems);
   const bool needle = check(scene.needle, "needle", problems);
   check(scene.coupling, problems);
   check_relaxation(scene, problems);
   check(scene.servo, problems);
   check_fields(display_fields, scene.display, "display", problems);
   if (scene.membranes.empty()) problems.push_back({"membrane", 0, "there must be at least one membrane to go through"});
-  static_assert(max_membranes == 64);
   if (scene.membranes.size() > max_membranes)
-    problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), "there may be at most 64 membranes"});
+    problems.push_back({"membrane", static_cast<double>(scene.membranes.size()), too_many_membranes});
 
   for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
     const PlacedMembrane& placed = scene.membranes[i];
     const std::string path = "membrane[" + std::to_string(i) + "]";
+    check_name(placed.name, path + ".name", problems);
     const bool membrane = check(placed.membrane, path, problems), tissue = check(placed.tissue, path, problems);
     const bool enters = field_of(needle_fields, &Needle::tip_angle).range.holds(scene.needle.tip_angle) &&
                         field_of(membrane_fields, &Membrane::friction).range.holds(placed.membrane.friction) &&

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,17 +60,16 @@ inline std::string unusual(const std::string& path, double written, double size 
   const Usual* row = usual_range(path);
   const auto found = [&](double v) { return std::abs(v) >= row->low && std::abs(v) <= row->high; };
   if (!row || written == 0 || found(written * size)) return "";
-  char text[120];
+  const std::string number = decimal_text(written, 6);
   for (const UsualUnit& unit : row->units) {
     if (!found(written * unit.size)) continue;
-    std::snprintf(text, sizeof text, "If you meant %g %s, write %g", written, unit.name, written * unit.size / size);
-    return text;  // the first unit that fits
+    // The first unit that fits. Rounded: the product of doubles has digits that nobody wrote.
+    return "If you meant " + number + " " + unit.name + ", write " + decimal_text(written * unit.size / size, 6);
   }
   for (const double factor : {1e-3, 1e3}) {
     if (!found(written * size * factor)) continue;
-    std::snprintf(text, sizeof text, "If you meant a number 1000 times %s, write %g", factor < 1 ? "smaller" : "larger",
-                  written * factor);
-    return text;
+    return std::string("If you meant a number 1000 times ") + (factor < 1 ? "smaller" : "larger") + ", write " +
+           decimal_text(written * factor, 6);
   }
   return "";
 }
@@ -82,9 +80,7 @@ inline std::vector<std::string> unusual(const Scene& scene) {
   for_each_value(scene, [&](const std::string& path, const Field& field, const double& number) {
     const std::string advice = unusual(path, number);
     if (advice.empty()) return;
-    char given[40];
-    std::snprintf(given, sizeof given, " = %g ", number);
-    all.push_back(path + given + std::string(field.unit) + " is unusual. " + advice);
+    all.push_back(path + " = " + decimal_text(number, 6) + " " + std::string(field.unit) + " is unusual. " + advice);
   });
   return all;
 }

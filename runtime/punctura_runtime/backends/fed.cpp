@@ -1,8 +1,8 @@
 #include "punctura_runtime/backends/fed.hpp"
 
 #include <cmath>
-#include <cstdio>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/ticking_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
 
@@ -14,7 +14,7 @@ constexpr double tolerance = 0.05;  // relative error of the rate above which th
 
 FedDevice::FedDevice(DeviceInfo info, bool real_time) : info_(std::move(info)), real_time_(real_time) {
   if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("the rate of a fed device must be above 0 Hz, not " + std::to_string(info_.rate));
+    throw DeviceError("the rate of a fed device must be above 0 Hz, not " + decimal_text(info_.rate));
   if (info_.backend.empty()) info_.backend = "fed";
 }
 
@@ -80,11 +80,9 @@ std::vector<std::string> FedDevice::statements() const {
   if (!real_time_ || span.readings < 2) return all;
   const double rate =
       static_cast<double>(span.readings - 1) / (static_cast<double>(span.last_ns - span.first_ns) * 1e-9);
-  char text[160];
   const bool off = !(std::abs(rate - info_.rate) <= tolerance * info_.rate);
-  std::snprintf(text, sizeof text, "fed at %.4g Hz%s", rate,
-                off ? ", not at the rate that it was opened with: damping and filters are wrong by as much" : "");
-  all.push_back(text);
+  all.push_back("fed at " + decimal_text(rate, 4) + " Hz" +
+                (off ? ", not at the rate that it was opened with: damping and filters are wrong by as much" : ""));
   if (realtime_.empty()) all.push_back("the feeding thread has no real-time priority: call make_realtime() on it");
   return all;
 }

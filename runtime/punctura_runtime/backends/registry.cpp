@@ -5,6 +5,8 @@
 #include <exception>
 #include <mutex>
 
+#include "punctura/model/decimal.hpp"
+
 namespace punctura {
 
 namespace {
@@ -53,7 +55,7 @@ std::vector<BackendStatus> enumerate_devices() {
 
 std::shared_ptr<Device> open_device(const std::string& backend, const OpenOptions& options) {
   if (!(options.rate > 0) || !std::isfinite(options.rate))
-    throw DeviceError("the rate must be above 0 Hz, not " + std::to_string(options.rate));
+    throw DeviceError("the rate must be above 0 Hz, not " + decimal_text(options.rate));
   std::string known;
   for (const Backend* candidate : Table::all()) {
     if (backend == candidate->name) return candidate->open(options);

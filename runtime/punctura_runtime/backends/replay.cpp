@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura {
@@ -9,7 +10,7 @@ namespace punctura {
 ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorded, const ReplayOptions& options)
     : samples_(std::move(samples)), info_(std::move(recorded)), options_(options) {
   if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("the rate of a recording must be above 0 Hz, not " + std::to_string(info_.rate));
+    throw DeviceError("the rate of a recording must be above 0 Hz, not " + decimal_text(info_.rate));
   // Everything else is the recorded device's: its ratings limit the force, its encoder step selects the conditioning.
   if (info_.backend != "replay") info_.model = info_.model.empty() ? "a recorded motion" : info_.model + ", recorded";
   info_.backend = "replay";

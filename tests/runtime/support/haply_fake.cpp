@@ -1,8 +1,8 @@
 #include "runtime/support/haply_fake.hpp"
 
 #include <charconv>
-#include <cstdio>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/haply/handshake.hpp"
 #include "punctura_runtime/os/os.hpp"
 
@@ -56,15 +56,10 @@ std::string frame(unsigned first, const std::string& payload) {
   return out + payload;
 }
 
-std::string decimal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 /// Converts to the service's axes (z up, y away from the user). Punctura's axes are its (x, z, -y).
 std::string vector_text(const std::array<double, 3>& ours) {
-  return R"({"x":)" + decimal(ours[0]) + R"(,"y":)" + decimal(-ours[2]) + R"(,"z":)" + decimal(ours[1]) + "}";
+  return R"({"x":)" + decimal_text(ours[0]) + R"(,"y":)" + decimal_text(-ours[2]) + R"(,"z":)" + decimal_text(ours[1]) +
+         "}";
 }
 
 double after(const std::string& text, const std::string& key, std::size_t from) {

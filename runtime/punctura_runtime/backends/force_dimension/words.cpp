@@ -1,6 +1,7 @@
 // Messages of a Force Dimension device: its trouble and its statements.
-#include <cstdio>
+#include <cmath>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/force_dimension/device.hpp"
 
 namespace punctura::force_dimension {
@@ -20,11 +21,7 @@ std::string force_off(int cause) {
   return "it does not say why";
 }
 
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f", value);
-  return text;
-}
+std::string rounded(double value) { return decimal_text(std::round(value)); }
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #include "punctura_runtime/backends/haply/json.hpp"
 
-#include "punctura_runtime/backends/haply/decimal.hpp"
+#include "punctura/model/decimal.hpp"
 
 namespace punctura::haply {
 
@@ -107,7 +107,7 @@ std::optional<double> JsonReader::number() noexcept {
   std::string_view raw;
   if (failed_ || (peek() != '-' && !digit(peek()))) return skip(), std::nullopt;
   if (!numeral(raw)) return fail(), std::nullopt;
-  return decimal(raw);
+  return read_decimal(raw);
 }
 
 std::optional<bool> JsonReader::boolean() noexcept {

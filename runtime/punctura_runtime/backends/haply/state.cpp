@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "punctura_runtime/backends/haply/decimal.hpp"
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/haply/json.hpp"
 
 namespace punctura::haply {

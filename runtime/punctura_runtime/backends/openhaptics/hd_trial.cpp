@@ -3,10 +3,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <thread>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 
 namespace punctura::hd {
@@ -56,11 +56,7 @@ std::uint32_t count_tick(void* counting) {
   return done;
 }
 
-std::string hertz(double rate) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g Hz", rate);
-  return text;
-}
+std::string hertz(double rate) { return decimal_text(rate, 6) + " Hz"; }
 
 double run_once(std::unique_ptr<Counting>& counting, double patience) {
   Counting& c = *counting;

@@ -1,8 +1,8 @@
 #include "punctura_runtime/backends/openhaptics/openhaptics.hpp"
 
 #include <chrono>
-#include <cstdio>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_words.hpp"
 #include "punctura_runtime/backends/ticking_thread.hpp"
@@ -104,10 +104,8 @@ std::string OpenHapticsDevice::trouble() const {
   }
   const double silent = static_cast<double>(options_.now_ns() - last_call_) * 1e-9;
   if (!running_ || silent < 0.1) return {};
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "The HD scheduler has not called for %.1f s: switch the device off if it pulls, then stop.", silent);
-  return text;
+  return "The HD scheduler has not called for " + decimal_text(silent, 2) +
+         " s: switch the device off if it pulls, then stop.";
 }
 
 std::vector<std::string> OpenHapticsDevice::statements() const {
