@@ -25,3 +25,10 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   made.append(...children);
   return made;
 }
+
+/** Makes an element show a name of any length: cut after two lines, the whole when the pointer rests on it. */
+export function named<E extends HTMLElement>(host: E, name: string): E {
+  host.classList.add("name");
+  host.textContent = host.title = name;
+  return host;
+}

@@ -20,10 +20,11 @@ from punctura.exercise.bounds import (
     MOST_PUSH_N,
     MOST_S,
 )
+from punctura.files.fields import LONGEST_NAME
 from punctura.files.tables import Table
 
 Text = Annotated[str, Field(min_length=1, max_length=2000)]
-Word = Annotated[str, Field(min_length=1, max_length=200)]
+Word = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Depth = Annotated[float, Field(allow_inf_nan=False, ge=0, le=DEEPEST_MM)]
 Distance = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM, le=DEEPEST_MM)]

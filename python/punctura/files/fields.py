@@ -12,6 +12,7 @@ from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 AUTOMATIC = "automatic"
+LONGEST_NAME = 200  # characters; longer names fill a page, a legend or a table
 
 
 def _as_decimal(value: object) -> Decimal | None:
@@ -83,6 +84,13 @@ def _text(value: object) -> str:
     return value
 
 
+def _name(value: object) -> str:
+    text = _text(value)
+    if len(text) > LONGEST_NAME:
+        raise PydanticCustomError("name", f"must have at most {LONGEST_NAME} characters; it has {len(text)}")
+    return text
+
+
 def _plain(value: Any) -> Any:
     if isinstance(value, str):
         return value
@@ -111,3 +119,4 @@ Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator
 Buttons = Annotated[list[int], PlainValidator(_buttons)]
 WholeNumber = Annotated[int, PlainValidator(_whole_number), WithJsonSchema({"type": "integer"})]
 Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": "string"})]
+Name = Annotated[str, PlainValidator(_name), WithJsonSchema({"type": "string", "maxLength": LONGEST_NAME})]

@@ -12,7 +12,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from punctura._core import Coupling, DisplaySettings, Membrane, PlacedMembrane, ServoSettings, Syringe, SyringeSettings
-from punctura.files.fields import Number, NumberOrAutomatic, Numbers, Text, Vector, WholeNumber
+from punctura.files.fields import Name, Number, NumberOrAutomatic, Numbers, Vector, WholeNumber
 from punctura.files.tables import Table
 from punctura.files.units import UNITS, from_si
 
@@ -153,7 +153,7 @@ class MembraneTable(Table):
 
     model_config = ConfigDict(title="Membrane")
 
-    name: Text = _field("Name", "Name of the membrane in plots and tables.")
+    name: Name = _field("Name", "Name of the membrane in plots and tables.")
     stiffness_N_per_mm: Number = _field("Stiffness", "Resistance of the hole to widening.", "kappa")
     precompression_N: Number = _field("Precompression", "Grip of the hole when it is closed.", "c")
     friction: Number = _field("Friction", "Coefficient of dry friction between needle and membrane.", "mu")
@@ -216,7 +216,7 @@ class SceneFile(Table):
 
     model_config = ConfigDict(title="Scene file")
 
-    name: Text = _field("Name", "Name of the scene.")
+    name: Name = _field("Name", "Name of the scene.")
     needle: NeedleTable
     coupling: CouplingTable
     servo: ServoTable = Field(default_factory=ServoTable)

@@ -51,9 +51,17 @@ def test_a_key_of_a_hundred_thousand_parts_is_reported(write):
 
 
 def test_dots_and_brackets_in_texts_and_comments_are_not_counted(write):
-    dots = "[." * 500
+    dots = "[." * 90
     scene = load_scene(write(('"skin"', f"'''{dots}'''  # {dots}"), ('"wall"', f'"""\\"{dots}"""')))
     assert [m.name for m in scene.membranes] == [dots, '"' + dots]
+
+
+def test_a_name_that_would_fill_a_page_is_refused(write):
+    assert len(load_scene(write(('name = "test"', f'name = "{"x" * 200}"'))).name) == 200
+    path = write(('name = "test"', f'name = "{"x" * 201}"'), ('name = "wall"', f'name = "{"y" * 100_000}"'))
+    scene, wall = problems(path)
+    assert scene.endswith(": must have at most 200 characters; it has 201")
+    assert wall.startswith("membrane[1].name = ") and wall.endswith("; it has 100000") and len(wall) < 300
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { element, named } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
 import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
@@ -38,7 +38,7 @@ export function eventList(app: App): HTMLElement {
         { type: "button", class: `event ${event.what}`, title: "Show this moment in the plots", onclick: go },
         element("span", { class: "event-time" }, `${event.time.toFixed(3)} s`),
         badge(event.membrane),
-        element("span", { class: "event-name" }, event.name),
+        named(element("span", { class: "event-name" }), event.name),
         element("span", { class: "event-what" }, word),
         element("span", { class: "event-force" }, force),
       ),

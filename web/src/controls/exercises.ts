@@ -1,4 +1,4 @@
-import { element, type Panel } from "../panel.ts";
+import { element, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
 import type { ProblemPart } from "../wire/messages.ts";
@@ -154,7 +154,7 @@ function card(
     element(
       "header",
       {},
-      element("h3", {}, title),
+      named(element("h3"), title),
       // A file with a problem can be started too: it is read again, and may be corrected by then.
       element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
     ),

@@ -1,5 +1,5 @@
 import { fixedNumber } from "../format.ts";
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { element, everyFrame, named, type Panel } from "../panel.ts";
 import { plotsOf } from "../plots/shared.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { badge } from "./badge.ts";
@@ -34,12 +34,7 @@ function makeRow(index: number, name: string): Row {
   const [depth, force, felt, band] = [0, 1, 2, 3].map(() => element("span", { class: "number" }));
   const needle = element("i", {});
   const gauge = element("span", { class: "band-gauge", "aria-hidden": "true" }, needle);
-  const head = element(
-    "th",
-    { scope: "row" },
-    badge(index),
-    element("span", { class: "membrane-name", title: name }, name),
-  );
+  const head = element("th", { scope: "row" }, badge(index), named(element("span", { class: "membrane-name" }), name));
   const cells = [phase, depth!, force!, felt!].map((node) => element("td", {}, node));
   const row = element("tr", {}, head, ...cells, element("td", {}, band!, gauge));
   return {

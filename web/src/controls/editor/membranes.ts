@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, named } from "../../panel.ts";
 import { colourToken } from "../../state/colours.ts";
 import { Signal } from "../../state/signal.ts";
 import type { Draft } from "./draft.ts";
@@ -39,7 +39,7 @@ export class MembraneList {
     if (all.length !== this.cards.length) this.build(all.length);
     all.forEach((membrane, i) => {
       const card = this.cards[i]!;
-      card.title.textContent = String(membrane.name ?? "");
+      named(card.title, String(membrane.name ?? ""));
       card.summary.textContent = summaryOf(membrane);
       showAll(card.inputs, tables);
     });

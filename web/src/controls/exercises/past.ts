@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseResult } from "../../wire/files.ts";
 import { saveAddress } from "../download.ts";
@@ -99,7 +99,7 @@ export function pastResults(
 function row(
   result: ExerciseResult,
   title: string,
-  named: boolean,
+  withPerson: boolean,
   open: (result: ExerciseResult) => void,
 ): HTMLElement {
   const when = element("button", { type: "button", class: "link", onclick: () => open(result) }, dateText(result.date));
@@ -107,7 +107,7 @@ function row(
     "tr",
     {},
     element("td", {}, when),
-    element("td", {}, named ? `${result.person || "no name"}: ${title}` : title),
+    element("td", {}, named(element("span"), withPerson ? `${result.person || "no name"}: ${title}` : title)),
     element("td", { class: result.passed ? "passed" : "failed" }, verdict(result)),
   );
 }

@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
 import {
@@ -47,7 +47,7 @@ export function openResult(
         "h2",
         // The focus goes here, so that the dialog opens with its first words and not scrolled to its buttons.
         { id: "result-title", tabindex: -1, autofocus: true },
-        title,
+        named(element("span"), title),
         " ",
         element("span", { class: result.passed ? "passed" : "failed" }, verdict(result)),
       ),

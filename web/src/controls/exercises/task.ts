@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseOverview } from "../../wire/files.ts";
 import type { ExerciseStatus } from "../../wire/messages.ts";
@@ -52,7 +52,7 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   app.control.watch(begin);
   const showTitle = (): void => {
     const name = app.exercise.value?.exercise;
-    title.textContent = name === undefined ? "" : titleOf(name);
+    named(title, name === undefined ? "" : titleOf(name));
   };
   app.exercise.watch((status) => {
     const running = status?.running ?? false;

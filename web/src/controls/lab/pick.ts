@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, named } from "../../panel.ts";
 import type { ExerciseResult, RecordingEntry } from "../../wire/files.ts";
 import { dateText, lengthText } from "../recordings/words.ts";
 
@@ -55,7 +55,7 @@ export function pickRuns(act: (names: readonly string[]) => void): {
           ].filter(Boolean);
           const box = element("input", { type: "checkbox", value: entry.name });
           box.checked = chosen.includes(entry.name);
-          const words = element("span", {}, entry.title || entry.name, " ");
+          const words = element("span", {}, named(element("span"), entry.title || entry.name), " ");
           words.append(element("b", { "data-run": entry.name, hidden: true }, "reference "));
           words.append(element("span", { class: "quiet" }, facts.join(" · ")));
           return element("li", {}, element("label", {}, box, words));
