@@ -5,7 +5,16 @@ from playwright.sync_api import expect
 from studio_process import StudioProcess
 
 # What a browser does whose user forbids pages to keep data.
-NO_STORAGE = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('', 'SecurityError'); }});"
+NO_STORAGE = """for (const which of ["localStorage", "sessionStorage"])
+  Object.defineProperty(window, which, {get() { throw new DOMException("", "SecurityError"); }});"""
+
+
+def test_the_token_leaves_the_address_bar_and_a_reload_comes_in_again(page, studio):
+    ready(page)
+    assert page.url == studio.url.split("?")[0]
+    page.reload()
+    ready(page)
+    assert page.url == studio.url.split("?")[0]
 
 
 def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
@@ -32,6 +41,7 @@ def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     expect(second.get_by_role("button", name="Take control").first).to_be_visible()
     second.get_by_role("button", name="Take control").first.click()
     expect(page.get_by_role("button", name="Take control").first).to_be_visible()
+    assert second.url == studio.url  # a page that may keep nothing needs the token there for a reload
     second.close()
 
 

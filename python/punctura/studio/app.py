@@ -26,7 +26,7 @@ from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
 from punctura.studio.protocols import CONNECTIONS
-from punctura.studio.security import PROTOCOL, Guard
+from punctura.studio.security import PROTOCOL, WITH_TOKEN, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
@@ -66,8 +66,9 @@ class Studio:
         index = self.page / "index.html"
         if not index.is_file():
             return PlainTextResponse(NO_PAGE + "\n", 503)
-        # Requests with the token are not refused when requests without it are too many.
-        text = _ASSET.sub(rf"\g<0>?token={self.token}", index.read_text(encoding="utf-8"))
+        text = index.read_text(encoding="utf-8")
+        if request.scope[WITH_TOKEN]:  # then these are not refused when requests without the token are too many
+            text = _ASSET.sub(rf"\g<0>?token={self.token}", text)
         return HTMLResponse(text)
 
     async def access(self, request: Request) -> Response:

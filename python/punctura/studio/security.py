@@ -30,7 +30,8 @@ from punctura.studio.protocols import CONNECTION, CONNECTIONS
 PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
 FREE = ("/assets/", "/figures/")  # public folders
-FREE_FILES = ("/icon.svg", "/favicon.ico")
+FREE_FILES = ("/", "/icon.svg", "/favicon.ico")  # a reload of the page has no token in its address
+WITH_TOKEN = "punctura.with_token"  # in the scope: whether the request has the token
 FILES = ("/api/lab/file", "/api/lab/identify")  # a POST may have a file of MOST_TRACE as its body
 NO_TOKEN = "This needs the token of this run: open the address that the studio printed."
 
@@ -102,6 +103,7 @@ class Guard:
             if self.refusals.take():
                 raise
             raise Refused(429, "Too many requests without the token; wait a second.") from None
+        scope[WITH_TOKEN] = with_token
         if not with_token:
             if not self.free.take():
                 raise Refused(429, "Too many requests without the token; wait a second.")

@@ -83,12 +83,14 @@ def test_a_foreign_origin_is_refused_with_or_without_a_token(guarded, origin):
 @pytest.mark.parametrize(
     "token", ["", "x", "Bearer", "Bearer ", "Bearer x", "Basic TOKEN", "Bearer TOKENx", "Bearer \xff"]
 )
-def test_without_the_token_there_is_no_page_and_no_api(guarded, token):
-    for path in ("/", "/index.html", "/api/schema", "/api/recordings", "/api/scene.toml", "/api/results", "/ws"):
+def test_without_the_token_the_page_is_empty_and_there_is_no_api(guarded, token):
+    status, _, body = get(guarded, "/", Authorization=token)
+    assert status == 200 and b"token" not in body
+    for path in ("/index.html", "/api/schema", "/api/recordings", "/api/scene.toml", "/api/results", "/ws"):
         status, _, body = get(guarded, path, Authorization=token)
         assert (status, path) == (401, path) and b"token" in body
-    assert get(guarded, "/?token=x")[0] == 401
-    assert get(guarded, "/?" + "&".join(f"a{i}=1" for i in range(50)) + "&token=TOKEN")[0] == 401
+    assert get(guarded, "/api/schema?token=x")[0] == 401
+    assert get(guarded, "/api/schema?" + "&".join(f"a{i}=1" for i in range(50)) + "&token=TOKEN")[0] == 401
     assert get(guarded, "/api/recordings/x", "DELETE", Authorization=token)[0] == 401
 
 

@@ -32,7 +32,6 @@ const BROWSER: Surroundings = {
 export class SocketEngine implements Engine {
   readonly studio = true;
   private readonly url: string;
-  private readonly token: string;
   private readonly api: Api;
   private readonly pending = new Pending();
   private listener: EngineListener | null = null;
@@ -44,14 +43,14 @@ export class SocketEngine implements Engine {
   private nextTarget: { run: number; position: Triple; axis: Triple; buttons: number } | null = null;
   private complained = false;
 
-  /** page: the URL of the page, with the `?token=` for the socket. */
+  /** page: the URL of the page. token: of this run. */
   constructor(
-    page: Pick<Location, "protocol" | "host" | "search">,
+    page: Pick<Location, "protocol" | "host">,
+    private readonly token: string,
     private readonly around: Surroundings = BROWSER,
   ) {
     this.url = `${page.protocol === "https:" ? "wss" : "ws"}://${page.host}/ws`;
-    this.token = new URLSearchParams(page.search).get("token") ?? "";
-    this.api = new Api(page, around.fetch);
+    this.api = new Api(token, around.fetch);
   }
 
   start(listener: EngineListener): void {

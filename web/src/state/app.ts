@@ -56,7 +56,7 @@ export class App {
   constructor(
     readonly engine: Engine,
     /** Files: scenes, recordings, results. */
-    readonly api: Api = new Api({ search: globalThis.location?.search ?? "" }),
+    readonly api: Api = new Api(""),
   ) {}
 
   start(): void {

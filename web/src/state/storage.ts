@@ -1,7 +1,7 @@
-/** The browser's local storage; null if the page may not use it. */
-export function storage(): Storage | null {
+/** A storage of the browser; null if the page may not use it. */
+export function storage(which: "localStorage" | "sessionStorage" = "localStorage"): Storage | null {
   try {
-    return globalThis.localStorage ?? null;
+    return globalThis[which] ?? null;
   } catch {
     return null;
   }

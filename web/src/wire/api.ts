@@ -13,15 +13,10 @@ export class ApiError extends Error {
 export type Fetch = (input: string, init?: RequestInit) => Promise<Response>;
 
 export class Api {
-  private readonly token: string;
-
-  /** page: the page's URL; its `?token=` is used for the files too. */
   constructor(
-    page: Pick<Location, "search">,
+    private readonly token: string,
     private readonly fetcher: Fetch = (input, init) => fetch(input, init),
-  ) {
-    this.token = new URLSearchParams(page.search).get("token") ?? "";
-  }
+  ) {}
 
   /** Throws ApiError with a message for the user if there is no answer, or a refusal. */
   async get(path: string, init: RequestInit = {}): Promise<Response> {

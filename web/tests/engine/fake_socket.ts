@@ -43,25 +43,22 @@ export class FakeSocket {
 }
 
 /** An engine, every socket it opened, and all that it told the page. */
-export function bench(search = "?token=abc", fetch: Fetch = () => Promise.reject(new TypeError("no server"))) {
+export function bench(token = "abc", fetch: Fetch = () => Promise.reject(new TypeError("no server"))) {
   const sockets: FakeSocket[] = [];
   const frames: (() => void)[] = [];
   const connections: Connection[] = [];
   const messages: Message[] = [];
   const batches: TickBatch[] = [];
-  const engine = new SocketEngine(
-    { protocol: "http:", host: "127.0.0.1:8765", search },
-    {
-      open: (url, protocols) => {
-        const socket = new FakeSocket(url, protocols);
-        sockets.push(socket);
-        return socket as unknown as WebSocket;
-      },
-      frame: (call) => frames.push(call),
-      chance: () => 0.5,
-      fetch,
+  const engine = new SocketEngine({ protocol: "http:", host: "127.0.0.1:8765" }, token, {
+    open: (url, protocols) => {
+      const socket = new FakeSocket(url, protocols);
+      sockets.push(socket);
+      return socket as unknown as WebSocket;
     },
-  );
+    frame: (call) => frames.push(call),
+    chance: () => 0.5,
+    fetch,
+  });
   const listener: EngineListener = {
     connection: (now) => connections.push(now),
     message: (message) => messages.push(message),

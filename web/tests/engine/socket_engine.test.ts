@@ -9,8 +9,8 @@ afterEach(() => void vi.useRealTimers());
 const DOWN: Triple = [0, -1, 0];
 
 describe("the connection", () => {
-  it("is opened at the page's own host, with the token of the page's address", () => {
-    const { socket, connections } = bench("?token=s3cret&x=1");
+  it("is opened at the page's own host, with the token", () => {
+    const { socket, connections } = bench("s3cret");
     expect(socket().url).toBe("ws://127.0.0.1:8765/ws");
     expect(socket().protocols).toEqual(["punctura.v1", "token.s3cret"]);
     expect(socket().binaryType).toBe("arraybuffer");
@@ -54,7 +54,7 @@ describe("the connection", () => {
 
   it("is not tried again where the server refuses the token, and the reason is told", async () => {
     const asked: unknown[] = [];
-    const { sockets, socket, connections } = bench("?token=old", async (path, init) => {
+    const { sockets, socket, connections } = bench("old", async (path, init) => {
       asked.push([path, init?.headers]);
       return new Response("This needs the token of this run.\n", { status: 401 });
     });
@@ -70,7 +70,7 @@ describe("the connection", () => {
     ["is too busy", async () => new Response("Too many requests.", { status: 429 })],
     ["lets the page in", async () => new Response(null, { status: 204 })],
   ])("is tried again where the server %s", async (_name, fetch) => {
-    const { sockets, socket, connections } = bench("?token=abc", fetch);
+    const { sockets, socket, connections } = bench("abc", fetch);
     socket().closes(1006);
     await vi.advanceTimersByTimeAsync(250);
     expect(sockets).toHaveLength(2);
@@ -79,7 +79,7 @@ describe("the connection", () => {
 
   it("that once was open is not asked about", async () => {
     const asked: string[] = [];
-    const { socket } = bench("?token=abc", async (path) => {
+    const { socket } = bench("abc", async (path) => {
       asked.push(path);
       return new Response("", { status: 401 });
     });

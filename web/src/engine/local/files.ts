@@ -18,7 +18,7 @@ export class LocalFiles extends Api {
       path === SCHEMA
         ? fetch(new URL("schema.json", base), init)
         : Promise.resolve(new Response(NEEDS_STUDIO, { status: 501 }));
-    super({ search: "" }, fetcher);
+    super("", fetcher);
   }
 
   override address(path: string): string {

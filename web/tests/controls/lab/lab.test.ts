@@ -44,7 +44,7 @@ const answering = (...pieces: string[]): Api => {
       to.close();
     },
   });
-  return new Api({ search: "" }, () => Promise.resolve(new Response(body)));
+  return new Api("", () => Promise.resolve(new Response(body)));
 };
 const never = new AbortController().signal;
 

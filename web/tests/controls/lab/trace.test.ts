@@ -48,7 +48,7 @@ const never = new AbortController().signal;
 
 /** Answers a request with these lines, and keeps what was asked. */
 const answering = (seen: [string, RequestInit][], ...lines: (IdentifyLine | "")[]): Api =>
-  new Api({ search: "" }, (path, init) => {
+  new Api("", (path, init) => {
     seen.push([path, init!]);
     return Promise.resolve(new Response(lines.map((line) => (line ? JSON.stringify(line) : "")).join("\n")));
   });

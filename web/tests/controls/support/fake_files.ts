@@ -10,5 +10,5 @@ export function fakeFiles(files: Files, seen: string[] = []): Api {
     if (found === undefined) return new Response("", { status: 404 });
     return found instanceof Response ? found.clone() : Response.json(found);
   };
-  return new Api({ search: "?token=secret" }, fetcher);
+  return new Api("secret", fetcher);
 }
