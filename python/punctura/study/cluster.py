@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import importlib.metadata
 import pickle
 from collections.abc import Iterator, Sequence
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, ThreadPoolExecutor
+from queue import Empty, SimpleQueue
+from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from punctura import __version__
@@ -18,7 +21,9 @@ from punctura.study.plan import Plan
 if TYPE_CHECKING:
     import pyarrow as pa
 
-_PATIENCE = "10s"
+_PATIENCE_S = 10  # for an answer
+_WORKERLESS_S = 60  # a nanny starts a worker anew in some seconds
+_KEPT = "Finished chunks are kept: give the same command again"
 
 
 class Part(NamedTuple):
@@ -37,31 +42,75 @@ def needed_package() -> Any:
 def on_cluster(address: str, plan: Plan, parts: Sequence[Part]) -> Iterator[tuple[int, pa.Table]]:
     """Computes the chunks on the workers of a scheduler, and yields each with its number as soon as it is there.
 
-    A worker computes as many chunks at once as it has threads. If it dies, Dask gives its chunks to others: each chunk
-    arrives once. Raises StudyError if no scheduler answers, if it has no workers, if a worker has another version of
-    Punctura or none, or if workers die again and again.
+    A worker computes as many chunks at once as it has threads. The plan goes with each chunk: if a worker dies, Dask
+    gives its chunks to others, also to those that come later, and each chunk arrives once. Raises StudyError if no
+    scheduler answers, if it has no workers for long, if a worker has another version of Punctura or none, or if workers
+    die again and again.
     """
     distributed = needed_package()
-    try:
-        client = distributed.Client(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as bad:
-        raise StudyError(
-            f"--scheduler {address}: no Dask scheduler answers ({bad}). Start one with dask scheduler, and workers "
-            "with dask worker"
-        ) from None
-    with client:
+    with _connected(distributed, address) as client:
         try:
-            client.wait_for_workers(1, timeout=_PATIENCE)
-        except TimeoutError:
+            client.wait_for_workers(1, timeout=_PATIENCE_S)
+        except (asyncio.TimeoutError, TimeoutError):
             raise StudyError(f"--scheduler {address}: it has no workers. Start some with dask worker") from None
         check_workers(client, address)
-        common = client.scatter(pickle.dumps(plan), broadcast=True)
+        common = pickle.dumps(plan)
         waiting = {
             client.submit(_compute, common, pickle.dumps(part), __version__, pure=False): part.number for part in parts
         }
-        for future in distributed.as_completed(list(waiting), loop=client.loop):
+        finished: SimpleQueue[Any] = SimpleQueue()
+        for future in waiting:
+            future.add_done_callback(finished.put)
+        alive = monotonic()
+        while waiting:
+            try:
+                future = finished.get(timeout=_PATIENCE_S)
+            except Empty:
+                if _workers(client, address):
+                    alive = monotonic()
+                elif monotonic() - alive > _WORKERLESS_S:
+                    raise StudyError(
+                        f"--scheduler {address}: all workers are gone, and none came for {_WORKERLESS_S} s. Start "
+                        f"some with dask worker. {_KEPT}"
+                    ) from None
+                continue
             yield waiting.pop(future), _result(distributed, client, address, future)
             future.release()
+            alive = monotonic()
+
+
+def _connected(distributed: Any, address: str) -> Any:
+    """A client of the scheduler. Raises StudyError within some seconds if nothing there speaks as a scheduler does."""
+
+    async def greet() -> None:  # Client waits for ever for a program that accepts and says nothing
+        options = distributed.Security().get_connection_args("client")
+        comm = await asyncio.wait_for(
+            distributed.core.connect(address, timeout=_PATIENCE_S / 2, **options), _PATIENCE_S
+        )
+        comm.abort()
+
+    try:
+        with ThreadPoolExecutor(1) as pool:  # a notebook has a loop in its own thread
+            pool.submit(asyncio.run, greet()).result()
+        return distributed.Client(address, timeout=_PATIENCE_S, set_as_default=False)
+    except (asyncio.TimeoutError, TimeoutError):
+        why = f"a program accepts there, and says nothing within {_PATIENCE_S} s"
+    except (OSError, ValueError) as bad:
+        why = str(bad)
+    except Exception:  # bytes that are not Dask's can fail in any way
+        why = "another program answers there"
+    raise StudyError(
+        f"--scheduler {address}: no Dask scheduler answers ({why}). Start one with dask scheduler, and workers with "
+        "dask worker; give the address that the scheduler prints"
+    )
+
+
+def _workers(client: Any, address: str) -> int:
+    """The number of workers. Raises StudyError for a scheduler that is gone or stands still."""
+    try:
+        return len(client.sync(client.scheduler.identity, callback_timeout=_PATIENCE_S)["workers"])
+    except (OSError, asyncio.TimeoutError, TimeoutError) as bad:
+        raise StudyError(f"--scheduler {address}: the scheduler no longer answers ({bad}). {_KEPT}") from None
 
 
 def check_workers(client: Any, address: str) -> None:
@@ -83,11 +132,12 @@ def _result(distributed: Any, client: Any, address: str, future: Any) -> pa.Tabl
     try:
         table: pa.Table = future.result()
         return table
-    except (distributed.KilledWorker, CancelledError) as bad:
+    except distributed.KilledWorker as bad:
         raise StudyError(
-            f"--scheduler {address}: the scheduler was lost, or workers died again and again over one chunk ({bad}). "
-            "Finished chunks are kept: give the same command again"
+            f"--scheduler {address}: workers died again and again over one chunk ({bad}). {_KEPT}"
         ) from None
+    except CancelledError as bad:
+        raise StudyError(f"--scheduler {address}: the scheduler was lost or dropped a chunk ({bad}). {_KEPT}") from None
     except Exception:  # a worker that came later and has another version can fail in any way
         check_workers(client, address)
         raise

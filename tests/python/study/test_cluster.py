@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import importlib.metadata
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from punctura import __version__
-from punctura.study import StudyError
+from punctura.study import StudyError, load_plan
 from punctura.study import cluster as module
+from punctura.study.design import design
+from studies import GRID, written
 
 
 class Workers:
@@ -56,3 +61,96 @@ def test_a_chunk_that_fails_on_a_later_worker_tells_the_version() -> None:
         module._result(Distributed, Workers(late="0.0.9"), "tcp://here", Failed())
     with pytest.raises(AttributeError):
         module._result(Distributed, Workers(late=__version__), "tcp://here", Failed())
+
+
+class Future:
+    """Has its result, or its exception, at once."""
+
+    def __init__(self, call: tuple[Any, ...]) -> None:
+        self.call = call
+
+    def add_done_callback(self, put: Any) -> None:
+        put(self)
+
+    def result(self) -> Any:
+        return self.call[0](*self.call[1:])
+
+    def release(self) -> None: ...
+
+
+class Lost(Future):
+    """Never ends: its worker is gone."""
+
+    def add_done_callback(self, put: Any) -> None: ...
+
+
+class Client(Workers):
+    """A scheduler whose workers keep no data: what a chunk needs comes with it."""
+
+    def __init__(self, kind: type[Future], present: int) -> None:
+        super().__init__(one=__version__)
+        self.kind, self.present, self.scheduler = kind, present, SimpleNamespace(identity=lambda: None)
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, *error: object) -> None: ...
+
+    def wait_for_workers(self, count: int, timeout: float) -> None: ...
+
+    def submit(self, *call: Any, pure: bool) -> Future:
+        return self.kind(call)
+
+    def sync(self, call: Any, callback_timeout: float) -> dict[str, list[int]]:
+        if self.present < 0:
+            raise TimeoutError("timed out after 10 s")
+        return {"workers": [0] * self.present}
+
+
+def distributed_with(client: Client | None, connect: Any = None) -> Any:
+    async def answers(*_: object, **__: object) -> Any:
+        return SimpleNamespace(abort=lambda: None)
+
+    return SimpleNamespace(
+        Client=lambda *_, **__: client,
+        Security=lambda: SimpleNamespace(get_connection_args=lambda role: {}),
+        core=SimpleNamespace(connect=connect or answers),
+        KilledWorker=KeyError,
+    )
+
+
+def on_cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, distributed: Any) -> list[tuple[int, Any]]:
+    monkeypatch.setattr(module, "needed_package", lambda: distributed)
+    monkeypatch.setattr(module, "_PATIENCE_S", 0.01)
+    monkeypatch.setattr(module, "_WORKERLESS_S", 0.02)
+    plan = load_plan(written(tmp_path, GRID))
+    trials = design(plan)
+    parts = [module.Part(number, 2 * number, trials.part(2 * number, 2 * number + 2)) for number in range(3)]
+    return list(module.on_cluster("tcp://here", plan, parts))
+
+
+def test_the_plan_goes_with_each_chunk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = on_cluster(tmp_path, monkeypatch, distributed_with(Client(Future, 1)))
+    assert [(number, table["row"].to_pylist()) for number, table in found] == [(0, [0, 1]), (1, [2, 3]), (2, [4, 5])]
+
+
+@pytest.mark.parametrize(
+    ("present", "words"), [(0, r"all workers are gone, and none came"), (-1, "the scheduler no longer answers")]
+)
+def test_a_cluster_that_is_gone_ends_the_study(
+    present: int, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(StudyError, match=rf"tcp://here: {words}.*Finished chunks are kept: give the same command"):
+        on_cluster(tmp_path, monkeypatch, distributed_with(Client(Lost, present)))
+
+
+def test_what_is_no_scheduler_is_told_within_a_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def silent(*_: object, **__: object) -> None:
+        await asyncio.Event().wait()
+
+    async def foreign(*_: object, **__: object) -> None:
+        raise MemoryError("Unable to allocate 3.07 EiB")
+
+    for connect, words in ((silent, r"accepts there, and says nothing within 0\.01 s"), (foreign, "another program")):
+        with pytest.raises(StudyError, match=rf"tcp://here: no Dask scheduler answers \(.*{words}.*give the address"):
+            on_cluster(tmp_path, monkeypatch, distributed_with(None, connect))
