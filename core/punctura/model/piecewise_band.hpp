@@ -17,6 +17,12 @@ struct Quadratic {
 
   constexpr Scalar value(Scalar x) const noexcept { return c0 + x * (c1 + x * c2); }
   constexpr Scalar slope(Scalar x) const noexcept { return c1 + 2 * c2 * x; }
+  /// The same function of x - by.
+  constexpr Quadratic from(Scalar by) const noexcept { return {value(by), slope(by), c2}; }
+  /// This - part * other.
+  constexpr Quadratic minus(Scalar part, const Quadratic& other) const noexcept {
+    return {c0 - part * other.c0, c1 - part * other.c1, c2 - part * other.c2};
+  }
 };
 
 /// Both edges of the band between two breaks.
@@ -28,6 +34,10 @@ struct BandPiece {
   constexpr Band<Scalar> band(Scalar q) const noexcept {
     const Scalar x = q - origin;
     return {lower.value(x), upper.value(x)};
+  }
+  /// The same with another origin (m).
+  constexpr BandPiece from(Scalar other) const noexcept {
+    return {other, lower.from(other - origin), upper.from(other - origin)};
   }
   void describe(auto& parameters) const {
     parameters.numbers(origin, lower.c0, lower.c1, lower.c2, upper.c0, upper.c1, upper.c2);

@@ -1,4 +1,4 @@
-// The band of a wall that remembers a hole: three ranges of depth, with a front between each two.
+// The band of a wall that remembers a hole: what is a hole, what this insertion has cut, and what is untouched.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,16 @@ namespace punctura {
 
 /// Depths (m, along the needle) in one wall, in ascending order:
 ///
-/// - up to `made`: a hole that the needle has left. The grip is `kept` times the first one, and nothing is cut.
-/// - up to `cut`: the way of this insertion. The first grip, and nothing is cut.
-/// - behind `cut`: an untouched wall.
+/// - up to `made`: holes that the needle has left. The grip is `kept` times the first one, and nothing is cut.
+/// - up to `cut`: the way of this insertion. Nothing is cut. The slices of the wall that a tip had passed when it left
+///   keep `kept` of their grip, the others have the first grip.
+/// - behind `cut`: the same, and the tip cuts.
 ///
-/// The base class is the band of the untouched wall. Its lower edge contains the cutting. The pieces that a solver
-/// visits are those of the base class, divided at the two fronts. At a front, where the edges jump, the band contains
-/// both sides: the proxy can rest there at any force between.
+/// The pieces of the base class are those of the wall with its holes, with a break at `made`. Their lower edges contain
+/// the cutting. The pieces that a solver visits are the same, divided at the front `cut`. At `made` and at `cut`, where
+/// the edges jump, the band contains both sides: the proxy can rest there at any force between.
 ///
-/// A front that has gone through the wall is folded into the pieces of the base class: it costs no time any more.
+/// Only `cut` moves during an insertion. When the tip has left, the wall has new pieces.
 template <typename Scalar_, std::size_t N>
 struct TissueBand : ManyPieces<Scalar_, N> {
   using First = ManyPieces<Scalar_, N>;
@@ -29,7 +30,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   using Piece = BandPiece<Scalar>;
 
   struct Front {
-    Scalar at{-infinity};   ///< m; -infinity in an untouched wall
+    Scalar at{-infinity};   ///< m; -infinity: there is none
     std::size_t piece = 0;  ///< the piece of First that contains it
   };
   struct Cutting {
@@ -37,45 +38,63 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   };
 
   std::array<Cutting, N> cutting{};  ///< in the lower edge of each piece of First
+  bool cuts = false;                 ///< some of them is not 0
   Scalar kept{1};
-  Front made{}, cut{};
+  Front made{}, cut{};  ///< made.at <= cut.at
 
-  Scalar whole{};          ///< the depth at which a hole is finished, m
-  bool cut_whole = false;  ///< the pieces of First have no cutting any more
-  bool finished = false;   ///< the hole is finished and left: the pieces of First are its pieces
+  Scalar cos_beta{1};  ///< n.b of the needle that these pieces are for
+  Scalar whole{};      ///< the depth at which the whole tip has passed the wall, m
+  Scalar hole{};       ///< BasicHole::made of these pieces, m
 
-  /// Moves the fronts to these depths (m), 0 <= made_to <= cut_to. They only move on: a healed wall has new pieces.
-  void set_fronts(const Scalar& made_to, const Scalar& cut_to) noexcept {
-    if (finished) return;
-    if (cut_to < whole) {
-      move(made, made_to);
-      move(cut, cut_to);
+  /// Takes the grip of a hole up to this depth (m), which is behind the first break. Behind it, subtracts a part of
+  /// another band, that of the slices that the tip has passed.
+  template <std::size_t M>
+  void open(const Scalar& to, const ManyPieces<Scalar, M>& passed, const Scalar& part) noexcept {
+    First::split(to);
+    for (std::size_t k = 0; k + 1 < passed.count; ++k)
+      if (to < passed.breaks[k]) First::split(passed.breaks[k]);
+    keep(First::pieces[0]);
+    for (std::size_t i = 1, k = 0; i < First::count; ++i) {
+      Piece& piece = First::pieces[i];
+      const Scalar& begin = First::breaks[i - 1];
+      if (begin < to) {
+        keep(piece);
+        continue;
+      }
+      while (k + 1 < passed.count && !(begin < passed.breaks[k])) ++k;
+      const Piece now = piece.from(begin), less = passed.pieces[k].from(begin);
+      piece = {begin, now.lower.minus(part, less.lower), now.upper.minus(part, less.upper)};
+    }
+    made.at = to;
+  }
+  /// Takes the grip of a hole in which the whole tip has passed the wall.
+  void open_whole() noexcept {
+    for (std::size_t k = 0; k < First::count; ++k) keep(First::pieces[k]);
+  }
+  /// Places the fronts, once all pieces are there. to: m, the deepest point that the tip has reached.
+  void set_fronts(const Scalar& to) noexcept {
+    if (made.at > 0) made.piece = First::index(made.at);
+    cut = made;
+    set_cut(to);
+  }
+  /// The tip has reached this depth (m). It only goes on.
+  void set_cut(const Scalar& to) noexcept {
+    if (!cuts) return;
+    if (to < whole) {
+      move(cut, to);
       return;
     }
-    if (!cut_whole) {
-      for (std::size_t k = 0; k < First::count; ++k) {
-        drop_cutting(k, First::pieces[k]);
-        cutting[k] = {};
-      }
-      cut_whole = true;
-    }
-    if (made_to < whole) {
-      move(made, made_to);
-      cut = made;
-    } else {
-      for (std::size_t k = 0; k < First::count; ++k) keep(First::pieces[k]);
-      made = cut = {};
-      finished = true;
-    }
+    for (std::size_t k = 0; k < First::count; ++k) drop_cutting(k, First::pieces[k]);
+    cutting = {};
+    cuts = false;
+    cut = made;
   }
 
   /// Index of the piece that contains depth q (m), for band(q, i), piece(i) and end(i).
-  std::size_t index(const Scalar& q) const noexcept {
-    return First::index(q) + (q > made.at ? 1u : 0u) + (q > cut.at ? 1u : 0u);
-  }
+  std::size_t index(const Scalar& q) const noexcept { return First::index(q) + (q > cut.at ? 1u : 0u); }
   Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
   Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
-    if (q >= cut.at + rounding) return First::pieces[i - 2].band(q);  // behind both fronts, in the shortest way
+    if (q >= cut.at + rounding) return First::pieces[i - 1].band(q);  // behind both fronts, in the shortest way
     if (near(q, cut) || near(q, made)) return at_front(q);
     return piece(i).band(q);
   }
@@ -83,18 +102,12 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   Piece piece(std::size_t i) const noexcept {
     const std::size_t k = in_first(i);
     Piece piece = First::pieces[k];
-    if (i > cut.piece + 1) return piece;
-    drop_cutting(k, piece);
-    if (i <= made.piece) keep(piece);
+    if (i <= cut.piece) drop_cutting(k, piece);
     return piece;
   }
   /// Where piece i ends, m.
-  const Scalar& end(std::size_t i) const noexcept {
-    if (i == made.piece) return made.at;
-    if (i == cut.piece + 1) return cut.at;
-    return First::breaks[in_first(i)];
-  }
-  std::size_t last() const noexcept { return First::count + 1; }  ///< index of the last piece
+  const Scalar& end(std::size_t i) const noexcept { return i == cut.piece ? cut.at : First::breaks[in_first(i)]; }
+  std::size_t last() const noexcept { return First::count; }  ///< index of the last piece
 
   /// Depths around a depth, at which one piece is the band: from `first` to `last`, both with it.
   struct Around {
@@ -147,8 +160,11 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   }
   /// The band between both sides of the fronts at depth q.
   Band<Scalar> at_front(const Scalar& q) const noexcept {
-    const std::size_t first = near(q, made) ? made.piece : cut.piece + 1;
-    const std::size_t last = near(q, cut) ? cut.piece + 2 : made.piece + 1;
+    const bool hole_ends = near(q, made);
+    const std::size_t first = hole_ends ? made.piece : cut.piece;
+    std::size_t last = hole_ends ? made.piece + 1 : 0;
+    if (near(q, cut))
+      last = std::max(last, cut.piece) + 1;  // if both are at one depth, cut divides the piece made.piece
     Band<Scalar> band = piece(first).band(q);
     for (std::size_t i = first + 1; i <= last; ++i) band = hull(band, piece(i).band(q));
     return band;
@@ -160,9 +176,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     return {a.lower < b.lower ? a.lower : b.lower, a.upper < b.upper ? b.upper : a.upper};
   }
   /// The number in First of piece i.
-  std::size_t in_first(std::size_t i) const noexcept {
-    return i - (i > made.piece ? 1u : 0u) - (i > cut.piece + 1 ? 1u : 0u);
-  }
+  std::size_t in_first(std::size_t i) const noexcept { return i - (i > cut.piece ? 1u : 0u); }
 };
 
 }  // namespace punctura

@@ -34,74 +34,91 @@ template <typename Scalar_>
 class BasicTissueLaw {
  public:
   using Scalar = Scalar_;
-  using Pieces = TissueBand<Scalar, 2 * max_knots + 5>;  // cutting adds at most four breaks
+  /// Breaks: the knots, the same behind the far face, at most four of the cutting, the end of a hole, and the knots
+  /// behind the slices that the tip has passed.
+  using Pieces = TissueBand<Scalar, 3 * max_knots + 6>;
   using Memory = BasicHole<Scalar>;
 
   /// cos_beta: n.b, for pieces() without n.b. chords: see profile_of().
   BasicTissueLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
                  const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1), std::size_t chords = 0) noexcept
       : k06_(needle, membrane),
-        is_k06_(has_k06_grip(tissue)),
+        has_k06_grip_(has_k06_grip(tissue)),
+        remembers_(punctura::remembers(tissue)),
         H_(membrane.thickness),
         X_(punctura::tip_length(needle, tissue)),
         C_(tissue.cutting),
-        kept_(1 - tissue.set),
+        set_(tissue.set),
         cos_beta_(cos_beta) {
     if (!tissue.profile.empty())
       profile_ = BasicProfile<Scalar>(tissue.profile);
-    else if (!is_k06_)
+    else if (!has_k06_grip_ || set_ > 0)
       profile_ = profile_of(needle, membrane, tissue, chords).profile;
     pieces_ = pieces(cos_beta);
   }
 
   /// The pieces of the untouched wall for a needle that enters with n.b = cos_beta > 0.
-  Pieces pieces(Scalar cos_beta) const noexcept {
+  Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
+  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
     Pieces all;
-    if (is_k06_)
+    if (has_k06_grip_)
       add_k06(cos_beta, all);
     else
       detail::average(profile_, H_, cos_beta, all);
-    if (C_ > 0) add_cutting(cos_beta, all);
-    all.kept = kept_;
+    all.kept = 1 - set_;
+    all.cos_beta = cos_beta;
     all.whole = X_ + H_ / cos_beta;
-    return all;
-  }
-  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
-    Pieces all = pieces(cos_beta);
-    refresh(all, memory);
+    all.hole = memory.made;
+    if (set_ > 0 && memory.made > all.breaks[0]) open(memory.made, all);
+    if (C_ > 0) add_cutting(cos_beta, all);
+    all.set_fronts(memory.cut);
     return all;
   }
   Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }
   const Pieces& pieces() const noexcept { return pieces_; }
 
+  bool remembers() const noexcept { return remembers_; }  ///< whether a needle changes the wall
   /// The proxy has reached this depth, m along the needle.
   bool advance(Memory& memory, Scalar depth) const noexcept {
-    if (!(C_ > 0 || kept_ < 1) || !(depth > memory.cut)) return false;
+    if (!remembers_ || !(depth > memory.cut)) return false;
     memory.cut = depth;
-    return true;
+    return C_ > 0;
   }
   /// The tip is outside, in front: from now on, its way is a hole.
   bool leave(Memory& memory) const noexcept {
     if (!(memory.made < memory.cut)) return false;
     memory.made = memory.cut;
-    return true;
+    return set_ > 0;
   }
-  /// Changes these pieces to this memory, in little time.
-  void refresh(Pieces& all, const Memory& memory) const noexcept { all.set_fronts(memory.made, memory.cut); }
+  /// Changes these pieces to this memory: in little time while the needle is in the wall.
+  void refresh(Pieces& all, const Memory& memory) const noexcept {
+    if (set_ > 0 && all.hole < memory.made)
+      lay_out_again(all, memory);
+    else
+      all.set_cut(memory.cut);
+  }
 
   Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< of the untouched wall at q (m), N
   Scalar thickness() const noexcept { return H_; }                        ///< H, m
   Scalar tip_length() const noexcept { return X_; }                       ///< X, m
 
  private:
-  static bool has_k06_grip(const BasicTissue<Scalar>& tissue) noexcept {
-    const bool straight =
-        tissue.grip == GripShape::linear || (tissue.grip == GripShape::exponential && tissue.growth == 0);
-    return straight && tissue.tip_length == 0 && tissue.tail_floor == 1 && tissue.profile.empty();
+  [[gnu::noinline, gnu::cold]] void lay_out_again(Pieces& all, const Memory& memory) const noexcept {
+    all = pieces(all.cos_beta, memory);
   }
   void add_k06(const Scalar& cos_beta, Pieces& all) const noexcept {
     const auto own = k06_.pieces(cos_beta);
     for (std::size_t i = 0; i < own.breaks.size(); ++i) all.add(own.breaks[i], own.pieces[i + 1]);
+  }
+  /// The hole of a needle that has left: its tip had been at this depth, m. Behind it, the slices that the tip had
+  /// passed lie on the shaft. They lose their part of the average over the path.
+  void open(const Scalar& made, Pieces& all) const noexcept {
+    if (!(made < all.whole)) return all.open_whole();
+    const Scalar passed = (made - X_) * all.cos_beta;  // m, along the normal
+    ManyPieces<Scalar, 2 * max_knots + 1> slices;
+    if (!(passed > 0)) return all.open(made, slices, Scalar(0));
+    detail::average(profile_, passed, all.cos_beta, slices);
+    all.open(made, slices, set_ * passed / H_);
   }
   /// Adds C times the part of the path that lies on the tip, over H: the average of C on [0, X].
   void add_cutting(const Scalar& cos_beta, Pieces& all) const noexcept {
@@ -122,11 +139,12 @@ class BasicTissueLaw {
       all.pieces[i].lower.c0 -= cutting.c0;
       all.pieces[i].lower.c1 -= cutting.c1;
     }
+    all.cuts = true;
   }
 
   BasicThickLaw<Scalar> k06_;
-  bool is_k06_;
-  Scalar H_, X_, C_, kept_, cos_beta_;
+  bool has_k06_grip_, remembers_;
+  Scalar H_, X_, C_, set_, cos_beta_;
   BasicProfile<Scalar> profile_;
   Pieces pieces_;
 };

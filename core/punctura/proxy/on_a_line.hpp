@@ -13,7 +13,7 @@ namespace punctura {
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, typename L::Scalar>
 struct LineParams {
-  static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
+  static_assert(memory_is_whole<L>, "the law has a part of a memory: see memory_is_whole");
   static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
                 "a law with memory works on one number, not on lanes");
   L law;
@@ -78,14 +78,16 @@ const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) n
   }
 }
 
-/// Tells a law with memory where the proxy is. q: its depth, m.
+/// Tells a law with memory where the proxy is. q: its depth, m. force: N
+///
+/// The tip has left when it is outside without a force. On a wall of thickness 0 it can rest on the surface under load.
 template <typename L, typename C, typename Scalar>
-void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q) noexcept {
+void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q, const Scalar& force) noexcept {
   bool changed = false;
   if (q > 0)
     changed = params.law.advance(state.law, q);
   else if constexpr (HearsLeaving<L>)
-    changed = params.law.leave(state.law);
+    changed = force == 0 && params.law.leave(state.law);
   if (changed) {
     if constexpr (RefreshesPieces<L>)
       params.law.refresh(state.pieces, state.law);
@@ -103,7 +105,7 @@ void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Sc
   // K06 (25) and (26) combined. In this form, a proxy that sticks (f = f*) keeps its position to the last bit.
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);
   params.coupling.advance(state.coupling, state.e, e_prev);
-  if constexpr (LawWithMemory<L>) remember(params, state, p + state.e);
+  if constexpr (LawWithMemory<L>) remember(params, state, p + state.e, friction.force);
   state.started = Mask<Scalar>(true);
   state.p = p;
   state.f = friction.force;

@@ -6,7 +6,7 @@ LaneWall::LaneWall(const Needle& needle, const PlacedMembrane& placed)
     : needle_(needle), placed_(placed), law_(needle, placed.membrane), pieces_(law_.pieces(1)) {
   if (is_k06(placed.tissue)) return;
   const SceneLaw<double> law(needle, placed.membrane, placed.tissue);
-  tissue_ = std::make_unique<Tissue>(Tissue{law, law.pieces(1), placed.tissue.cutting > 0 || placed.tissue.set > 0});
+  tissue_ = std::make_unique<Tissue>(Tissue{law, law.pieces(1)});
 }
 
 bool LaneWall::lay_out(double cos_beta) noexcept {

@@ -20,7 +20,7 @@ class LaneWall {
   bool lay_out(double cos_beta) noexcept;
 
   /// Whether it ever changes by the way of the needle. advance(), leave(): see BasicTissueLaw.
-  bool remembers() const noexcept { return tissue_ && tissue_->remembers; }
+  bool remembers() const noexcept { return tissue_ && tissue_->law.remembers(); }
   void advance(double depth) noexcept;
   void leave() noexcept;
   /// The fronts of BasicHole, m; infinite if it does not remember.
@@ -37,7 +37,6 @@ class LaneWall {
   struct Tissue {
     SceneLaw<double> law;
     SceneLaw<double>::Pieces pieces;
-    bool remembers;
     SceneLaw<double>::Memory hole{};
   };
 

@@ -15,17 +15,6 @@ using namespace punctura::test;
 
 namespace {
 
-/// The profile at depth q. At a jump: the value in front of it.
-Band<double> profile_at(const Profile& profile, double q) {
-  const auto knots = profile.used();
-  if (q < knots[0].depth) return {0, 0};
-  std::size_t i = 0;
-  while (i + 1 < knots.size() && knots[i + 1].depth < q) ++i;
-  if (i + 1 == knots.size()) return {knots[i].lower, knots[i].upper};
-  const double t = (q - knots[i].depth) / (knots[i + 1].depth - knots[i].depth);
-  return {(1 - t) * knots[i].lower + t * knots[i + 1].lower, (1 - t) * knots[i].upper + t * knots[i + 1].upper};
-}
-
 /// K06 (16) by the midpoint rule between neighbouring knots, where it is exact.
 Band<double> profile_quadrature(const Profile& profile, double q, double U, double H) {
   std::vector<double> ends{q - U, q};

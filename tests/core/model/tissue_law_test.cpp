@@ -144,41 +144,9 @@ TEST_CASE("behind the tail the shaft's friction is its floor") {
   }
 }
 
-TEST_CASE("an untouched wall, a way and a hole have the stated bands") {
-  Noise noise(133);
-  for (int i = 0; i < cases(150); ++i) {
-    TissueCase c = random_tissue(noise);
-    if (i % 6 == 0) c.membrane.thickness = 0;
-    const TissueLaw law = c.law();
-    Tissue grip_only = c.tissue;
-    grip_only.cutting = grip_only.set = 0;
-    const TissueLaw grip(c.needle, c.membrane, grip_only, std::cos(c.obliquity));
-    const double H = c.membrane.thickness, U = c.path_length(), X = c.tissue.tip_length, C = c.tissue.cutting;
-    const double kept = 1 - c.tissue.set, cos_beta = std::cos(c.obliquity);
-    const auto cutting = [&](double q) {
-      if (H == 0) return q > 0 && q < X ? C / cos_beta : 0;
-      return C / H * std::max(0.0, std::min(q, X) - std::max(q - U, 0.0));
-    };
-    const double cut = between(noise, 0.1, 1.3) * (X + U), share = noise.uniform();  // of the way that is a hole
-    const double made = share < 0.3 ? 0 : share > 0.7 ? cut : cut * share;
-    const auto pieces = law.pieces(cos_beta, {cut, made});
-    const double most = (law.pieces().count > 1 ? 10 : 1) / cos_beta;
-    for (int j = 0; j < 40; ++j) {
-      const double q = between(noise, 0.001, 1.2) * std::max(c.reach(), X + U);
-      if (std::abs(q - X) < 1e-9 || std::abs(q - cut) < 1e-9) continue;
-      const auto base = grip.band(q), band = pieces.band(q);
-      const bool whole = made >= X + U, hole = whole || q < made, way = cut >= X + U || q < cut;
-      const double scale = hole ? kept : 1;
-      REQUIRE(band.lower == doctest::Approx(scale * base.lower - (way ? 0 : cutting(q))).epsilon(1e-9).scale(most));
-      REQUIRE(band.upper == doctest::Approx(scale * base.upper).epsilon(1e-9).scale(most));
-      REQUIRE(law.band(q).lower == doctest::Approx(base.lower - cutting(q)).epsilon(1e-9).scale(most));
-    }
-  }
-}
-
 TEST_CASE("pieces that follow a hole as it grows have the bits of pieces that are computed for it at once") {
   Noise noise(134);
-  int finished = 0, whole = 0;
+  int passed = 0, whole = 0;
   for (int i = 0; i < cases(150); ++i) {
     TissueCase c = random_tissue(noise);
     if (i % 6 == 0) c.membrane.thickness = 0;
@@ -191,7 +159,7 @@ TEST_CASE("pieces that follow a hole as it grows have the bits of pieces that ar
       if (noise.uniform() < 0.3) hole.made = hole.cut;
       law.refresh(grown, hole);
       const auto at_once = law.pieces(cos_beta, hole);
-      finished += at_once.finished, whole += at_once.cut_whole && !at_once.finished;
+      passed += at_once.made.at > c.tissue.tip_length, whole += !at_once.cuts && hole.made < at_once.whole;
       for (int j = 0; j < 20; ++j) {
         const double q = j == 0 ? hole.cut : j == 1 ? hole.made : between(noise, -0.1, 1.3) * reach;
         grown.look_at(q);
@@ -201,7 +169,7 @@ TEST_CASE("pieces that follow a hole as it grows have the bits of pieces that ar
       }
     }
   }
-  CHECK((finished > 0 && whole > 0));
+  CHECK((passed > 0 && whole > 0));
 }
 
 TEST_CASE("a table of the grip that cannot be is told") {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "punctura/model/band.hpp"
 #include "punctura/model/profile.hpp"
 #include "random_law.hpp"
 
@@ -47,6 +48,17 @@ inline double largest(const Profile& profile) {
   double most = 0;
   for (const Knot& knot : profile.used()) most = std::max({most, std::abs(knot.lower), std::abs(knot.upper)});
   return most;
+}
+
+/// The profile at depth q. At a jump: the value in front of it.
+inline Band<double> profile_at(const Profile& profile, double q) {
+  const auto knots = profile.used();
+  if (q < knots[0].depth) return {0, 0};
+  std::size_t i = 0;
+  while (i + 1 < knots.size() && knots[i + 1].depth < q) ++i;
+  if (i + 1 == knots.size()) return {knots[i].lower, knots[i].upper};
+  const double t = (q - knots[i].depth) / (knots[i + 1].depth - knots[i].depth);
+  return {(1 - t) * knots[i].lower + t * knots[i + 1].lower, (1 - t) * knots[i].upper + t * knots[i + 1].upper};
 }
 
 }  // namespace punctura::test

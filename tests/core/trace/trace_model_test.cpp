@@ -14,12 +14,14 @@ using punctura::TraceMembrane;
 constexpr punctura::Needle trace_needle{1.2e-3, 0.4};
 constexpr TraceMembrane trace_k06{5.0137e-3, 600, 0.3, 0.2, 0.5e-3, 0, 0, 0, 1, 0, 0};
 constexpr TraceMembrane trace_tissue{6.0137e-3, 300, 0.1, 0.3, 1e-3, 2e-3, 400, 0.8e-3, 0.6, 0.3, 0.2};
+/// The tip has passed most of the wall when it leaves, and goes deeper afterwards.
+constexpr TraceMembrane trace_thick{6.0137e-3, 300, 0.1, 0.3, 8e-3, 2e-3, 400, 0.8e-3, 0.6, 0.3, 0.2};
 
 struct TraceRun {
   std::vector<double> depth, time;
 
   TraceRun() {
-    for (int i = 0; i < 900; ++i) {  // in, a rest, out, in again
+    for (int i = 0; i < 1100; ++i) {  // in, a rest, out, in again deeper
       const double x = i < 300 ? i : i < 400 ? 300 : i < 700 ? 700 - i : i - 700;
       depth.push_back(5e-5 * x);
       time.push_back(0.01 * i);
@@ -62,7 +64,7 @@ double trace_share_of_wrong(const TraceRun& run, const TraceMembrane& membrane, 
 TEST_CASE("derivatives along a trace are those of central differences") {
   const TraceRun run;
   const TraceCoupling stiff{3000, 0.5, 0, 1, 0, 1}, relaxing{2000, 0.5, 800, 0.6, 400, 5};
-  for (const TraceMembrane& membrane : {trace_k06, trace_tissue})
+  for (const TraceMembrane& membrane : {trace_k06, trace_tissue, trace_thick})
     for (const TraceCoupling& coupling : {stiff, relaxing})
       for (std::size_t i = 0; i < punctura::trace_parameters(1); ++i) {
         const double value = i < 6 ? coupling[i] : membrane[i - 6];
