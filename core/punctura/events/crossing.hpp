@@ -10,6 +10,7 @@
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/in_space.hpp"
+#include "punctura/proxy/mixed_law.hpp"
 
 namespace punctura {
 
@@ -99,6 +100,13 @@ Crossing crossing(const L& law, const Needle& needle, double thickness, double c
           depth - pop_again * tip_length(needle),
           static_cast<double>(shaft),
           static_cast<double>(pieces.breaks[last])};
+}
+/// The same for the law in use.
+template <ObliqueLaw... Laws>
+Crossing crossing(const MixedLaw<Laws...>& law, const Needle& needle, double thickness, double cos_beta) noexcept {
+  Crossing of_one;
+  law.visit([&]<std::size_t>(const auto& one) { of_one = crossing(one, needle, thickness, cos_beta); });
+  return of_one;
 }
 
 /// n.b of a needle that is inside. b: the direction since entry. axis: the direction of the stylus, used if b is NaN

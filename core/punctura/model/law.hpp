@@ -70,10 +70,14 @@ concept LanesThatRemember = Lanes<typename L::Scalar> && requires(const L law, c
   { law.leave(lanes) } noexcept;
 };
 
-/// False for a law that has Memory or advance() but is not a LawWithMemory. Such a law would run without its memory.
+/// False for a law that has Memory, advance(), leave() or refresh(), but not as the concepts above ask for it. Such a
+/// law would run without it.
 template <typename L>
 constexpr bool memory_is_whole =
-    LawWithMemory<L> || LanesThatRemember<L> || !(requires { typename L::Memory; } || requires { &L::advance; });
+    LanesThatRemember<L> ||
+    ((LawWithMemory<L> || !(
+                              requires { typename L::Memory; } || requires { &L::advance; })) &&
+     (HearsLeaving<L> || !requires { &L::leave; }) && (RefreshesPieces<L> || !requires { &L::refresh; }));
 
 /// The memory of a law that has none.
 struct NoMemory {};

@@ -19,7 +19,7 @@ inline constexpr Scalar grazing_cosine = Scalar(0.17364817766693034885);
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, Vector3<typename L::Scalar>>
 struct SpaceParams {
-  static_assert(memory_is_whole<L>, "the law has Memory or advance(), and does not fulfil LawWithMemory");
+  static_assert(memory_is_whole<L>, "the law has a part of a memory: see memory_is_whole");
   static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
                 "a law with memory works on one number; for lanes, see LanesThatRemember");
   using Vector = Vector3<typename L::Scalar>;

@@ -1,8 +1,8 @@
 // A scene in which membranes have different laws.
 #pragma once
 
-#include <algorithm>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -10,16 +10,70 @@
 
 namespace punctura {
 
-/// One of several laws, with a common type. `room` is the number of pieces of the largest law.
+/// The pieces of one of several laws: what the solvers read of them.
+template <typename... Each>
+class MixedPieces {
+ public:
+  using Scalar = typename std::tuple_element_t<0, std::tuple<Each...>>::Scalar;
+
+  MixedPieces() = default;
+  template <std::size_t i, typename Pieces>
+  MixedPieces(std::in_place_index_t<i> which, const Pieces& pieces) noexcept : of_(which, pieces) {}
+
+  std::size_t index(const Scalar& q) const noexcept {
+    return read([&](const auto& one) { return one.index(q); });
+  }
+  Band<Scalar> band(const Scalar& q) const noexcept {
+    return read([&](const auto& one) { return one.band(q); });
+  }
+  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
+    return read([&](const auto& one) { return one.band(q, i); });
+  }
+  BandPiece<Scalar> piece(std::size_t i) const noexcept {
+    return read([&](const auto& one) -> BandPiece<Scalar> { return one.piece(i); });
+  }
+  Scalar end(std::size_t i) const noexcept {
+    return read([&](const auto& one) -> Scalar { return one.end(i); });
+  }
+  std::size_t last() const noexcept {
+    return read([](const auto& one) { return one.last(); });
+  }
+  void look_at(const Scalar& q) noexcept {
+    std::visit(
+        [&](auto& one) noexcept {
+          if constexpr (LooksAhead<std::remove_cvref_t<decltype(one)>>) one.look_at(q);
+        },
+        of_);
+  }
+  void describe(auto& parameters) const {
+    read([&](const auto& one) { one.describe(parameters); });
+  }
+  /// The pieces of law i, which must be in use.
+  template <std::size_t i>
+  auto& of() noexcept {
+    return *std::get_if<i>(&of_);
+  }
+
+ private:
+  template <typename Visitor>
+  auto read(Visitor&& visitor) const noexcept {
+    return std::visit(visitor, of_);
+  }
+
+  std::variant<Each...> of_;
+};
+
+/// One of several laws, with a common type. It has their memory: what a law hears and remembers alone, it hears and
+/// remembers here.
 ///
-/// The solvers use only its pieces. They are computed when a needle enters and when advance() of a law with memory
-/// returns true. The pieces of each law are a PiecewiseBand.
+/// The pieces are changed in place (refresh()) if each law with memory can do so.
 template <ObliqueLaw... Laws>
 class MixedLaw {
+  static_assert((memory_is_whole<Laws> && ...), "a law has a part of a memory: see memory_is_whole");
+
  public:
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
-  static constexpr std::size_t room = std::max({PiecesOf<Laws>::size...});
-  using Pieces = PiecewiseBand<Scalar, room>;
+  using Pieces = MixedPieces<PiecesOf<Laws>...>;
   /// The memory of the law in use, from its first advance() on. Before that, the law has an untouched Memory{}.
   struct Memory : std::variant<typename MemoryOf<Laws>::type...> {
     using Each = std::variant<typename MemoryOf<Laws>::type...>;
@@ -44,7 +98,9 @@ class MixedLaw {
 
   template <ObliqueLaw L>
     requires(std::same_as<L, Laws> || ...)
-  MixedLaw(const L& law) noexcept : law_(law), pieces_(law.pieces().template with_room<room>()) {}
+  MixedLaw(const L& law) noexcept : law_(law) {
+    visit([&]<std::size_t i>(const auto& one) { pieces_ = Pieces(std::in_place_index<i>, one.pieces()); });
+  }
 
   const Pieces& pieces() const noexcept { return pieces_; }
   Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
@@ -55,29 +111,26 @@ class MixedLaw {
   bool advance(Memory& memory, Scalar depth) const noexcept {
     bool changed = false;
     visit([&]<std::size_t i>(const auto& law) {
-      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
-        if (memory.index() != i) memory.template emplace<i>();
-        changed = law.advance(*std::get_if<i>(&memory), depth);
-      }
+      if constexpr (LawWithMemory<Each<i>>) changed = law.advance(own<i>(memory), depth);
     });
     return changed;
   }
-
- private:
-  /// The pieces of the law in use for cos_beta. Without cos_beta: for the obliquity of the law's constructor.
-  template <typename... Angle>
-  Pieces compute_pieces(const Memory& memory, Angle... cos_beta) const noexcept {
-    Pieces all;
+  bool leave(Memory& memory) const noexcept
+    requires(HearsLeaving<Laws> || ...)
+  {
+    bool changed = false;
     visit([&]<std::size_t i>(const auto& law) {
-      if constexpr (LawWithMemory<std::tuple_element_t<i, std::tuple<Laws...>>>) {
-        using Own = std::variant_alternative_t<i, typename Memory::Each>;
-        const auto* own = std::get_if<i>(&memory);
-        all = law.pieces(cos_beta..., own ? *own : Own{}).template with_room<room>();
-      } else {
-        all = law.pieces(cos_beta...).template with_room<room>();
-      }
+      if constexpr (HearsLeaving<Each<i>>) changed = law.leave(own<i>(memory));
     });
-    return all;
+    return changed;
+  }
+  void refresh(Pieces& pieces, const Memory& memory) const noexcept
+    requires((RefreshesPieces<Laws> || !LawWithMemory<Laws>) && ...)
+  {
+    visit([&]<std::size_t i>(const auto& law) {
+      if constexpr (RefreshesPieces<Each<i>>)
+        if (const auto* own = std::get_if<i>(&memory)) law.refresh(pieces.template of<i>(), *own);
+    });
   }
 
   /// Calls visitor<i>(law) for the law in use. i is its index in Laws.
@@ -86,6 +139,32 @@ class MixedLaw {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       ((law_.index() == i ? visitor.template operator()<i>(*std::get_if<i>(&law_)) : void()), ...);
     }(std::index_sequence_for<Laws...>());
+  }
+
+ private:
+  template <std::size_t i>
+  using Each = std::tuple_element_t<i, std::tuple<Laws...>>;
+
+  /// The memory of law i, which is in use.
+  template <std::size_t i>
+  static auto& own(Memory& memory) noexcept {
+    if (memory.index() != i) memory.template emplace<i>();
+    return *std::get_if<i>(&memory);
+  }
+  /// The pieces of the law in use for cos_beta. Without cos_beta: for the obliquity of the law's constructor.
+  template <typename... Angle>
+  Pieces compute_pieces(const Memory& memory, Angle... cos_beta) const noexcept {
+    Pieces all;
+    visit([&]<std::size_t i>(const auto& law) {
+      if constexpr (LawWithMemory<Each<i>>) {
+        const auto* own = std::get_if<i>(&memory);
+        using Own = std::variant_alternative_t<i, typename Memory::Each>;
+        all = Pieces(std::in_place_index<i>, law.pieces(cos_beta..., own ? *own : Own{}));
+      } else {
+        all = Pieces(std::in_place_index<i>, law.pieces(cos_beta...));
+      }
+    });
+    return all;
   }
 
   std::variant<Laws...> law_;

@@ -40,8 +40,9 @@ double largest_force(const InsertionOf<L, C, Storage>& insertion) {
     if (!(cosine >= grazing_cosine<Scalar>)) continue;
     const auto surface = static_cast<double>((membrane.a - first.a).dot(membrane.n) / cosine);
     layers.push_back({membrane.law.pieces(std::min(cosine, Scalar(1))), surface});
-    for (const Scalar at : layers.back().pieces.breaks)
-      if (std::isfinite(at)) depths.push_back(surface + static_cast<double>(at));
+    const auto& pieces = layers.back().pieces;
+    for (std::size_t i = 0; i != pieces.last(); ++i)
+      if (const auto at = static_cast<double>(pieces.end(i)); std::isfinite(at)) depths.push_back(surface + at);
   }
   std::sort(depths.begin(), depths.end());
 

@@ -1,4 +1,4 @@
-// Custom laws and couplings: laws with memory, with any number of pieces, several laws in a scene, relaxing couplings.
+// Custom laws and couplings: laws with memory, with any number of pieces, relaxing couplings.
 #include <doctest/doctest.h>
 
 #include "../support/allocations.hpp"
@@ -7,7 +7,6 @@
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
 #include "../support/tick.hpp"
-#include "punctura/proxy/mixed_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
 
@@ -86,31 +85,6 @@ TEST_CASE("K06's law with 17 pieces has the same forces, bit for bit") {
   }
 }
 
-TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
-  using Mixed = MixedLaw<ThickLaw, CutLaw>;
-  Scene scene = paper_scene(1e-3);
-  scene.servo.low_pass = 0;
-  scene.membranes.push_back({"cut", paper_membrane(1e-3), {0, -4e-3, 0}, {0, -1, 0}});
-  for (Solver solver : {Solver::paper, Solver::exact}) {
-    scene.servo.solver = solver;
-    auto mixed = build_insertion<double>(scene, [](const Needle& needle, const Membrane& membrane, std::size_t i) {
-      return i == 0 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
-    });
-    Proxy3d wall(ThickLaw(paper_needle, paper_membrane(1e-3)), {0, 0, 0}, {0, -1, 0}, scene.coupling, T, solver);
-    Proxy3d cut(CutLaw{}, {0, -4e-3, 0}, {0, -1, 0}, scene.coupling, T, solver);
-    Noise noise(91);
-    const Vector3d down(0, -1, 0);
-    for (double p : random_motion(noise, 3000, 12e-3, T)) {
-      const Vector3d tip = p * down;
-      const auto before = allocations();
-      const Vector3d force = mixed.step(tip, down);
-      REQUIRE(allocations() == before);
-      REQUIRE(force == Vector3d() + wall.step(tip, down) + cut.step(tip, down));
-    }
-    CHECK(cut.state().law.cut > 1e-3);
-  }
-}
-
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const OwnCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
@@ -174,16 +148,6 @@ TEST_CASE("a tick with an input that is not finite gives NaN and changes nothing
       REQUIRE(space.step(tip, down) == clean_space.step(tip, down));
       REQUIRE(all.step(tip, down) == clean_all.step(tip, down));
     }
-  }
-}
-
-TEST_CASE("on a line, a MixedLaw keeps the obliquity of its law") {
-  Noise noise(95);
-  const ThickLaw oblique(paper_needle, paper_membrane(1e-3), 0.5);
-  for (Solver solver : {Solver::paper, Solver::exact}) {
-    Proxy1d alone(oblique, Coupling{400, 1}, T, solver);
-    Proxy1d among(MixedLaw<ThickLaw, CutLaw>(oblique), Coupling{400, 1}, T, solver);
-    for (double p : random_motion(noise, 2000, 8e-3, T)) REQUIRE(among.step(p) == alone.step(p));
   }
 }
 
