@@ -137,9 +137,10 @@ step_cpp() {
     compile dev || return
   fi
   build/dev/tests/core/core_without_exceptions && build/dev/tests/core/core_without_heap &&
-    build/dev/tests/core/core_c_decimals &&
-    build/dev/tests/capi/capi_tests && tools/check_exports.sh build/dev/capi/libpunctura.so && both_tests dev
+    build/dev/tests/core/core_c_decimals && build/dev/tests/capi/capi_tests &&
+    tools/check_exports.sh build/dev/capi/libpunctura.so && check_isa && both_tests dev
 }
+check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh build/dev; }
 
 # Compiles all sources and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
 # random cases, which reach the same code, because sanitizers are slow.

@@ -4,6 +4,12 @@
 
 namespace punctura::batch {
 
+FleetLanes::FleetLanes(std::size_t membranes) {
+  record_.depth.resize(membranes);
+  record_.deepest.resize(membranes);
+}
+FleetLanes::~FleetLanes() = default;
+
 FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true, width(*setup.code)), setup_(setup) {
   const Vector3d told = setup.axis.stableNormalized();
   for (SceneBlock::Inputs& inputs : block_->inputs) {

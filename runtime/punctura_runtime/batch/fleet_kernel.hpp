@@ -16,10 +16,8 @@ namespace punctura::batch {
 template <typename V, typename Solver>
 class FleetVectors final : public FleetLanes {
  public:
-  explicit FleetVectors(SceneBlock& block) : block_(block) {
+  explicit FleetVectors(SceneBlock& block) : FleetLanes(block.membranes.size()), block_(block) {
     for (std::size_t start = 0; start < block.width; start += V::lanes) vectors_.emplace_back(block, start);
-    record_.depth.resize(block.membranes.size());
-    record_.deepest.resize(block.membranes.size());
     begin();
   }
 

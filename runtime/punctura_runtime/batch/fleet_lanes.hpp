@@ -15,9 +15,13 @@ struct FleetRecord {
 };
 
 /// The state of the trials of a block between two steps.
+///
+/// Constructor and destructor are compiled once, for any processor: the files of the instruction sets must not have
+/// copies of code that others can use (tools/check_isa.sh).
 class FleetLanes {
  public:
-  virtual ~FleetLanes() = default;
+  explicit FleetLanes(std::size_t membranes);
+  virtual ~FleetLanes();
   /// Starts lanes [from, to) anew, with the numbers that are in the block now.
   virtual void restart(std::size_t from, std::size_t to) noexcept = 0;
   /// Starts the record of a step.
