@@ -45,6 +45,21 @@ def check_answers(scene: Path, rows: np.ndarray, rate: float) -> None:
     assert np.allclose(far @ place[:3, :3], forces, atol=1e-6)
 
 
+def check_pause(scene: Path, rows: np.ndarray, rate: float) -> None:
+    """A sender that sends only what changes: without --hold-last-pose the needle starts anew, with it it goes on."""
+    deep = int(np.linalg.norm(rows[:, 6:], axis=1).argmax()) + 1
+    forces = {}
+    for hold in (False, True):
+        needle = NeedleServer(str(scene), [0.0, 0.0, 1.0], 20, hold)
+        for k in range(deep):
+            before, _ = needle.answer(1000 + k / rate, transform(rows[k, :3], rows[k, 3:6]))
+        assert (needle.held() is not None) == hold
+        forces[hold], _ = needle.answer(1000.4 + deep / rate, transform(rows[deep - 1, :3], rows[deep - 1, 3:6]))
+        assert needle.needle.starts == (1 if hold else 2)
+    assert not forces[False].any() and np.allclose(forces[True], before, atol=0.05), (forces, before)
+    print("openigtlink: a pause of 0.4 s ends the insertion, with a message, and --hold-last-pose keeps it")
+
+
 def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -90,4 +105,5 @@ if __name__ == "__main__":
     rows = np.fromfile(Path(sys.argv[1]) / "motion.f64", "<f8").reshape(-1, 9)
     rate = pn.load_scene(scene).servo.rate
     check_answers(scene, rows, rate)
+    check_pause(scene, rows, rate)
     check_network(scene, rows, rate)

@@ -1,6 +1,6 @@
 """An OpenIGTLink server: transforms of a needle in, its force out. For 3D Slicer, PLUS and trackers.
 
-    python integrations/openigtlink/server.py SCENE [--port 18944]
+    python integrations/openigtlink/server.py SCENE [--port 18944] [--hold-last-pose]
 
 Receives TRANSFORM messages, in mm:
     NeedleToReference   the needle: its tip is at the origin, and it points along --tool-axis
@@ -23,16 +23,18 @@ from punctura import load_scene
 from punctura.poses import PosedNeedle
 
 NEEDLE, SCENE, FORCE, ARROW = "NeedleToReference", "SceneToReference", "NeedleForce", "ForceToReference"
+_WAIT_S = 0.1  # for a transform. A held pose is this much behind, because a transform on its way may have changed it
 
 
 class NeedleServer:
     """What the server answers, without the network."""
 
-    def __init__(self, scene: str, tool_axis: list[float], mm_per_newton: float) -> None:
-        self.needle = PosedNeedle(load_scene(scene))
+    def __init__(self, scene: str, tool_axis: list[float], mm_per_newton: float, hold_last_pose: bool = False) -> None:
+        self.needle = PosedNeedle(load_scene(scene), hold_last_pose=hold_last_pose, notice=say)
         self.axis = np.asarray(tool_axis, float)
         self.mm_per_newton = mm_per_newton
         self.place = np.eye(4)  # of the scene in the reference frame, m
+        self._last: tuple[float, float, np.ndarray] | None = None  # time and clock of the last pose, its tip in mm
 
     def place_scene(self, matrix: np.ndarray) -> None:
         """matrix (4, 4): SceneToReference, mm. Raises ValueError if it is no rotation with a translation."""
@@ -48,7 +50,17 @@ class NeedleServer:
         turn = self.place[:3, :3]
         tip = turn.T @ (matrix[:3, 3] * 1e-3 - self.place[:3, 3])
         force = turn @ self.needle.move(time_s, tip, turn.T @ (matrix[:3, :3] @ self.axis))
+        self._last = time_s, time.monotonic(), matrix[:3, 3]
         return force, self._arrow(matrix[:3, 3], force)
+
+    def held(self) -> tuple[float, np.ndarray, np.ndarray] | None:
+        """The time now, s, and what `answer` gives, at the last pose; None without --hold-last-pose, or without one."""
+        if not self.needle.hold_last_pose or self._last is None:
+            return None
+        stamp, clock, tip = self._last
+        now = stamp + time.monotonic() - clock - _WAIT_S
+        force = self.place[:3, :3] @ self.needle.hold(now)
+        return now, force, self._arrow(tip, force)
 
     def _arrow(self, tip: np.ndarray, force: np.ndarray) -> np.ndarray:
         length = max(float(np.linalg.norm(force)), 1e-9)
@@ -61,6 +73,11 @@ class NeedleServer:
         return arrow
 
 
+def say(text: str) -> None:
+    """Also into a pipe at once."""
+    print(text, flush=True)
+
+
 def seconds(message: pyigtl.MessageBase) -> float:
     """The time of a message; the time of its arrival if the sender gave none."""
     return float(message.timestamp) if message.timestamp else time.time()
@@ -69,26 +86,31 @@ def seconds(message: pyigtl.MessageBase) -> float:
 def serve(server: pyigtl.OpenIGTLinkServer, needle: NeedleServer, running: Callable[[], bool]) -> None:
     """Answers until running() is False. Of several transforms that wait, the newest counts; ticks between are made."""
     while running():
-        message = server.wait_for_message(NEEDLE, timeout=0.1)
+        message = server.wait_for_message(NEEDLE, timeout=_WAIT_S)
         for other in server.get_latest_messages():
             if other.device_name == SCENE:
                 try:
                     needle.place_scene(other.matrix)
                 except ValueError as error:
-                    print(f"this transform is not used: {error}")
+                    say(f"this transform is not used: {error}")
             elif other.device_name == NEEDLE:
                 message = other
         if message is None:
+            if server.is_connected() and (held := needle.held()) is not None:
+                send(server, *held)
             continue
         try:
             force, arrow = needle.answer(seconds(message), message.matrix)
         except ValueError as error:
-            print(f"this transform is not used: {error}")
+            say(f"this transform is not used: {error}")
             continue
-        text = " ".join(repr(float(f)) for f in force)
-        server.send_message(pyigtl.StringMessage(text, timestamp=message.timestamp, device_name=FORCE), wait=False)
-        sent = pyigtl.TransformMessage(arrow, timestamp=message.timestamp, device_name=ARROW)
-        server.send_message(sent, wait=False)
+        send(server, message.timestamp, force, arrow)
+
+
+def send(server: pyigtl.OpenIGTLinkServer, stamp: float, force: np.ndarray, arrow: np.ndarray) -> None:
+    text = " ".join(repr(float(f)) for f in force)
+    server.send_message(pyigtl.StringMessage(text, timestamp=stamp, device_name=FORCE), wait=False)
+    server.send_message(pyigtl.TransformMessage(arrow, timestamp=stamp, device_name=ARROW), wait=False)
 
 
 def main() -> None:
@@ -97,10 +119,11 @@ def main() -> None:
     parser.add_argument("--port", type=int, default=18944)
     parser.add_argument("--tool-axis", type=float, nargs=3, default=[0.0, 0.0, 1.0], metavar=("X", "Y", "Z"))
     parser.add_argument("--mm-per-N", type=float, default=20.0, help="length of the arrow")
+    parser.add_argument("--hold-last-pose", action="store_true", help="for senders that send only what changes")
     given = parser.parse_args()
-    needle = NeedleServer(given.scene, given.tool_axis, given.mm_per_N)
+    needle = NeedleServer(given.scene, given.tool_axis, given.mm_per_N, given.hold_last_pose)
     server = pyigtl.OpenIGTLinkServer(port=given.port, local_server=True)
-    print(f"OpenIGTLink at 127.0.0.1:{given.port}: {NEEDLE} in, {FORCE} and {ARROW} out. Ctrl-C ends it")
+    say(f"OpenIGTLink at 127.0.0.1:{given.port}: {NEEDLE} in, {FORCE} and {ARROW} out. Ctrl-C ends it")
     try:
         serve(server, needle, lambda: True)
     except KeyboardInterrupt:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import rclpy
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from punctura import load_scene
 from punctura.poses import PosedNeedle
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+
+_HOLD_S = 0.1  # between two answers at a held pose
 
 
 def rotated(quaternion: object, vector: np.ndarray) -> np.ndarray:
@@ -34,33 +37,52 @@ class NeedleNode(Node):
         self.declare_parameter("tool_axis", [0.0, 0.0, 1.0])
         self.declare_parameter("frame_id", "")
         self.declare_parameter("longest_gap_s", 0.25)
+        self.declare_parameter("hold_last_pose", False)
         scene = load_scene(self.get_parameter("scene").value)
-        self._needle = PosedNeedle(scene, longest_gap=self.get_parameter("longest_gap_s").value)
+        self._needle = PosedNeedle(
+            scene, longest_gap=self.get_parameter("longest_gap_s").value,
+            hold_last_pose=self.get_parameter("hold_last_pose").value, notice=self.get_logger().warning,
+        )  # fmt: skip
+        self._last: tuple[PoseStamped, float, float] | None = None  # the last pose, its time and the clock then
         self._axis = np.array(self.get_parameter("tool_axis").value, float)
         self._frame = self.get_parameter("frame_id").value
         self._publisher = self.create_publisher(WrenchStamped, "needle_wrench", 10)
         self.create_subscription(PoseStamped, "needle_pose", self.on_pose, 10)
+        if self._needle.hold_last_pose:
+            self.create_timer(_HOLD_S, self.on_timer)
         self.get_logger().info(f"scene {scene.name!r}, {scene.servo.rate:g} ticks a second")
 
     def on_pose(self, message: PoseStamped) -> None:
         if self._frame and message.header.frame_id != self._frame:
             self._warn(f"a pose in {message.header.frame_id!r}, not in {self._frame!r}: not used")
             return
-        at, starts = message.pose.position, self._needle.starts
-        time = seconds(message.header.stamp)
+        at, time = message.pose.position, seconds(message.header.stamp)
         if time == 0:  # not set, as by `ros2 topic pub`
-            time = self.get_clock().now().nanoseconds * 1e-9
+            time = self._now()
         try:
             axis = rotated(message.pose.orientation, self._axis)
             force = self._needle.move(time, [at.x, at.y, at.z], axis)
         except ValueError as error:
             self._warn(f"this pose is not used: {error}")
             return
-        if 0 < starts < self._needle.starts:
-            self._warn("a gap in the times of the poses: the needle starts anew")
+        self._last = message, time, self._now()
+        self._publish(message.header.stamp, message.header.frame_id, force)
+
+    def on_timer(self) -> None:
+        """Goes on at the last pose, a little behind: the next pose may be on its way."""
+        if self._last is not None:
+            message, time, clock = self._last
+            held = max(time, time + self._now() - clock - _HOLD_S)
+            force = self._needle.hold(held)
+            self._publish(Time(sec=int(held), nanosec=int(held % 1 * 1e9)), message.header.frame_id, force)
+
+    def _now(self) -> float:
+        return float(self.get_clock().now().nanoseconds * 1e-9)
+
+    def _publish(self, stamp: object, frame: str, force: np.ndarray) -> None:
         answer = WrenchStamped()
-        answer.header.stamp = message.header.stamp
-        answer.header.frame_id = message.header.frame_id
+        answer.header.stamp = stamp
+        answer.header.frame_id = frame
         answer.wrench.force.x, answer.wrench.force.y, answer.wrench.force.z = (float(f) for f in force)
         self._publisher.publish(answer)
 

@@ -53,6 +53,9 @@ def check_node(reference: Path, rows: np.ndarray, rate: float) -> None:
     print(f"ros2: {len(forces)} wrenches equal the core's forces bit for bit")
     print(f"ros2: the axes of the reference, not rounded to quaternions, change the force by {largest:.1e} N at most")
 
+    deep = int(np.abs(core).max(axis=1).argmax()) + 1
+    check_pauses(reference, poses[:deep], core[deep - 1])
+
     poses[0].header.frame_id = "robot"
     node.callbacks["needle_pose"](poses[0])
     poses[1].pose.position.x = float("nan")
@@ -67,6 +70,29 @@ def check_node(reference: Path, rows: np.ndarray, rate: float) -> None:
     sent = node.publishers_by_topic["needle_wrench"].sent
     forces = np.array([[m.wrench.force.x, m.wrench.force.y, m.wrench.force.z] for m in sent])
     assert np.array_equal(forces, core[:800]) and np.ptp(forces[:, 1]) > 0.1
+
+
+def check_pauses(reference: Path, poses: list[PoseStamped], before: np.ndarray) -> None:
+    """A pause of 1 s starts the needle anew, with a warning; hold_last_pose keeps the needle where it is."""
+    for hold in (False, True):
+        Node.overrides = {"scene": str(reference / "scene.toml"), "hold_last_pose": hold}
+        node = NeedleNode()
+        for message in poses:
+            node.callbacks["needle_pose"](message)
+        sent = node.publishers_by_topic["needle_wrench"].sent
+        node.clock_ns += 10**9
+        for callback in node.timers:
+            callback()
+        late = pose(0, np.array([getattr(poses[-1].pose.position, name) for name in "xyz"]), np.array([0.0, -1.0, 0.0]))
+        late.pose.orientation = poses[-1].pose.orientation
+        late.header.stamp.sec = poses[-1].header.stamp.sec + 1
+        late.header.stamp.nanosec = poses[-1].header.stamp.nanosec
+        node.callbacks["needle_pose"](late)
+        forces = np.array([[m.wrench.force.x, m.wrench.force.y, m.wrench.force.z] for m in sent[len(poses) :]])
+        if hold:
+            assert len(forces) == 2 and np.allclose(forces, before, atol=0.05) and len(node.logger.lines) == 1
+        else:
+            assert len(forces) == 1 and not forces.any() and "starts anew" in node.logger.lines[-1], node.logger.lines
 
 
 def check_fields() -> None:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.poses import PosedNeedle
+from punctura.poses import PosedNeedle, PoseWarning
 
 SCENE = pn.load_scene("k06-fig12")
 RATE = SCENE.servo.rate
@@ -38,14 +38,110 @@ def test_faster_poses_than_ticks_leave_the_force_between_two_ticks():
     assert np.array_equal(forces[1::3], forces[:-1:3])
 
 
-def test_a_gap_and_a_time_that_goes_back_start_anew():
+def told(times, points=None, **options):
+    """The needle after poses at these times, its forces (n, 3), and what it says."""
+    notices = []
+    needle = PosedNeedle(SCENE, notice=notices.append, **options)
+    points = positions(len(times)) if points is None else points
+    forces = np.array([needle.move(t, p, AXIS) for t, p in zip(times, points, strict=True)])
+    return needle, forces, notices
+
+
+@pytest.mark.parametrize("step", [5.0, -5.0, 0.26, -0.26])
+def test_a_gap_and_a_step_of_the_clock_start_anew_and_are_told(step):
+    times = np.arange(800) / RATE
+    times[500:] += step
+    needle, forces, notices = told(times)
+    assert forces[499].any() and not forces[500].any() and needle.starts == 2 and len(notices) == 1
+    place = f"at ({', '.join(f'{x * 1e3:.2f}' for x in positions(800)[500])}) mm"
+    assert f"comes {times[500] - times[499]:+.3g} s after the last one" in notices[0] and place in notices[0]
+    assert "(restart 1)" in notices[0] and "'second membrane' and gets no force there until" in notices[0]
+    with pytest.warns(PoseWarning, match="needs hold_last_pose"):
+        other = PosedNeedle(SCENE)
+        for t, p in zip(times, positions(800), strict=True):
+            other.move(t, p, AXIS)
+
+
+def test_a_pose_that_comes_after_a_later_one_is_dropped_and_counted():
+    times, late = np.arange(0, 0.5, 0.01), [10, 20, 30]
+    swapped, shifted = times.copy(), times.copy()
+    swapped[[20, 21]] = swapped[[21, 20]]
+    shifted[late] = shifted[np.array(late) - 1] - 1e-6
+    for changed, dropped in ((swapped, [21]), (shifted, late)):
+        needle, forces, notices = told(changed)
+        kept = np.delete(np.arange(len(times)), dropped)
+        _, expected, nothing = told(changed[kept], positions(len(times))[kept])
+        assert np.array_equal(forces[kept], expected) and np.array_equal(forces[dropped], forces[np.array(dropped) - 1])
+        assert (needle.dropped, needle.starts) == (len(dropped), 1)
+        assert len(notices) == 1 and "is dropped; 1 of these so far" in notices[0] and not nothing
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(1e3, "ms, so multiply them by 0.001"), (1e6, "us"), (1e9, "ns")])
+def test_times_in_another_unit_are_told_once(factor, unit):
+    _, forces, notices = told(np.arange(0, 0.5, 0.01) * factor)
+    assert not forces.any() and len(notices) == 2
+    assert f"no force. Their times must be in seconds: they seem to be in {unit}" in notices[1]
     needle = PosedNeedle(SCENE)
-    for k, p in enumerate(positions(800)):
-        needle.move(k / RATE, p, AXIS)
-    assert needle.force.any()
-    assert not needle.move(5.0, positions(2)[-1], AXIS).any() and needle.starts == 2
-    needle.move(4.0, positions(2)[0], AXIS)
-    assert needle.starts == 3
+    with pytest.raises(ValueError, match=f"in seconds, and .* is not: they seem to be in {unit}"):
+        needle.move(1.79e9 * factor, [0, 0, 0], AXIS)
+    assert needle.starts == 0
+
+
+def test_a_time_that_stands_still_is_told():
+    needle, _, notices = told(np.full(300, 7.0))
+    assert len(notices) == 1 and "100 poses have the time 7.000000 s: the force stays" in notices[0]
+    assert needle.starts == 1
+    assert not told(np.repeat(np.arange(0, 0.5, 0.01), 2))[2]
+
+
+@pytest.mark.parametrize("late", [0.4, 50.0])
+def test_a_held_pose_keeps_the_insertion(late):
+    times, still = np.arange(0, 0.5, 0.01), 30
+    paused = times.copy()
+    paused[still:] += late
+    needle, forces, notices = told(paused, hold_last_pose=True)
+    # As a sender that goes on at the last pose, and then moves within the longest gap.
+    rests = np.arange(times[still - 1] + 0.01, paused[still] - 0.25, 0.01)
+    filled = np.concatenate([times[:still], rests, [paused[still] - 0.25], paused[still:]])
+    p = positions(len(times))
+    points = np.concatenate([p[:still], np.repeat(p[still - 1 : still], len(rests) + 1, axis=0), p[still:]])
+    _, expected, _ = told(filled, points, longest_gap=0.26)
+    assert np.allclose(forces[still:], expected[-(len(times) - still) :], atol=1e-9) and forces[still:].any()
+    assert needle.starts == 1 and not notices
+
+
+def test_hold_goes_on_by_itself_and_the_next_pose_may_be_a_little_older():
+    notices = []
+    needle = PosedNeedle(SCENE, hold_last_pose=True, notice=notices.append)
+    assert not needle.hold(3.0).any()
+    p = positions(50)
+    for k in range(40):
+        needle.move(0.01 * k, p[k], AXIS)
+    for k in range(1, 31):
+        needle.hold(0.39 + 0.1 * k)
+    assert needle.force.any() and needle.starts == 1
+    needle.move(3.38, p[41], AXIS)  # its message took longer than the hold expected
+    assert needle.move(3.40, p[42], AXIS).any() and (needle.starts, needle.dropped) == (1, 0) and not notices
+    with pytest.raises(ValueError, match="can be held for 3600 s"):
+        needle.hold(1e5)
+
+
+@pytest.mark.parametrize("gap", [math.nan, math.inf, 0, -1, 1e3])
+def test_a_longest_gap_that_is_none_is_refused(gap):
+    with pytest.raises(ValueError, match=f"longest_gap must be more than 0 and at most 60 s, not {gap}"):
+        PosedNeedle(SCENE, longest_gap=gap)
+
+
+@pytest.mark.parametrize("gap", ["x", None, [1, 2]])
+def test_a_longest_gap_of_another_type_is_refused(gap):
+    with pytest.raises(TypeError, match="must be real number"):
+        PosedNeedle(SCENE, longest_gap=gap)
+
+
+@pytest.mark.parametrize("point", [[0, 1], [0, 1, 2, 3], np.ma.array([0, 0, 0.0], mask=[1, 0, 0]), [0, 0, 1j]])
+def test_a_position_is_three_real_numbers(point):
+    with pytest.raises(ValueError, match="position must be three real numbers"):
+        PosedNeedle(SCENE).move(0.0, point, AXIS)
 
 
 @pytest.mark.parametrize("wrong", [(math.nan, [0, 0, 0], AXIS), (0, [0, math.inf, 0], AXIS), (0, [0, 0, 0], [0, 0, 0])])

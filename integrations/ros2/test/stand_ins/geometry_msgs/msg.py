@@ -2,9 +2,11 @@
 
 from types import SimpleNamespace
 
+from builtin_interfaces.msg import Time
+
 
 def _header() -> SimpleNamespace:
-    return SimpleNamespace(stamp=SimpleNamespace(sec=0, nanosec=0), frame_id="")
+    return SimpleNamespace(stamp=Time(), frame_id="")
 
 
 class PoseStamped:

@@ -21,7 +21,7 @@ class Logger:
     def info(self, text: str) -> None:
         self.lines.append(text)
 
-    def warning(self, text: str, *, throttle_duration_sec: float) -> None:
+    def warning(self, text: str, *, throttle_duration_sec: float = 0.0) -> None:
         self.lines.append(text)
 
 
@@ -32,6 +32,7 @@ class Node:
         self.parameters: dict[str, object] = {}
         self.publishers_by_topic: dict[str, Publisher] = {}
         self.callbacks: dict[str, Callable[[object], None]] = {}
+        self.timers: list[Callable[[], None]] = []
         self.logger = Logger()
         self.clock_ns = 10**18
 
@@ -46,6 +47,9 @@ class Node:
 
     def create_subscription(self, kind: type, topic: str, callback: Callable[[object], None], depth: int) -> None:
         self.callbacks[topic] = callback
+
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
+        self.timers.append(callback)
 
     def get_logger(self) -> Logger:
         return self.logger
