@@ -159,9 +159,27 @@ class Attempt:
 
     @property
     def passed(self) -> bool:
-        """Whether everything was achieved, no limit was missed or still being measured, and each loss of resistance
-        that the exercise needs could be felt."""
-        return self._passed and not self._measures.unfelt(ended=True)
+        """Whether everything was achieved, every limit was measured and kept, the force was on, and each loss of
+        resistance that the exercise needs could be felt."""
+        return self._passed and not self._withheld
+
+    @property
+    def _withheld(self) -> str:
+        """Why an attempt that achieved everything is not judged as passed; else empty."""
+        if not self._passed and (self.over or not self._achieved):
+            return ""
+        lost = self._measures.unfelt(ended=True)
+        if self._measures.force_off:
+            return "the force was off"
+        if lost:
+            worst = min(lost, key=lambda loss: loss.drop)
+            return f"the device could not show the loss of resistance ({worst.figures})"
+        return "not everything was measured" if self._unmeasured else ""
+
+    @property
+    def _unmeasured(self) -> list[Limit]:
+        """The limits that were not measured, once everything was achieved."""
+        return [one for one in self._limits if one.state(self._decision, True) == "not measured"]
 
     def _goals(self, ended: bool) -> list[GoalState]:
         complete = self._passed or (ended and not self.over and self._achieved)
@@ -225,9 +243,8 @@ class Attempt:
             return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
             lost = self._measures.unfelt(ended)
-            blind = [one for one in self._limits if one.state(self._decision, True) == "not measured"]
             said = words.passed(self._achievements, self._measures, self._space, first)
-            said += [words.not_measured(one, self._decision, first) for one in blind]
+            said += [words.not_measured(one, self._decision, first) for one in self._unmeasured]
             return said + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
@@ -250,7 +267,8 @@ class Attempt:
             date=when.isoformat(timespec="seconds"),
             version=__version__,
             passed=self.passed,
-            reasons=self._reasons(ended=True) + words.force_cut(self._measures.force_cut),
+            withheld=self._withheld,
+            reasons=[*self._reasons(ended=True), *words.of_force(self._measures)],
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,

@@ -19,7 +19,9 @@ from punctura.exercise.ticks import JudgedTicks
 def felt_membranes(file: ExerciseFile, scene: Scene) -> set[int]:
     """The membranes whose loss of resistance the student must feel, by index."""
     stops = {goal.membrane for goal in file.goal if isinstance(goal, StopAfterPop)}
-    names = stops | ({file.space.behind} if file.space.sign_is_felt else set())
+    space = file.space
+    felt = space.sign is None if space.sign_is_felt is None else space.sign_is_felt
+    names = stops | ({space.behind} if felt else set())
     return {place_of(scene, name) for name in names}
 
 

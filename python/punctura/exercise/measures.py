@@ -63,6 +63,7 @@ class Measures:
         self._next_tick: int | None = None
         self._lost = 0
         self._cut = dict.fromkeys(CUTS, 0)  # ticks
+        self._off = 0  # ticks in the tissue without force, since the last entry
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
 
@@ -74,6 +75,10 @@ class Measures:
         self.entries += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
+        off = (ticks.ceiling <= 0) & ticks.inside.any(axis=1)
+        if touches:
+            self._off, off = 0, off[ticks.tick >= touches[-1].tick]
+        self._off += int(off.sum())
         for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
@@ -144,6 +149,11 @@ class Measures:
         return {LIMIT_WORDS[name]: ticks / self._rate for name, ticks in self._cut.items() if ticks}
 
     @property
+    def force_off(self) -> float:
+        """Time since the last entry in which the force was off in the tissue, s."""
+        return self._off / self._rate
+
+    @property
     def elapsed(self) -> float:
         """Time from the first contact to the last tick before the decision, s."""
         return self._last_time - self.first_touch if self.first_touch is not None else 0.0
@@ -185,4 +195,5 @@ class Measures:
             total_time=self.elapsed,
             lost_ticks=self._lost,
             force_cut=self.force_cut,
+            force_off=self.force_off,
         )

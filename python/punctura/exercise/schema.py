@@ -55,7 +55,7 @@ class Space(Table):
     depth_mm: Depth = 0.0  # where the space begins
     deepest_mm: Distance | None = None  # where it ends
     sign: Word | None = None  # sign of the arrival, such as "the flash-back"
-    sign_is_felt: bool = False  # the sign is the pop of `behind`: the device must show its loss of resistance
+    sign_is_felt: bool | None = None  # the device must show the pop of `behind`; default: unless there is another sign
     press_mm: Depth = 0.0  # how deep the point may be in the second membrane
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from decimal import ROUND_HALF_UP, Decimal
 
 from punctura._core import Fault, describe
@@ -140,10 +140,14 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
     return f"Not done: {achievement.text}."
 
 
-def force_cut(seconds_by_limit: Mapping[str, float]) -> list[str]:
-    """Tells how long the limits made the felt force smaller."""
-    cut = " and ".join(f"{tenths(seconds)} s ({words})" for words, seconds in seconds_by_limit.items())
-    return [f"Limits cut the felt force for {cut}."] if cut else []
+def of_force(measures: Measures) -> list[str]:
+    """Tells how long the force was off in the tissue, and how long limits made the felt force smaller."""
+    said = []
+    if measures.force_off:
+        off = tenths(measures.force_off)
+        said = [f"The force was off for {off} s while the needle was in the tissue: turn it on before you begin."]
+    cut = " and ".join(f"{tenths(seconds)} s ({words})" for words, seconds in measures.force_cut.items())
+    return [*said, f"Limits cut the felt force for {cut}."] if cut else said
 
 
 def passed(achievements: Sequence[Achievement], measures: Measures, space: TargetSpace, first: str) -> list[str]:

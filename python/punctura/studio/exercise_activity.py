@@ -68,8 +68,9 @@ class ExerciseActivity:
         if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
         if self._results is None:
-            verdict = "passed" if result.passed else "not passed"
-            said = " ".join([f"{result.title}: {verdict}.", *result.reasons, "The result of a draft is not kept."])
+            said = " ".join(
+                [f"{result.title}: {result.verdict}.", *result.reasons, "The result of a draft is not kept."]
+            )
             return Outcome(self._status(running=False), remark=said)
         try:
             name = self._results.save(result).name

@@ -155,7 +155,7 @@ def test_columns_without_numbers_do_no_harm():
     torn["model_force"][2000:2010] = np.nan
     torn["tip"][5000:5010] = np.nan
     result = judged(exercise, torn).finish()
-    assert result.passed
+    assert result.withheld == "not everything was measured"  # 31 ms without a depth
     Result.model_validate_json(result.model_dump_json())
     few = {**columns, **{k: columns[k][:, :1] for k in ("depth", "axial_force", "lower", "upper", "phase")}}
     assert judged(exercise, few).finish().passed is False

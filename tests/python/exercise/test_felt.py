@@ -3,7 +3,7 @@
 import numpy as np
 import punctura as pn
 import pytest
-from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged
+from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, of_positions
 from punctura._core import ForceLimits, ServoState
 from punctura.exercise import Result, cannot_show, expected_losses, load_exercise
 from punctura.exercise.loss import needed_drop
@@ -77,7 +77,8 @@ def test_a_force_that_is_turned_off_at_the_pop_makes_no_loss_of_resistance(write
     columns |= {"state": np.where(off, ServoState.disarmed.value, ServoState.active.value)}
     result = attempt(write, columns)
     assert not result.passed and loss_of(result).drop == 0
-    assert result.reasons[-1].endswith("The force was off: turn it on.")
+    assert result.reasons[-2].endswith("The force was off: turn it on.")
+    assert result.reasons[-1].startswith("The force was off for 0.0 s while the needle was in the tissue")
 
 
 def test_a_scale_that_is_too_small_is_no_pass(write):
@@ -89,9 +90,36 @@ def test_a_scale_that_is_too_small_is_no_pass(write):
     assert result.metrics.force_scale == 0.2
 
 
-def test_a_force_that_is_off_is_no_pass(write):
-    result = attempt(write, through(ceiling=0.0))
-    assert not result.passed and result.reasons[-1].endswith("The force was off: turn it on.")
+@pytest.mark.parametrize("felt", ["sign_is_felt = true", 'sign = "the flash-back"'])
+def test_a_force_that_is_off_is_no_pass_whatever_the_sign_is(write, felt):
+    head = PRESS.replace('sign = "the flash-back"\n', "").replace("sign_is_felt = true", felt)
+    assert attempt(write, through(), head=head).passed
+    result = attempt(write, through(ceiling=0.0), head=head)
+    assert not result.passed and result.verdict == "not judged as passed: the force was off"
+    assert result.reasons[-1].startswith("The force was off for 0.9 s while the needle was in the tissue")
+
+
+def test_without_another_sign_the_pop_must_be_felt(write):
+    head = PRESS.replace("sign_is_felt = true\n", "").replace('sign = "the flash-back"\n', "")
+    assert attempt(write, through(), head=head).passed
+    assert not attempt(write, through(ceiling=0.3), head=head).passed
+
+
+def test_only_the_force_since_the_last_entry_counts(write):
+    columns = through()
+    twice = of_positions(SCENE, np.concatenate([columns["tip"], columns["tip"]]))
+    off = np.arange(len(twice["tick"])) < len(columns["tick"])
+    twice |= {"state": np.where(off, ServoState.disarmed.value, ServoState.active.value)}
+    stay = goal("stay", seconds=30)
+    made = lambda state: (
+        judged(  # noqa: E731
+            load_exercise(write(stay, head=PRESS)), twice | {"state": state}, scene=SCENE
+        )
+        .finish()
+        .metrics
+    )
+    assert made(twice["state"]).force_off == 0
+    assert made(twice["state"][::-1]).force_off > 0.5
 
 
 def test_without_the_key_and_without_a_stop_the_loss_is_not_needed(write):

@@ -37,7 +37,7 @@ def result(columns, cuts=160, exercise=EXERCISE):
 def test_a_device_that_shows_the_loss_lets_the_attempt_pass():
     made = result(on_device())
     (gave,) = made.metrics.yields
-    assert made.passed and made.unfelt == [], made.reasons
+    assert made.passed and not made.withheld, made.reasons
     assert gave.loss.before == pytest.approx(min(3.3, gave.push), abs=0.02)
     assert gave.loss.needed == pytest.approx(0.1 * gave.loss.before) and gave.loss.drop > gave.loss.needed
     assert gave.loss.model_after == pytest.approx(gave.loss.after, abs=0.05)

@@ -96,6 +96,8 @@ export interface ExerciseResult {
   /** ISO 8601, UTC. */
   readonly date: string;
   readonly passed: boolean;
+  /** Why an attempt that achieved everything is not judged as passed; else empty. Missing in earlier results. */
+  readonly withheld?: string;
   /** Sentences for the student. */
   readonly reasons: readonly string[];
   readonly goals: readonly ExerciseGoal[];

@@ -1,6 +1,6 @@
 import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
-import type { ExerciseResult, FeltLoss, Loss, Yield } from "../../wire/files.ts";
+import type { ExerciseResult, FeltLoss } from "../../wire/files.ts";
 import type { ExerciseGoal } from "../../wire/messages.ts";
 
 const STATES = {
@@ -47,24 +47,9 @@ export function lossText({ before, after, needed }: FeltLoss): string {
   return needed === null ? words : `${words}; ${Number(needed.toPrecision(2))} N needed`;
 }
 
-/**
- * Of the losses that must be felt, the smallest one that could not be. Of each membrane its last pop counts, and of the
- * plunger the last time that it gave way.
- */
-export function unfelt(losses: readonly Loss[], yields: readonly Yield[] = []): FeltLoss | null {
-  const last = new Map(losses.filter(({ needed }) => needed !== null).map((loss) => [loss.membrane, loss]));
-  const plunger = yields.flatMap(({ loss }) => (loss && loss.needed !== null ? [loss] : [])).slice(-1);
-  const drop = ({ before, after }: FeltLoss): number => before - after;
-  const lost = [...last.values(), ...plunger].filter((loss) => drop(loss) < loss.needed!);
-  return lost.sort((a, b) => drop(a) - drop(b))[0] ?? null;
-}
-
-/** Passed, not passed, or not judged as passed. A pass tells if a goal was not measured. */
-export function verdict({ passed, goals, metrics }: Pick<ExerciseResult, "passed" | "goals" | "metrics">): string {
-  const lost = unfelt(metrics.losses ?? [], metrics.yields ?? []);
-  const achieved = goals.every(({ state }) => state === "met" || state === "not measured");
-  if (!passed && achieved && lost)
-    return `◐ not judged as passed: the device could not show the loss of resistance (${lossText(lost)})`;
+/** Passed, not passed, or not judged as passed. A pass of an earlier version tells if a goal was not measured. */
+export function verdict({ passed, withheld, goals }: Pick<ExerciseResult, "passed" | "withheld" | "goals">): string {
+  if (withheld) return `◐ not judged as passed: ${withheld}`;
   if (!passed) return "✕ not passed";
   const unmeasured = goals.some(({ state }) => state === "not measured");
   return unmeasured ? "✓ passed, but not everything was measured" : "✓ passed";
