@@ -123,8 +123,8 @@ TEST_CASE("C ABI: the digits of a scene file become SI units without a rounding 
 }
 
 TEST_CASE("C ABI: a text that is no TOML, or far too large, is refused; the program lives on") {
-  for (const char* text :
-       {"[+]", "[=", "[#", "[.a]", "[\xc3\xa9]", "[,", "[(]", "[", "[[", "[\"", "a = [", "a.", "\xff"}) {
+  for (const char* text : {"[+]", "[=", "[#", "[.a]", "[\xc3\xa9]", "[,", "[(]", "[", "[[", "[\"", "a = [", "a.",
+                           "\xff", "\xce\x9d = 1"}) {
     INFO(text);
     CHECK(problems_of(text).begin()->first.substr(0, 6) == "line 1");
   }
