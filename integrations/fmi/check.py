@@ -98,8 +98,11 @@ def check(file: Path, rows: np.ndarray, rate: float) -> None:
     damaged = [bytes([*kept[:i], kept[i] ^ 1, *kept[i + 1 :]]) for i in range(0, len(kept), 37)]
     for wrong in (kept[:-1], *damaged):
         refused(lambda wrong=wrong: slave.restore(wrong), "a state of another size, or a damaged one")
+    end = (n // 16 - 1) * 0.01
     for wrong in (-1e-3, np.nan, 1e9):  # odd steps change nothing
-        refused(lambda wrong=wrong: slave.step(10, wrong, rows[0, :6]), f"a step of {wrong} s")
+        refused(lambda wrong=wrong: slave.step(end, wrong, rows[0, :6]), f"a step of {wrong} s")
+    for time in (end - 0.01, end + 0.01):
+        refused(lambda time=time: slave.step(time, 0.01, rows[0, :6]), f"a step at {time} s, which does not follow")
     slave.restore(kept)
     slave.step(n // 2 / rate, 0, rows[n // 2, :6])  # a step of 0 has no tick
     assert list(rows[n // 2, 6:]) == slave.step(n // 2 / rate, 1 / rate, rows[n // 2, :6]), "after a step of 0"

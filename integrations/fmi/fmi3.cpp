@@ -1,176 +1,113 @@
 // The functions of FMI 3.0 for co-simulation, and what they need of its types. https://fmi-standard.org, version 3.0.2
-#include <cstring>
-#include <exception>
-#include <utility>
+#include <limits>
 
-#include "instance.hpp"
+#include "component.hpp"
 
-using punctura_fmi::Instance;
-using punctura_fmi::Saved;
+using namespace punctura_fmi;
 
 namespace {
 
-enum Status : int { ok, warning, discard, error, fatal };
 using Log = void (*)(void* environment, int status, const char* category, const char* message);
 
-struct Component {
-  std::unique_ptr<Instance> instance;
-  Log log = nullptr;
+struct Component3 final : Component {
+  void log(const char* text) const noexcept override {
+    if (logger) logger(environment, error, "error", text);
+  }
+  Log logger = nullptr;
   void* environment = nullptr;
 };
 
-/// Calls f(instance). Says why it failed. No exception crosses the border.
-template <typename F>
-int call(void* c, F&& f) noexcept {
-  if (!c) return error;
-  Component& all = *static_cast<Component*>(c);
+void* instance_in(const char* resources, void* environment, Log log, const char* refused) noexcept {
   try {
-    if (f(*all.instance)) return ok;
-    if (all.log) all.log(all.environment, error, "error", all.instance->error().c_str());
-  } catch (const std::exception& e) {
-    if (all.log) all.log(all.environment, error, "error", e.what());
+    auto made = std::make_unique<Component3>();
+    made->logger = log;
+    made->environment = environment;
+    return instantiate(std::move(made), resources ? resources : "", refused);
+  } catch (...) {
+    return nullptr;
   }
-  return error;
 }
-
-/// All variables are scalars: as many values as references.
-template <typename To, typename Value>
-int get_all(void* c, const std::uint32_t* references, std::size_t n, Value* values, std::size_t count) noexcept {
-  if (n != count) return error;
-  return call(c, [&](Instance& instance) {
-    for (std::size_t i = 0; i < n; ++i) {
-      To value{};
-      if (!instance.get(references[i], value)) return false;
-      values[i] = static_cast<Value>(value);
-    }
-    return true;
-  });
-}
-template <typename To, typename Value>
-int set_all(void* c, const std::uint32_t* references, std::size_t n, const Value* values, std::size_t count) noexcept {
-  if (n != count) return error;
-  return call(c, [&](Instance& instance) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (!instance.set(references[i], static_cast<To>(values[i]))) return false;
-    return true;
-  });
-}
+constexpr const char* only_steps = "this FMU is for co-simulation only";
 
 }  // namespace
-
-#if defined(_WIN32)
-#define EXPORT extern "C" __declspec(dllexport)
-#else
-#define EXPORT extern "C" __attribute__((visibility("default")))
-#endif
 
 EXPORT const char* fmi3GetVersion() { return "3.0"; }
 EXPORT int fmi3SetDebugLogging(void*, bool, std::size_t, const char* const*) { return ok; }
 
-EXPORT void* fmi3InstantiateCoSimulation(const char*, const char*, const char* resources, bool, bool, bool, bool,
+EXPORT void* fmi3InstantiateCoSimulation(const char*, const char*, const char* resources, bool, bool, bool events, bool,
                                          const std::uint32_t*, std::size_t, void* environment, Log log, void*) {
-  try {
-    auto made = std::make_unique<Component>();
-    made->log = log;
-    made->environment = environment;
-    std::string text;
-    made->instance = Instance::make(resources ? resources : "", text);
-    if (made->instance) return made.release();
-    if (log) log(environment, error, "error", text.c_str());
-  } catch (...) {
-  }
-  return nullptr;
+  return instance_in(resources, environment, log, events ? "eventModeUsed: this FMU has no event mode" : "");
 }
-EXPORT void* fmi3InstantiateModelExchange(const char*, const char*, const char*, bool, bool, void*, Log) {
-  return nullptr;
+EXPORT void* fmi3InstantiateModelExchange(const char*, const char*, const char* resources, bool, bool,
+                                          void* environment, Log log) {
+  return instance_in(resources, environment, log, only_steps);
 }
-EXPORT void* fmi3InstantiateScheduledExecution(const char*, const char*, const char*, bool, bool, void*, Log, void*,
-                                               void*, void*) {
-  return nullptr;
+EXPORT void* fmi3InstantiateScheduledExecution(const char*, const char*, const char* resources, bool, bool,
+                                               void* environment, Log log, void*, void*, void*) {
+  return instance_in(resources, environment, log, only_steps);
 }
 EXPORT void fmi3FreeInstance(void* c) { delete static_cast<Component*>(c); }
 
-EXPORT int fmi3EnterInitializationMode(void* c, bool, double, double start, bool, double) {
-  return call(c, [&](Instance& instance) { return instance.start_at(start), true; });
+EXPORT int fmi3EnterInitializationMode(void* c, bool, double, double start, bool has_stop, double stop) {
+  return call(c, Call::enter, __func__, [&](Instance& instance) {
+    return instance.set_times(start, has_stop ? stop : std::numeric_limits<double>::infinity());
+  });
 }
 EXPORT int fmi3ExitInitializationMode(void* c) {
-  return call(c, [](Instance& instance) { return instance.begin(); });
+  return call(c, Call::leave, __func__, [](Instance& instance) { return instance.begin(); });
 }
-EXPORT int fmi3EnterStepMode(void* c) { return c ? ok : error; }
-EXPORT int fmi3Terminate(void* c) { return c ? ok : error; }
+EXPORT int fmi3Terminate(void* c) {
+  return call(c, Call::terminate, __func__, [](Instance&) { return true; });
+}
 EXPORT int fmi3Reset(void* c) {
-  return call(c, [](Instance& instance) { return instance.reset(); });
+  return call(c, Call::reset, __func__, [](Instance& instance) { return instance.reset(); });
 }
 
 EXPORT int fmi3GetFloat64(void* c, const std::uint32_t* references, std::size_t n, double* values, std::size_t count) {
-  return get_all<double>(c, references, n, values, count);
+  return get_all(c, __func__, Kind::real, references, n, values, count);
 }
 EXPORT int fmi3SetFloat64(void* c, const std::uint32_t* references, std::size_t n, const double* values,
                           std::size_t count) {
-  return set_all<double>(c, references, n, values, count);
+  return set_all(c, __func__, Kind::real, references, n, values, count);
 }
 EXPORT int fmi3GetInt32(void* c, const std::uint32_t* references, std::size_t n, std::int32_t* values,
                         std::size_t count) {
-  return get_all<std::int32_t>(c, references, n, values, count);
+  return get_all(c, __func__, Kind::integer, references, n, values, count);
 }
 EXPORT int fmi3GetBoolean(void* c, const std::uint32_t* references, std::size_t n, bool* values, std::size_t count) {
-  return get_all<std::int32_t>(c, references, n, values, count);
+  return get_all(c, __func__, Kind::boolean, references, n, values, count);
 }
 EXPORT int fmi3SetBoolean(void* c, const std::uint32_t* references, std::size_t n, const bool* values,
                           std::size_t count) {
-  return set_all<std::int32_t>(c, references, n, values, count);
+  return set_all(c, __func__, Kind::boolean, references, n, values, count);
 }
 
 EXPORT int fmi3DoStep(void* c, double time, double duration, bool, bool* event_needed, bool* terminate, bool* early,
                       double* last_time) {
   *event_needed = *terminate = *early = false;
-  const int status = call(c, [&](Instance& instance) { return instance.step(time, duration); });
+  const int status = call(c, Call::step, __func__, [&](Instance& instance) { return instance.step(time, duration); });
   if (c) *last_time = static_cast<Component*>(c)->instance->time();
   return status;
 }
 
-EXPORT int fmi3GetFMUState(void* c, void** state) {
-  return call(c, [&](Instance& instance) {
-    auto saved = instance.save();
-    if (!saved) return false;
-    if (*state)
-      *static_cast<Saved*>(*state) = std::move(*saved);
-    else
-      *state = saved.release();
-    return true;
-  });
+EXPORT int fmi3GetFMUState(void* c, void** state) { return get_state(c, __func__, state); }
+EXPORT int fmi3SetFMUState(void* c, void* state) { return set_state(c, __func__, state); }
+EXPORT int fmi3FreeFMUState(void*, void** state) { return free_state(state); }
+EXPORT int fmi3SerializedFMUStateSize(void* c, void* state, std::size_t* size) {
+  return state_size(c, __func__, state, size);
 }
-EXPORT int fmi3SetFMUState(void* c, void* state) {
-  return call(c, [&](Instance& instance) { return state && instance.restore(*static_cast<Saved*>(state)); });
-}
-EXPORT int fmi3FreeFMUState(void*, void** state) {
-  if (state) delete static_cast<Saved*>(std::exchange(*state, nullptr));
-  return ok;
-}
-EXPORT int fmi3SerializedFMUStateSize(void*, void* state, std::size_t* size) {
-  if (!state) return error;
-  *size = static_cast<Saved*>(state)->size();
-  return ok;
-}
-EXPORT int fmi3SerializeFMUState(void*, void* state, std::uint8_t* bytes, std::size_t size) {
-  if (!state || size < static_cast<Saved*>(state)->size()) return error;
-  static_cast<Saved*>(state)->write(bytes);
-  return ok;
+EXPORT int fmi3SerializeFMUState(void* c, void* state, std::uint8_t* bytes, std::size_t size) {
+  return serialize(c, __func__, state, bytes, size);
 }
 EXPORT int fmi3DeserializeFMUState(void* c, const std::uint8_t* bytes, std::size_t size, void** state) {
-  return call(c, [&](Instance& instance) {
-    auto saved = instance.read(bytes, size);
-    if (!saved) return false;
-    fmi3FreeFMUState(c, state);
-    *state = saved.release();
-    return true;
-  });
+  return deserialize(c, __func__, bytes, size, state);
 }
 
 // The standard requires that every function exists. These have nothing to do here: there are no such variables, no
-// events, no clocks and no derivatives. They read no argument.
+// events, no clocks and no derivatives. They read no argument but the instance.
 #define REFUSED(name) \
-  EXPORT int fmi3##name() { return error; }
+  EXPORT int fmi3##name(void* c) { return refuse(c, "fmi3" #name); }
+REFUSED(EnterStepMode)
 REFUSED(EnterEventMode)
 REFUSED(GetFloat32)
 REFUSED(GetInt8)

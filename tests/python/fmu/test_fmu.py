@@ -1,19 +1,16 @@
 """An FMU has the variables of its scene, and its binary gives the forces of the core."""
 
-import ctypes
 import re
 import zipfile
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import punctura as pn
 import pytest
+from fmu_slave import INPUTS, SCENE, Slave
 from punctura.fmu import export_fmu
 from punctura.fmu.units import base_units
 from punctura.fmu.variables import variables
-
-SCENE = "k06-fig12"
 
 
 def names_of(version, tree):
@@ -45,44 +42,16 @@ def test_the_description_has_every_variable_of_the_scene_with_its_value_and_unit
         assert start.get("unit", "-") == field.unit and (field.unit == "-" or field.unit in units)
 
 
-def instance(folder: Path, file: Path):
-    """An instance of FMI 3.0 by hand, in step mode, and its library."""
-    with zipfile.ZipFile(file) as archive:
-        archive.extractall(folder)
-    (binary,) = (folder / "binaries").rglob("*.*")
-    library = ctypes.CDLL(str(binary))
-    made = library.fmi3InstantiateCoSimulation
-    made.restype = ctypes.c_void_p
-    no = ctypes.c_bool(False)
-    resources = str(folder / "resources").encode()
-    instance = ctypes.c_void_p(made(b"", b"", resources, no, no, no, no, None, ctypes.c_size_t(0), None, None, None))
-    assert instance.value
-    return library, instance
-
-
 def test_the_binary_gives_the_forces_of_the_core(tmp_path):
     scene = pn.load_scene(SCENE)
-    library, needle = instance(tmp_path, export_fmu(scene, tmp_path / "needle.fmu"))
-    period = ctypes.c_double(1 / scene.servo.rate)
-    no, zero, six = ctypes.c_bool(False), ctypes.c_double(0), ctypes.c_size_t(6)
-    assert library.fmi3EnterInitializationMode(needle, no, zero, zero, no, zero) == 0
-    assert library.fmi3ExitInitializationMode(needle) == 0
-    depth = np.linspace(-1e-3, 9e-3, 400)
+    needle = Slave(tmp_path).started()
     axis = np.array([0.1, -1.0, 0.0])
-    positions = depth[:, None] * axis
+    positions = np.linspace(-1e-3, 9e-3, 400)[:, None] * axis
     forces = np.empty((400, 3))
-    inputs, outputs = (ctypes.c_uint32 * 6)(*range(1, 7)), (ctypes.c_uint32 * 3)(7, 8, 9)
-    out = [ctypes.byref(ctypes.c_bool()) for _ in range(3)]
-    last = ctypes.c_double()
     for k, p in enumerate(positions):
-        values = (ctypes.c_double * 6)(*p, *axis)
-        assert library.fmi3SetFloat64(needle, inputs, six, values, six) == 0
-        time = ctypes.c_double(k / scene.servo.rate)
-        assert library.fmi3DoStep(needle, time, period, no, *out, ctypes.byref(last)) == 0
-        row = (ctypes.c_double * 3)()
-        assert library.fmi3GetFloat64(needle, outputs, ctypes.c_size_t(3), row, ctypes.c_size_t(3)) == 0
-        forces[k] = row
-    library.fmi3FreeInstance(needle)
+        assert needle.set(INPUTS, (*p, *axis)) == 0
+        assert needle.step(k / scene.servo.rate, 1 / scene.servo.rate) == 0
+        forces[k] = needle.force()
     assert np.array_equal(forces, pn.Insertion(scene).run(positions, axis).force)
     assert np.abs(forces).max() > 0.5
 
