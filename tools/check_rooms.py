@@ -43,6 +43,7 @@ ROOMS = (
     "python/punctura/simulation",
     "python/punctura/batches",
     "python/punctura/__init__.py",
+    "python/punctura/defects.py",
     "python/punctura/fmu",
     "python/punctura/mujoco",
     "python/punctura/gym",

@@ -1,9 +1,13 @@
 """Makes `from oracles import ...` work in every test, makes hypothesis draw the same cases every time, and keeps the
-tests of an xdist_group in one worker."""
+tests of an xdist_group in one worker, and keeps the log of defects out of the user's folders."""
 
+import atexit
+import os
 import re
+import shutil
 import signal
 import sys
+import tempfile
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +23,9 @@ from oracles import cases
 # A shell starts its background jobs with SIGINT ignored. The tests of Ctrl-C then need Python's own handler.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(prefix="punctura-state-")
+atexit.register(shutil.rmtree, os.environ["XDG_STATE_HOME"], ignore_errors=True)
 
 settings.register_profile("punctura", deadline=None, derandomize=True, database=None, max_examples=cases.count(200))
 settings.load_profile("punctura")

@@ -10,6 +10,7 @@ import importlib
 import os
 import pkgutil
 import sys
+import threading
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,9 +18,9 @@ from typing import Annotated
 
 import typer
 
-from punctura import PuncturaError, __version__
+from punctura import __version__
 from punctura.cli._leave import leave
-from punctura.cli._status import CALLED_WRONGLY, FAILED
+from punctura.cli._status import CALLED_WRONGLY, DEFECT, FAILED
 from punctura.cli._streams import (
     StdoutError,
     give_up_stdout,
@@ -27,7 +28,8 @@ from punctura.cli._streams import (
     open_closed_streams,
     wait_for_stderr_again,
 )
-from punctura.errors import ConfigurationError, sentence_of
+from punctura.defects import PATIENCE_S, explain, is_defect
+from punctura.errors import ConfigurationError
 from punctura.live import Ended
 from punctura.live.signals import ENDING, ends_on_signals
 
@@ -77,6 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     open_closed_streams()
     name_stdout()
     warnings.formatwarning = _as_sentence
+    threading.excepthook = _end_of_thread
     with ends_on_signals(ENDING) as signals:
         try:
             given = list(sys.argv[1:] if arguments is None else arguments)
@@ -84,12 +87,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 _import_pandas()
             with signals.raised():
                 build_app(*given[:1])(given, prog_name="punctura")
-        except ConfigurationError as error:
-            _fail(error, CALLED_WRONGLY)
-        except (PuncturaError, ValueError, OSError) as error:
+        except Exception as error:
+            words = explain(error, PATIENCE_S)
+            if isinstance(error, ConfigurationError):
+                _fail(words, CALLED_WRONGLY)
             if isinstance(error, StdoutError):
                 give_up_stdout()
-            _fail(f"{sentence_of(error)}{_where()}", FAILED)
+            _fail(f"{words}{_where()}", DEFECT if is_defect(error) else FAILED)
         except Ended as end:
             leave(end)
         except SystemExit as done:
@@ -120,6 +124,11 @@ def _as_sentence(
     if category.__module__.startswith("punctura."):
         return f"punctura: warning: {message}\n"
     return _usual_warning(message, category, filename, lineno, line)
+
+
+def _end_of_thread(end: threading.ExceptHookArgs) -> None:
+    if isinstance(end.exc_value, Exception):
+        print(f"punctura: {explain(end.exc_value)}", file=sys.stderr)
 
 
 def _where() -> str:

@@ -3,4 +3,5 @@
 DONE = 0
 FAILED = 1  # the run failed or found a difference: the device stopped, the disk is full, a replay differs
 CALLED_WRONGLY = 2  # usage, scene, device
+DEFECT = 70  # of Punctura itself; EX_SOFTWARE of sysexits.h
 SIGNAL = 128  # plus the signal's number: ended by that signal

@@ -16,13 +16,13 @@ from typing import Any, Literal, TypedDict
 import numpy as np
 from pydantic import BaseModel, Field
 
-from punctura import PuncturaError
 from punctura.compare.background import step_back
 from punctura.compare.comparison import Band, Collector, Comparison
 from punctura.compare.motion import recorded_motion, stroke
 from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
-from punctura.compare.vary import VaryError, vary
-from punctura.record import Recording, RecordingError
+from punctura.compare.vary import vary
+from punctura.defects import PATIENCE_S, explain
+from punctura.record import Recording
 from punctura.record.recording import read_recording
 from punctura.record.scene_text import from_text
 from punctura.results import JsonObject
@@ -167,8 +167,8 @@ def main() -> None:
     try:
         job = Job.model_validate_json(sys.stdin.read())
         say(comparison=do(job, lambda share, run: say(share=share, run=run)) or {})
-    except (ValueError, VaryError, RecordingError, PuncturaError, OSError) as error:
-        say(error=str(error))
+    except Exception as error:
+        say(error=explain(error, PATIENCE_S))
 
 
 if __name__ == "__main__":

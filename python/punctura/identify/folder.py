@@ -21,8 +21,8 @@ import pyarrow as pa
 import pyarrow.parquet
 
 import punctura
-from punctura import Needle, PuncturaError
-from punctura.errors import sentence_of
+from punctura import Needle
+from punctura.defects import PATIENCE_S, explain
 from punctura.files.names import as_text
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
@@ -172,9 +172,7 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
         trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
         told = identify(trace, task.needle, task.membranes).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
-        known = isinstance(error, (PuncturaError, OSError, ValueError, ArithmeticError))
-        failed = _failed(Path(path), task, sentence_of(error) if known else f"{type(error).__name__}: {error}")
-        return failed, isinstance(error, (ImportError, MissingPackage))
+        return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, (ImportError, MissingPackage))
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False
 
 

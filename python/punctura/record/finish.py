@@ -9,8 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypedDict
 
-import pyarrow as pa
-
+from punctura.defects import explain
 from punctura.record.append_file import AppendFile, FileChange
 from punctura.record.errors import RecordingError
 from punctura.record.header import DeviceReport
@@ -82,8 +81,8 @@ def finish_recording(
             return replace(status, file=path, finished=True, bytes=path.stat().st_size)
     except FileExistsError:
         trouble = f"{path} was created by another program during the recording"
-    except (OSError, ValueError, MemoryError, pa.ArrowException) as bad:
-        trouble = trouble or f"conversion to Parquet failed: {str(bad) or type(bad).__name__}"
+    except Exception as bad:
+        trouble = trouble or f"conversion to Parquet failed: {explain(bad)}"
         if not part and _is_spoiled(bad, change):
             status = _counted(status, 0, -1, made)
         elif not part:  # the ticks are still on the disk, even if reading them failed

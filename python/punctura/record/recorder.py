@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow as pa
 
 from punctura._core import Scene, ServoLoop, ThumbLoop
+from punctura.defects import explain
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog, Piece
 from punctura.record.errors import RecordingError
@@ -187,7 +188,7 @@ class Recorder:
                 if self._take(limit) < limit:
                     return
             except BaseException as bad:
-                self._defect = f"ticks could not be recorded: {_reason(bad)}"
+                self._defect = f"ticks could not be recorded: {explain(bad)}"
                 limit, failures = max(_ROWS_AT_LEAST, limit // 2), failures + 1
 
     def _rows_at_once(self) -> int:
@@ -239,7 +240,3 @@ class Recorder:
         if self._carried:
             scenes[0] = self._carried + (scenes[0] or [])
         return scenes
-
-
-def _reason(bad: BaseException) -> str:
-    return "there is not enough memory" if isinstance(bad, MemoryError) else f"a defect, please report it: {bad!r}"

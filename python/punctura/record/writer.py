@@ -8,6 +8,7 @@ import threading
 import time
 from pathlib import Path
 
+from punctura.defects import explain
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog
 from punctura.record.errors import RecordingError
@@ -117,7 +118,7 @@ class Writer:
         if isinstance(bad, _Lost):
             self.trouble = self.why_unwritten = str(bad)
             return
-        reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else str(bad) or type(bad).__name__
+        reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else explain(bad)
         full = isinstance(bad, OSError) and bad.errno in (errno.ENOSPC, errno.EDQUOT)
         advice = _FREE_SPACE if full else ""
         self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}{advice}", reason

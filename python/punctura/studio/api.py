@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
-from punctura.errors import sentence_of
+from punctura.defects import explain
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.exercise.xapi import to_xapi
@@ -51,7 +51,7 @@ _STATUS: dict[type[Exception], int] = {
     Busy: 409,
     ResultsError: 404,
     RecordingError: 422,
-    OSError: 500,
+    Exception: 500,
 }
 
 
@@ -207,7 +207,7 @@ def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Respon
     def told(request: Request) -> Response:
         try:
             return endpoint(request)
-        except tuple(_STATUS) as error:
+        except Exception as error:
             return _refusal(error)
 
     return told
@@ -219,7 +219,7 @@ def _told_later(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[
     async def told(request: Request) -> Response:
         try:
             return await endpoint(request)
-        except tuple(_STATUS) as error:
+        except Exception as error:
             return _refusal(error)
 
     return told
@@ -227,5 +227,5 @@ def _told_later(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[
 
 def _refusal(error: Exception) -> Response:
     status = next(code for kind, code in _STATUS.items() if isinstance(error, kind))
-    text = sentence_of(error)
+    text = explain(error)
     return _sentence(status, text[:1].upper() + text[1:] + ("" if text.endswith(".") else "."))

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeAlias
 
-from punctura.errors import ConfigurationError, sentence_of
+from punctura.defects import explain
+from punctura.errors import ConfigurationError
 from punctura.exercise import Exercise
 from punctura.exercise.space import need_membranes
 from punctura.live import room_note
@@ -66,17 +67,15 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     raise NotNow("this studio cannot do that")
 
 
-def refusal(number: int, error: Exception) -> Reply | None:
-    """The reply with the reason of a refusal; None if the error is a defect of the studio."""
+def refusal(number: int, error: Exception) -> Reply:
+    """The reply with the reason why a request was not done."""
     if isinstance(error, ConfigurationError):
         count = len(error.problems)
         words = f"{count} problem{'s' if count != 1 else ''}"
         return Reply(id=number, ok=False, text=words, problems=problem_parts(error.problems))
     if isinstance(error, NameExists):
         return Reply(id=number, ok=False, text=str(error), data={"exists": 1})
-    if isinstance(error, ValueError | RuntimeError | OSError):  # DeviceError, RecordingError, BadName are of these
-        return Reply(id=number, ok=False, text=sentence_of(error))
-    return None
+    return Reply(id=number, ok=False, text=explain(error))
 
 
 def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from punctura.defects import explain
 from punctura.studio.pump import Publisher
 from punctura.studio.wire.messages import Notice
 
@@ -20,7 +21,7 @@ class Defects:
         try:
             step()
         except Exception as error:
-            text = f"a defect, please report it: {error!r}"
+            text = explain(error)
             if text != self._last:
                 self._last = text
                 self._out.say(Notice(text=text))

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from punctura.defects import explain
 from punctura.studio.commands import prepare, refusal
 from punctura.studio.hub import Hub, Viewer
 from punctura.studio.limits import MOST_TEXT
@@ -60,7 +61,9 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
         hub.leave(viewer)
         for task in (sender, reader, worker):
             task.cancel()
-        await asyncio.gather(sender, reader, worker, return_exceptions=True)
+        for ended in await asyncio.gather(sender, reader, worker, return_exceptions=True):
+            if isinstance(ended, Exception):
+                explain(ended)
 
 
 def _reason(reader: asyncio.Task[None]) -> str:
@@ -156,8 +159,7 @@ async def _do(order: Order, session: Session) -> Reply:
         if isinstance(done, Future):  # finishing a recording may take long
             done = await asyncio.wrap_future(done)
     except Exception as error:
-        reply = refusal(request.id, error)
-        return reply or Reply(id=request.id, ok=False, text=f"a defect, please report it: {error!r}")
+        return refusal(request.id, error)
     text, data = done or ("", {})
     return Reply(id=request.id, ok=True, text=text, data=data)
 

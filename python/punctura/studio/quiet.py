@@ -1,4 +1,7 @@
-"""The server's log on the terminal: it skips messages that strangers cause, and never waits for the terminal."""
+"""The server's log on the terminal: it skips messages that strangers cause, and never waits for the terminal.
+
+Its tracebacks go to the log of defects, too.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import sys
 from h11 import LocalProtocolError
 from websockets.exceptions import InvalidState
 
+from punctura.defects import explain
 from punctura.live import DroppingStream
 
 _STRANGERS = (
@@ -29,6 +33,12 @@ def _news(record: logging.LogRecord) -> bool:
     return not (closing or record.getMessage().startswith(_STRANGERS))
 
 
+class _Defects(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        if record.exc_info and record.exc_info[1]:
+            explain(record.exc_info[1])
+
+
 def quiet_server() -> None:
     """Keeps the log handlers of a program that has installed its own."""
     for name in ("uvicorn.error", "asyncio"):
@@ -38,3 +48,5 @@ def quiet_server() -> None:
         if not logger.hasHandlers() and sys.stderr is not None:
             stream = sys.stderr if isinstance(sys.stderr, DroppingStream) else DroppingStream(sys.stderr)
             logger.addHandler(logging.StreamHandler(stream))
+        if not any(isinstance(handler, _Defects) for handler in logger.handlers):
+            logger.addHandler(_Defects())

@@ -154,7 +154,7 @@ def run_studio(
     if isinstance(server.session.failure, DeviceError):
         raise server.session.failure
     if server.session.failure:
-        raise StudioError(f"the run has ended by a defect, please report it: {server.session.failure!r}")
+        raise RuntimeError("the studio's worker has ended") from server.session.failure
 
 
 def need_page(page: Path) -> None:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeVar
 
-from punctura._core import DeviceError, ServoLoop
+from punctura._core import ServoLoop
 from punctura.exercise import ResultStore
 from punctura.studio.catalog import Exercises
 from punctura.studio.experts import Experts
@@ -130,11 +130,8 @@ class Session(Runs):
             self._watchdog.start()
             self.start_run()
             self._serve()
-        except DeviceError as error:
-            self.failure = error
         except BaseException as error:
             self.failure = error
-            raise
         finally:
             self.run.stop()
             self.defects.guard(self.end_run)

@@ -15,12 +15,13 @@ from typing import Literal
 
 from punctura import ConfigurationError, Needle, PuncturaError
 from punctura.compare.background import step_back
+from punctura.defects import PATIENCE_S, explain
 from punctura.identify import Identification, identify
 from punctura.rivals import compare_trace
 from punctura.studio.trace_job import TraceJob
 from punctura.studio.trace_lines import file_line, fit_line, rivals_line, trace_line
 from punctura.studio.wire.identified import ErrorLine, IdentifyLine, ReportLine, RivalsLine, StepLine
-from punctura.trace import Trace, TraceError, read_trace
+from punctura.trace import Trace, read_trace
 from punctura.trace.columns import ColumnError
 from punctura.trace.look import look_at
 
@@ -127,7 +128,7 @@ def main() -> None:
         print(line.model_dump_json(), flush=True)
 
     def fail(error: Exception, field: str = "") -> None:
-        say(ErrorLine(text=words_of(str(error), job.file), field=field))
+        say(ErrorLine(text=words_of(explain(error, PATIENCE_S), job.file), field=field))
 
     job = TraceJob.model_validate_json(sys.stdin.read())
     try:
@@ -139,7 +140,7 @@ def main() -> None:
     except ModuleNotFoundError as error:
         text = f"this needs the package {error.name}: pip install 'punctura[identify]'"
         say(ErrorLine(text=words_of(text), field=""))
-    except (TraceError, PuncturaError, ValueError, OSError) as error:
+    except Exception as error:
         fail(error, "file" if job.task == "look" else "")
 
 

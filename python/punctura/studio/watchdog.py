@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 
 from punctura._core import ServoLoop, ThumbLoop
+from punctura.defects import explain
 from punctura.live import SilenceWatch
 
 POLL_S = 0.05
@@ -49,4 +50,4 @@ class Watchdog:
         try:
             return watch.ceased()
         except Exception as error:  # without a view of the ticks the force must end
-            return f"the ticks cannot be watched, and the run is stopped; a defect, please report it: {error!r}"
+            return f"the ticks cannot be watched, and the run is stopped: {explain(error)}"

@@ -159,7 +159,7 @@ def test_a_program_in_the_background_is_not_suspended_by_what_it_writes():
         assert read_until(master, b"\n") == "from the background\n"
 
 
-# A command with a defect, whose traceback the interpreter prints.
+# A command with a defect, whose traceback is printed.
 DEFECT = """
 import punctura.cli._app as app
 from punctura.cli._streams import never_wait_for_stderr
@@ -172,8 +172,9 @@ app.main()
 
 
 @pytest.mark.parametrize("blocked", BLOCKED)
-def test_a_command_with_a_defect_ends_whoever_does_not_read_its_traceback(blocked):
+def test_a_command_with_a_defect_ends_whoever_does_not_read_its_traceback(blocked, monkeypatch):
+    monkeypatch.setenv("PUNCTURA_DEBUG", "1")
     with BLOCKED[blocked]() as stderr:
-        assert subprocess.run([sys.executable, "-c", DEFECT], stderr=stderr, timeout=60).returncode == 1
+        assert subprocess.run([sys.executable, "-c", DEFECT], stderr=stderr, timeout=60).returncode == 70
     done = subprocess.run([sys.executable, "-c", DEFECT], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 1 and done.stderr.endswith("RuntimeError: a defect\n")
+    assert done.returncode == 70 and "\nRuntimeError: a defect\npunctura: a defect, please report it" in done.stderr
