@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 import warnings
 import weakref
 from collections.abc import Callable, Iterator, Sequence
@@ -18,6 +19,10 @@ from punctura.mujoco.motion import mobility, without
 from punctura.mujoco.needles import Needles, Tick
 from punctura.mujoco.saved import pack, unpack
 from punctura.mujoco.stability import StabilityWarning, stability_text
+
+_PATIENCE_S = 2.0  # for the step of another thread; a block of acting() takes longer
+_NO_CALL = "Python exception raised"  # MuJoCo's words if it cannot call Python, as for a model that it still compiles
+_callback = threading.RLock()  # of mjcb_control, of which MuJoCo has one
 
 
 class Attachment:
@@ -35,7 +40,7 @@ class Attachment:
         self._forget = forget
         self._timestep = float(model.opt.timestep)
         self._needles: weakref.WeakKeyDictionary[Any, Needles] = weakref.WeakKeyDictionary()
-        self._acting = False
+        self._in_use = threading.Lock()
         self._before: Callable[[Any, Any], None] | None = None  # the callback that was there before acting()
         self._warned: set[int] = set()
 
@@ -50,14 +55,19 @@ class Attachment:
 
         Raises RuntimeError inside acting(), and if data was stepped or reset without the needles.
         """
-        if self._acting:
-            raise RuntimeError(
-                "the needles act through acting() now, so step() would make the step twice. Call "
-                "mujoco.mj_step(model, data), or leave the block of acting() first. If another thread is in step(), "
-                "wait for it: one thread at a time may use an Attachment"
-            )
-        with self.acting():
-            self._mujoco.mj_step(self.model, data)
+        with self._alone(
+            "the needles act through acting() now, so step() would make the step twice. Call "
+            "mujoco.mj_step(model, data), or leave the block of acting() first. If another thread is in step(), "
+            "wait for it: one thread at a time may use an Attachment"
+        ):
+            if self.model.opt.integrator == self._mujoco.mjtIntegrator.mjINT_RK4:  # four stages
+                with self._installed():
+                    self._mujoco.mj_step(self.model, data)
+            else:  # what mj_step does, without a callback: MuJoCo has one for all models and threads
+                self._of(data)
+                self._mujoco.mj_step1(self.model, data)
+                self._act(data)
+                self._mujoco.mj_step2(self.model, data)
             self._needles[data].end_step(data.time)
 
     @contextlib.contextmanager
@@ -66,26 +76,60 @@ class Attachment:
 
         Uses MuJoCo's mjcb_control, and calls a callback that is installed there already first. It may be called
         several times a step (RK4, mj_forward): the needles move on only when a step has ended. Raises RuntimeError if
-        another callback has replaced it inside the block.
+        another callback has replaced it inside the block, or if another thread is inside such a block: MuJoCo has one
+        callback for all models and threads. MuJoCo cannot load a model while it has a callback: load it before.
 
         Between two steps the force is part of data.xfrc_applied: set forces of your own there, do not add to it.
         """
-        if self._acting:
-            raise RuntimeError("acting() is in use already: its force must not be added twice")
-        self._usable()
-        before, mine = self._mujoco.get_mjcb_control(), self._on_control
-        self._before = before
-        self._mujoco.set_mjcb_control(mine)
-        self._acting = True
+        with self._alone("acting() is in use already: its force must not be added twice"), self._installed():
+            yield
+
+    @contextlib.contextmanager
+    def _alone(self, otherwise: str) -> Iterator[None]:
+        """One use at a time; takes the forces away at its end. Raises RuntimeError with the text `otherwise`."""
+        if not self._in_use.acquire(blocking=False):
+            raise RuntimeError(otherwise)
         try:
+            self._usable()
             yield
         finally:
-            replaced = self._mujoco.get_mjcb_control() != mine
-            if not replaced:
-                self._mujoco.set_mjcb_control(before)
-            self._acting, self._before = False, None
             for data, needles in self._needles.items():
                 needles.applied.take_away(data)
+            self._in_use.release()
+
+    @contextlib.contextmanager
+    def _installed(self) -> Iterator[None]:
+        """Inside the block, MuJoCo calls _on_control."""
+        if self.model.opt.disableflags & self._mujoco.mjtDisableBit.mjDSBL_ACTUATION:
+            raise RuntimeError(
+                "the model has actuation disabled, and MuJoCo then calls no mjcb_control, so the needles cannot act: "
+                "clear mjDSBL_ACTUATION in model.opt.disableflags, or use step() with another integrator than RK4"
+            )
+        if not _callback.acquire(timeout=_PATIENCE_S):
+            raise RuntimeError(
+                "another thread is inside acting(), and MuJoCo has one mjcb_control for all models and threads: use "
+                "step() with another integrator than RK4, which needs none, or one process for each model"
+            )
+        try:
+            before, mine = self._mujoco.get_mjcb_control(), self._on_control
+            self._before = before
+            self._mujoco.set_mjcb_control(mine)
+            try:
+                yield
+            except (ValueError, RuntimeError, self._mujoco.FatalError) as error:
+                if _NO_CALL not in str(error):
+                    raise
+                raise RuntimeError(
+                    "MuJoCo cannot load a model while a Python callback is installed, as inside acting(), in any "
+                    f"thread: load it before the block, or use step() ({error})"
+                ) from error
+            finally:
+                replaced = self._mujoco.get_mjcb_control() != mine
+                if not replaced:
+                    self._mujoco.set_mjcb_control(before)
+                self._before = None
+        finally:
+            _callback.release()
         if replaced:
             raise RuntimeError(
                 "another mjcb_control was installed inside acting(), so the needles did not act after that. Install "
@@ -95,10 +139,13 @@ class Attachment:
     def _on_control(self, model: Any, data: Any) -> None:
         if self._before is not None:
             self._before(model, data)
-        if model._address != self.model._address:
-            return
+        if model._address == self.model._address:
+            self._act(data)
+
+    def _act(self, data: Any) -> None:
+        """Applies the force of the needles, in the stage of a step at which MuJoCo calls mjcb_control."""
         needles = self._of(data)
-        seen = relative(model, data, self._links)
+        seen = relative(self.model, data, self._links)
         pending = needles.pending
         if pending is None or not needles.in_stage(data.time):
             needles.end_step(data.time)
@@ -148,7 +195,7 @@ class Attachment:
 
     def detach(self) -> None:
         """Frees the model for another attach(). This Attachment cannot be used any more."""
-        if self._acting:
+        if self._in_use.locked():
             raise RuntimeError("leave the block of acting() before detach()")
         self._forget(self.model)
         self._links = []

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from punctura import ConfigurationError, DisplaySettings, Insertion, Scene, ServoSettings
-from punctura.extras import optional
+from punctura.extras import MissingPackageError, optional
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.kinematics import Link
 
+_OLDEST = 4  # version of MuJoCo
 _attached: weakref.WeakValueDictionary[int, Attachment] = weakref.WeakValueDictionary()
 
 
@@ -39,10 +40,16 @@ def attach_needles(model: Any, needles: Sequence[NeedleInTissue], *, implicit: b
     implicit: the force is the one at the end of the step, which the force itself changes (docs/mujoco.md); otherwise
     the one at its start, with a StabilityWarning for a needle that is too light for that.
 
-    Raises ModuleNotFoundError without MuJoCo; TypeError if a scene is no Scene; ValueError for an unknown site, body or
-    membrane, a model that has an Attachment already, or a time step that no scene can have.
+    Raises ModuleNotFoundError without MuJoCo 4; TypeError if a scene is no Scene; ValueError for an unknown site, body
+    or membrane, a model that has an Attachment already, or a time step that no scene can have.
     """
     mujoco = optional("mujoco", "mujoco", "punctura.mujoco")
+    if int(mujoco.__version__.partition(".")[0]) < _OLDEST:  # its functions have other parameters
+        raise MissingPackageError(
+            f"punctura.mujoco needs MuJoCo {_OLDEST}, and here is {mujoco.__version__}. Install it: pip install "
+            "'punctura[mujoco]'",
+            name="mujoco",
+        )
     if model._address in _attached:
         raise ValueError(
             "this model has an Attachment already, and the needles would act twice. Use that one, or call its "
