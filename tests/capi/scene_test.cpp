@@ -128,6 +128,17 @@ TEST_CASE("C ABI: a text that is no TOML, or far too large, is refused; the prog
     INFO(text);
     CHECK(problems_of(text).begin()->first.substr(0, 6) == "line 1");
   }
+  // Every short text of these characters.
+  const std::string_view parts[] = {"[", "]", "{", "}", "\"",       "'",        "\\",           "#",
+                                    "=", ".", ",", "+", "-",        "_",        "\n",           "\r",
+                                    " ", "a", "e", "0", "\xc3\xa9", "\xce\x9d", "\xe3\x80\x80", "\x01"};
+  for (const auto a : parts)
+    for (const auto b : parts)
+      for (const auto c : parts) {
+        const std::string text = std::string(a).append(b).append(c);
+        punctura_scene* scene = nullptr;
+        REQUIRE(punctura_scene_from_toml(text.data(), text.size(), &scene) == PUNCTURA_BAD_SCENE);
+      }
   const auto repeated = [](std::string_view part, int times) {
     std::string all;
     for (int i = 0; i < times; ++i) all += part;
