@@ -53,6 +53,14 @@ def punctura(capsys):
     return call
 
 
+@pytest.fixture
+def free_umask():
+    """New files are open to everybody, unless a program sees to it."""
+    before = os.umask(0)
+    yield
+    os.umask(before)
+
+
 _ROOT = Path(__file__).parents[2]
 
 

@@ -129,6 +129,6 @@ def export(
     elif special:
         out.write_text(text, encoding="utf-8")
     else:
-        write_whole(out, text.encode("utf-8"))
+        write_whole(out, text.encode("utf-8"), private=True)
     if unread:
         raise typer.Exit(FAILED)

@@ -88,7 +88,7 @@ def save_bundle(
     """
     with (
         tempfile.TemporaryDirectory() as folder,
-        whole_file(Path(path)) as new,
+        whole_file(Path(path), private=True) as new,
         zipfile.ZipFile(new, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
         place = Path(folder)

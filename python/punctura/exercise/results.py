@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
 import secrets
@@ -15,6 +13,8 @@ from pydantic import ValidationError
 
 from punctura._core import PuncturaError
 from punctura.exercise.result import Result
+from punctura.files.cells import csv_line, text_cell
+from punctura.files.private import private_folder
 from punctura.files.whole_file import write_whole
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
@@ -53,14 +53,14 @@ class ResultStore:
 
     def save(self, result: Result) -> Result:
         """Saves a result under a new name, and returns it with that name. Raises OSError."""
-        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # private: it contains names of persons
+        private_folder(self.folder)  # it contains names of persons
         stem = "-".join(filter(None, (_slug(result.date[:19]), _slug(result.exercise)[:40], _slug(result.person)[:40])))
         while True:
             kept = result.model_copy(update={"name": f"{stem}-{secrets.token_hex(3)}"})
             path = self._path(kept.name)
             if not path.exists():
                 break
-        write_whole(path, kept.model_dump_json(indent=1).encode("utf-8"), replace=False)
+        write_whole(path, kept.model_dump_json(indent=1).encode("utf-8"), replace=False, private=True)
         return kept
 
     def load(self, name: str) -> Result:
@@ -119,13 +119,9 @@ class ResultStore:
 
 
 def to_csv(results: Iterable[Result]) -> str:
-    """One row per result. A cell that a spreadsheet could take for a formula gets an apostrophe in front."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
-    writer.writeheader()
-    for result in results:
-        writer.writerow({name: _cell(value) for name, value in _row(result).items()})
-    return text.getvalue()
+    """One row per result. Text becomes no formula in a spreadsheet, see text_cell."""
+    rows = (_row(result) for result in results)
+    return "".join(map(csv_line, (COLUMNS, *([_cell(row[name]) for name in COLUMNS] for row in rows))))
 
 
 def to_json(results: Iterable[Result]) -> str:
@@ -172,9 +168,7 @@ def _cell(value: object) -> object:
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.6g}"
-    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
-        return "'" + value
-    return value
+    return text_cell(value) if isinstance(value, str) else value
 
 
 def _slug(text: str) -> str:

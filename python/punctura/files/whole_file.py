@@ -13,22 +13,27 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from punctura.files.private import MODE
+
 _NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
 
 
 @contextmanager
-def whole_file(path: Path, replace: bool = True) -> Iterator[str]:
+def whole_file(path: Path, replace: bool = True, private: bool = False) -> Iterator[str]:
     """Yields the path to write to. At the end of the block the file is renamed to `path`.
 
-    replace: whether to replace an existing file, whose permissions are kept; if False, raises FileExistsError. Raises
-    OSError with `path` as its filename. A killed process leaves nothing on systems with unnamed files, and a hidden
-    file on others.
+    replace: whether to replace an existing file, whose permissions are kept; if False, raises FileExistsError.
+    private: a new file is readable by its owner alone. Raises OSError with `path` as its filename. A killed process
+    leaves nothing on systems with unnamed files, and a hidden file on others.
     """
+    mode = MODE if private else 0o666
     hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     place, descriptor = str(hidden), None
     try:
-        descriptor = unnamed_file(path.parent)
-        if descriptor is not None:
+        descriptor = unnamed_file(path.parent, mode)
+        if descriptor is None:
+            os.close(os.open(hidden, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
+        else:
             place = f"/proc/self/fd/{descriptor}"
         yield place
         if replace and path.is_file():
@@ -51,9 +56,9 @@ def whole_file(path: Path, replace: bool = True) -> Iterator[str]:
         hidden.unlink(missing_ok=True)
 
 
-def write_whole(path: Path, data: bytes, replace: bool = True) -> None:
+def write_whole(path: Path, data: bytes, replace: bool = True, private: bool = False) -> None:
     """Writes a complete file. See whole_file."""
-    with whole_file(path, replace) as place, open(place, "wb") as file:
+    with whole_file(path, replace, private) as place, open(place, "wb") as file:
         file.write(data)
 
 
@@ -72,12 +77,12 @@ def rename_new(file: Path, path: Path) -> None:
         os.replace(file, path)
 
 
-def unnamed_file(folder: Path) -> int | None:
+def unnamed_file(folder: Path, mode: int) -> int | None:
     """The descriptor of an unnamed file, which is deleted on close. None if the system has no unnamed files."""
     if not hasattr(os, "O_TMPFILE") or not os.path.isdir("/proc/self/fd"):
         return None
     try:
-        return os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
+        return os.open(folder, os.O_TMPFILE | os.O_RDWR, mode)
     except OSError as error:
         if error.errno in _NO_UNNAMED:
             return None

@@ -1,4 +1,7 @@
-"""Creates .part files. A file gets its name only after its first bytes are written, so a kill leaves no empty file."""
+"""Creates .part files, which their owner alone can read.
+
+A file gets its name only after its first bytes are written, so a kill leaves no empty file.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+from punctura.files.private import MODE
 from punctura.files.whole_file import give_name, rename_new, unnamed_file
 from punctura.record.errors import RecordingError
 from punctura.record.lock import in_use, lock
@@ -34,7 +38,7 @@ def make_file(path: Path, begin: Callable[[int], None]) -> tuple[int, Path | Non
 
 
 def _make(path: Path, begin: Callable[[int], None]) -> int:
-    descriptor = unnamed_file(path.parent)
+    descriptor = unnamed_file(path.parent, MODE)
     if descriptor is None:
         return _make_named(path, begin)
     try:
@@ -50,7 +54,7 @@ def _make(path: Path, begin: Callable[[int], None]) -> int:
 
 
 def _make_named(path: Path, begin: Callable[[int], None]) -> int:
-    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), MODE)
     try:
         lock(descriptor)
         begin(descriptor)

@@ -88,7 +88,7 @@ def parquet_output(
     Dictionary encoding is off, because it merges different NaNs; numbers keep their bits. replace: see whole_file.
     """
     schema = schema.with_metadata(to_metadata(data, schema))
-    with whole_file(path, replace) as place, _writer(place, schema) as writer:
+    with whole_file(path, replace, private=True) as place, _writer(place, schema) as writer:
         groups = _Groups(writer, schema)
         yield groups
         groups.flush()

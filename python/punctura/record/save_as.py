@@ -39,7 +39,7 @@ def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: 
     kind = target.suffix.lower()[1:]
     if kind == "csv" and recording.summary.new_scenes:
         result.notes.append("CSV cannot hold the scenes; bit 8 of commands marks the ticks that took a new one")
-    with whole_file(target, replace=True) as place, open(place, "wb") as file:
+    with whole_file(target, private=True) as place, open(place, "wb") as file:
         for _ in export_steps(recording, kind, file, progress):
             pass
     return result

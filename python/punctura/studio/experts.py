@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from punctura.files.private import private_folder
 from punctura.files.whole_file import write_whole
 
 FILE = "experts.json"
@@ -39,8 +40,9 @@ class Experts:
             entries.pop(exercise, None)
             if recording:
                 entries[exercise] = recording
-            self._path.parent.mkdir(0o700, parents=True, exist_ok=True)
-            write_whole(self._path, json.dumps(entries, indent=1, ensure_ascii=False).encode("utf-8"), replace=True)
+            private_folder(self._path.parent)
+            text = json.dumps(entries, indent=1, ensure_ascii=False)
+            write_whole(self._path, text.encode("utf-8"), private=True)
 
     def _read(self) -> dict[str, str]:
         """The entries; of a damaged file none. Raises OSError."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.text import exercise_text
+from punctura.files.private import private_folder
 from punctura.files.whole_file import write_whole
 from punctura.studio.limits import MOST_OWN_EXERCISES, MOST_TEXT
 from punctura.studio.names import BadName, safe_name
@@ -53,7 +54,7 @@ class OwnExercises:
                 raise NameExists(f"there is an exercise {name} already; choose another name, or replace it")
             if path.stem not in known and len(known) >= MOST_OWN_EXERCISES:
                 raise ValueError(f"there are {len(known)} of at most {MOST_OWN_EXERCISES} exercises; delete one first")
-            self.folder.mkdir(0o700, parents=True, exist_ok=True)
+            private_folder(self.folder)
             write_whole(path, text, replace=replace)
         return path
 

@@ -14,6 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
+from punctura.files.private import private_folder
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.lock import in_use
 from punctura.record.new_file import is_abandoned
@@ -95,7 +96,7 @@ class Shelf:
     def file(self, name: str) -> Path:
         """The file of a new recording. Creates the folder. Raises BadName, OSError."""
         path = self._file(safe_name(name))
-        self.folder.mkdir(0o700, parents=True, exist_ok=True)  # readable by the user alone
+        private_folder(self.folder)
         return path
 
     def find(self, name: str) -> Path:

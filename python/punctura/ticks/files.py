@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
+from punctura.files.cells import csv_line, text_cell
 from punctura.files.whole_file import whole_file
 
 _ROWS_A_GROUP = 1 << 16
@@ -28,11 +29,16 @@ class CsvOutput:
 
     def __init__(self, file: Any, schema: pa.Schema) -> None:
         self._file = file
-        file.write(",".join(schema.names).encode() + b"\n")
-        self._options = pyarrow.csv.WriteOptions(include_header=False, quoting_style="none")
+        file.write(csv_line(map(text_cell, schema.names)).encode())
+        self._free = [i for i, field in enumerate(schema) if pa.types.is_string(field.type)]  # text of any kind
+        quoting = "needed" if self._free else "none"  # the words of a dictionary are ours
+        self._options = pyarrow.csv.WriteOptions(include_header=False, quoting_style=quoting)
         self._schema = pa.schema([pa.field(f.name, _plain(f.type)) for f in schema])
 
     def write(self, table: pa.Table) -> None:
+        for i in self._free:
+            cells = [text and text_cell(text) for text in table.column(i).to_pylist()]
+            table = table.set_column(i, table.field(i), pa.array(cells, pa.string()))
         pyarrow.csv.write_csv(table.cast(self._schema), self._file, self._options)
 
 

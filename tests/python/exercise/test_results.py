@@ -11,6 +11,7 @@ import pytest
 from attempts import hand_run, judged
 from punctura.exercise import ResultsError, ResultStore, load_exercise
 from punctura.exercise.results import COLUMNS, default_folder, to_csv, to_json
+from punctura.studio.experts import Experts
 from punctura.studio.shelf import Shelf
 
 
@@ -113,6 +114,16 @@ def test_results_saved_at_the_same_time_are_all_kept(tmp_path, result):
         thread.join()
     assert len(store.all()) == 20
     assert not list(tmp_path.glob("*.part"))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="other systems have other permissions")
+def test_a_result_is_the_persons_own_in_a_shared_folder_too(punctura, tmp_path, result, free_umask):
+    tmp_path.chmod(0o777)
+    ResultStore(tmp_path).save(result)
+    Experts(tmp_path).set("venipuncture", "run")
+    punctura("exercise", "export", "--format", "csv", "--results", tmp_path, "--out", tmp_path / "class.csv")
+    files = [*tmp_path.iterdir(), tmp_path.parent / f"{tmp_path.name}-experts.json"]
+    assert len(files) == 3 and {stat.S_IMODE(file.stat().st_mode) for file in files} == {0o600}
 
 
 def test_the_table_has_one_row_a_result_in_units_for_people(tmp_path, result):

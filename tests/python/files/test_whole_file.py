@@ -12,7 +12,7 @@ from punctura.files.whole_file import whole_file, write_whole
 def system(request, monkeypatch):
     """A system with unnamed files, like Linux, and one without."""
     if request.param == "hidden":
-        monkeypatch.setattr("punctura.files.whole_file.unnamed_file", lambda folder: None)
+        monkeypatch.setattr("punctura.files.whole_file.unnamed_file", lambda *_: None)
     elif not hasattr(os, "O_TMPFILE"):
         pytest.skip("this system has no unnamed files")
 
@@ -41,6 +41,13 @@ def test_the_permissions_of_a_replaced_file_are_kept(system, tmp_path):
     plain = tmp_path / "c.txt"
     plain.write_bytes(b"")
     assert stat.S_IMODE((tmp_path / "b.txt").stat().st_mode) == stat.S_IMODE(plain.stat().st_mode)
+
+
+def test_a_private_file_is_its_owners_alone_from_its_first_moment(system, tmp_path, free_umask):
+    with whole_file(tmp_path / "a.txt", private=True) as place:
+        assert stat.S_IMODE(os.stat(place).st_mode) == 0o600
+        write_whole(tmp_path / "b.txt", b"shared")
+    assert [stat.S_IMODE((tmp_path / name).stat().st_mode) for name in ("a.txt", "b.txt")] == [0o600, 0o666]
 
 
 def test_another_file_is_not_replaced_unless_that_is_asked_for(system, tmp_path):
