@@ -68,13 +68,6 @@ def main() -> None:
             f"{r['scene']:10} {r['solver']:6} {r['device']:26} {r['model_mJ']:9.3f} {r['held_mJ']:9.3f} "
             f"{r['surplus_mJ']:11.4f} {r['friction_of_device_mJ']:19.2f}"
         )
-    coupling = pn.load_scene("k06-fig10").coupling
-    period = 1 / pn.load_scene("k06-fig10").servo.rate
-    bound = coupling.stiffness * period / 2 + coupling.damping
-    print(
-        f"\nColgate and Schenkel: passive at any grip with b > K T / 2 + |B| = {bound:.3f} N s/m in the device itself."
-    )
-    print(f"The Omni has 0.26 N of dry friction instead, which exceeds this damping below {0.26 / bound:.2f} m/s.")
     if arguments.json:
         arguments.json.write_text(json.dumps(table, indent=2) + "\n")
 

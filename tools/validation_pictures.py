@@ -51,7 +51,7 @@ def misfits(axes: Axes) -> None:
         if goal is not None:
             axes.plot([goal, goal], [row - 0.4, row + 0.4], color="black", lw=1.5)
         axes.text(-0.1, row, name, ha="right", va="center", fontsize=8)
-    axes.set(yticks=[], xlim=(0, 7.2), xlabel="rms error, % of the greatest force (black line: goal)")
+    axes.set(yticks=[], xlim=(0, 7.2), xlabel="rms error, % of the greatest force that was fitted (black line: goal)")
 
 
 def coverage(axes: Axes) -> None:

@@ -14,6 +14,7 @@
 #include "punctura/proxy/proxy_3d.hpp"
 #include "punctura/rivals/rival_insertion.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura/scene/passivity.hpp"
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/servo_step.hpp"
 #include "punctura/state/archive.hpp"

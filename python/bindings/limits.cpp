@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "punctura/device/device.hpp"
 #include "punctura/scene/build.hpp"
+#include "punctura/scene/passivity.hpp"
 #include "punctura/servo/snapshot.hpp"
 #include "value.hpp"
 
@@ -85,6 +86,10 @@ void bind_limits(nb::module_& m) {
       "largest_force", [](const Scene& scene) { return largest_force(build_insertion(scene)); }, nb::arg("scene"),
       "The largest friction along a needle that goes straight through all membranes, in and out, N: all membranes\n"
       "together. The needle points along the first membrane's inward normal.");
+  m.def(
+      "needed_damping", &needed_damping, nb::arg("scene"),
+      "The viscous damping of a device, N s/m, above which it is passive in any grip while every membrane holds the\n"
+      "needle, for a force scale of 1. Behind a line fit it is that of the worst window. Colgate and Schenkel (1997).");
   m.def(
       "force_scale",
       [](const Scene& scene, const ForceLimits& limits) { return force_scale(scene, build_insertion(scene), limits); },

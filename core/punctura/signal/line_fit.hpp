@@ -99,7 +99,7 @@ class LineFit {
       sums_.square += now * now - oldest * oldest;
     }
     if (const Line line = whole_.line(sums_, x - origin_); holds(line, whole_)) return end_of(line, x);
-    for (std::size_t n = (size_ / 2) | 1; n >= 3 && n < size_; n = (n / 2) | 1) {
+    for (std::size_t n = shorter(size_); n >= 3 && n < size_; n = shorter(n)) {
       const Window window(n);
       if (const Line line = window.line(sums_of(n, x), 0); holds(line, window)) return end_of(line, x);
     }
@@ -107,6 +107,14 @@ class LineFit {
   }
 
   std::size_t size() const noexcept { return size_; }  ///< samples in the longest window
+
+  /// The size of the window that is tried after one of n samples; 1 is the newest sample alone.
+  static constexpr std::size_t shorter(std::size_t n) noexcept { return (n / 2) | 1; }
+
+  /// The weight of the sample of this age (ticks) in the result while the window of n samples, 3 or more, holds.
+  Scalar weight(std::size_t n, std::size_t age) const noexcept {
+    return end_of(Window(n).line({1, static_cast<Scalar>(age), 1}, 0), 0);
+  }
 
  private:
   /// Sums over the samples z of a window, relative to an origin: of z, of z times its age, of z squared.

@@ -30,8 +30,8 @@ from punctura.live import (
     fit_conditioning,
     fit_direction,
     open_for,
-    room_note,
     run_live,
+    run_notes,
 )
 from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
@@ -73,7 +73,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         say(begun(loaded.name, loop, opened, thumb))
-        for note in [*limits.notes(loop, thumb), *filter(None, [room_note(loop)])]:
+        for note in [*limits.notes(loop, thumb), *run_notes(loop)]:
             say(f"punctura: note: {note}")
         return tape.begin(loop)
 

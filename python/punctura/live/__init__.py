@@ -14,6 +14,7 @@ from punctura._core import (
     SimulatedDevice,
     ThumbLoop,
     make_realtime,
+    needed_damping,
     open_device,
 )
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
@@ -24,6 +25,7 @@ from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.plug_ins import enumerate_devices
 from punctura.live.pose import present_pose
+from punctura.live.run_notes import damping_note, run_notes
 from punctura.live.second import SecondDevice, SecondDeviceError, direction_of
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
@@ -57,6 +59,7 @@ __all__ = [
     "SilenceWatch",
     "SimulatedDevice",
     "ThumbLoop",
+    "damping_note",
     "direction_of",
     "enumerate_devices",
     "felt_force",
@@ -66,6 +69,7 @@ __all__ = [
     "load_limits",
     "load_placement",
     "make_realtime",
+    "needed_damping",
     "open_device",
     "open_for",
     "placement_from_pose",
@@ -73,6 +77,7 @@ __all__ = [
     "present_pose",
     "room_note",
     "run_live",
+    "run_notes",
     "stroke_ends",
     "strokes_through",
 ]

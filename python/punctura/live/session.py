@@ -8,6 +8,7 @@ from collections.abc import Callable
 from punctura import Scene
 from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, ServoLoop, ThumbLoop
 from punctura.live.choose import gate_for
+from punctura.live.run_notes import run_notes
 from punctura.live.signals import Ended, ends_on_signals
 from punctura.live.silence import LONGEST_S, SilenceWatch
 from punctura.live.summary import RunSummary
@@ -31,9 +32,9 @@ def run_live(
     otherwise at the end, so that neither `prepare` nor the function that it returns is interrupted. Its `summary` is
     that of the run.
 
-    watch: called about 20 times a second with the summary. prepare: called with the loop before it starts, to add
-    listeners; it returns a function that is called after the stop. thumb: a second device, on the plunger of the
-    scene's syringe; a fault of either device ends the run.
+    watch: called about 20 times a second with the summary; its `statements` begin with run_notes(). prepare: called
+    with the loop before it starts, to add listeners; it returns a function that is called after the stop. thumb: a
+    second device, on the plunger of the scene's syringe; a fault of either device ends the run.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
@@ -62,6 +63,7 @@ def _run(
     with ends_on_signals() as signals:
         force, stands = limits or ForceLimits(), placement or Placement()
         loop = ServoLoop(device, scene, gate or gate_for(device), force, stands, thumb)
+        summary.statements = run_notes(loop)
         listener = loop.listen()
         watched = Watched(loop, thumb)
         supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop, duration)

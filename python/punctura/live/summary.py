@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, ThumbLoop, describe
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.live.run_notes import run_notes
 from punctura.record.header import statements_of, words_of
-from punctura.record.room import room_note
 from punctura.ticks import ABSENT, Ticks
 
 
@@ -103,7 +103,7 @@ class RunSummary:
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
-        self.statements = [*statements_of(loop.device, thumb), *filter(None, [room_note(loop)])]
+        self.statements = [*statements_of(loop.device, thumb), *run_notes(loop)]
         self.blame(loop.device, thumb)
 
     def blame(self, device: Device, thumb: ThumbLoop | None = None) -> None:

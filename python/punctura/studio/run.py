@@ -8,7 +8,7 @@ from pathlib import Path
 
 from punctura import Scene, Target
 from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice, ThumbLoop
-from punctura.live import ANY_PROCESSOR, Limits, SecondDevice, fit_conditioning, fit_direction, open_for, room_note
+from punctura.live import ANY_PROCESSOR, Limits, SecondDevice, fit_conditioning, fit_direction, open_for, run_notes
 from punctura.record import Recorder
 from punctura.results import JsonObject
 from punctura.studio.hand import Pose, resting_pose
@@ -110,7 +110,7 @@ class Run:
         gate, placement = limits.gate_on(device), bench.settings.placement
         self.loop = ServoLoop(device, scene, gate, limits.force, placement, self.thumb)
         self._listener = self.loop.listen()
-        self.notes += [*limits.notes(self.loop, self.thumb), *filter(None, [room_note(self.loop)])]
+        self.notes += [*limits.notes(self.loop, self.thumb), *run_notes(self.loop)]
         if self.thumb is not None and scene.syringe is None:
             self.notes.append(NO_SYRINGE)
         self.recorder = Recorder(self.loop, recording, about=about, thumb=self.thumb) if recording else None

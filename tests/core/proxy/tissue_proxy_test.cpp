@@ -143,14 +143,15 @@ TEST_CASE("the first insertion takes the work of cutting more than the second") 
       c.tissue.grip = grip;
       c.tissue.growth = 500;
       c.tissue.cutting = 0.6;
-      Proxy1d proxy(c.law(), Coupling{400, 1}, tissue_period);
+      // A softer coupling loses more at a pop: docs/measured-tissue.md.
+      Proxy1d proxy(c.law(), Coupling{20e3, 1}, tissue_period);
       const double deep = 12e-3 + H, X = tip_length(c.needle);
       const double first = tissue_stroke(proxy, -2e-3, deep), out = tissue_stroke(proxy, deep, -2e-3);
       const double second = tissue_stroke(proxy, -2e-3, deep), out_again = tissue_stroke(proxy, deep, -2e-3);
-      CHECK(first - second == doctest::Approx(0.6 * X).epsilon(0.01));
-      CHECK(out == doctest::Approx(out_again));
+      CHECK(first - second == doctest::Approx(0.6 * X).epsilon(0.01).scale(0));
+      CHECK(out == doctest::Approx(out_again).epsilon(1e-6).scale(0));
       proxy.reset();
-      CHECK(tissue_stroke(proxy, -2e-3, deep) == doctest::Approx(first));
+      CHECK(tissue_stroke(proxy, -2e-3, deep) == doctest::Approx(first).epsilon(1e-6).scale(0));
     }
 }
 
