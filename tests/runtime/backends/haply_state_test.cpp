@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <clocale>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "core/support/cases.hpp"
+#include "core/support/comma_locale.hpp"
 #include "fuzz/haply_inputs.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/plant/noise.hpp"
@@ -53,9 +53,9 @@ TEST_CASE("the depth of nesting is limited") {
 }
 
 TEST_CASE("numbers are read exactly in every locale; a number outside the range of a double is refused") {
-  std::setlocale(LC_ALL, "de_DE.UTF-8");
   Noise noise(1);
   bool same = true;
+  const punctura::test::CommaLocale comma;
   for (int i = 0; i < 1000; ++i) {
     const double value = std::ldexp(noise.uniform() - 0.5, static_cast<int>(noise.uniform() * 60) - 30);
     std::array<char, 512> out{};
@@ -63,7 +63,6 @@ TEST_CASE("numbers are read exactly in every locale; a number outside the range 
     same = same && number(text.substr(text.find("\"x\":") + 4)) == value;
   }
   CHECK(same);
-  std::setlocale(LC_ALL, "C");
   CHECK(number("0.1") == 0.1);
   CHECK(number("0") == 0.0);
   CHECK(number("0.00017976931348623157e312") == std::numeric_limits<double>::max());
