@@ -30,3 +30,19 @@ def check_place(path: Path | None, option: str) -> None:
         raise typer.BadParameter(f"{path}: there is no folder {path.parent}; make it first", param_hint=option)
     if not os.access(path.parent, os.W_OK):
         raise typer.BadParameter(f"{path}: the folder may not be written; choose another", param_hint=option)
+
+
+def check_folder(path: Path | None, option: str) -> None:
+    """Says before a long computation that files cannot be written to a folder, which may not exist yet.
+
+    Raises BadParameter.
+    """
+    if path is None:
+        return
+    near = path
+    while not near.exists() and near != near.parent:
+        near = near.parent
+    if not near.is_dir():
+        raise typer.BadParameter(f"{near} is a file, not a folder; name another folder", param_hint=option)
+    if not os.access(near, os.W_OK | os.X_OK):
+        raise typer.BadParameter(f"{path}: the folder {near} may not be written; choose another", param_hint=option)

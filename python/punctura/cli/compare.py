@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from punctura import save_scene
+from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli.identify import decimal_of, needle_of, pairs
 from punctura.progress import progress_bar
 
@@ -35,7 +36,11 @@ def command(
     ] = None,
     needle: Annotated[
         str | None,
-        typer.Option("--needle", help="For K06, such as diameter_mm=1.27,tip_angle_deg=20.", metavar="NAME=VALUE,..."),
+        typer.Option(
+            "--needle",
+            help="For K06: diameter_mm=1.27,tip_angle_deg=20. A recording has its own.",
+            metavar="NAME=VALUE,...",
+        ),
     ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Write a .png, .svg or .pdf.", metavar="FILE")] = None,
     out: Annotated[
@@ -54,11 +59,13 @@ def command(
     from punctura.rivals.words import as_json as numbers
     from punctura.rivals.words import notes, table
     from punctura.trace import read_trace
+    from punctura.trace.read import recorded_needle
 
     if plot is not None and plot.suffix.lower() not in SUFFIXES:
         raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--plot")
-    if out is not None and out.exists() and not out.is_dir():
-        raise typer.BadParameter(f"{out} is not a folder", param_hint="--out")
+    check_place(plot, "--plot")
+    check_apart({"TRACE": trace, "--plot": plot})
+    check_folder(out, "--out")
     if order not in ("recorded", "depth"):
         raise typer.BadParameter("must be recorded or depth", param_hint="--order")
     read = read_trace(
@@ -70,8 +77,9 @@ def command(
     names = None if models is None else [name.strip() for name in models.split(",")]
     with progress_bar("compare") as tell:
         found = compare_trace(
-            read, names, needle=needle_of(needle) if needle else None, with_chatter=chatter, progress=tell
-        )
+            read, names, needle=needle_of(needle) if needle else recorded_needle(trace), with_chatter=chatter,
+            progress=tell,
+        )  # fmt: skip
     if plot is not None:
         save_figure(found, plot)
     if out is not None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from punctura import Needle
-from punctura.cli._out import check_apart, check_place
+from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar
@@ -88,8 +88,7 @@ def command(
             raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out FOLDER")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
-        if out.exists() and not out.is_dir():
-            raise typer.BadParameter(f"{out} is a file; the results need a folder", param_hint="--out")
+        check_folder(out, "--out")
         _folder(trace, out, task, processes, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}
@@ -171,11 +170,10 @@ def number_of(membranes: str) -> int | Literal["auto"]:
 def needle_of(text: str, trace: Path | None = None) -> Needle:
     """The needle of `diameter_mm=2,tip_angle_deg=45`. Without a text that of the trace, if it is a recording."""
     if not text:
-        from punctura.record import open_recording
-        from punctura.trace.read import is_recording
+        from punctura.trace.read import recorded_needle
 
-        if trace is not None and trace.is_file() and is_recording(trace):
-            return open_recording(trace).info.scene.needle
+        if trace is not None and trace.is_file() and (recorded := recorded_needle(trace)) is not None:
+            return recorded
         raise typer.BadParameter(
             "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45 (only a recording of "
             "Punctura states its own)",

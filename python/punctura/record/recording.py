@@ -20,6 +20,7 @@ from punctura.record.header import RecordingInfo
 from punctura.record.parquet_file import ParquetRecording
 from punctura.record.part_file import PartFile
 from punctura.record.schema import numbers, ticks_of
+from punctura.record.stream import begins_stream
 from punctura.ticks import Ticks
 
 _PARQUET = b"PAR1"
@@ -102,7 +103,10 @@ def open_recording(path: str | os.PathLike[str]) -> Recording:
         if not stat.S_ISREG(kind := file.stat().st_mode) and not stat.S_ISDIR(kind):  # opening a pipe would block
             raise RecordingError(f"{file} is a pipe or a device, not a recording")
         with file.open("rb") as head:
-            finished = head.read(len(_PARQUET)) == _PARQUET
+            beginning = head.read(8)
+        finished = beginning.startswith(_PARQUET)
+        if not finished and not begins_stream(beginning):
+            raise RecordingError(f"{file} is not a recording of Punctura, or its beginning is damaged")
         return Recording(file, ParquetRecording(file) if finished else PartFile(file))
     except FileNotFoundError:
         raise RecordingError(f"{file}: there is no such file") from None

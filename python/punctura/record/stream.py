@@ -16,9 +16,19 @@ from punctura.record.collected import Collected
 from punctura.record.header import is_sound, to_metadata
 
 CHECK = b"crc32"
-END = b"\xff\xff\xff\xff\0\0\0\0"  # end mark of a complete stream
+_MESSAGE = b"\xff\xff\xff\xff"  # before the length of each message
+END = _MESSAGE + b"\0\0\0\0"  # end mark of a complete stream
+_LONGEST_SCHEMA = 1 << 26  # bytes, with the description of the run
 # Exceptions of pyarrow for bytes that are not a stream.
 BROKEN = (pa.ArrowException, OSError, ValueError, KeyError, MemoryError, OverflowError)
+
+
+def begins_stream(beginning: bytes) -> bool:
+    """Whether the first 8 bytes of a file can be those of a stream.
+
+    Arrow also takes the first four bytes of a text for a length, and takes as much memory.
+    """
+    return beginning.startswith(_MESSAGE) and 0 < int.from_bytes(beginning[4:8], "little") <= _LONGEST_SCHEMA
 
 
 def check_sum(batch: pa.RecordBatch) -> bytes:

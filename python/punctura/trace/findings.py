@@ -132,5 +132,5 @@ def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
         text = "the needle is never withdrawn: friction and grip cannot be told apart; record the withdrawal too"
         yield Finding("no_withdrawal", text)
     if not segments.pops:
-        text = "no pop: the force never drops while the needle goes in; go deeper, until the tip is through"
+        text = "the force never drops while the needle goes in; go deeper, until the tip is through"
         yield Finding("no_pop", text)

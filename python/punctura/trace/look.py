@@ -9,9 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from punctura import Needle
-from punctura.record import open_recording
 from punctura.trace.columns import ROLES, candidates, split_name
-from punctura.trace.read import is_recording
+from punctura.trace.read import recording_at
 from punctura.trace.size import check_file
 from punctura.trace.tables import read_table
 
@@ -49,8 +48,8 @@ def look_at(path: str | os.PathLike[str]) -> Look:
     """Reads the names and the first numbers of a trace file. Nothing is guessed. Raises TraceError, OSError."""
     path = Path(path)
     check_file(path)
-    if is_recording(path):
-        recording = open_recording(path)
+    recording = recording_at(path)
+    if recording is not None:
         return Look(recording.rows, (), (), recording.info.scene.needle)
     table = read_table(path)
     names = list(table)

@@ -11,7 +11,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.record import RecordingError, open_recording
+from punctura._core import Needle
+from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns, unit_size
 from punctura.trace.decimals import Decimal
@@ -41,30 +42,30 @@ def read_trace(
     """
     path = Path(path)
     check_file(path)
-    with path.open("rb") as file:
-        head = file.read(4)
-    if head != b"PAR1" or is_recording(path):
-        try:
-            return examine(_from_recording(path))
-        except RecordingError:
-            if head == b"PAR1":
-                raise
+    recording = recording_at(path)
+    if recording is not None:
+        return examine(_from_recording(recording))
     table = read_table(path, decimal)
     return examine(_from_table(table, str(path), columns, units, order))
 
 
-def is_recording(path: Path) -> bool:
-    """Whether the file is a recording of Punctura. Raises OSError."""
+def recording_at(path: Path) -> Recording | None:
+    """The recording of Punctura in a file; None for another file. Raises OSError."""
     try:
-        open_recording(path)
+        return open_recording(path)
     except RecordingError:
-        return False
-    return True
+        return None
 
 
-def _from_recording(path: Path) -> Trace:
+def recorded_needle(path: Path) -> Needle | None:
+    """The needle that a file states: only a recording does. Raises OSError."""
+    recording = recording_at(path)
+    return None if recording is None else recording.info.scene.needle
+
+
+def _from_recording(recording: Recording) -> Trace:
     """Batch by batch, because all columns of a recording need many times the memory of a trace."""
-    recording = open_recording(path)
+    path = recording.path
     check_size(path, recording.rows, 3)
     first, parts = None, [np.empty((0, 3))]
     for batch in recording.batches():
