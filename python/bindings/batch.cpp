@@ -83,13 +83,6 @@ class LawBatch : public LineBatch, public OneThread {
 
 constexpr std::size_t most_trials = 1'000'000'000;
 
-/// Throws MemoryError if `count` things of `bytes` each have no room on this computer.
-void enough_memory(double bytes, std::size_t count, const char* what, const char* advice) {
-  const double needed = bytes * static_cast<double>(count);
-  if (needed < 1e9) return;
-  nb::module_::import_("punctura.batches.inputs").attr("enough_memory")(needed, std::to_string(count) + what, advice);
-}
-
 void make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period, const std::string& solver,
           const nb::object& count) {
   std::optional<std::size_t> trials;
@@ -102,7 +95,8 @@ void make(LawBatch* self, const nb::object& law, const nb::object& coupling, dou
   check_period(period, problems);
   raise_if(problems);
   const std::size_t n = trials.value_or(1);
-  enough_memory(sizeof(batch::LineBlock) / static_cast<double>(batch::block_lanes), n, " trials", "Take fewer trials.");
+  enough_memory(sizeof(batch::LineBlock) / static_cast<double>(batch::block_lanes) * static_cast<double>(n),
+                std::to_string(n) + " trials", "Take fewer trials.");
   new (self) LawBatch(std::move(laws), std::move(couplings), period, solver_from(solver), n);
 }
 
@@ -140,7 +134,8 @@ nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, 
   nb::object result = out;
   if (result.is_none()) {
     const bool by_trial = !shared && p.stride(0) < p.stride(1);  // the same order in memory as p
-    enough_memory(sizeof(double) * static_cast<double>(n), ticks, " rows of forces", "Take fewer ticks at a time.");
+    enough_memory(sizeof(double) * static_cast<double>(n) * static_cast<double>(ticks),
+                  std::to_string(ticks) + " rows of forces", "Take fewer ticks at a time.");
     result = numpy.attr("empty")(nb::make_tuple(ticks, n), numpy.attr("float64"), by_trial ? "F" : "C");
   }
   Forces array;

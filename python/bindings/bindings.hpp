@@ -25,6 +25,24 @@
 namespace nb = nanobind;
 
 namespace punctura::bindings {
+/// False for a complex and for a masked number. float() takes both from NumPy: it drops the imaginary part, and makes
+/// NaN of a masked number.
+bool is_real(nb::handle object) noexcept;
+}  // namespace punctura::bindings
+
+/// Every argument that is a number, alone or in a list. In place of nanobind's own conversion.
+template <>
+struct nb::detail::type_caster<double> {
+  NB_TYPE_CASTER(double, const_name("float"))
+
+  bool from_python(handle object, std::uint32_t flags, cleanup_list* cleanup) noexcept {
+    return (PyFloat_Check(object.ptr()) || PyLong_Check(object.ptr()) || punctura::bindings::is_real(object)) &&
+           NB_CALL(load_f64)(NB_CTX_C(cleanup), object.ptr(), flags, &value);
+  }
+  static handle from_cpp(double number, rv_policy, cleanup_list*) noexcept { return PyFloat_FromDouble(number); }
+};
+
+namespace punctura::bindings {
 
 void bind_model(nb::module_&);
 void bind_profile_law(nb::module_&);
@@ -55,10 +73,12 @@ void explain_calls(nb::module_&);
 
 /// A read-only view of an array. No copy is made if the array is float64 and contiguous.
 using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-/// A NumPy array of float64, of any strides, from anything that NumPy accepts as an array (a list, another type, a
-/// slice). Throws TypeError for text, times and complex numbers, and ValueError for rows of different lengths and for
-/// masked elements; both name the argument.
-nb::object real_numbers(const nb::object& array_like, const char* name);
+/// A NumPy array of float64 or another type, of any strides, from anything that NumPy accepts as an array (a list,
+/// another type, a slice). Throws TypeError for text, times and complex numbers, ValueError for rows of different
+/// lengths and for masked elements, and MemoryError if a copy has no room; each names the argument.
+nb::object real_numbers(const nb::object& array_like, const char* name, const char* type = "float64");
+/// Throws MemoryError if so many bytes have no room on this computer. what: needs them.
+void enough_memory(double bytes, const std::string& what, const char* advice);
 /// The same, contiguous.
 Input input(const nb::object& array_like, const char* name);
 /// The same for shape (n,), or (n, 3) for points. Throws ValueError that names the argument.

@@ -5,9 +5,41 @@
 
 namespace punctura::bindings {
 
-nb::object real_numbers(const nb::object& array_like, const char* name) {
+namespace {
+
+bool is_masked(nb::handle object) {
+  return nb::hasattr(object, "_mask") &&
+         nb::cast<bool>(nb::module_::import_("numpy").attr("ma").attr("is_masked")(object));
+}
+
+std::string kind_of(nb::handle array) { return nb::cast<std::string>(array.attr("dtype").attr("kind")); }
+
+/// Throws MemoryError if there is no room for a copy of an array as numbers of 8 bytes.
+void copy_fits(const nb::object& array, const char* name) {
+  const auto numbers = nb::cast<std::size_t>(array.attr("size"));
+  enough_memory(8.0 * static_cast<double>(numbers),
+                std::string(name) + ": " + std::to_string(numbers) + " numbers in a copy", "Give them in parts.");
+}
+
+}  // namespace
+
+bool is_real(nb::handle object) noexcept {
+  if (PyComplex_Check(object.ptr())) return false;
+  try {
+    return !is_masked(object) && !(nb::hasattr(object, "dtype") && kind_of(object) == "c");
+  } catch (...) {
+    PyErr_Clear();
+    return false;
+  }
+}
+
+void enough_memory(double bytes, const std::string& what, const char* advice) {
+  if (bytes >= 1e9) nb::module_::import_("punctura.batches.inputs").attr("enough_memory")(bytes, what, advice);
+}
+
+nb::object real_numbers(const nb::object& array_like, const char* name, const char* type) {
   const nb::object numpy = nb::module_::import_("numpy");
-  if (nb::hasattr(array_like, "_mask") && nb::cast<bool>(numpy.attr("ma").attr("is_masked")(array_like)))
+  if (is_masked(array_like))
     throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
   nb::object given;
   try {
@@ -18,14 +50,15 @@ nb::object real_numbers(const nb::object& array_like, const char* name) {
         (std::string(name) + " must be an array of numbers: its rows have different lengths").c_str());
   }
   // Otherwise NumPy reads text and times as numbers, and drops the imaginary part of complex ones.
-  const nb::object type = given.attr("dtype");
-  const auto kind = nb::cast<std::string>(type.attr("kind"));
+  const std::string kind = kind_of(given);
   if (std::string("biufO").find(kind) == std::string::npos) {
-    const std::string held = kind == "U" || kind == "S" ? "text" : nb::cast<std::string>(nb::str(type));
+    const std::string held =
+        kind == "U" || kind == "S" ? "text" : nb::cast<std::string>(nb::str(nb::object(given.attr("dtype"))));
     throw nb::type_error((std::string(name) + " must hold real numbers, not " + held).c_str());
   }
+  if (!given.attr("dtype").equal(numpy.attr("dtype")(type))) copy_fits(given, name);
   try {
-    return numpy.attr("asarray")(given, numpy.attr("float64"));
+    return numpy.attr("asarray")(given, type);
   } catch (nb::python_error& error) {
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     throw nb::type_error((std::string(name) + " must hold real numbers").c_str());
@@ -33,8 +66,9 @@ nb::object real_numbers(const nb::object& array_like, const char* name) {
 }
 
 Input input(const nb::object& array_like, const char* name) {
-  const nb::object numpy = nb::module_::import_("numpy");
-  return nb::cast<Input>(numpy.attr("ascontiguousarray")(real_numbers(array_like, name)));
+  const nb::object given = real_numbers(array_like, name);
+  if (!nb::cast<bool>(given.attr("flags").attr("c_contiguous"))) copy_fits(given, name);
+  return nb::cast<Input>(nb::module_::import_("numpy").attr("ascontiguousarray")(given));
 }
 
 bool is_numpy_array(nb::handle object) noexcept {

@@ -18,7 +18,7 @@ class InputColumns {
       using T = typename std::remove_reference_t<decltype(values)>::value_type;
       const nb::object given = columns[field.name];
       const auto array = nb::cast<nb::ndarray<nb::numpy, const T, nb::c_contig, nb::device::cpu>>(
-          as_array(given, nb::arg("dtype") = dtype_name<T>()));
+          as_array(real_numbers(given, field.name, dtype_name<T>().c_str())));
       if (array.ndim() == 0 || array.shape(0) != rows_ || array.size() != rows_ * width<decltype(field)>)
         throw std::invalid_argument(std::string(field.name) + " must have one row for each tick");
       values.assign(array.data(), array.data() + array.size());

@@ -29,15 +29,15 @@ std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& 
 
 nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis,
                const nb::object& progress) {
+  const auto count = static_cast<std::uint32_t>(insertion.size());
+  SnapshotColumns columns(
+      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
+  columns.reserve(nb::len_hint(positions), count);  // before the positions are copied
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (insertion.uses_axis()) axes.check("axis");
-  const auto count = static_cast<std::uint32_t>(insertion.size());
-  SnapshotColumns columns(
-      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
-  columns.reserve(n, count);
   Snapshot record{};
   record.membrane_count = count;
   const OneThread::Running running(insertion);

@@ -1,10 +1,16 @@
 // Table of contents: one file per room of core/punctura.
 #include <string>
+#include <utility>
 
 #include "bindings.hpp"
 
-NB_MODULE(_core, m) {
+NB_MODULE(core_of_nanobind, m) {
   using namespace punctura::bindings;
+  static bool loaded = false;
+  if (std::exchange(loaded, true))
+    throw nb::import_error(
+        "punctura was imported before in this process, and its compiled core can be loaded only once: keep that module "
+        "in sys.modules, or begin a new process");
   nb::set_leak_warnings(false);  // a daemon thread may legitimately hold a device until the interpreter exits
   m.doc() = "The compiled core of Punctura. SI units throughout: m, N, s, rad, N/m.";
   m.def("version", [] { return PUNCTURA_VERSION; }, "Of Punctura.");
@@ -37,4 +43,14 @@ NB_MODULE(_core, m) {
   bind_batch(m);
   bind_scene_batch(m);
   explain_calls(m);  // the last: it goes through everything above
+}
+
+// Nanobind's tables are those of a process. A subinterpreter would exchange them for its own: from then on, the main
+// interpreter would not know its own types.
+extern "C" NB_EXPORT PyObject* PyInit__core() {
+  if (PyInterpreterState_GetID(PyInterpreterState_Get()) == 0) return PyInit_core_of_nanobind();
+  PyErr_SetString(PyExc_ImportError,
+                  "punctura works in the main interpreter of a process, not in a subinterpreter: begin a process for "
+                  "it, such as with multiprocessing");
+  return nullptr;
 }

@@ -49,10 +49,10 @@ class LineProxy : public OneThread {
     return visit([&](auto proxy) { return proxy.step(depth); });
   }
   nb::object run(const nb::object& depths, const nb::object& progress) {
+    SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
+    columns.reserve(nb::len_hint(depths), 1);  // before the depths are copied
     const Input p = input_1d(depths, "p");
     check_places(p.data(), p.size(), "p", 1);
-    SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
-    columns.reserve(p.size(), 1);
     Snapshot record{};
     record.membrane_count = 1;
     const Running running(*this);
@@ -145,14 +145,14 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
 }
 
 nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::object& axis, const nb::object& progress) {
+  SnapshotColumns columns(
+      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
+  columns.reserve(nb::len_hint(positions), 1);  // before the positions are copied
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   axes.check("axis");
-  SnapshotColumns columns(
-      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
-  columns.reserve(n, 1);
   Snapshot record{};
   record.membrane_count = 1;
   const OneThread::Running running(proxy);

@@ -18,12 +18,12 @@ void check_rate(double rate) {
   raise_if(problems);
 }
 
-/// An optional column. Throws ValueError that names it.
+/// An optional column. Throws TypeError and ValueError that name it.
 template <typename T>
 std::vector<T> column(const nb::object& given, const char* type, std::size_t n, const char* name) {
   if (given.is_none()) return {};
   const auto array = nb::cast<nb::ndarray<const T, nb::c_contig, nb::device::cpu>>(
-      nb::module_::import_("numpy").attr("ascontiguousarray")(given, type));
+      nb::module_::import_("numpy").attr("ascontiguousarray")(real_numbers(given, name, type)));
   if (array.ndim() != 1 || array.size() != n)
     throw nb::value_error((std::string(name) + " must have shape (" + std::to_string(n) + ",)").c_str());
   return {array.data(), array.data() + n};

@@ -162,14 +162,14 @@ struct SceneRivals : OneThread {
 };
 
 nb::object run(SceneRivals& self, const nb::object& positions, const nb::object& axis, const nb::object& progress) {
+  const auto count = static_cast<std::uint32_t>(self.insertion.size());
+  SnapshotColumns columns({"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"});
+  columns.reserve(nb::len_hint(positions), count);  // before the positions are copied
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (self.insertion.uses_axis()) axes.check("axis");
-  const auto count = static_cast<std::uint32_t>(self.insertion.size());
-  SnapshotColumns columns({"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"});
-  columns.reserve(n, count);
   Snapshot record{};
   record.membrane_count = count;
   const OneThread::Running running(self);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -11,21 +10,6 @@
 #include "tick_store.hpp"
 
 namespace punctura::bindings {
-namespace {
-
-/// Python gets it as a MemoryError.
-class NoRoom : public std::bad_alloc {
- public:
-  explicit NoRoom(std::size_t rows)
-      : text_("not enough memory for the columns of " + std::to_string(rows) + " ticks: make the run in parts") {}
-  const char* what() const noexcept override { return text_.c_str(); }
-
- private:
-  std::string text_;
-};
-
-}  // namespace
-
 template <typename Table, typename Extra>
 struct TickColumns<Table, Extra>::Columns {
   const Table& table;
@@ -69,13 +53,14 @@ TickColumns<Table, Extra>::~TickColumns() = default;
 template <typename Table, typename Extra>
 void TickColumns<Table, Extra>::reserve(std::size_t rows, std::size_t membranes) {
   columns_->most = std::max(columns_->most, membranes);
-  try {
-    columns_->each([&](const auto& field, auto& column) {
-      column.reserve(rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width);
-    });
-  } catch (const std::exception&) {  // std::bad_alloc or std::length_error
-    throw NoRoom(rows);
-  }
+  const auto numbers_of = [&](const auto& field) {
+    return rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width;
+  };
+  double bytes = 0;
+  columns_->each(
+      [&](const auto& field, auto& column) { bytes += static_cast<double>(numbers_of(field)) * sizeof(column[0]); });
+  enough_memory(bytes, "the columns of " + std::to_string(rows) + " ticks", "Make the run in parts.");
+  columns_->each([&](const auto& field, auto& column) { column.reserve(numbers_of(field)); });
 }
 
 template <typename Table, typename Extra>

@@ -19,7 +19,7 @@ class TickColumns {
   /// only: names of the fields to keep; empty for all.
   explicit TickColumns(const Table& table, std::initializer_list<std::string_view> only = {});
   ~TickColumns();
-  /// Throws std::bad_alloc, which Python gets as a MemoryError that names the number of rows.
+  /// Throws MemoryError that names the number of rows.
   void reserve(std::size_t rows, std::size_t membranes = 0);
   void add(const Snapshot& record, const Extra& extra = {});
   /// components: of a vector, 3, or 1 on a line. single: one membrane; the arrays have no axis for membranes.

@@ -8,6 +8,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from punctura import _core
 
 
@@ -152,6 +154,8 @@ def _fits(kind: str, value: Any) -> bool:
 def _is_number(value: Any) -> bool:
     if isinstance(value, str | bytes | bytearray) or getattr(value, "shape", ()) != ():
         return False
+    if np.iscomplexobj(value) or np.ma.is_masked(value):  # float() takes them
+        return False
     try:
         float(value)
     except (TypeError, ValueError, OverflowError):
@@ -171,7 +175,8 @@ def _are_numbers(value: Any) -> bool:
 def _shown(value: Any) -> str:
     name = type(value).__name__
     if getattr(value, "shape", ()) != ():
-        return f"{name} of shape {tuple(value.shape)}"
+        what = ", complex" if np.iscomplexobj(value) else ", with masked elements" if np.ma.is_masked(value) else ""
+        return f"{name} of shape {tuple(value.shape)}{what}"
     if isinstance(value, list | tuple):
         if len(value) == 3:
             return f"{name} with {', '.join(sorted({type(part).__name__ for part in value}))}"

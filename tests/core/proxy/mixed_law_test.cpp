@@ -49,15 +49,15 @@ struct HalfLaw {
     return true;
   }
 };
-using Mixed = MixedLaw<ThickLaw, HalfLaw, TissueLaw, CutLaw>;
-static_assert(HearsLeaving<HalfLaw> && HearsLeaving<Mixed> && !HearsLeaving<MixedLaw<ThickLaw, CutLaw>>);
-static_assert(RefreshesPieces<MixedLaw<ThickLaw, TissueLaw>> && !RefreshesPieces<Mixed>);  // HalfLaw does not
+using FourLaws = MixedLaw<ThickLaw, HalfLaw, TissueLaw, CutLaw>;
+static_assert(HearsLeaving<HalfLaw> && HearsLeaving<FourLaws> && !HearsLeaving<MixedLaw<ThickLaw, CutLaw>>);
+static_assert(RefreshesPieces<MixedLaw<ThickLaw, TissueLaw>> && !RefreshesPieces<FourLaws>);  // HalfLaw does not
 
 /// leave() allows exceptions, so it is not heard.
 struct DeafLaw : HalfLaw {
   bool leave(Memory& memory) const { return HalfLaw::leave(memory); }
 };
-static_assert(memory_is_whole<HalfLaw> && memory_is_whole<Mixed> && LawWithMemory<DeafLaw> &&
+static_assert(memory_is_whole<HalfLaw> && memory_is_whole<FourLaws> && LawWithMemory<DeafLaw> &&
               !memory_is_whole<DeafLaw>);
 
 /// Strokes through a wall, each deeper than the one before.
@@ -92,16 +92,16 @@ void has_the_same_bits(const L& law, double reach) {
 
 TEST_CASE("a law has the same forces alone and in a MixedLaw, with everything that it remembers") {
   const double reach = tip_length(paper_needle) + 1e-3;
-  has_the_same_bits<Mixed>(ThickLaw(paper_needle, paper_membrane(1e-3), 0.5), reach);
-  has_the_same_bits<Mixed>(HalfLaw{ThickLaw(paper_needle, paper_membrane(1e-3))}, reach);
-  has_the_same_bits<Mixed>(CutLaw{}, reach);
+  has_the_same_bits<FourLaws>(ThickLaw(paper_needle, paper_membrane(1e-3), 0.5), reach);
+  has_the_same_bits<FourLaws>(HalfLaw{ThickLaw(paper_needle, paper_membrane(1e-3))}, reach);
+  has_the_same_bits<FourLaws>(CutLaw{}, reach);
   Noise noise(160);
   for (int i = 0; i < 4; ++i) {
     const TissueCase c = random_tissue(noise);
-    has_the_same_bits<Mixed>(c.law(), std::min(c.reach(), 0.03));
+    has_the_same_bits<FourLaws>(c.law(), std::min(c.reach(), 0.03));
     has_the_same_bits<MixedLaw<ThickLaw, TissueLaw>>(c.law(), std::min(c.reach(), 0.03));
     const Crossing one = crossing(c.law(), c.needle, c.membrane.thickness, 0.9);
-    const Crossing other = crossing(Mixed(c.law()), c.needle, c.membrane.thickness, 0.9);
+    const Crossing other = crossing(FourLaws(c.law()), c.needle, c.membrane.thickness, 0.9);
     CHECK(one.peak == other.peak);
     CHECK(one.through == other.through);
     CHECK(one.settled == other.settled);
@@ -109,7 +109,7 @@ TEST_CASE("a law has the same forces alone and in a MixedLaw, with everything th
 }
 
 TEST_CASE("a law that hears leaving hears it in a MixedLaw: the second stroke is half as hard") {
-  Proxy3d proxy(Mixed(HalfLaw{ThickLaw(paper_needle, paper_membrane(1e-3))}), {}, {0, -1, 0}, Coupling{400, 1}, T);
+  Proxy3d proxy(FourLaws(HalfLaw{ThickLaw(paper_needle, paper_membrane(1e-3))}), {}, {0, -1, 0}, Coupling{400, 1}, T);
   double peak[2] = {};
   for (double& most : peak)
     for (int k = 0; k <= 3200; ++k)
@@ -119,14 +119,13 @@ TEST_CASE("a law that hears leaving hears it in a MixedLaw: the second stroke is
 }
 
 TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
-  using Mixed = MixedLaw<ThickLaw, CutLaw>;
   Scene scene = paper_scene(1e-3);
   scene.servo.low_pass = 0;
   scene.membranes.push_back({"cut", paper_membrane(1e-3), {0, -4e-3, 0}, {0, -1, 0}});
   for (Solver solver : {Solver::paper, Solver::exact}) {
     scene.servo.solver = solver;
     auto mixed = build_insertion<double>(scene, [](const Needle& needle, const Membrane& membrane, std::size_t i) {
-      return i == 0 ? Mixed(ThickLaw(needle, membrane)) : Mixed(CutLaw{});
+      return i == 0 ? FourLaws(ThickLaw(needle, membrane)) : FourLaws(CutLaw{});
     });
     Proxy3d wall(ThickLaw(paper_needle, paper_membrane(1e-3)), {0, 0, 0}, {0, -1, 0}, scene.coupling, T, solver);
     Proxy3d cut(CutLaw{}, {0, -4e-3, 0}, {0, -1, 0}, scene.coupling, T, solver);

@@ -90,6 +90,64 @@ def test_only_real_numbers_are_taken_as_positions(numbers):
         pn.simulate(SCENE, numbers)
 
 
+HALF = np.ma.masked_array([0.0, 1e-3, 0.0], mask=[False, True, False])
+FED = core.FedDevice(1000)
+NOT_REAL = [HALF, np.array([0, 1e-3 + 1e-3j, 0]), np.zeros(3, np.complex64), [0, 1j, 0], [0, np.ma.masked, 0]]
+
+
+@pytest.mark.parametrize("numbers", NOT_REAL, ids=repr)
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (FED.feed, "position"),
+        (lambda numbers: FED.feed((0, 0, 0), numbers), "axis"),
+        (lambda numbers: INSERTION.step(numbers, DOWN), "p"),
+        (lambda numbers: FED.feed((0, 0, 0), motor_temperature=numbers[1]), "motor_temperature"),
+        (lambda numbers: LINE.peek(numbers[1]), "p"),
+        (lambda numbers: pn.Needle(numbers[1], 0.3), "diameter"),
+    ],
+)
+def test_masked_and_complex_numbers_are_refused_where_one_or_three_numbers_are_taken(call, name, numbers):
+    with pytest.raises(TypeError, match=rf"{name}(\[1\])? must be (a number|three numbers), not \w+"):
+        call(numbers)
+
+
+@pytest.mark.parametrize("numbers", NOT_REAL[:4], ids=repr)
+@pytest.mark.parametrize("column", ["time", "sequence", "motor_temperature"])
+def test_masked_and_complex_columns_are_refused(column, numbers):
+    with pytest.raises((TypeError, ValueError), match=f"{column} (must hold real numbers, not complex|has masked)"):
+        core.ReplayDevice(np.zeros((3, 3)), DOWN, 1000, **{column: numbers})
+
+
+def test_real_numbers_of_any_type_are_taken():
+    whole = np.ma.masked_array([0.0, 1e-3, 0.0], mask=False)
+    for numbers in (whole, np.zeros(3, np.float32), [np.int64(0), np.array(1e-3), np.float16(0)], (True, 0, 0.0)):
+        assert len(FED.feed(numbers)) == 3
+
+
+MANY = 10**12
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: LINE.run(np.broadcast_to(0.0, MANY)), "the columns of 1000000000000 ticks need"),
+        (lambda: LINE.run(np.broadcast_to(np.float32(0), MANY)), "the columns of 1000000000000 ticks need"),
+        (lambda: INSERTION.run(np.broadcast_to(np.zeros(3), (MANY, 3)), DOWN), "the columns of 1000000000000 ticks"),
+        (lambda: LINE.run(np.broadcast_to(0.0, (2, MANY))), "p: 2000000000000 numbers in a copy need .* in parts"),
+        (
+            lambda: pn.ThinLaw(SCENE.needle, MEMBRANE).bounds(np.broadcast_to(np.float32(0), MANY)),
+            "depth: 1000000000000 numbers in a copy need .* GB of memory, and .* GB are free",
+        ),
+    ],
+)
+def test_an_array_without_memory_of_its_own_is_refused_before_it_is_copied(call, says):
+    before = LINE.state
+    with pytest.raises(MemoryError, match=says):
+        call()
+    assert LINE.state == before
+
+
 def test_an_object_whose_constructor_did_not_run_is_told():
     class Own(pn.Needle):
         def __init__(self):
@@ -108,7 +166,7 @@ def test_a_run_without_end_is_refused():
     made = pn.Experiment(SCENE, pn.Target((0, 5e-3, 0)))
     with pytest.raises(ValueError, match="duration must be from 0 to 1e9 s"):
         made.run(1e18)
-    with pytest.raises(MemoryError, match=r"not enough memory for the columns of \d+ ticks: make the run in parts"):
+    with pytest.raises(MemoryError, match=r"the columns of \d+ ticks need .* GB of memory, .* Make the run in parts"):
         made.run(1e9)
 
 
