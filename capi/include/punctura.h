@@ -113,7 +113,7 @@ PUNCTURA_API void punctura_scene_free(punctura_scene* scene);
 PUNCTURA_API punctura_status punctura_scene_set(punctura_scene* scene, const char* path, double value);
 PUNCTURA_API punctura_status punctura_scene_get(const punctura_scene* scene, const char* path, double* value);
 /* The words: name, needle.direction, servo.solver, servo.conditioning, display.force_scale ("automatic"),
- * membrane[i].name, membrane[i].look, membrane[i].behind, membrane[i].grip. */
+ * membrane[i].name, membrane[i].look, membrane[i].behind, membrane[i].grip. UTF-8 without control characters. */
 PUNCTURA_API punctura_status punctura_scene_set_word(punctura_scene* scene, const char* path, const char* word);
 
 typedef struct punctura_field {
