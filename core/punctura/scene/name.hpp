@@ -26,7 +26,9 @@ inline bool is_plain_text(std::string_view text) noexcept {
     constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool control = (code < 0x20 && code != '\t') || (code >= 0x7f && code < 0xa0);
     const bool surrogate = code >= 0xd800 && code < 0xe000;
-    if (first > 0xf4 || code < least[size] || code > 0x10ffff || control || surrogate) return false;
+    if ((first >= 0x80 && first < 0xc2) || first > 0xf4 || code < least[size] || code > 0x10ffff || control ||
+        surrogate)
+      return false;
     i += size;
   }
   return true;
