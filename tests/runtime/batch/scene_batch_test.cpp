@@ -73,6 +73,8 @@ batch::SceneBatch tissue_batch(Solver solver, double relaxing, std::size_t trial
   third.point = {0, -5e-3, 0};
   third.tissue = {};
   third.tissue.profile = {{0, -0.1, 0.05}, {1e-3, -0.6, 0.2}, {2e-3, -0.4, 0.3}, {2e-3, -0.3, 0.3}};
+  third.tissue.tip_length = 1e-3;
+  third.membrane.thickness = 5e-3;  // the needle comes back before its whole tip has passed this wall
   membranes.push_back(third);
   Noise noise(5);
   const auto vary = [&](const char* path, double high, std::size_t every) {  // 0 in one of `every` trials
@@ -87,6 +89,7 @@ batch::SceneBatch tissue_batch(Solver solver, double relaxing, std::size_t trial
   vary("membrane[1].tail_floor", 1, 4);
   vary("membrane[1].thickness", 1e-3, 7);
   vary("membrane[2].cutting", 0.5, 2);
+  vary("membrane[2].set", 0.7, 3);
   if (relaxing > 0) vary("coupling.relaxation[0].stiffness", relaxing, trials + 1);
   return all;
 }
