@@ -230,7 +230,18 @@ step_web() {
 }
 
 # The studio in a real browser, used as a person uses it.
-step_page() { python -m pytest -n 2 --durations=8 tests/page; }
+step_page() {
+  local package
+  if has_browser; then
+    python -m pytest -n 2 --durations=8 tests/page
+  elif package=$(browser_package); then
+    echo "Chromium is missing. Run: apt-get install $package"
+    return 1
+  else
+    echo "note: the page was NOT tested: there is no Chromium, and this system's archives have no package of it." \
+      "Install Google Chrome (google.com/chrome), then run ./test page."
+  fi
+}
 
 # The documentation: every code block runs, and the site builds without a warning.
 step_docs() { side_by_side docs_snippets docs_site; }

@@ -89,3 +89,51 @@ def test_settings_of_pip_that_uv_would_not_read_leave_all_to_pip(tmp_path):
 def test_a_folder_of_packages_in_pips_settings_is_given_to_uv(tmp_path):
     set_up = SetUp(tmp_path, 'echo "$@"', ":env:.find-links='/opt/wheels'\nglobal.cert='/etc/ssl/cert.pem'")
     assert "--find-links /opt/wheels --python" in set_up.log("uv")
+
+
+PACKAGES = """
+root=$1 archive="$2"
+source "$root/tools/setup.sh"
+source "$root/tools/steps.sh"
+has_compiler() { true; }
+has_sanitizers() { true; }
+has_siconos() { true; }
+has_header() { [ -e "$root/installed" ]; }
+has_browser() { [ -e "$root/installed" ] && grep -q chromium "$root/installed"; }
+valgrind() { :; }
+find_python() { :; }
+id() { echo 0; }
+apt-get() { :; }
+apt-cache() { [ "$1" = madison ] || case " $archive " in *" ${@: -1} "*) ;; *) return 100 ;; esac; echo "$@"; }
+apt() {
+  [ "$1" = install ] || return 0
+  for package in "${@:3}"; do apt-cache show "$package" || { echo "E: Unable to locate package"; return 100; }; done
+  echo "$@" >"$root/installed"
+}
+python_lacks="" python=/usr/bin/python3 python_minor=3.12
+mkdir -p "$root/build/log"
+provide_packages test
+step_page
+"""
+HEADERS = "doctest-dev libtomlplusplus-dev"
+
+
+@pytest.mark.parametrize("browser", ["", "chromium", "chromium-headless-shell chromium"])
+def test_a_system_without_a_package_of_chromium_gets_the_others_and_is_told_what_is_not_tested(tmp_path, browser):
+    (tmp_path / "tools").symlink_to(ROOT / "tools")
+    fakes = tmp_path / "fakes"
+    fakes.mkdir()
+    (fakes / "python").write_text('#!/bin/sh\necho "tests $*"\n')
+    (fakes / "python").chmod(0o755)
+    done = subprocess.run(
+        ["bash", "-c", PACKAGES, "bash", str(tmp_path), f"{HEADERS} {browser}"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, "PATH": f"{fakes}:{os.environ['PATH']}"},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    installed = (tmp_path / "installed").read_text().split()
+    assert set(installed[2:]) == {*HEADERS.split(), *browser.split()[:1]}
+    assert ("tests -m pytest" in done.stdout) == bool(browser)
+    assert ("note: the page was NOT tested" in done.stdout) == (not browser)

@@ -59,6 +59,7 @@ class StudioClient:
                 max_size=None,
                 ping_interval=None,
                 proxy=None,
+                open_timeout=patience,
             )
         )
         self._thread = threading.Thread(target=self._read, daemon=True)
@@ -105,7 +106,7 @@ class StudioClient:
 
     def get(self, path: str, method: str = "GET") -> tuple[int, bytes]:
         """Requests an address under /api. Returns status and body. `path` may contain any character."""
-        connection = http.client.HTTPConnection(self.host, timeout=60)
+        connection = http.client.HTTPConnection(self.host, timeout=self._patience)
         try:
             connection.request(method, quote(path, safe="/?=&%"), headers={"Authorization": f"Bearer {self.token}"})
             answer = connection.getresponse()

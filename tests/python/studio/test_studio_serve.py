@@ -15,7 +15,7 @@ from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioError, StudioServer, token_from_environment
 from punctura.studio.shelf import default_folder
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 
 def start(tmp_path, *more, **environment):
@@ -34,11 +34,9 @@ def start(tmp_path, *more, **environment):
 
 
 def test_it_prints_its_address_and_ends_after_the_time_that_was_asked_for(tmp_path):
-    process = start(tmp_path, "--duration", "2")
-    url = process.stdout.readline().strip()
-    with StudioClient(url) as page:
-        page.wait(lambda: page.last)
-    out, said = process.communicate(timeout=60)
+    process = start(tmp_path, "--duration", "0.1")
+    assert process.stdout.readline().startswith("http://127.0.0.1:")
+    out, said = process.communicate(timeout=PATIENCE_S)
     assert (process.returncode, out) == (0, "")
     assert "K06 Fig. 10 on PHANTOM Omni, simulated" in said and "Traceback" not in said
 
@@ -53,7 +51,7 @@ def test_a_signal_ends_it_with_the_recording_whole(tmp_path, name):
         process.send_signal(getattr(signal, name))
         page._thread.join(60)
         assert page.closed is not None
-    _, said = process.communicate(timeout=60)
+    _, said = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 128 + getattr(signal, name) and "Traceback" not in said
     assert [p.name for p in (tmp_path / "kept").iterdir()] == ["r.parquet"]
 
@@ -63,12 +61,13 @@ def test_a_studio_that_was_started_anew_with_the_same_token_takes_its_page_back(
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     for _ in range(2):
-        process = start(tmp_path, "--port", str(port), "--duration", "2", PUNCTURA_STUDIO_TOKEN="abcdefghijklmnop-_1")
+        process = start(tmp_path, "--port", str(port), PUNCTURA_STUDIO_TOKEN="abcdefghijklmnop-_1")
         url = process.stdout.readline().strip()
         assert url == f"http://127.0.0.1:{port}/?token=abcdefghijklmnop-_1", process.stderr.read()
         with StudioClient(url) as page:
             page.wait(lambda: page.last)
-        process.communicate(timeout=60)
+        process.terminate()
+        process.communicate(timeout=PATIENCE_S)
 
 
 def test_a_token_that_could_be_guessed_is_refused(monkeypatch):
@@ -83,7 +82,7 @@ def test_a_port_that_is_taken_is_reported(tmp_path):
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         process = start(tmp_path, "--port", str(taken.getsockname()[1]))
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 1 and "leave out --port" in said and "Traceback" not in said
 
 
