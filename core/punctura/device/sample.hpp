@@ -7,6 +7,8 @@
 namespace punctura {
 
 /// One reading of a device. Axes: right-handed, x right, y up, z towards the user.
+///
+/// A number that is not finite is a fault (input_gate.hpp). A device without a sensor leaves the default.
 struct DeviceSample {
   std::uint64_t sequence;  ///< number of the reading, counted by the device; an equal number is the same reading
   double time;             ///< start of the tick, s, on a clock that never goes back

@@ -19,7 +19,8 @@ struct ForceLimits {
   double continuous_force = Omni::continuous_force;  ///< N rms in any interval of continuous_time
   double continuous_time = 10;  ///< s. A chosen value: no data sheet gives the thermal time constant of the motors
   double ramp_time = 0.5;       ///< s from zero force to full force after arming
-  double warm_motor = 0.8;      ///< motor temperature, 0 to 1, above which the ceiling decreases; it is 0 N at 1
+  double warm_motor = 0.8;      ///< motor temperature, 0 to 1, above which the ceiling decreases at once; it is 0 N at
+                                ///< 1. It takes continuous_time to return from there: no motor cools faster
 };
 
 /// The largest force that these limits permit for any time, N. Motors that get warm can lower it further.
@@ -70,12 +71,13 @@ class BasicForceLimiter {
         steady_(std::min(max_force_, std::sqrt(budget_.rate()))),
         full_(steady_ + (max_force_ - steady_)),
         hold_(std::max(period, longest_hold)),
-        ramp_step_(period / static_cast<Scalar>(limits.ramp_time)) {
+        ramp_step_(period / static_cast<Scalar>(limits.ramp_time)),
+        cooling_step_(period / static_cast<Scalar>(limits.continuous_time)) {
     // Up to half of the budget the share in permitted() is 1, and there is the least room for a hold at the half.
     const Scalar half = budget_.depth() / 2;
     const Scalar square = full_ * full_;
     full_until_ = square > smallest_square && budget_.permitted_square(hold_, half) >= square ? half : -1;
-    ceiling_ = permitted(0);
+    ceiling_ = permitted();
   }
 
   /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
@@ -84,6 +86,7 @@ class BasicForceLimiter {
   /// Takes over the ramp, the budget and the counters of another limiter, but keeps its own limits.
   void resume(const BasicForceLimiter& previous) noexcept {
     gain_ = previous.gain_;
+    cool_ = previous.cool_;
     held_square_ = previous.held_square_;
     counters_ = previous.counters_;
     budget_.set_spent(previous.budget_.spent());
@@ -98,13 +101,14 @@ class BasicForceLimiter {
     if (gain_ < 1 && wanted != Vector()) act(Limit::ramp, counters_.ramp);
     Vector force = gain_ * wanted;
 
-    ceiling_ = permitted(motor_temperature);
+    feel(motor_temperature);
+    ceiling_ = permitted();
     held_square_ = force.squaredNorm();
     // Most forces are far enough below the ceiling that rounding cannot matter. They need no root. Denormal squares are
     // too coarse for this comparison.
     const Scalar below = Scalar(0.999) * ceiling_ * ceiling_;
     if (!(held_square_ < below && below > smallest_square)) {
-      force = clamped(force, motor_temperature);
+      force = clamped(force);
       held_square_ = force.squaredNorm();
     }
     return force;
@@ -113,7 +117,8 @@ class BasicForceLimiter {
   /// One tick without force. motor_temperature: 0 to 1. elapsed: s since the previous tick, as in step().
   void rest(Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
     count(elapsed);
-    ceiling_ = permitted(motor_temperature);
+    feel(motor_temperature);
+    ceiling_ = permitted();
   }
 
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
@@ -130,8 +135,8 @@ class BasicForceLimiter {
 
   static void archive(auto& self, auto& state) {
     BasicForceBudget<Scalar>::archive(self.budget_, state);
-    state.numbers(self.gain_, self.ceiling_, self.held_square_);
-    state.require(self.gain_ >= 0 && self.gain_ <= 1 && self.held_square_ >= 0);
+    state.numbers(self.gain_, self.cool_, self.ceiling_, self.held_square_);
+    state.require(self.gain_ >= 0 && self.gain_ <= 1 && self.cool_ >= 0 && self.cool_ <= 1 && self.held_square_ >= 0);
     state.choice(self.limit_, Limit::temperature);
     constexpr auto any = std::numeric_limits<std::uint64_t>::max();
     for (auto* counter :
@@ -144,17 +149,21 @@ class BasicForceLimiter {
   }
 
  private:
-  /// The factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction.
-  Scalar thermal_factor(Scalar temperature) const noexcept {
-    if (temperature <= warm_motor_) return 1;
-    return std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_));
+  /// Warm motors reduce the ceiling at once. It returns slowly, so that a sensor that fails now and then cannot switch
+  /// the force on and off. NaN reduces it to 0.
+  void feel(Scalar temperature) noexcept {
+    const Scalar cooler = std::min(Scalar(1), cool_ + cooling_step_);
+    if (temperature <= warm_motor_)
+      cool_ = cooler;
+    else
+      cool_ = std::min(cooler, std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_)));
   }
 
   /// A force whose norm is at most the ceiling, with the direction of `force`.
-  Vector clamped(const Vector& force, Scalar motor_temperature) noexcept {
+  Vector clamped(const Vector& force) noexcept {
     const Scalar norm = force.stableNorm();
     if (norm <= ceiling_) return force;
-    if (thermal_factor(motor_temperature) < 1)
+    if (cool_ < 1)
       act(Limit::temperature, counters_.temperature);
     else if (ceiling_ < max_force_)
       act(Limit::continuous, counters_.continuous);
@@ -163,11 +172,11 @@ class BasicForceLimiter {
     return force / norm * ceiling_;
   }
 
-  Scalar permitted(Scalar temperature) const noexcept {
-    if (budget_.spent() <= full_until_) return thermal_factor(temperature) * full_;  // the same as below, to the bit
+  Scalar permitted() const noexcept {
+    if (budget_.spent() <= full_until_) return cool_ * full_;  // the same as below, to the bit
     const Scalar share = std::min(Scalar(1), 2 * budget_.left());
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
-    return thermal_factor(temperature) * std::min(wanted, std::sqrt(budget_.permitted_square(hold_, budget_.spent())));
+    return cool_ * std::min(wanted, std::sqrt(budget_.permitted_square(hold_, budget_.spent())));
   }
 
   /// Counts the force of the previous tick for the time that the device held it.
@@ -195,7 +204,8 @@ class BasicForceLimiter {
   Scalar steady_;      ///< the largest constant force, N
   Scalar full_;        ///< the ceiling of cool motors with a full budget, N: max_force, but for rounding
   Scalar full_until_;  ///< the ceiling of cool motors is full_ while no more than this is spent, N^2 s; -1: never sure
-  Scalar hold_, ramp_step_;
+  Scalar hold_, ramp_step_, cooling_step_;
+  Scalar cool_ = 1;  ///< the factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction
   Scalar gain_ = 0, ceiling_;
   Scalar held_square_ = 0;  ///< the square of the force that the device holds since the last tick, N^2
   Limit limit_ = Limit::none;

@@ -54,7 +54,9 @@ class BasicInputGate {
     if (!s.healthy) return Fault::device;
     const Vector position = to_vector(s.position).template cast<Scalar>(),
                  axis = to_vector(s.axis).template cast<Scalar>();
-    if (!position.allFinite() || !std::isfinite(s.time)) return Fault::non_finite_input;
+    if (!is_place(position) || !std::isfinite(s.time + s.motor_temperature + s.thumb_felt))
+      return Fault::non_finite_input;
+    if (!is_place(s.thumb)) return std::isnan(s.thumb) ? Fault::thumb : Fault::non_finite_input;
     if (axis_is_used_) {
       if (!axis.allFinite()) return Fault::non_finite_input;
       if (!(std::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;

@@ -106,10 +106,10 @@ namespace detail {
 inline bool finite(const std::array<double, 3>& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
-/// The value to show for a wrong vector: its first entry that is not finite, otherwise its first entry.
+/// The value to show for a wrong vector: its first entry that is not a place, otherwise its first entry.
 inline double value_to_show(const std::array<double, 3>& v) noexcept {
   for (double x : v)
-    if (!std::isfinite(x)) return x;
+    if (!is_place(x)) return x;
   return v[0];
 }
 }  // namespace detail
@@ -140,8 +140,9 @@ inline void check(const ServoSettings& servo, std::vector<Problem>& problems) {
 
 /// The problems of a membrane's place: point and inward normal.
 inline void check_place(const PlacedMembrane& placed, const std::string& path, std::vector<Problem>& problems) {
-  if (!detail::finite(placed.point))
-    problems.push_back({path + ".point", detail::value_to_show(placed.point), "must be three finite numbers"});
+  if (!is_place(to_vector(placed.point)))
+    problems.push_back(
+        {path + ".point", detail::value_to_show(placed.point), "must be three finite numbers, m, within 1000 km"});
   const auto& n = placed.inward_normal;
   if (!detail::finite(n))
     problems.push_back({path + ".inward_normal", detail::value_to_show(n), "must be three finite numbers"});

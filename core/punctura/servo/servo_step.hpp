@@ -107,10 +107,9 @@ class ServoStepOf {
     if (fault_ == Fault::none) {
       model_force = insertion_.step(to_vector(sample.position).template cast<Scalar>(),
                                     to_vector(sample.axis).template cast<Scalar>().stableNormalized());
-      if (!model_force.allFinite()) fault_ = Fault::non_finite_force;
-      // NaN says that the thumb's device has a fault: then neither hand gets force.
-      if (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_)))
-        fault_ = Fault::thumb;
+      if (!model_force.allFinite() ||
+          (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_))))
+        fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) {
       state_ = ServoState::faulted;

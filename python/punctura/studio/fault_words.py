@@ -6,8 +6,9 @@ from punctura._core import Fault
 
 _WORDS: dict[Fault, tuple[str, str]] = {
     Fault.non_finite_input: (
-        "The device reported a position or a direction that is not a number.",
-        "Check the device's cable and its calibration.",
+        "The device reported a number that is not finite (position, direction, time or motor temperature), "
+        "or a position beyond 1000 km.",
+        "Check the device's cable, its calibration and the unit of its positions, m.",
     ),
     Fault.bad_axis: (
         "The device reported a direction of the needle whose length is not 1.",
@@ -22,8 +23,8 @@ _WORDS: dict[Fault, tuple[str, str]] = {
         "Check the connection of the device.",
     ),
     Fault.missed_deadline: (
-        "The computer was too slow: a tick came too late.",
-        "Close programs that keep the processor busy.",
+        "A tick came too late: the computer was too slow, or asleep.",
+        "Close programs that keep the processor busy, and keep the computer awake.",
     ),
     Fault.clock: (
         "The clock of the device went back.",

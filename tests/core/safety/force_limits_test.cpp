@@ -210,11 +210,33 @@ TEST_CASE("ceiling() includes warm motors, and limit() is the limit that reduced
   limiter.rest(1);
   CHECK(limiter.ceiling() == 0);
   CHECK(limiter.limit() == Limit::none);
+  for (int k = 0; k < 16001; ++k) limiter.rest();
   limiter.step({0, 5, 0});
   CHECK(limiter.limit() == Limit::peak);
   limiter.reset();
   limiter.step({0, 1, 0});
   CHECK(limiter.limit() == Limit::ramp);
+}
+
+TEST_CASE("after a cut by temperature the ceiling rises slowly, also with a sensor that fails now and then") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double bad : {1.2, 0.9, nan}) {
+    auto limiter = ramped();
+    limiter.step({0, 2, 0}, bad);
+    const double cut = limiter.ceiling();
+    CHECK(cut == doctest::Approx(bad == 0.9 ? 1.65 : 0));
+    double before = cut;
+    for (int k = 0; k < 3000; ++k) {  // every second reading is bad: the ceiling stays
+      limiter.rest(k % 2 == 0 ? 0 : bad);
+      CHECK(std::abs(limiter.ceiling() - before) <= 3.3 / 16000 * 1.001);
+      before = limiter.ceiling();
+    }
+    CHECK(before <= cut + 3.3 / 16000);
+    limiter.step({0, 2, 0});
+    CHECK(limiter.limit() == Limit::temperature);
+    for (int k = 0; k < 16001; ++k) limiter.rest(0);
+    CHECK(limiter.ceiling() == 3.3);
+  }
 }
 
 TEST_CASE("a force whose square overflows is clamped correctly") {
@@ -247,7 +269,8 @@ struct PlainLimits {
   Vector3<Scalar> step(const Vector3<Scalar>& wanted, Scalar temperature) {
     budget.spend(held.squaredNorm(), Scalar(T));
     const auto warm = static_cast<Scalar>(given.warm_motor);
-    const Scalar factor = temperature <= warm ? 1 : std::max(Scalar(0), (1 - temperature) / (1 - warm));
+    const Scalar target = temperature <= warm ? 1 : std::max(Scalar(0), (1 - temperature) / (1 - warm));
+    factor = std::min(target, factor + Scalar(T) / static_cast<Scalar>(given.continuous_time));
     const Scalar steady = std::min(most, std::sqrt(budget.rate()));
     const Scalar share = std::min(Scalar(1), 2 * budget.left());
     const Scalar room = std::sqrt(budget.permitted_square(BasicForceLimiter<Scalar>::longest_hold, budget.spent()));
@@ -265,7 +288,7 @@ struct PlainLimits {
   }
 
   ForceLimits given;
-  Scalar most, ceiling = 0;
+  Scalar most, ceiling = 0, factor = 1;
   BasicForceBudget<Scalar> budget;
   Vector3<Scalar> held{};
   Limit limit = Limit::none;

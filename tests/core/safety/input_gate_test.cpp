@@ -37,10 +37,34 @@ TEST_CASE("a number that is not finite is refused in every field") {
       CHECK(second(s) == Fault::non_finite_input);
       CHECK(second(s, false) == Fault::none);  // an axis that is not used can have any value
     }
+    for (double DeviceSample::* number :
+         {&DeviceSample::time, &DeviceSample::motor_temperature, &DeviceSample::thumb_felt}) {
+      auto s = sample(1);
+      s.*number = bad;
+      CHECK(second(s) == Fault::non_finite_input);
+    }
     auto s = sample(1);
-    s.time = bad;
-    CHECK(second(s) == Fault::non_finite_input);
+    s.thumb = bad;
+    CHECK(second(s) == (std::isnan(bad) ? Fault::thumb : Fault::non_finite_input));
   }
+}
+
+TEST_CASE("a position or a thumb beyond 1000 km is refused, also in float") {
+  for (double far : {2e6, -1e7, 1e30, 1e300}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      auto s = sample(0);
+      s.position[i] = far;
+      CHECK(InputGate({}, T, true).step(s) == Fault::non_finite_input);
+      CHECK(InputGateF({}, T, true).step(s) == Fault::non_finite_input);
+    }
+    auto s = sample(0);
+    s.thumb = far;
+    CHECK(InputGate({}, T, true).step(s) == Fault::non_finite_input);
+  }
+  auto s = sample(0);
+  s.position = {1e6, -1e6, 1e6};
+  CHECK(InputGate({}, T, true).step(s) == Fault::none);
+  CHECK(std::string(describe(Fault::non_finite_input)).find("1000 km") != std::string::npos);
 }
 
 TEST_CASE("an axis that does not have length 1 is refused") {

@@ -1,5 +1,6 @@
 """A device that a loop in Python drives."""
 
+import math
 import sys
 import threading
 import time
@@ -7,6 +8,7 @@ import time
 import numpy as np
 import punctura as pn
 import pytest
+from punctura import Fault, Limit
 from punctura.live import DeviceInfo, FedDevice, GateLimits, Pacer, ReplayDevice, ServoLoop, make_realtime, run_live
 from waiting import wait_until
 
@@ -58,6 +60,28 @@ def test_all_of_a_reading_reaches_the_tick():
     assert last["motor_temperature"][0] == 0.5
     device.feed((0, 0, 0), healthy=False)
     assert loop.latest()["fault"][0] and "healthy = false" in device.trouble()
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_motor_temperature_that_is_not_finite_is_a_fault(bad):
+    device = FedDevice(1000, real_time=False)
+    with ServoLoop(device, SCENE) as loop:
+        loop.start()
+        device.feed((0, 1e-3, 0))
+        device.feed((0, 1e-3, 0), motor_temperature=bad)
+        assert Fault(loop.latest()["fault"][0]) == Fault.non_finite_input
+
+
+def test_a_temperature_sensor_that_fails_now_and_then_does_not_switch_the_force():
+    device = FedDevice(1600, real_time=False)
+    with ServoLoop(device, SCENE) as loop:
+        loop.arm()
+        loop.start()
+        steady = [device.feed(place)[1] for place in PATH][-1]
+        hot = [device.feed(PATH[-1], motor_temperature=1.2 if k % 2 == 0 else 0.0)[1] for k in range(1600)]
+        assert steady > 0.1 and max(hot) < 2e-3 and int(loop.latest()["limit"][0]) == int(Limit.temperature)
+        cool = [device.feed(PATH[-1])[1] for _ in range(16001)]
+        assert max(abs(np.diff(cool))) < 1e-3 and cool[-1] == pytest.approx(steady, rel=0.1)
 
 
 def test_what_the_device_says_of_itself_limits_the_force():

@@ -126,7 +126,7 @@ def test_a_fault_is_told_with_its_reason_and_left_by_a_reset(page):
     assert page.ask(do="trip_fault")["ok"]
     fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
     assert fault["fault"] == "non_finite_input" and fault["kept"] > 0 and fault["tick"] is not None
-    assert "not a number" in fault["reason"] and "cable" in fault["remedy"]
+    assert "not finite" in fault["reason"] and "cable" in fault["remedy"]
     page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.faulted))
     assert not page.last.ticks["force"][-1].any()
     assert page.ask(do="reset")["ok"]
