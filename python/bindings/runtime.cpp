@@ -1,5 +1,6 @@
 // runtime: devices and the live loop. A tick never takes the GIL.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/variant.h>
 
@@ -7,6 +8,7 @@
 
 #include "bindings.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
+#include "punctura_runtime/loop/motor_rest.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"
@@ -79,14 +81,18 @@ void bind_runtime(nb::module_& m) {
   def_repr(device, "<{0.__class__.__name__} {0.info.model!r} at {0.info.rate:g} Hz>");
   device.def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_rw(
-          "spent", [](const Device& d) { return d.motor_use.spent; },
-          [](Device& d, double spent) { d.motor_use = {spent, unknown}; },
+          "spent", &kept_spent, [](Device& d, double spent) { keep_spent(d, spent, unknown); },
           "Motor load at the end of the last run that the motors have not recovered from, N^2 s.\n\n"
           "The next run starts with it, so that the limit on continuous force holds across runs. A value that is\n"
           "set counts in full: the time before the next run does not count as rest.")
       .def(
-          "go_on_from", [](Device& d, const Device& previous) { d.motor_use = previous.motor_use; },
-          nb::arg("previous"), "Takes over the motor load of `previous`, an object for the same physical device.")
+          "go_on_from", [](Device& d, const Device& previous) { go_on_from(previous, d); }, nb::arg("previous"),
+          "Takes over the motor load of `previous`, an object for the same physical device.")
+      .def_prop_ro(
+          "longest_silence",
+          [](const Device& d) { return std::pair(d.longest_silence().at_start, d.longest_silence().later); },
+          "Longest time without a tick before a run is ended, s: before the first tick, and later.\n\n"
+          "A longer deadline of the gate extends it to five deadlines. Infinite where nobody holds the device.")
       .def("trouble", &Device::trouble, nb::call_guard<WithoutLock>(),
            "Description of the problem; empty if there is none.")
       .def("statements", &Device::statements,
@@ -175,7 +181,17 @@ void bind_runtime(nb::module_& m) {
           nb::arg("placement") = Placement{}, nb::arg("thumb") = nb::none(),
           "A device can be in one running loop at a time. The period is the device's own. Its force ratings tighten\n"
           "the limits. thumb: a second device, which holds the plunger of the scene's syringe.")
-      .def("start", &ServoLoop::start, nb::call_guard<WithoutLock>(), "Starts the ticks, disarmed. Raises DeviceError.")
+      .def(
+          "start",
+          [](ServoLoop& loop, std::optional<double> duration) {
+            if (duration && !(*duration >= 0)) throw nb::value_error("duration must be 0 s or more");
+            const WithoutLock release;
+            loop.start(duration.value_or(ServoLoop::endless));
+          },
+          nb::arg("duration") = nb::none(),
+          "Starts the ticks, disarmed. Raises DeviceError.\n\n"
+          "duration: s. After it the ticks give no force and are not recorded, and a thread of the loop stops the\n"
+          "device. The same thread stops a device whose ticks cease: see silence. It needs no GIL.")
       .def("stop", &ServoLoop::stop, nb::call_guard<WithoutLock>(), "Sets zero force, then ends the ticks.")
       .def(
           "__enter__", [](ServoLoop& loop) -> ServoLoop& { return loop; }, nb::rv_policy::reference)
@@ -223,8 +239,12 @@ void bind_runtime(nb::module_& m) {
           "room", [](const ServoLoop& loop) { return loop.room(); },
           "Default capacity of a listener for the present scene: 8 s of snapshots, at most 32 MB.")
       .def_prop_ro("running", &ServoLoop::running)
+      .def_prop_ro("over", &ServoLoop::over,
+                   "Whether the last run has ended by itself. Its device may still be stopping.")
+      .def_prop_ro("silence", &ServoLoop::silence,
+                   "Why ticks that ceased have ended the last run, in words; otherwise empty.")
       .def_prop_ro(
-          "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks since the last start")
+          "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks so far, in all runs")
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::copy_scene, "The running scene, at the device's rate.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
@@ -234,8 +254,8 @@ void bind_runtime(nb::module_& m) {
       .def_prop_ro("force_scale", &ServoLoop::force_scale,
                    "How much of the model's force the device gives in the running scene, before the limits.")
       .def("report", &report, nb::sig("def report(self) -> LoopReport"),
-           "Timing statistics: ticks, late, and for period and compute the quantiles p50, p99, p99_9, the largest\n"
-           "(s) and the counts by bin.")
+           "Timing statistics of all runs so far: ticks, late, and for period and compute the quantiles p50, p99,\n"
+           "p99_9, the largest (s) and the counts by bin.")
       .def(
           "latest", [](ServoLoop& loop) { return as_ticks({loop.latest()}); }, nb::sig("def latest(self) -> Ticks"),
           "The last tick, one row; all zeros before the first tick.")

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "punctura/device/sample.hpp"
+#include "punctura/model/vector3.hpp"
 
 namespace punctura {
 
@@ -25,6 +27,16 @@ struct DeviceInfo {
   double rate = unknown;              ///< Hz, ticks per second, measured or set when the device was opened
 };
 
+/// The longest times without a tick, s, before a loop ends the run: until then the device holds its last force.
+struct LongestSilence {
+  double at_start = 0.1;  ///< before the first tick
+  double later = 0.1;
+  /// Nobody holds the device, or it does not follow the clock.
+  static constexpr LongestSilence any() noexcept {
+    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+};
+
 /// A device cannot be opened or started. The text says what is wrong and what to do.
 class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -38,13 +50,20 @@ struct MotorUse {
 
 /// The callback of a device. The device calls it once per reading. It returns the force for the device, N.
 ///
-/// It never throws and never waits.
+/// It never throws and never waits. It is the last guard before every motor: a force that is not finite becomes zero,
+/// and one above max_force is shortened. A back-end needs no guard of its own.
 struct Tick {
   using Force = std::array<double, 3>;
   Force (*call)(void* context, const DeviceSample& sample) noexcept;
   void* context;
+  double max_force;  ///< N, norm, in the axes of the device
 
-  Force operator()(const DeviceSample& sample) const noexcept { return call(context, sample); }
+  Force operator()(const DeviceSample& sample) const noexcept {
+    const Vector3d force = to_vector(call(context, sample));
+    if (force.squaredNorm() <= max_force * max_force) return to_array(force);
+    const double norm = force.stableNorm();
+    return std::isfinite(norm) ? to_array(max_force / norm * force) : Force{0, 0, 0};
+  }
 };
 
 /// An open device. It determines when a tick runs: the device calls the callback.
@@ -65,6 +84,8 @@ class Device {
   /// Sets the force to zero and ends the ticks. When it returns, both are done. It may be called at any time, also
   /// twice.
   virtual void stop() noexcept = 0;
+
+  virtual LongestSilence longest_silence() const noexcept { return {}; }
 
   /// Describes the problem if samples have healthy = false or if ticks have stopped. Otherwise empty.
   virtual std::string trouble() const { return {}; }

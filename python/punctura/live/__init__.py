@@ -29,7 +29,6 @@ from punctura.live.run_notes import damping_note, run_notes
 from punctura.live.second import SecondDevice, SecondDeviceError, direction_of
 from punctura.live.session import run_live
 from punctura.live.signals import Ended
-from punctura.live.silence import SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.record.room import room_note
 from punctura.results import BackendState, LoopReport, Quantiles
@@ -56,7 +55,6 @@ __all__ = [
     "SecondDevice",
     "SecondDeviceError",
     "ServoLoop",
-    "SilenceWatch",
     "SimulatedDevice",
     "ThumbLoop",
     "damping_note",

@@ -7,6 +7,7 @@ dead_man_buttons = [1]      # one of them must be held for force to be given
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -18,7 +19,6 @@ from punctura.files.fields import Buttons, Number
 from punctura.files.tables import Table
 from punctura.files.units import split_key
 from punctura.live.choose import gate_for
-from punctura.live.silence import HELD_BY_NOBODY
 from punctura.live.tables import in_si, read_table
 
 _RATED = {"max_force_N": "max_force", "continuous_force_N": "continuous_force"}  # no device gives more
@@ -103,7 +103,7 @@ class Limits(NamedTuple):
                 f"continuous_time_s = {chosen:g} lets strong forces last longer than {usual:g} s does: "
                 "motors may get hotter than their maker allows"
             )
-        held = [one for one in (loop, thumb) if one is not None and not isinstance(one.device, HELD_BY_NOBODY)]
+        held = [one for one in (loop, thumb) if one is not None and math.isfinite(one.device.longest_silence[1])]
         longest, room = self.gate.get("deadline", 0), GateLimits().deadline
         if longest > room and held:
             notes.append(

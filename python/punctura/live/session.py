@@ -10,9 +10,10 @@ from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, Se
 from punctura.live.choose import gate_for
 from punctura.live.run_notes import run_notes
 from punctura.live.signals import Ended, ends_on_signals
-from punctura.live.silence import LONGEST_S, SilenceWatch
 from punctura.live.summary import RunSummary
 from punctura.live.supervisor import POLL_S, Supervisor
+
+LATCH_S = 0.1  # for the needle's ticks to latch a fault of the second device
 
 
 def run_live(
@@ -28,9 +29,9 @@ def run_live(
 ) -> RunSummary:
     """Runs until `duration` (s) is over, a fault is latched, ticks cease, the device ends, or a signal comes.
 
-    A separate thread ends the run and the force, so `watch` may block. A signal raises Ended: inside `watch` at once;
-    otherwise at the end, so that neither `prepare` nor the function that it returns is interrupted. Its `summary` is
-    that of the run.
+    Separate threads end the run and the force, so `watch` may block. It may even hold the GIL, except for the end by a
+    signal or a fault. A signal raises Ended: inside `watch` at once; otherwise at the end, so that neither `prepare`
+    nor the function that it returns is interrupted. Its `summary` is that of the run.
 
     watch: called about 20 times a second with the summary; its `statements` begin with run_notes(). prepare: called
     with the loop before it starts, to add listeners; it returns a function that is called after the stop. thumb: a
@@ -65,8 +66,8 @@ def _run(
         loop = ServoLoop(device, scene, gate or gate_for(device), force, stands, thumb)
         summary.statements = run_notes(loop)
         listener = loop.listen()
-        watched = Watched(loop, thumb)
-        supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop, duration)
+        watched = Watched(loop, thumb, duration)
+        supervisor = Supervisor(signals, watched.begin, watched.over, loop.stop)
         finish: Callable[[], None] | None = None
         try:
             finish = prepare(loop) if prepare else None
@@ -75,7 +76,7 @@ def _run(
             while not ended:
                 ended = supervisor.wait(POLL_S)
                 summary.add(listener.read())  # a signal in this line must not lose the ticks that were read
-                summary.fault = summary.fault or watched.silence
+                summary.fault = summary.fault or loop.silence
                 if summary.fault and ended:  # not before the stop: the driver may take time to answer
                     summary.blame(device, thumb)
                 if watch:
@@ -95,21 +96,18 @@ def _run(
 class Watched:
     """A loop as its supervisor sees it."""
 
-    def __init__(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
-        self.silence = ""  # why the ticks ceased, in words
-        self._loop, self._thumb = loop, thumb
+    def __init__(self, loop: ServoLoop, thumb: ThumbLoop | None = None, duration: float | None = None) -> None:
+        self._loop, self._thumb, self._duration = loop, thumb, duration
         self._thumb_seen: tuple[float, int] | None = None  # when its fault was seen: s, and the needle's ticks then
-        self._watch = SilenceWatch(loop, thumb)
 
     def begin(self) -> None:
         """Raises DeviceError."""
         self._loop.arm()
-        self._loop.start()
+        self._loop.start(self._duration)
 
     def over(self) -> bool:
-        self.silence = self._watch.ceased()
         ended = getattr(self._loop.device, "finished", False) or self._loop.latest()["fault"][0]
-        return bool(self.silence or ended or self._thumb_is_over())
+        return bool(self._loop.over or ended or self._thumb_is_over())
 
     def _thumb_is_over(self) -> bool:
         """True after a fault of the second device, once the needle's ticks had the time to latch and record it.
@@ -123,4 +121,4 @@ class Watched:
         if self._thumb_seen is None:
             self._thumb_seen = now, ticks
         seen, before = self._thumb_seen
-        return ticks >= before + 2 or now - seen >= LONGEST_S  # one tick may have begun before the fault
+        return ticks >= before + 2 or now - seen >= LATCH_S  # one tick may have begun before the fault

@@ -142,6 +142,11 @@ class Run:
         return len(ticks) > 0 and int(ticks.fault[-1]) != Fault.none.value
 
     @property
+    def silence(self) -> str:
+        """Why ticks that ceased have ended the run; otherwise empty."""
+        return self.loop.silence
+
+    @property
     def lost(self) -> int:
         """Snapshots that found no room in the ring."""
         return int(self._listener.lost)

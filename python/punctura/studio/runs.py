@@ -45,9 +45,6 @@ class Runs:
         self.compare = self.estimate = False
         self.takes = Takes()
 
-    def watch(self) -> None:
-        """The present run has started."""
-
     def begin(
         self,
         loaded: Loaded,
@@ -124,7 +121,7 @@ class Runs:
     def end_run(self, then: Then | None = None) -> None:
         """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
         self.run.stop()
-        if self.run.faulted:
+        if self.run.faulted or self.run.silence:
             self.arming.withhold()
         self.turn()
         finish_activity = self.activities.stop()
@@ -159,7 +156,6 @@ class Runs:
         if remind and not self.arming.armed:
             self.out.say(Notice(text=STILL_OFF))
         self.run.start()
-        self.watch()
 
     def turn(self, most: int | None = None) -> None:
         """Sends the ticks that wait to the pages and to the activity, at most so many; all if not given."""

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeVar
 
-from punctura._core import ServoLoop
 from punctura.exercise import ResultStore
 from punctura.studio.catalog import Exercises
 from punctura.studio.experts import Experts
@@ -19,11 +18,10 @@ from punctura.studio.health import no_ticks, recording_status, status_of
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Publisher
 from punctura.studio.rounds import Rounds
-from punctura.studio.run import Settings
+from punctura.studio.run import Run, Settings
 from punctura.studio.runs import Runs
 from punctura.studio.shelf import Shelf
 from punctura.studio.thumb import SimulatedThumb
-from punctura.studio.watchdog import Watchdog
 from punctura.studio.wire.messages import Notice
 from punctura.studio.wire.requests import Target
 
@@ -55,8 +53,8 @@ class Session(Runs):
         self.thumb = SimulatedThumb()
         self._rounds = Rounds()
         self._target: Target | None = None
+        self._silent: Run | None = None  # the last run whose ticks ceased
         self._stopping = threading.Event()
-        self._watchdog = Watchdog(self._tell_ceased)
         self._thread = threading.Thread(target=self._work, name="punctura-studio", daemon=True)
 
     def start(self) -> None:
@@ -91,11 +89,6 @@ class Session(Runs):
         """From any thread: takes the force away at once, even if the worker is busy."""
         self.arming.pause(lambda: self.run.loop)
 
-    def _tell_ceased(self, loop: ServoLoop, words: str) -> None:
-        """From the watchdog's thread. No request that waits for the worker may arm a new run before it hears of it."""
-        self.arming.withhold()
-        self.jobs.post(lambda: self._ticks_ceased(loop, words))
-
     def target(self, wish: Target) -> None:
         """From any thread: where the simulated hand must go. A later target replaces one that still waits."""
         waiting, self._target = self._target, wish
@@ -104,16 +97,15 @@ class Session(Runs):
 
     # Everything below belongs to the worker's thread.
 
-    def watch(self) -> None:
-        self._watchdog.watch(self.run.loop, self.run.thumb)
-
-    def _ticks_ceased(self, loop: ServoLoop, words: str) -> None:
-        """The watchdog stops this loop."""
-        if loop is self.run.loop:
+    def _tell_silence(self) -> None:
+        """Tells once that the ticks of the present run have ceased. The loop stops by itself."""
+        run, words = self.run, self.run.silence
+        if words and run is not self._silent:
+            self._silent = run
             self.out.say(no_ticks(words))
             self.defects.guard(self.end_run)
-            thumb = self.run.thumb.device.trouble() if self.run.thumb else ""
-            if trouble := loop.device.trouble() or thumb:  # after the stop: the driver may take time to answer
+            thumb = run.thumb.device.trouble() if run.thumb else ""
+            if trouble := run.loop.device.trouble() or thumb:  # after the stop: the driver may take time to answer
                 self.out.say(no_ticks(f"{words}. {trouble}"))
 
     def _take_target(self) -> None:
@@ -127,7 +119,6 @@ class Session(Runs):
 
     def _work(self) -> None:
         try:
-            self._watchdog.start()
             self.start_run()
             self._serve()
         except BaseException as error:
@@ -135,7 +126,6 @@ class Session(Runs):
         finally:
             self.run.stop()
             self.defects.guard(self.end_run)
-            self._watchdog.end()
             self.takes.wait()
 
     def _serve(self) -> None:
@@ -146,6 +136,7 @@ class Session(Runs):
             now = time.monotonic()
             self.hand.drive(now)
             self.thumb.turn(self.run.loop, now)
+            self._tell_silence()
             if now >= pump_at:
                 self.defects.guard(self._take_turn)
                 pump_at = max(pump_at + PUMP_S, now)

@@ -33,6 +33,10 @@ class FedDevice : public Device {
   const DeviceInfo& info() const noexcept override { return info_; }
   void start(Tick tick) override;
   void stop() noexcept override;
+  /// The feeding program may be held up, most of all before its first reading.
+  LongestSilence longest_silence() const noexcept override {
+    return real_time_ ? LongestSilence{30, 1} : LongestSilence::any();
+  }
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 
@@ -58,7 +62,7 @@ class FedDevice : public Device {
   std::mutex starting_or_stopping_;  ///< not used by feed()
   std::atomic<unsigned> state_{
       0};  ///< open: a loop runs; ticking: a tick runs, and the feeding thread owns all members below
-  Tick tick_{nullptr, nullptr};
+  Tick tick_{};
   std::int64_t start_ns_ = 0;
   Span span_;
   mutable TripleBuffer<Span> latest_span_;

@@ -28,6 +28,7 @@ class ReplayDevice : public Device {
   const DeviceInfo& info() const noexcept override { return info_; }
   void start(Tick tick) override;  ///< from the first sample
   void stop() noexcept override;
+  LongestSilence longest_silence() const noexcept override { return LongestSilence::any(); }
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 

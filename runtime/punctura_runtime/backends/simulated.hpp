@@ -37,6 +37,7 @@ class SimulatedDevice : public Device {
   const DeviceInfo& info() const noexcept override { return info_; }
   void start(Tick tick) override;
   void stop() noexcept override;
+  LongestSilence longest_silence() const noexcept override { return LongestSilence::any(); }
   std::vector<std::string> statements() const override;
 
   /// Sets the position that a Target's hand moves to, m. At any time, from one thread at a time.

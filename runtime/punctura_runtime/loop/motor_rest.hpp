@@ -27,13 +27,20 @@ inline double rested(Device& device, const ForceLimits& limits, double now) {
   return motors.spent;
 }
 
-/// What keep_spent() or rested() kept last, N^2 s.
+/// The device goes on with what the motors of another object for the same physical device have spent.
+inline void go_on_from(const Device& previous, Device& device) {
+  const std::lock_guard lock(detail::motor_use_mutex());
+  device.motor_use = previous.motor_use;
+}
+
+/// What keep_spent(), rested() or go_on_from() kept last, N^2 s.
 inline double kept_spent(const Device& device) {
   const std::lock_guard lock(detail::motor_use_mutex());
   return device.motor_use.spent;
 }
 
-/// Keeps what the motors have spent (N^2 s) at the end of a run, at `now` (s).
+/// Keeps what the motors have spent (N^2 s) at the end of a run, at `now` (s). If `now` is unknown, no time counts as
+/// rest.
 inline void keep_spent(Device& device, double spent, double now) {
   const std::lock_guard lock(detail::motor_use_mutex());
   device.motor_use = {spent, now};

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <thread>
 
+#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/loop/motor_rest.hpp"
 
 namespace punctura {
@@ -44,7 +45,7 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
     throw std::invalid_argument("the thumb needs a device of its own, not the needle's");
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
-  step_ = built(scene_).release();
+  step_ = built(scene_);
   force_scale_ = step_->force_scale();
   scene_.servo.rate = device_->info().rate;
   history_.resize(settings_.history);
@@ -60,7 +61,6 @@ ServoLoop::~ServoLoop() {
     const std::lock_guard lock(mutex);  // waits for a stop_all() that may be using this loop
     std::erase(loops, this);
   }
-  delete step_;
 }
 
 std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
@@ -87,7 +87,7 @@ SnapshotRing& ServoLoop::listen(std::size_t capacity) {
   return *listeners_.back();
 }
 
-void ServoLoop::start() {
+void ServoLoop::start(double duration) {
   const std::lock_guard one(starting_or_stopping_);
   {
     const std::lock_guard lock(between_ticks_);
@@ -98,13 +98,20 @@ void ServoLoop::start() {
     rest_counted_ = false;
     if (ticks_ != 0 && step_->fault() == Fault::none)
       ask(reset_bit);  // do not take the motion since the last run for one of this run
+    over_ = false;
+    silent_s_ = thumb_silent_s_ = 0;
+    const std::int64_t now = settings_.now_ns();
+    ends_at_ = duration < 1e9 ? now + static_cast<std::int64_t>(duration * 1e9) : never_;
+    ticks_watch_.begin(ticks_, now);
+    if (settings_.thumb) thumb_watch_.begin(settings_.thumb->ticks(), now);
   }
   try {
+    watch_.start([this] { return look(); });
     if (settings_.thumb) {
       settings_.thumb->start();
       thumb_runs_ = true;
     }
-    device_->start({&ServoLoop::call, this});
+    device_->start({&ServoLoop::call, this, settings_.limits.max_force});
   } catch (...) {
     stop_thumb();
     end_run();
@@ -114,6 +121,34 @@ void ServoLoop::start() {
 
 void ServoLoop::stop() noexcept {
   const std::lock_guard one(starting_or_stopping_);
+  watch_.stop();
+  halt();
+}
+
+/// From the watching thread. False if there is nothing more to watch.
+bool ServoLoop::look() noexcept {
+  const std::unique_lock one(starting_or_stopping_, std::try_to_lock);
+  if (!one) return true;  // start() or stop() is at work, and may be waiting for this thread
+  if (!running_) return false;
+  const std::int64_t now = settings_.now_ns();
+  silent_s_ = ticks_watch_.silent(ticks_, now, device_->longest_silence(), settings_.gate.deadline);
+  if (ThumbLoop* thumb = settings_.thumb.get())
+    thumb_silent_s_ = thumb_watch_.silent(thumb->ticks(), now, thumb->device().longest_silence(), 0);
+  if (now < ends_at_ && silent_s_ == 0 && thumb_silent_s_ == 0) return true;
+  over_ = true;  // first: a driver's stop may never return
+  halt();
+  return false;
+}
+
+std::string ServoLoop::silence() const {
+  const double needle = silent_s_, thumb = thumb_silent_s_;
+  if (!over_ || (needle == 0 && thumb == 0)) return {};
+  return std::string(needle != 0 ? "the device's" : "the second device's") + " ticks have ceased, for " +
+         decimal_text(needle != 0 ? needle : thumb, 2) +
+         " s, and the run is stopped: should the device still pull, switch it off";
+}
+
+void ServoLoop::halt() noexcept {
   if (!running_) return;
   ask(pause_bit);
   device_->stop();
@@ -161,8 +196,8 @@ void ServoLoop::stop_all() noexcept {
 void ServoLoop::take() noexcept {
   if (ServoStep* next = handover_.take()) {
     next->resume(*step_);
-    handover_.retire(step_);
-    step_ = next;
+    handover_.retire(step_.release());
+    step_.reset(next);
   }
 }
 
@@ -218,6 +253,7 @@ Tick::Force ServoLoop::call(void* self, const DeviceSample& sample) noexcept {
 
 Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   const std::int64_t begin = settings_.now_ns();
+  if (begin >= ends_at_) return after_the_end(begin);
   take();
   obey();
 
@@ -241,6 +277,14 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   const Tick::Force force = placed_ ? placer_.to_device(snapshot.force) : snapshot.force;
   compute_times_.add(settings_.now_ns() - begin);
   return force;
+}
+
+/// A tick after the duration: no force, no record, until the device has stopped.
+Tick::Force ServoLoop::after_the_end(std::int64_t now) noexcept {
+  if (last_begin_ != 0) step_->end(static_cast<double>(now - last_begin_) * 1e-9);
+  last_begin_ = 0;
+  if (settings_.thumb) settings_.thumb->give(0, false);
+  return {0, 0, 0};
 }
 
 /// The depth of the thumb on the plunger in this tick, m.

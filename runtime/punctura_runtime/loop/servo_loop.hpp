@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "punctura/device/device.hpp"
@@ -14,6 +16,8 @@
 #include "punctura/syringe/thumb.hpp"
 #include "punctura_runtime/loop/histogram.hpp"
 #include "punctura_runtime/loop/thumb_loop.hpp"
+#include "punctura_runtime/loop/tick_watch.hpp"
+#include "punctura_runtime/loop/watch_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
@@ -30,7 +34,7 @@ struct LoopSettings {
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
 };
 
-/// Statistics of a loop.
+/// Statistics of a loop, over all its runs.
 struct LoopReport {
   std::uint64_t ticks = 0;
   std::uint64_t late = 0;       ///< ticks that came more than half a period late
@@ -43,6 +47,9 @@ struct LoopReport {
 void copy(const Snapshot& from, Snapshot& to) noexcept;
 
 /// Starts, arms, pauses, resets and stops a run, and changes its scene. The ticks run on the device's thread.
+///
+/// A run also ends by itself: after its duration, or when ticks cease. In both cases a thread of the loop stops the
+/// device; and from the end of the duration on the ticks themselves give no force.
 ///
 /// A tick takes commands and a new scene, and never takes a lock: snapshots go to rings that drop rather than wait,
 /// durations to histograms of atomics.
@@ -69,9 +76,14 @@ class ServoLoop {
   SnapshotRing& listen(std::size_t capacity);
   SnapshotRing& listen() { return listen(room()); }
 
-  void start();          ///< disarmed. Throws DeviceError
-  void stop() noexcept;  ///< zero force, then no more ticks
+  static constexpr double endless = std::numeric_limits<double>::infinity();
+  void start(double duration = endless);  ///< disarmed; duration: s. Throws DeviceError
+  void stop() noexcept;                   ///< zero force, then no more ticks
   bool running() const noexcept { return running_; }
+  /// Whether the last start()'s run has ended by itself. Its device may still be stopping.
+  bool over() const noexcept { return over_; }
+  /// Why ticks that ceased have ended the run, for the user; otherwise empty.
+  std::string silence() const;
   static void stop_all() noexcept;  ///< stops all loops at the end of the program
 
   void arm() noexcept { ask(arm_bit); }      ///< force from the moment when the tip is outside tissue
@@ -104,7 +116,10 @@ class ServoLoop {
  private:
   static Tick::Force call(void* self, const DeviceSample& sample) noexcept;
   Tick::Force tick(const DeviceSample& sample) noexcept;
+  bool look() noexcept;
+  void halt() noexcept;
   void end_run() noexcept;
+  Tick::Force after_the_end(std::int64_t now) noexcept;
   void stop_thumb() noexcept;
   double rested();
   double seconds() const noexcept { return static_cast<double>(settings_.now_ns()) * 1e-9; }
@@ -116,6 +131,7 @@ class ServoLoop {
   std::unique_ptr<ServoStep> built(const Scene& scene) const;
 
   static constexpr std::uint32_t arm_bit = 1, pause_bit = 2, reset_bit = 4;
+  static constexpr std::int64_t never_ = std::numeric_limits<std::int64_t>::max();
 
   std::shared_ptr<Device> device_;
   Scene scene_;
@@ -129,13 +145,16 @@ class ServoLoop {
   bool rest_counted_ = false;  ///< the time since the last run has been counted as rest
 
   // Used by the ticking thread; between runs, by the holder of between_ticks_.
-  ServoStep* step_;
+  std::unique_ptr<ServoStep> step_;
   std::int64_t last_begin_ = 0;
   std::vector<Snapshot> history_;
   std::uint64_t remembered_ = 0;
   double simulated_thumb_ = 0;  ///< m
 
   // Shared between threads.
+  std::int64_t ends_at_ = never_;  ///< ns; set before the first tick
+  std::atomic<bool> over_{false};
+  std::atomic<double> silent_s_{0}, thumb_silent_s_{0};  ///< what ended the run; 0: it did not
   std::atomic<std::uint32_t> asked_{0};
   std::atomic<double> wanted_thumb_{unknown};  ///< N; NaN: no simulated thumb
   std::atomic<bool> frozen_{false};            ///< a fault is latched: history_ is no longer written
@@ -147,6 +166,10 @@ class ServoLoop {
   std::mutex starting_or_stopping_;   ///< held while the device starts or stops, which may take long
   mutable std::mutex between_ticks_;  ///< guards running_ and the offer of scenes; held for a short time only
   std::mutex readers_;                ///< guards readers against each other; not used by the tick
+
+  // Used by look().
+  TickWatch ticks_watch_, thumb_watch_;
+  WatchThread watch_;  ///< last: it ends before all that it uses
 };
 
 }  // namespace punctura

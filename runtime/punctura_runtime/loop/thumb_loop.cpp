@@ -39,7 +39,7 @@ void ThumbLoop::start() {
   reset();
   step_.set_spent(rested(*device_, settings_.limits, static_cast<double>(settings_.now_ns()) * 1e-9));
   try {
-    device_->start({&ThumbLoop::call, this});
+    device_->start({&ThumbLoop::call, this, settings_.limits.max_force});
   } catch (...) {
     running_ = false;
     throw;

@@ -8,14 +8,13 @@ import subprocess
 import sys
 import threading
 import time
-import types
 
 import punctura as pn
 import pytest
 from heed import heed_signals
 from punctura._core import DeviceInfo, FedDevice, ServoLoop
 from punctura.cli._headless import Tape
-from punctura.live import SilenceWatch, run_live
+from punctura.live import run_live
 from punctura.live.supervisor import Supervisor
 from punctura.record import open_recording
 from waiting import wait_until
@@ -129,61 +128,36 @@ def test_a_recording_that_lost_ticks_fails_the_command_and_is_in_its_summary(tmp
     assert f"{told['lost']} lost" in done.stderr
 
 
-class Silent:
-    """A hardware loop whose number of ticks the test sets."""
-
-    def __init__(self, deadline=0.02):
-        self.ticks, self.gate = 0, pn.live.GateLimits(deadline=deadline)
-        self.device = self
-
-    def report(self):
-        return {"ticks": self.ticks}
-
-    def trouble(self):
-        raise AssertionError("the driver is asked before the stop")
-
-
-def test_ticks_that_cease_are_noticed_and_reported(monkeypatch):
-    now = [0.0]
-    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: now[0]))
-    for deadline, longest in ((0.02, 0.1), (0.1, 0.5)):
-        loop = Silent(deadline)
-        watch = SilenceWatch(loop)
-        for _ in range(20):
-            now[0] += 0.05
-            loop.ticks += 80
-            assert watch.ceased() == ""
-        now[0] += 0.9 * longest
-        assert watch.ceased() == ""
-        now[0] += 0.2 * longest
-        assert watch.ceased().startswith("the device's ticks have ceased, for ")
-        assert watch.ceased().endswith("still pull, switch it off")
+def once(device):
+    """For `watch`: feeds one reading, and no more."""
+    return lambda summary: device.fed or device.feed((0.0, 5e-3, 0.0))
 
 
 def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
     told, blamed = threading.Event(), []
+    device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
 
     class LateStop(Supervisor):
         """Stops only after the run's thread has reported the fault."""
 
-        def __init__(self, signals, begin, over, end, duration):
-            super().__init__(signals, begin, over, lambda: told.wait(60) and end(), duration)
+        def __init__(self, signals, begin, over, end):
+            super().__init__(signals, begin, over, lambda: told.wait(60) and end())
 
     def blame(summary, device, thumb=None):
         blamed.append(told.is_set())
         summary.fault += ": the cable is out"
 
-    monkeypatch.setattr("punctura.live.silence.FIRST_READING_S", 0.1)
     monkeypatch.setattr("punctura.live.session.Supervisor", LateStop)
     monkeypatch.setattr("punctura.live.RunSummary.blame", blame)
     said = []
 
     def watch(summary):
+        once(device)(summary)
         said.append(summary.fault)
         if summary.fault:
             told.set()
 
-    run_live(FedDevice(rate=1600, info=DeviceInfo(model="a stylus")), SCENE, watch=watch)
+    run_live(device, SCENE, watch=watch)
     first = next(fault for fault in said if fault)
     assert first.endswith("switch it off") and blamed and all(blamed)
     assert said[-1].endswith("switch it off: the cable is out")
@@ -200,11 +174,10 @@ def test_what_the_driver_says_later_is_told_after_the_fault(capsys):
     assert capsys.readouterr().err == "punctura: ticks have ceased\npunctura: the cable is out\n"
 
 
-def test_a_run_whose_ticks_cease_ends_with_a_fault(monkeypatch):
+def test_a_run_whose_ticks_cease_ends_with_a_fault():
     device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
     assert run_live(device, SCENE, duration=0.3).fault == ""  # the first reading may come late
-    monkeypatch.setattr("punctura.live.silence.FIRST_READING_S", 0.1)
-    summary = run_live(device, SCENE, duration=60)
+    summary = run_live(device, SCENE, duration=60, watch=once(device))
     assert summary.fault.startswith("the device's ticks have ceased")
     assert device.feed([0, 0, 0]) == (0, 0, 0)  # no loop takes it any more
 

@@ -20,7 +20,6 @@ from punctura.live import (
     Limits,
     SecondDevice,
     SecondDeviceError,
-    SilenceWatch,
     SimulatedDevice,
     ThumbLoop,
     direction_of,
@@ -90,7 +89,7 @@ def test_a_fault_of_the_second_device_ends_the_run_and_is_told(pair):
 
     summary, loop = live(pair, act)
     assert summary.fault.startswith("the device under the thumb has a fault of its own or sends nothing")
-    assert "second device: the device reported a position or direction that is not a number" in summary.fault
+    assert "second device: the device reported a number that is not finite" in summary.fault
     assert loop.fault == Fault.non_finite_input
     wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
 
@@ -137,13 +136,13 @@ def test_a_fault_of_the_needles_device_ends_the_force_of_the_thumb(pair):
         needle.position = (math.nan, 0.0, 0.0)
 
     summary, loop = live(pair, act)
-    assert "is not a number" in summary.fault and "thumb" not in summary.fault
+    assert "is not finite" in summary.fault and "thumb" not in summary.fault
     assert loop.fault == Fault.none and loop.force == 0
     wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
 
 
 @pytest.mark.parametrize("which", ["the device's", "the second device's"])
-def test_a_library_that_dies_ends_the_run_of_both(pair, monkeypatch, which):
+def test_a_library_that_dies_ends_the_run_of_both(pair, which):
     needle, thumb = pair
     dead = needle if which == "the device's" else thumb
     loop = ThumbLoop(thumb.device, gate=PATIENT)
@@ -153,29 +152,12 @@ def test_a_library_that_dies_ends_the_run_of_both(pair, monkeypatch, which):
         if summary.state == "active" and not acted:
             acted.append(dead.die())
 
-    # Silence is ten seconds of the watch, whose clock goes twice as fast: a busy computer is not silent for five.
-    monkeypatch.setattr("punctura.live.silence.time", types.SimpleNamespace(monotonic=lambda: 2 * time.monotonic()))
-    monkeypatch.setattr("punctura.live.silence.gate_for", lambda device: PATIENT.replace(deadline=2.0))
-    gate = PATIENT.replace(deadline=2.0)
+    gate = PATIENT.replace(deadline=1.0)  # the needle's device may be silent for 5 s, the second one for 1 s
     summary = run_live(needle.device, SCENE, 60, gate, watch=watch, thumb=loop)
     assert acted and summary.fault.startswith(f"{which} ticks have ceased"), summary.fault
     alive = thumb if dead is needle else needle
     wait_until(lambda: alive.force == (0.0, 0.0, 0.0))
     assert loop.force == 0
-
-
-def test_a_silent_second_device_is_watched_though_the_needle_ticks(pair, monkeypatch):
-    monkeypatch.setattr("punctura.live.silence.gate_for", lambda device: GateLimits(deadline=0.4))
-    needle, thumb = pair
-    loop = ThumbLoop(thumb.device, gate=PATIENT)
-    servo = pn._core.ServoLoop(needle.device, SCENE, PATIENT, ForceLimits(), thumb=loop)
-    watch = SilenceWatch(servo, loop)
-    with servo:
-        servo.start()
-        wait_until(lambda: loop.ticks > 0)
-        thumb.die()
-        wait_until(lambda: watch.ceased() != "")
-        assert watch.ceased().startswith("the second device's ticks have ceased")
 
 
 def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bits(tmp_path):

@@ -1,6 +1,7 @@
 """A run ends on request, whatever the terminal and the caller's code do at that time."""
 
 import contextlib
+import ctypes
 import json
 import os
 import signal
@@ -23,13 +24,9 @@ RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "s
 BLOCKED_PROGRAM = """
 import os, sys, threading, time
 import punctura as pn
-import punctura.live.silence
 from punctura.live import DeviceInfo, Ended, FedDevice, run_live
 
 why = sys.argv[1]
-if why == "ticks cease":
-    punctura.live.silence.HELD_BY_NOBODY = ()
-    punctura.live.silence.FIRST_READING_S = 0.1
 
 def say(text):
     os.write(1, text.encode() + b"\\n")
@@ -46,6 +43,8 @@ def prepare(loop):
     return lambda: say("finished")
 
 def wait_for_ever(summary):
+    if why == "ticks cease":
+        device.feed((0, 5e-3, 0))  # and no more
     while True:
         try:
             say("waits")
@@ -84,14 +83,31 @@ def test_a_run_is_stopped_while_its_caller_waits_for_ever(why):
             process.communicate()
 
 
-def test_ticks_that_cease_end_a_run_also_in_another_thread(monkeypatch):
-    monkeypatch.setattr("punctura.live.silence.FIRST_READING_S", 0.1)
+def test_ticks_that_cease_end_a_run_also_in_another_thread():
     device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
+    feed_once = lambda summary: device.fed or device.feed((0, 5e-3, 0))  # noqa: E731
     found = []
-    thread = threading.Thread(target=lambda: found.append(run_live(device, SCENE).fault), daemon=True)
+    thread = threading.Thread(target=lambda: found.append(run_live(device, SCENE, watch=feed_once).fault), daemon=True)
     thread.start()
     thread.join(60)
     assert found and found[0].startswith("the device's ticks have ceased")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs usleep of the C library")
+def test_a_watch_that_holds_the_gil_does_not_hold_up_the_end():
+    device = SimulatedDevice(pn.Target((0, 5e-3, 0)), rate=1000)
+    hold, held, times = ctypes.PyDLL(None).usleep, [], []
+
+    def prepare(loop):
+        listener = loop.listen()
+        return lambda: times.extend(listener.read()["time"])
+
+    def watch(summary):
+        if not held:
+            held.append(hold(900_000))  # microseconds; a call through PyDLL keeps the GIL
+
+    assert run_live(device, SCENE, 0.3, watch=watch, prepare=prepare).fault == ""
+    assert times and max(times) < 0.3
 
 
 @pytest.mark.parametrize("blocked", BLOCKED)

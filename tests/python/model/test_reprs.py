@@ -11,7 +11,7 @@ from exported import exported
 from punctura import _core
 from punctura.events import EventFinder
 from punctura.exercise import Attempt, ResultStore, load_exercise
-from punctura.live import DroppingStream, FedDevice, Pacer, ReplayDevice, ServoLoop, SilenceWatch, SimulatedDevice
+from punctura.live import DroppingStream, FedDevice, Pacer, ReplayDevice, ServoLoop, SimulatedDevice
 from punctura.record import Recorder, open_recording
 
 SCENE = punctura.load_scene("k06-fig10")
@@ -88,7 +88,6 @@ def test_a_loop_says_whether_it_runs_and_how_many_ticks_it_made(loop, tmp_path):
     assert repr(listener) == f"<Listener with room for {listener.capacity} ticks, 0 lost>"
     recording = open_recording(tmp_path / "run.parquet")
     assert repr(recording) == f"<Recording {str(recording.path)!r}: 100 ticks, 0 lost, finished=True>"
-    assert repr(SilenceWatch(loop)) == f"<SilenceWatch of {loop!r}>"
 
 
 def test_an_attempt_and_a_stream_say_what_they_are_of(tmp_path):

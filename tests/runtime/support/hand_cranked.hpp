@@ -19,6 +19,8 @@ class HandCranked : public Device {
   DeviceInfo& described() noexcept { return info_; }
   void start(Tick tick) override { tick_ = tick; }
   void stop() noexcept override { tick_.call = nullptr; }
+  LongestSilence longest_silence() const noexcept override { return LongestSilence::any(); }
+  const Tick& given() const noexcept { return tick_; }
   bool started() const noexcept { return tick_.call != nullptr; }
 
   Tick::Force tick(DeviceSample sample) noexcept { return tick_(sample); }
@@ -36,7 +38,7 @@ class HandCranked : public Device {
 
  private:
   DeviceInfo info_;
-  Tick tick_{nullptr, nullptr};
+  Tick tick_{};
   std::uint64_t k_ = 0;
 };
 

@@ -102,7 +102,7 @@ void HaplyDevice::run(Tick tick) noexcept {
 
 /// Sends the force of the last tick and receives the next reading.
 HaplyDevice::Trouble HaplyDevice::next(const Tick::Force& force) noexcept {
-  switch (service_.exchange(bounded(force), ns(options_.stale))) {
+  switch (service_.exchange(theirs(force), ns(options_.stale))) {
     case Received::message: return Trouble::none;
     case Received::timeout: return Trouble::no_answer;
     case Received::closed: return Trouble::closed;
@@ -129,14 +129,6 @@ HaplyDevice::Trouble HaplyDevice::read(DeviceSample& sample) noexcept {
   gripless_ = axis ? 0 : gripless_ + 1;
   const bool lost = info_.has_orientation && static_cast<double>(gripless_) > options_.no_grip * info_.rate;
   return lost ? Trouble::no_grip : Trouble::none;
-}
-
-/// Limits the norm; NaN and infinity give zero. The last guard before the device, whatever the tick returns.
-Vector HaplyDevice::bounded(const Tick::Force& force) const noexcept {
-  const double norm = std::hypot(force[0], force[1], force[2]);
-  if (!std::isfinite(norm)) return {0, 0, 0};
-  const double share = norm > options_.max_force ? options_.max_force / norm : 1;
-  return theirs({share * force[0], share * force[1], share * force[2]});
 }
 
 std::string HaplyDevice::trouble() const {

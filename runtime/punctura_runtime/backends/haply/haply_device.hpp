@@ -59,7 +59,6 @@ class HaplyDevice : public Device {
   void run(Tick tick) noexcept;
   Trouble next(const Tick::Force& force) noexcept;
   Trouble read(DeviceSample& sample) noexcept;
-  Vector bounded(const Tick::Force& force) const noexcept;
 
   HaplyOptions options_;
   Url url_;

@@ -1,0 +1,149 @@
+// A run that ends by itself: after its duration, and where ticks cease.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "core/support/tick.hpp"
+#include "punctura_runtime/backends/fed.hpp"
+#include "punctura_runtime/backends/replay.hpp"
+#include "punctura_runtime/backends/simulated.hpp"
+#include "punctura_runtime/loop/servo_loop.hpp"
+#include "runtime/support/hand_cranked.hpp"
+
+using namespace punctura;
+using namespace punctura::test;
+
+namespace {
+
+std::atomic<std::int64_t> run_clock_ns{0};
+constexpr std::int64_t one_second = 1'000'000'000;
+
+std::shared_ptr<FedDevice> fed_device(bool real_time) {
+  DeviceInfo info;
+  info.rate = 1600;
+  return std::make_shared<FedDevice>(info, real_time);
+}
+
+/// A loop on the test's clock, whose gate takes a late tick for no fault.
+struct WatchedRun {
+  explicit WatchedRun(std::shared_ptr<Device> device, std::shared_ptr<ThumbLoop> thumb = {})
+      : loop(std::move(device), paper_scene(), settings(std::move(thumb))) {}
+  static LoopSettings settings(std::shared_ptr<ThumbLoop> thumb) {
+    run_clock_ns = one_second;
+    LoopSettings made;
+    made.thumb = std::move(thumb);
+    made.now_ns = []() noexcept { return run_clock_ns.load(); };
+    return made;
+  }
+  /// Waits for the thread of the loop. False after a minute.
+  template <typename Condition>
+  static bool until(Condition&& condition) {
+    for (int i = 0; i < 60'000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+  }
+  bool stopped() {
+    return until([&] { return !loop.running(); });
+  }
+  ServoLoop loop;
+};
+
+}  // namespace
+
+TEST_CASE("after its duration a run gives no force and records no tick, and its device is stopped") {
+  auto device = fed_device(false);
+  WatchedRun w(device);
+  SnapshotRing& ring = w.loop.listen(10'000);
+  for (int run = 0; run < 2; ++run) {
+    w.loop.arm();
+    w.loop.start(3.0);
+    bool felt = false, after = false;
+    for (int k = 0; k < 6400; ++k) {
+      const bool ended = run_clock_ns >= (1 + 4 * run + 3) * one_second;
+      const Tick::Force force = device->feed({{0, 2e-3 - 2e-6 * std::min(k, 3200), 0}});
+      felt = felt || force[1] > 0.3;
+      after = after || (ended && force != zero);
+      run_clock_ns += one_second / 1600;
+    }
+    CHECK(felt);
+    CHECK_FALSE(after);
+    CHECK(w.stopped());
+    CHECK(w.loop.over());
+    CHECK(w.loop.silence().empty());
+    CHECK(w.loop.report().ticks == 4800 * (run + 1u));
+    std::size_t recorded = 0;
+    ring.pop(10'000, [&](const Snapshot&) { ++recorded; });
+    CHECK(recorded == 4800);
+  }
+}
+
+TEST_CASE("a loop stops a device whose ticks cease, and says so") {
+  auto device = fed_device(true);
+  WatchedRun w(device);
+  w.loop.start();
+  run_clock_ns += 29 * one_second;
+  CHECK_FALSE(w.loop.over());
+  device->feed({{0, 1e-3, 0}});
+  CHECK(WatchedRun::until([&] {
+    run_clock_ns += one_second / 20;
+    return !w.loop.running();
+  }));
+  CHECK(w.loop.silence().starts_with("the device's ticks have ceased, for "));
+  CHECK(w.loop.silence().ends_with(" s, and the run is stopped: should the device still pull, switch it off"));
+  w.loop.start();  // without a first reading
+  CHECK(w.loop.silence().empty());
+  CHECK_FALSE(w.loop.over());
+  run_clock_ns += 31 * one_second;
+  CHECK(w.stopped());
+  CHECK(w.loop.silence().find("for 31 s") != std::string::npos);
+}
+
+TEST_CASE("a silent second device ends the run, too") {
+  auto needle = fed_device(false), under = fed_device(true);
+  WatchedRun w(needle, std::make_shared<ThumbLoop>(under));
+  w.loop.start();
+  run_clock_ns += 31 * one_second;
+  CHECK(w.stopped());
+  CHECK(w.loop.silence().starts_with("the second device's ticks have ceased"));
+}
+
+TEST_CASE("the longest silence: of hardware, of a deadline, of a device that nobody holds") {
+  TickWatch watch;
+  const auto silent_after = [&](double seconds, const LongestSilence& longest, double deadline) {
+    watch.begin(7, 0);
+    CHECK(watch.silent(8, one_second, longest, deadline) == 0);
+    return watch.silent(8, one_second + static_cast<std::int64_t>(seconds * 1e9), longest, deadline) > 0;
+  };
+  const LongestSilence hardware = HandCranked().Device::longest_silence();
+  CHECK_FALSE(silent_after(0.099, hardware, 0.02));
+  CHECK(silent_after(0.1001, hardware, 0.02));
+  CHECK_FALSE(silent_after(0.49, hardware, 0.1));
+  CHECK(silent_after(0.51, hardware, 0.1));
+  CHECK_FALSE(silent_after(1e6, SimulatedDevice(Target({}), {}).longest_silence(), 0.02));
+  CHECK_FALSE(silent_after(1e6, ReplayDevice({}, fed_device(true)->info()).longest_silence(), 0.02));
+  CHECK_FALSE(silent_after(1e6, fed_device(false)->longest_silence(), 0.02));
+}
+
+TEST_CASE("a driver whose stop does not return hides neither the end nor its reason") {
+  struct StuckInStop : FedDevice {
+    using FedDevice::FedDevice;
+    ~StuckInStop() override { released = true; }
+    void stop() noexcept override {
+      while (!released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      FedDevice::stop();
+    }
+    std::atomic<bool> released{false};
+  };
+  auto device = std::make_shared<StuckInStop>(fed_device(true)->info());
+  WatchedRun w(device);
+  w.loop.start();
+  run_clock_ns += 31 * one_second;
+  CHECK(WatchedRun::until([&] { return w.loop.over(); }));
+  CHECK_FALSE(w.loop.silence().empty());
+  device->released = true;
+  CHECK(w.stopped());
+}
